@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 KINK = 1e-3  # difference of the slopes to both sides, share of the largest slope of the forces by this velocity
 WIDE = 100.0  # the second difference is that many times as wide
 BEND = 1e-2  # the same between the narrow and the wide difference
-ASIDE = 10.0  # how far beside a kink slopes are taken, in widths of the difference
+ASIDE = 10.0  # distance from a kink at which slopes are taken, in widths of the difference
 
 
 class LinearisationWarning(UserWarning):
@@ -24,10 +24,10 @@ class LinearisationWarning(UserWarning):
 
 
 def smooth_side(evaluator: Evaluator, side: int | None) -> State:
-    """The state about which to take differences: beside its kinks in the velocities.
+    """State for differences, beside kinks of the forces in the velocities.
 
     `side`: 1 or -1: rising or falling velocities; None takes rising ones and warns. Warns `LinearisationWarning`: names
-    the coordinate, both slopes and what was taken.
+    the coordinate, both slopes and the chosen side.
     """
     state = evaluator.state
     names = evaluator.system.meta["coordinates"]
@@ -79,7 +79,7 @@ def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
         narrow = _slope(evaluator, state, i, SHIFT, rates)
         both = [_slope(evaluator, state, i, s * WIDE * SHIFT, rates) for s in (1.0, -1.0)]
         gaps = [float(np.abs(slope - narrow).max()) for slope in both]
-        wide = both[int(np.argmin(gaps))]  # away from a kink beside the state
+        wide = both[int(np.argmin(gaps))]  # away from a kink next to the state
         if np.abs(narrow - wide).max() > BEND * max(np.abs(narrow).max(), np.abs(wide).max()) + 10.0 * noise:
             bends.append(f"{name!r} {narrow[i]:.4g} and {wide[i]:.4g} N s/m")
     if bends:

@@ -5,7 +5,7 @@ rigid body about its centre of mass in its own axes (a symmetric rotor or top), 
 is an affine field X(q) = G q + b. Those under which rows, accelerations and element rates of neighbouring states stay
 the same are symmetries; they form a linear space, the null space of one matrix of defects. A motion is steady where a
 symmetry has its velocity and its acceleration: qd = X(q), qdd = G qd (J. E. Marsden, Lectures on Mechanics, 1992,
-chapter 4). A variation seen in the moving frame then obeys an equation with constant coefficients.
+chapter 4). In the moving frame a variation then obeys an equation with constant coefficients.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ NEAR = 3e-3  # displacement of neighbouring states, share of the largest coordin
 SAME = 1e-6  # defect below which a candidate leaves the equations as they are, share of coordinate, speed, acceleration
 NEIGHBOURS = 2
 ROUND_OFF = 4e-16
-LESS = 1e-6  # weight of what else moves beside the turning of the scene
+LESS = 1e-6  # weight of other candidates than turns of the scene
 SKEW = np.array(
     [[[0, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 0, 0], [-1, 0, 0]], [[0, -1, 0], [1, 0, 0], [0, 0, 0]]]
 )
@@ -138,14 +138,14 @@ class _Scales:
     length: float
     speed: float
     acceleration: float
-    round_off: Array  # (nq,) what a defect of the accelerations may owe to round-off of stiff forces, m/s2
+    round_off: Array  # (nq,) defect of the accelerations from round-off of stiff forces, m/s2
 
 
 def _scales(evaluator: Evaluator, frames: Frames, q: Array, qd: Array) -> _Scales:
     each = np.abs(frames.T.toarray()).max(axis=0)
     full = frames.T @ q + frames.constant
-    places = np.array([full[i : i + frames.dimension] for i in frames.points])
-    spread = float(np.ptp(places, axis=0).max()) if len(places) else 0.0
+    positions = np.array([full[i : i + frames.dimension] for i in frames.points])
+    spread = float(np.ptp(positions, axis=0).max()) if len(positions) else 0.0
     length = max(spread, 1.0 if frames.vectors else 0.0) or 1.0
     speed = float(np.abs(each * qd).max())
     motion = evaluator.motion(q, qd)
@@ -182,16 +182,16 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
 def _defect(
     evaluator: Evaluator, c: _Candidate, q: Array, qd: Array, scales: _Scales, rows: tuple[Array, Array, Array]
 ) -> Array:
-    """What a candidate changes at a state, in shares of the length, speed and acceleration of the motion."""
+    """Defects of a candidate at a state, in shares of the length, speed and acceleration of the motion."""
     dq, dqd = c.G @ q + c.b, c.G @ qd
     dt, stencil = (1.0, FORWARD) if c.kind == "time" else (0.0, CENTRAL)
-    places = [(q + s * dq, qd + s * dqd, evaluator.time + s * dt) for s in STEP * stencil[0]]
+    states = [(q + s * dq, qd + s * dqd, evaluator.time + s * dt) for s in STEP * stencil[0]]
     n = len(q)
     _, jacobian, rate = rows
     measure = evaluator.arrays["row_measure"]
     holding = np.delete(measure * (jacobian @ dq + dt * (rate - jacobian @ qd)), evaluator.arrays["velocity_row"])
-    rates = measure * (stencil[1] @ np.array([evaluator.constraints(*p)[2] for p in places])) / STEP
-    motion = stencil[1] @ np.array([evaluator.motion(*p) for p in places]) / STEP
+    rates = measure * (stencil[1] @ np.array([evaluator.constraints(*p)[2] for p in states])) / STEP
+    motion = stencil[1] @ np.array([evaluator.motion(*p) for p in states]) / STEP
     here = scales.motion
     accelerations = scales.each * (motion[:n] - c.G @ here[:n]) / (scales.acceleration + scales.round_off / SAME)
     slots = motion[n:] / np.maximum(np.abs(here[n:]), scales.speed)

@@ -164,10 +164,10 @@ def named(value: object, what: str, error: Error = ModelError) -> str:
 
 
 def one_of(value: object, words: Collection[str], what: str, error: Error = ModelError) -> str:
-    """One of some words."""
+    """The value, which must be one of `words`."""
     if not isinstance(value, str) or value not in words:
-        known = [repr(w) for w in words] if len(words) < 4 or all(len(w) == 1 for w in words) else list(words)
-        choices = " or ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
+        quoted = [repr(w) for w in words] if len(words) < 4 or all(len(w) == 1 for w in words) else list(words)
+        choices = " or ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
         raise error(f"{capital(what)} is {shown(value)}; it must be {choices}.")
     return str(value)
 
@@ -210,10 +210,10 @@ def array(
     good = np.abs(found) < LARGEST
     if not good.all():
         x = float(found[~good][0])
-        given = found.tolist() if found.size <= 4 else f"an array with the entry {x:g}"
+        content = found.tolist() if found.size <= 4 else f"an array with the entry {x:g}"
         if math.isfinite(x):
-            raise error(f"{capital(what)} is {given}; all numbers must be of a size below {LARGEST:g}.")
-        raise error(f"{capital(what)} is {given}, which is not finite; all numbers must be finite.")
+            raise error(f"{capital(what)} is {content}; all numbers must be of a size below {LARGEST:g}.")
+        raise error(f"{capital(what)} is {content}, which is not finite; all numbers must be finite.")
     return found
 
 

@@ -16,6 +16,6 @@ def cross(a: Array, b: Array) -> Array:
 def in_space(v: ArrayLike) -> Array:
     """A new vector of three components, of two or three; a plane is z = 0."""
     found = np.zeros(3)
-    given = np.asarray(v, dtype=float)
-    found[: len(given)] = given
+    components = np.asarray(v, dtype=float)
+    found[: len(components)] = components
     return found

@@ -24,7 +24,7 @@ more are those of another body, which took the place of the port's.
 
 @dataclass(frozen=True)
 class MovingPart:
-    """What of z moves in a block, the rows that tie it, and whether a body of it bends, is driven or sprung."""
+    """Moving coordinates of a block, their rows, and whether a body of the block bends, is driven or sprung."""
 
     coordinates: list[int]
     rows: list[RowTerms]
@@ -61,14 +61,14 @@ def moving_part(
     modes = _coordinates([*moving_bodies, *held_bodies], full, deformation=True)
     held = _with_carried(_coordinates(held_bodies, full), modes, carrying)
     moving = _with_carried(_coordinates(moving_bodies, full) - held - modes, modes | held, carrying)
-    known = moving | held | modes
+    block_coordinates = moving | held | modes
     tied, driven = [], False
     for row, columns in rows:
         if not columns & moving:
             continue
         if row.theta >= 0 or row.kind in ("drive", "driven_distance"):
             driven = True
-        elif columns <= known and not row.rates and row.switch < 0:
+        elif columns <= block_coordinates and not row.rates and row.switch < 0:
             tied.append(row)
     bends = any(b.is_flexible for b in moving_bodies)
     return MovingPart(sorted(moving), tied, bends, driven, _sprung(model, moving, full))
@@ -81,17 +81,17 @@ def _sprung(model: Model, moving: set[int], full: Sequence[Affine]) -> bool:
 
 
 def _coordinates(bodies: Iterable[Body], full: Sequence[Affine], deformation: bool = False) -> set[int]:
-    """What of z the bodies' places depend on, or their deformation."""
-    parts = [range(b.start + RIGID, b.start + b.size) if deformation else _place(b) for b in bodies]
+    """Coordinates of z on which the positions of bodies depend, or with `deformation` their deformations."""
+    parts = [range(b.start + RIGID, b.start + b.size) if deformation else _rigid_coordinates(b) for b in bodies]
     return {j for part in parts for i in part for j in full[i].terms}
 
 
-def _place(body: Body) -> range:
+def _rigid_coordinates(body: Body) -> range:
     return range(body.start, body.start + min(body.size, RIGID))
 
 
 def _with_carried(own: set[int], other: set[int], carrying: Sequence[tuple[set[int], int]]) -> set[int]:
-    """With the coordinates of nodes and ports that the rows in `carrying` tie to them."""
+    """`own` and the coordinates of nodes and ports that the rows in `carrying` tie to it, none of `other`."""
     found, grew = set(own), True
     while grew:
         grew = False
@@ -105,7 +105,7 @@ def _with_carried(own: set[int], other: set[int], carrying: Sequence[tuple[set[i
 
 def quadratics(part: MovingPart, q: Array, guides: Array) -> Quadratics:
     """The rows with all other coordinates and the guides where they are, scaled to unit gradients."""
-    place = {c: k for k, c in enumerate(part.coordinates)}
+    index = {c: k for k, c in enumerate(part.coordinates)}
     m, n = len(part.rows), len(part.coordinates)
     constant, linear, hessian = np.zeros(m), np.zeros((m, n)), np.zeros((m, n, n))
     for r, row in enumerate(part.rows):
@@ -113,9 +113,9 @@ def quadratics(part: MovingPart, q: Array, guides: Array) -> Quadratics:
         for factor, polynomial in terms:
             for monomial, v in polynomial.items():
                 value = factor * v
-                free = [place[k] for k in monomial if k in place]
+                free = [index[k] for k in monomial if k in index]
                 for k in monomial:
-                    if k >= 0 and k not in place:
+                    if k >= 0 and k not in index:
                         value *= q[k]
                 if len(free) == 2:
                     hessian[r, free[0], free[1]] += value
@@ -132,12 +132,12 @@ def quadratics(part: MovingPart, q: Array, guides: Array) -> Quadratics:
 def affine_of(expression: Affine, full: Sequence[Affine], coordinates: Sequence[int], q: Array) -> Array:
     """Constant and coefficients of the moving coordinates, all others where they are; shape (1 + n,)."""
     of_z = substitute(expression, full)
-    place = {c: k for k, c in enumerate(coordinates)}
+    index = {c: k for k, c in enumerate(coordinates)}
     row = np.zeros(1 + len(coordinates))
     row[0] = of_z.constant
     for j, v in of_z.terms.items():
-        if j in place:
-            row[1 + place[j]] += v
+        if j in index:
+            row[1 + index[j]] += v
         else:
             row[0] += v * q[j]
     return row

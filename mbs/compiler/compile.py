@@ -44,7 +44,7 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
     Returns
     -------
     System
-        What `Simulation` and `simulate` step, and what an FMU carries.
+        The compiled model, for `Simulation`, `simulate` and an FMU.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
 
 
 def _closed(model: Model, closing: Callable[[Model], Correction]) -> tuple[Correction, CompiledModel]:
-    """What a model is compiled to with its loops closed, and the context in which they are."""
+    """The correction that closes the loops of a model, and the model compiled with closed loops."""
     corrected = closing(checked(model))
     with corrected() as closed:
         return corrected, compiled(model, closed, watch=mode_arrays, trees=tree_arrays)

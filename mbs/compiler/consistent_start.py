@@ -56,8 +56,8 @@ def close_position(
     fine: float,
 ) -> Array:
     """The assembled position next to `q` (Gauss-Newton in the metric of the mass and of the stiffness of flexible
-    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` reports it for the eliminated joints; `fine`:
-    factor of the tolerances, `fineness` of the model.
+    bodies, kg), or a `ModelError` naming the joints that stay open; `joint_gaps`: gaps of the eliminated joints;
+    `fine`: factor of the tolerances, `fineness` of the model.
     """
     if arrays.nc == 0:
         return q
@@ -111,11 +111,11 @@ def start_velocity(
     guide_rates: Array,
     near: Array | None = None,
 ) -> Array:
-    """Velocity that satisfies the rows and comes nearest to what was given.
+    """Velocity that satisfies the rows and comes nearest to the given velocities.
 
     Minimises (v-target)' given (v-target) with a slight weight on the kinetic energy of all else; repeated about its
-    own result, so that the slight weight leaves no trace in what was given. Rates of deformation count by the energy
-    they would store, so that flexible bodies start with as little vibration as the joints allow.
+    own result, so that the slight weight leaves no trace in the given velocities. Rates of deformation count by the
+    energy they would store, so that flexible bodies start with as little vibration as the joints allow.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def start_velocity(
     aim : ndarray, shape (nq,)
         The same mass times the given velocities.
     near : ndarray, shape (nq,), optional
-        The whole mass times the velocities that what was left out has without joints; None: zero.
+        The whole mass times the velocities of the other coordinates without joints; None: zero.
     """
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     v = np.zeros(arrays.nq)

@@ -36,7 +36,7 @@ def independent_rows(
     of the model, m.
     """
     unit = fineness(length)
-    by_degree = (1.0, unit, unit * unit)  # else what is linear beside squares vanishes in a small model
+    by_degree = (1.0, unit, unit * unit)  # else linear terms vanish next to squares in a small model
     chosen: set[int] = set()
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):

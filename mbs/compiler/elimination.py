@@ -59,8 +59,8 @@ def eliminate(
     stay : set of int
         Coordinates that stay although equations between them are possible: those are left (flexible bodies).
     length : float
-        Of the model, m: what is left of an equation is round-off if it is for coordinates of `first` of 1 m and of
-        this length.
+        Of the model, m: the remainder of an equation is round-off if it is so for coordinates of `first` of 1 m and
+        of this length.
 
     Examples
     --------

@@ -32,19 +32,19 @@ def flexible_coordinates(model: Model) -> set[int]:
 
 def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each body couples in the tangent."""
-    return [_places(b, full) for b, _ in flexible_bodies(model)]
+    return [_body_coordinates(b, full) for b, _ in flexible_bodies(model)]
 
 
 def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
     """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
     rows, columns, values = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros(0)]
     for body, bending in flexible_bodies(model):
-        places = new[_places(body, full)][12:]
-        rows.append(np.repeat(places, len(places)))
-        columns.append(np.tile(places, len(places)))
+        coordinates = new[_body_coordinates(body, full)][12:]
+        rows.append(np.repeat(coordinates, len(coordinates)))
+        columns.append(np.tile(coordinates, len(coordinates)))
         values.append(TIME**2 * bending.K.ravel())
-    places_of = (np.concatenate(rows), np.concatenate(columns))
-    return sparse.coo_matrix((np.concatenate(values), places_of), shape=(len(new), len(new))).tocsr()
+    entries = (np.concatenate(rows), np.concatenate(columns))
+    return sparse.coo_matrix((np.concatenate(values), entries), shape=(len(new), len(new))).tocsr()
 
 
 def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate) -> dict[str, Any]:
@@ -52,9 +52,9 @@ def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
     counts, frames, modes, fronts, locs = [0], [], [], [], []
     data: dict[str, list[Array]] = {name: [] for name in ("gravity", "P", "c", "T", "K", "C")}
     for body, s in flexible_bodies(model):
-        places = new[_places(body, full)]
-        order = np.argsort(places[12:])
-        frame, mode = places[:12], places[12:][order]
+        coordinates = new[_body_coordinates(body, full)]
+        order = np.argsort(coordinates[12:])
+        frame, mode = coordinates[:12], coordinates[12:][order]
         front, loc = front_of([*frame.tolist(), *mode.tolist()])
         counts.append(len(mode))
         frames.append(frame)
@@ -78,7 +78,7 @@ def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
     }
 
 
-def _places(body: Body, full: Sequence[Affine]) -> list[int]:
+def _body_coordinates(body: Body, full: Sequence[Affine]) -> list[int]:
     """Coordinates of z: a frame and amplitudes are never eliminated."""
     return [next(iter(full[i].terms)) for i in range(body.start, body.start + body.size)]
 

@@ -1,4 +1,4 @@
-"""The frames of a model as Python keeps them beside the arrays of the System."""
+"""Frames of a model, kept in Python in addition to the arrays of the System."""
 
 import numpy as np
 from numpy.typing import NDArray

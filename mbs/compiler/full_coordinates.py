@@ -49,27 +49,27 @@ def reduce_coordinates(
             len(info), equations, locked, points, first_only=not model.grounded, stay=frozenset(stay), length=length
         )
 
-    result = solved(natural.info, equations)
-    if model.floating and (between := _between(natural.info, result, stay, model.dimension)):
+    solution = solved(natural.info, equations)
+    if model.floating and (between := _difference_coordinates(natural.info, solution, stay, model.dimension)):
         natural = NaturalCoordinates([*natural.info, *(info for info, _ in between)], natural.expressions)
-        result = solved(natural.info, equations + [(info.name, e) for info, e in between])
-    full = [substitute(e, result.expressions) for e in natural.expressions]
+        solution = solved(natural.info, equations + [(info.name, e) for info, e in between])
+    full = [substitute(e, solution.expressions) for e in natural.expressions]
     remaining_rows = []
-    for i, over in result.left:
+    for i, over in solution.left:
         terms = {(j, -1): v for j, v in over.terms.items()} | {(-1, -1): over.constant}
         remaining_rows.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
-    return natural, result.remaining, full, result.expressions, result.redundant, remaining_rows
+    return natural, solution.remaining, full, solution.expressions, solution.redundant, remaining_rows
 
 
-def _between(
-    info: Sequence[CoordinateInfo], result: Elimination, stay: set[int], dimension: int
+def _difference_coordinates(
+    info: Sequence[CoordinateInfo], solution: Elimination, stay: set[int], dimension: int
 ) -> list[tuple[CoordinateInfo, Affine]]:
-    """New coordinates, each with its equation: vectors to the remaining points from that by which most are told.
+    """New coordinates, each with its equation: vectors to the remaining points from the one that most expressions use.
 
     A scene that goes far then has one position, and differences of positions lose no digits.
     """
-    uses = {i: sum(k in e.terms for e in result.expressions) for k, i in enumerate(result.remaining)}
-    points = [i for i in result.remaining if info[i].kind == "point" and info[i].component == 0]
+    uses = {i: sum(k in e.terms for e in solution.expressions) for k, i in enumerate(solution.remaining)}
+    points = [i for i in solution.remaining if info[i].kind == "point" and info[i].component == 0]
     base = max(points, key=lambda i: (i in stay, uses[i]), default=-1)
     found: list[tuple[CoordinateInfo, Affine]] = []
     for i in points:

@@ -21,7 +21,7 @@ IMPOSSIBLE = 1e-6
 
 
 def locked_gears(model: Model) -> str:
-    """A sentence about gears that form a ring round which the ratios contradict each other; empty where there is none.
+    """A sentence on gears that form a ring with contradicting ratios; empty if there are none.
 
     Raises
     ------
@@ -42,15 +42,15 @@ def locked_gears(model: Model) -> str:
         turns[start], path[start], tied, ring = 1.0, set(), [start], ""
         for wheel in tied:
             for other, ratio, name in gears[wheel]:
-                asked = ratio * turns[wheel]
+                turn = ratio * turns[wheel]
                 if other not in turns:
-                    turns[other], path[other] = asked, path[wheel] | {name}
+                    turns[other], path[other] = turn, path[wheel] | {name}
                     tied.append(other)
-                elif not ring and abs(asked - turns[other]) > DEPENDENT * abs(turns[other]):
+                elif not ring and abs(turn - turns[other]) > DEPENDENT * abs(turns[other]):
                     names = ", ".join(f"'{gear}'" for gear in sorted((path[wheel] ^ path[other]) | {name}))
                     ring = (
                         f"The gears {names} form a ring that is locked: '{model.coordinates[other].name}' would have "
-                        f"to turn {asked / turns[other]:g} times as far as by the other way round, so none of their "
+                        f"to turn {turn / turns[other]:g} times as far as by the other way round, so none of their "
                         "wheels turns; check the ratios and their signs."
                     )
         if ring and any(wheel in model.coordinate_rates for wheel in tied):
@@ -68,7 +68,7 @@ def locked_parts(
     Phiq: sparse.csr_matrix,
     mass_diagonal: Array,
 ) -> str:
-    """A sentence about parts that joints hold fast beside others that can move; empty where there are none.
+    """A sentence on parts that joints hold while others can move; empty if there are none.
 
     Parts that rows tie to each other are judged together: at a dead centre one of them has no rate, but not all.
     Conditions that drive, that can be switched off or that bind rates alone lock nothing. `full`: coordinates before
@@ -109,23 +109,23 @@ def check_motion(
 ) -> None:
     """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
 
-    A structure that stands, to which nothing gives a velocity, is a model too, since its joint forces may be what is
-    wanted: `print(system)` and every run tell that nothing moves. Switched rows may be switched off again and do not
+    A structure that stands, to which nothing gives a velocity, is a model too, since its joint forces may be
+    wanted: `print(system)` and every run report that nothing moves. Switched rows may be switched off again and do not
     count.
     """
     nq = Phiq.shape[1]
     lasting = [i for i, row in enumerate(rows) if row.switch < 0]
     scleronomic = [i for i in lasting if not rows[i].guides]
-    asked = len(scleronomic) < len(lasting) or bool(model.body_velocities or model.coordinate_rates)
-    if asked and len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
+    is_driven = len(scleronomic) < len(lasting) or bool(model.body_velocities or model.coordinate_rates)
+    if is_driven and len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
         raise ModelError(
             f"The model '{model.name}' is locked: its joints are {nq} independent conditions on {nq} coordinates, "
             "which leaves no motion; check the axes of its joints, or let a body bend."
         )
     size = np.sqrt(np.asarray(Phiq.multiply(Phiq).sum(axis=1)).ravel())
     open_rates = np.abs(Phiq @ qd + phi_t) / size
-    wanted = np.max(np.abs(phi_t) / size, initial=0.0)
-    if np.max(open_rates, initial=0.0) > IMPOSSIBLE * wanted > 0.0:
+    prescribed = np.max(np.abs(phi_t) / size, initial=0.0)
+    if np.max(open_rates, initial=0.0) > IMPOSSIBLE * prescribed > 0.0:
         drives = ", ".join(sorted({f"'{row.name}'" for row, rate in zip(rows, phi_t, strict=True) if rate != 0.0}))
         worst = rows[int(np.argmax(open_rates))].name
         raise ModelError(

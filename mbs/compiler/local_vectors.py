@@ -27,8 +27,8 @@ def distinct(vectors: Sequence[Vector], opposites: bool = False) -> list[Vector]
     found: list[Vector] = []
     seen: list[list[float]] = []
     for v in vectors:
-        here, opposite = v.tolist(), (-v).tolist()
-        if all(dist(here, w) > SAME and not (opposites and dist(opposite, w) <= SAME) for w in seen):
+        components, opposite = v.tolist(), (-v).tolist()
+        if all(dist(components, w) > SAME and not (opposites and dist(opposite, w) <= SAME) for w in seen):
             found.append(v)
-            seen.append(here)
+            seen.append(components)
     return found

@@ -69,7 +69,7 @@ class Places:
     axes: Array
 
     def moved(self, x: Array, size: float) -> Places:
-        """After shifts and turns, shape (n, 6)."""
+        """Places after translations in parts of `size` (m) and rotations (rad) `x`, shape (n, 6)."""
         turns = Rotation.from_rotvec(x[:, 3:]).as_matrix()
         return Places(self.centres + size * x[:, :3], turns @ self.axes)
 
@@ -119,7 +119,7 @@ class Loops:
         ]
 
     def move(self, places: Places, dx: Array) -> Places:
-        """After the change `dx` of the unknowns."""
+        """Places after the change `dx` of the unknowns."""
         x = np.zeros(6 * len(self.bodies))
         x[self.columns] = dx
         return places.moved(x.reshape(-1, 6), self.size)

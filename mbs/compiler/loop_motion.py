@@ -37,7 +37,7 @@ class BlockMotion:
 
 
 def sine_cosine(vectors: Array, turned: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """Of the angle from b to c seen along n; `vectors` has the shape (angles, 3, 3): n, b, c."""
+    """Sine and cosine of the angle from b to c seen along n; `vectors`: n, b, c, shape (angles, 3, 3)."""
     products = vectors @ vectors.transpose(0, 2, 1)
     nn, nb, nc, bc = products[:, 0, 0], products[:, 0, 1], products[:, 0, 2], products[:, 1, 2]
     sine = np.sqrt(nn) * np.linalg.det(vectors)
@@ -121,7 +121,7 @@ def _solved(J: Array, t: Array, values: Array, along: float) -> Array:
 
 
 def _eliminated(J: Array, t: Array, values: Array, along: float) -> Array | None:
-    """The same of as many rows as unknowns; None where they are singular."""
+    """Solution of a square system by elimination; None if it is singular."""
     A, b = np.empty((len(t), len(t)), order="F"), np.empty(len(t))
     A[:-1], A[-1], b[:-1], b[-1] = J, t, values, along
     _, _, x, singular = dgesv(A, b, overwrite_a=True, overwrite_b=True)

@@ -38,7 +38,7 @@ class Vertex:
 
 @dataclass(eq=False)
 class Edge:
-    """All joints between two vertices."""
+    """The joints between two vertices."""
 
     ends: tuple[Vertex, Vertex]
     joints: list[Joint]

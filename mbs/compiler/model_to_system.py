@@ -84,11 +84,11 @@ def compiled(
     Parameters
     ----------
     closed : dict of str to tuple of float, optional
-        How far joints were moved to close the loops of the model, by name, m and rad.
+        Corrections of joints that close the loops of the model, by name, m and rad.
     watch : callable, optional
-        `mode_arrays`: makes what steps are watched by.
+        `mode_arrays`: makes the assembly modes by which steps are checked.
     trees : callable, optional
-        `tree_arrays`: makes what methods in relative coordinates step; without it the report has none.
+        `tree_arrays`: makes the tree for methods in relative coordinates; without it the report has none.
     """
     reduced = _reduced(checked(model), closed or {})
     ordered = _ordered(model, reduced)
@@ -110,7 +110,7 @@ class _Reduced:
     """Coordinates z and rows that a model is reduced to."""
 
     natural: NaturalCoordinates
-    known: Dependents
+    dependents: Dependents
     rows: list[RowTerms]
     counts: Mapping[str, int]
     """What was eliminated, for the report."""
@@ -121,7 +121,7 @@ class _Reduced:
 
 
 def _reduced(model: Model, closed: Corrections) -> _Reduced:
-    """Linear equations are eliminated; what is left are rows, without those that follow from others."""
+    """Eliminate linear equations; the other ones become rows, without those that follow from others."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
     held = {*tabled_coordinates(model)}
@@ -131,22 +131,22 @@ def _reduced(model: Model, closed: Corrections) -> _Reduced:
     length, size = model_length(model), drawn_length(model)
     stay = flexible_coordinates(model) | base_coordinates(model)
     natural, remaining, full, of_z, redundant, left = reduce_coordinates(model, natural, linear, stay, size)
-    known = distinguish(model, remaining, full, of_z, left)
+    dependents = distinguish(model, remaining, full, of_z, left)
     error = max((max(distance / size, angle) for distance, angle in closed.values()), default=0.0)
-    candidates = [row_terms(e, j, k, known.seen, size, error) for j, k, e in others]
+    candidates = [row_terms(e, j, k, dependents.seen, size, error) for j, k, e in others]
     for row in candidates:
-        if row.columns() and row.columns()[-1] >= len(known.remaining):
+        if row.columns() and row.columns()[-1] >= len(dependents.remaining):
             raise refuse_joint(row.name)
         switch = model.joints[row.joint].switch
         row.switch = -1 if switch is None else switch.index
-    candidates += known.left
-    candidates += [row for body in model.bodies for row in rigid_rows(body, known.full, error)]
-    check_near(model, candidates, [natural.info[k].kind for k in known.remaining], size)
+    candidates += dependents.left
+    candidates += [row for body in model.bodies for row in rigid_rows(body, dependents.full, error)]
+    check_near(model, candidates, [natural.info[k].kind for k in dependents.remaining], size)
     rows, dependent = independent_rows(candidates, joints_of_bodies(model), size)
-    if not known.remaining:
+    if not dependents.remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
     counts = {"linear_equations": len(linear), "redundant_equations": redundant, "dependent_rows": dependent}
-    return _Reduced(natural, known, rows, counts, length, size)
+    return _Reduced(natural, dependents, rows, counts, length, size)
 
 
 @dataclass(frozen=True)
@@ -166,15 +166,15 @@ class _Ordered:
 
 
 def _ordered(model: Model, reduced: _Reduced) -> _Ordered:
-    known, rows = reduced.known, reduced.rows
-    T, z0 = transformation(known.full, len(known.remaining))
+    dependents, rows = reduced.dependents, reduced.rows
+    T, z0 = transformation(dependents.full, len(dependents.remaining))
     M_full = full_mass(model)
     mass = symmetric(T.T @ M_full @ T)
-    fronts, tangent_nonzeros = _symbolic(model, rows, known.full, mass, known)
+    fronts, tangent_nonzeros = _symbolic(model, rows, dependents.full, mass, dependents)
     order = fronts.order
     new = np.argsort(order)
     mass = mass[order][:, order].tocsr()
-    mass = with_room(mass, [new[c].tolist() for c in _added_mass(model, known.full)])
+    mass = with_room(mass, [new[c].tolist() for c in _added_mass(model, dependents.full)])
     mass.sort_indices()
     return _Ordered(T, z0, M_full, mass, fronts, new, RowArrays(rows, new), tangent_nonzeros)
 
@@ -191,31 +191,33 @@ class _Start:
     """Rows that are on."""
     rank: int | None
     """Of these rows; None: it could not be computed."""
-    told: str
+    contradiction: str
     """What contradicts itself in the velocities that were given."""
     locked: str
     """What joints hold fast."""
 
 
 def _start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
-    known, rows, new = reduced.known, reduced.rows, ordered.new
+    dependents, rows, new = reduced.dependents, reduced.rows, ordered.new
     T, z0, mass, order = ordered.T, ordered.z0, ordered.mass, ordered.fronts.order
     guides, guide_rates = guide_start(model)
     holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
     arrays = ordered.arrays if len(holding) == len(rows) else RowArrays(holding, new)
     placing = [row for row in holding if not row.rates]
     shape = arrays if len(placing) == len(holding) else RowArrays(placing, new)
-    stiffness = deformation_metric(model, known.full, new)
-    drawn = reference_position(model, reduced.natural, known.remaining, T, z0, ordered.M_full)[order]
+    stiffness = deformation_metric(model, dependents.full, new)
+    drawn = reference_position(model, reduced.natural, dependents.remaining, T, z0, ordered.M_full)[order]
     fine = fineness(reduced.size)
     q = close_position(
         placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fine
     )
-    qd, told = velocity(model, known.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size)
+    qd, contradiction = velocity(
+        model, dependents.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size
+    )
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
-    locked = locked_gears(model) or locked_parts(model, known.full, new, holding, Phiq, mass.diagonal())
-    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()), told, locked)
+    locked = locked_gears(model) or locked_parts(model, dependents.full, new, holding, Phiq, mass.diagonal())
+    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()), contradiction, locked)
 
 
 def _tables(
@@ -227,8 +229,8 @@ def _tables(
     trees: Trees | None,
 ) -> tuple[Tables, str, Callable[[], Tables] | None]:
     """All arrays of the System, with the start as it is drawn; why there is no tree; and what makes those of modes."""
-    known, rows, natural = reduced.known, reduced.rows, reduced.natural
-    remaining, full, of_z, seen = known.remaining, known.full, known.of_z, known.seen
+    dependents, rows, natural = reduced.dependents, reduced.rows, reduced.natural
+    remaining, full, of_z, seen = dependents.remaining, dependents.full, dependents.of_z, dependents.seen
     T, mass, fronts, new, arrays = ordered.T, ordered.mass, ordered.fronts, ordered.new, ordered.arrays
     order, q, guides, nz = fronts.order, start.q, start.guides, len(remaining)
     _, Phiq, _ = arrays.evaluate(q, guides)
@@ -287,8 +289,8 @@ def _tables(
 
 def _pose(model: Model, reduced: _Reduced, ordered: _Ordered, q: Array) -> Mapping[str, Any]:
     """Arrays by which a pose is set, at a position."""
-    known, new = reduced.known, ordered.new
-    return pose_arrays(model, reduced.natural, known.remaining, known.of_z, q[new], ordered.fronts.order)
+    dependents, new = reduced.dependents, ordered.new
+    return pose_arrays(model, reduced.natural, dependents.remaining, dependents.of_z, q[new], ordered.fronts.order)
 
 
 def _metadata(
@@ -303,9 +305,9 @@ def _metadata(
         "closed": closed,
         "length": reduced.length,
         "length_stated": model.length is not None,
-        **({"contradiction": start.told} if start.told and not model.start_in_equilibrium else {}),
+        **({"contradiction": start.contradiction} if start.contradiction and not model.start_in_equilibrium else {}),
     }
-    coordinates = [reduced.known.remaining[k] for k in ordered.fronts.order]
+    coordinates = [reduced.dependents.remaining[k] for k in ordered.fronts.order]
     info = [reduced.natural.info[k] for k in coordinates]
     lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, coordinates), reduced.length)
     return metadata(model, [c.name for c in info], reduced.rows, report, lengths)
@@ -333,24 +335,26 @@ def _added_mass(model: Model, full: Sequence[Affine]) -> list[list[int]]:
 
 
 def _symbolic(
-    model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
+    model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, dependents: Dependents
 ) -> tuple[Fronts, int]:
     """Elimination order and fronts of the tangent, and the non-zeros of its lower triangle."""
     entries = mass.tocoo()
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
-    behind, nz = columns_of(model, known.seen), mass.shape[0]
+    behind, nz = columns_of(model, dependents.seen), mass.shape[0]
     modes = flexible_cliques(model, full)
     cliques += modes + payload_cliques(model, full) + inertia_cliques(model, full)
-    cliques += tabled_cliques(model, known.seen)
+    cliques += tabled_cliques(model, dependents.seen)
 
     def pattern_with(room: Mapping[int, frozenset[int]]) -> sparse.csc_matrix:
-        return clique_pattern(nz, cliques + [spread(c, behind, nz) for c in element_cliques(model, known.seen, room)])
+        return clique_pattern(
+            nz, cliques + [spread(c, behind, nz) for c in element_cliques(model, dependents.seen, room)]
+        )
 
     drawn = pattern_with({})  # columns of modes lie side by side:
     late = {c: k for k, places in enumerate(modes, 1) for c in places[12:]}
     if not model.written_axes:
         return build_fronts(drawn, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2
     cliques += axis_cliques(model, full)  # what turns the axes of wheels has room; the order is that without
-    room = pattern_with(axis_room(model, known.seen))
+    room = pattern_with(axis_room(model, dependents.seen))
     return build_fronts(room, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2

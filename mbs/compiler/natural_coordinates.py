@@ -93,7 +93,7 @@ def choose(body: Body) -> list[Choice]:
 
 
 def _least_singular_value(items: list[Choice], size: float) -> float:
-    """Of the items as columns of unit length in homogeneous components."""
+    """Least singular value of the items as columns of unit length in homogeneous components."""
     if len(items[0][2]) == 2:
         columns = np.array([[o, complex(*w) / size] for _, o, w in items])
     else:

@@ -45,7 +45,7 @@ ITERATIONS = 25
 REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
 MOVES, NEARLY = 10, 2e-3
-"""A loop nearly moves if so many positions follow one another with at most this misfit, parts of its size."""
+"""Number of successive positions, and their largest misfit in parts of the size, of a loop that nearly moves."""
 REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
 """Attributes of a joint that follow from its drawing."""
 APART = 5.0
@@ -54,7 +54,7 @@ APART = 5.0
 
 @dataclass(frozen=True)
 class Correction:
-    """How far compile moved the ends of a joint: distance of its points (m) and turn of its axes (rad), the larger of
+    """Correction of a joint by compile: displacement of its points (m) and rotation of its axes (rad), the larger of
     both bodies.
     """
 
@@ -115,8 +115,8 @@ def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]
     drawn = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
     old = [(j.joint, {name: getattr(j.joint, name) for name in REDRAWN}) for j in joints]
     try:
-        for given in joints:
-            _redraw(given)
+        for corrected in joints:
+            _redraw(corrected)
         yield {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
     finally:
         for joint, attributes in old:
@@ -259,7 +259,7 @@ def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) ->
         C = np.vstack([c.left.T @ loops.evaluate(c.places, g, True)[2] for c in positions])
         e = np.concatenate([c.misfit for c in positions])
         U, s, Vt = np.linalg.svd(C, full_matrices=False)
-        k = _explaining(U.T @ e, float(np.linalg.norm(e)), s)
+        k = _explaining_count(U.T @ e, float(np.linalg.norm(e)), s)
         g = g - Vt[:k].T @ ((U[:, :k].T @ e) / s[:k])
         if np.max(np.abs(g)) > 3.0 * NEAR:
             return None
@@ -270,8 +270,8 @@ def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) ->
     return None
 
 
-def _explaining(parts: Array, size: float, s: Array) -> int:
-    """How many directions, the most sensitive first, explain the misfit but for a remainder: others would fit noise."""
+def _explaining_count(parts: Array, size: float, s: Array) -> int:
+    """Number of most sensitive directions that explain the misfit up to `REMAINDER`; more would fit noise."""
     rest = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(parts**2)))
     enough = int(np.argmax(rest <= max(REMAINDER * size, 3e-16 * np.sqrt(len(parts))))) + 1
     return max(1, min(enough, int(np.sum(s > 1e-11 * s[0]))))
@@ -290,7 +290,7 @@ def _joints(loops: Loops, found: MovableConstants, tolerance: float) -> list[Cor
 def _joint(
     loops: Loops, c: Condition, g: Array, places: Places, meets: bool, points: list[Array], axes: list[Array]
 ) -> Corrected:
-    """One joint; `points` and `axes`: those of other joints, whose digits are taken over where they are the same."""
+    """A corrected joint; `points`, `axes`: of other joints, whose digits it takes over where they are the same."""
     ends = c.joint.drawing
     assert ends is not None
     now = loops.ends_in_space(c, places, g)
@@ -305,8 +305,8 @@ def _joint(
     if meets and {"axis", "orientation"} & set(c.conditions):
         u = [0.5 * (u[0] + u[1])] * 2
     d = 2 if loops.planar else 3
-    p = [_known(x, points, 1e-12 * loops.size)[:d] for x in p]
-    u = [_known(a / np.linalg.norm(a), axes, 1e-11)[:d] for a in u]
+    p = [_matched_vector(x, points, 1e-12 * loops.size)[:d] for x in p]
+    u = [_matched_vector(a / np.linalg.norm(a), axes, 1e-11)[:d] for a in u]
     length = c.length + (loops.size * float(g[c.constant]) if c.constant >= 0 else 0.0)
     if c.constant >= 0:
         shift = max(shift, abs(length - c.length))
@@ -314,14 +314,14 @@ def _joint(
     return Corrected(c.joint, (p[0], p[1]), pair, length, Correction(shift, turn if pair else 0.0))
 
 
-def _known(v: Array, known: list[Array], near: float) -> Array:
-    """The vector of `known` that equals this one or its negative, with the sign of this one; a new one is added."""
-    for w in known:
+def _matched_vector(v: Array, vectors: list[Array], near: float) -> Array:
+    """The vector of `vectors` that equals this one or its negative, with the sign of this one; a new one is added."""
+    for w in vectors:
         for sign in (1.0, -1.0):
             if np.max(np.abs(v - sign * w)) <= near:
                 return sign * w
-    known.append(np.where(np.abs(v) < 1e-14, 0.0, v))
-    return known[-1]
+    vectors.append(np.where(np.abs(v) < 1e-14, 0.0, v))
+    return vectors[-1]
 
 
 def _largest(loops: Loops, joints: list[Corrected]) -> float:
@@ -356,24 +356,24 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
 
 
 def _round_up(x: float) -> float:
-    """One digit, not smaller."""
+    """The number rounded up to one digit."""
     power = 10.0 ** math.floor(math.log10(x))
     return min(MOST_TOLERANCE, math.ceil(1.01 * x / power) * power)
 
 
-def _redraw(given: Corrected) -> None:
+def _redraw(corrected: Corrected) -> None:
     """Give a joint its new ends, and the bodies their new joint points and axes in place of the old ones."""
-    joint, ends = given.joint, given.joint.drawing
+    joint, ends = corrected.joint, corrected.joint.drawing
     assert ends is not None
     bodies = ends.bodies
     lists = [(b, b.joint_points, b.joint_axes) for b in bodies]
 
-    made = []
-    for places in ((ends.points, ends.axes, ends.length), (given.points, given.axes, given.length)):
+    remade = []
+    for drawing in ((ends.points, ends.axes, ends.length), (corrected.points, corrected.axes, corrected.length)):
         for body in bodies:
             body.joint_points, body.joint_axes = [], []
-        made.append((ends.remake(*places), [(b.joint_points, b.joint_axes) for b in bodies]))
-    (_, before), (new, after) = made
+        remade.append((ends.remake(*drawing), [(b.joint_points, b.joint_axes) for b in bodies]))
+    (_, before), (new, after) = remade
     if joint.turning is not None:  # a moment of it is read
         new.hold_turning()
     for (body, points, axes), (old_points, old_axes), (new_points, new_axes) in zip(lists, before, after, strict=True):

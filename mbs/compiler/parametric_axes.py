@@ -57,7 +57,10 @@ def axis_arrays(model: Model, signals: Any, seen: Sequence[Affine], new: NDArray
 
 
 def _reals(model: Model) -> list[float]:
-    """As drawn, with the last bits that parameters write: an instance knows by these that nothing has changed."""
+    """Numbers of the axes as drawn, to the last bit as the parameters write them.
+
+    An instance compares with these to see whether a parameter has changed an axis.
+    """
     found = [list(a.reals) for a in model.written_axes]
     for p in model.parameters:
         for family, k, i, scale, offset, _ in p.targets:

@@ -25,8 +25,8 @@ def with_room(mass: sparse.csr_matrix, cliques: Sequence[Sequence[int]]) -> spar
     old = mass.tocoo()
     rows = np.array([i for c in cliques for i in c for _ in c], dtype=np.int64)
     columns = np.array([j for c in cliques for _ in c for j in c], dtype=np.int64)
-    places = (np.concatenate([old.row, rows]), np.concatenate([old.col, columns]))
-    return sparse.coo_matrix((np.concatenate([old.data, np.zeros(len(rows))]), places), shape=mass.shape).tocsr()
+    entries = (np.concatenate([old.row, rows]), np.concatenate([old.col, columns]))
+    return sparse.coo_matrix((np.concatenate([old.data, np.zeros(len(rows))]), entries), shape=mass.shape).tocsr()
 
 
 def payload_arrays(model: Model, signals: Signals) -> dict[str, Any]:

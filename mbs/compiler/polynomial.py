@@ -16,10 +16,10 @@ RateTerms = dict[tuple[int, int], float]
 DROP = 1e-12
 """A coefficient smaller than this part of the largest of its row is a zero."""
 VANISHED = 1e-10
-"""A row of which nothing is larger than this part of what was added up, or of its largest ever, is none; far from the
-origin more is left."""
+"""A row whose coefficients are all smaller than this part of the summed terms, or of its largest one so far, vanishes;
+far from the origin the round-off is larger."""
 OF_ERROR = 50.0
-"""How many times the error of a drawing may be left of a row that follows from others."""
+"""Largest remainder of a row that follows from others, over the error of the drawing."""
 
 
 @dataclass
@@ -101,11 +101,11 @@ def add_product(into: Polynomial, factor: float, a: Affine, b: Affine, largest: 
 def cleaned(
     p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0.0, 0.0), error: float = 0.0
 ) -> Polynomial:
-    """Without coefficients that are round-off of the largest, for coordinates of 1 m and for those of `size`, m.
+    """The polynomial without coefficients that are round-off of the largest, at coordinates of 1 m and of `size`, m.
 
     Next to the 1 of x^2 + y^2 - L^2, which is no length, the L^2 of a body of a micrometre is small, not round-off.
-    `largest`: what was added up, of each degree; all that is left of it, or beside `size`, may be round-off, or, in a
-    drawing that was corrected by `error`, parts of its size, what that has left.
+    `largest`: largest summed term of each degree; the remainder of the sum may be round-off of it, or, in a drawing
+    that was corrected by `error`, parts of its size, a remainder of the correction.
     """
     kept: set[Monomial] = set()
     vanished = max(VANISHED, OF_ERROR * error)

@@ -1,4 +1,4 @@
-"""A model with ports beside the same model without them: coordinates and multipliers of the one by the other's."""
+"""Maps from a model without ports to the same model with ports: coordinates and multipliers."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,13 +73,13 @@ def _shares(ported: System, without: System, T: sparse.csc_matrix, constant: Arr
     Where rows depend on each other the shares are the smallest ones.
     """
     random = np.random.Generator(np.random.PCG64(0))
-    places = [without.arrays["q0"] + _FAR * random.standard_normal(without.nq) for _ in range(_PLACES + 1)]
+    positions = [without.arrays["q0"] + _FAR * random.standard_normal(without.nq) for _ in range(_PLACES + 1)]
     theirs, mine = Instance(LoadedSystem(without.kernel_bytes())), Instance(LoadedSystem(ported.kernel_bytes()))
-    wanted = [_gradients(without, theirs, q) for q in places]
-    given = [_gradients(ported, mine, T @ q + constant) @ T for q in places]
-    found, *_ = np.linalg.lstsq(np.hstack(given[:-1]).T, np.hstack(wanted[:-1]).T, rcond=CLOSED)
+    expected = [_gradients(without, theirs, q) for q in positions]
+    gradients = [_gradients(ported, mine, T @ q + constant) @ T for q in positions]
+    found, *_ = np.linalg.lstsq(np.hstack(gradients[:-1]).T, np.hstack(expected[:-1]).T, rcond=CLOSED)
     found[np.abs(found) < CLOSED * np.max(np.abs(found))] = 0.0
-    gaps = (np.max(np.abs(g.T @ found - w.T)) / np.max(np.abs(w)) for g, w in zip(given, wanted, strict=True))
+    gaps = (np.max(np.abs(g.T @ found - w.T)) / np.max(np.abs(w)) for g, w in zip(gradients, expected, strict=True))
     return sparse.csc_matrix(found) if max(gaps) < CLOSED else None
 
 
@@ -113,9 +113,9 @@ def following(systems: list[System]) -> tuple[list[System], list[int]]:
     Returns
     -------
     list of System
-        The same, those that follow another with their map.
+        The Systems; those that follow another one with their map.
     list of int
-        Per System the number of the one that follows it, and computes what it leaves out; -1: none.
+        For each System the number of the one that follows it and computes its omitted sensors; -1: none.
     """
     found, followers = list(systems), []
     left_out = [[k for k, s in enumerate(system.meta["sensors"]) if not s.get("computed", True)] for system in systems]

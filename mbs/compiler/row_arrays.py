@@ -1,6 +1,6 @@
-"""Rows as the flat arrays of the System, and their values at a position."""
+"""Flat arrays of the constraint rows of a System, and values of the rows at a position."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,21 +30,11 @@ class RowArrays:
         velocities: list[tuple[int, int, int, float]] = []
         velocity_rows: list[int] = []
         for r, row in enumerate(rows):
-            pattern = sorted(int(new[c]) for c in row.columns())
-            place = {c: k for k, c in enumerate(pattern)}
-            place[-1] = -1
-
-            def terms(p: Polynomial, place: dict[int, int] = place) -> list[tuple[int, int, float]]:
-                """(a, b, coefficient) with a >= b, positions within the pattern."""
-                found = []
-                for (i, j), v in p.items():
-                    a, b = place[int(new[i]) if i >= 0 else -1], place[int(new[j]) if j >= 0 else -1]
-                    found.append((max(a, b), min(a, b), v))
-                return sorted(found)
-
+            ordered = sorted(row.columns(), key=lambda c: int(new[c]))
+            pattern, position = [int(new[c]) for c in ordered], {c: k for k, c in enumerate(ordered)} | {-1: -1}
             lin = [0.0] * len(pattern)
             const = 0.0
-            for a, b, v in terms(row.main):
+            for a, b, v in _terms(row.main, position):
                 if b >= 0:
                     quad.append((r, a, b, v))
                 elif a >= 0:
@@ -53,19 +43,16 @@ class RowArrays:
                     const += v
             if row.theta >= 0:
                 n = len(angles)
-                angles.append((r, place[int(new[row.theta])]))
+                angles.append((r, position[row.theta]))
                 both: dict[tuple[int, int], list[float]] = {}
                 for k, p in enumerate((row.cosine, row.sine)):
-                    for a, b, v in terms(p):
+                    for a, b, v in _terms(p, position):
                         both.setdefault((a, b), [0.0, 0.0])[k] = v
                 angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(both.items())]
             for guide, power, p in row.guides:
-                gterms += [(r, guide, power, a, b, v) for a, b, v in terms(p)]
+                gterms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
             if row.rates:
-                entries = [
-                    (place[int(new[i]) if i >= 0 else -1], place[int(new[j])], v) for (i, j), v in row.rates.items()
-                ]
-                for a, b, v in sorted(entries):
+                for a, b, v in sorted((position[i], position[j], v) for (i, j), v in row.rates.items()):
                     if a >= 0:
                         velocities.append((len(velocity_rows), a, b, v))
                     else:
@@ -140,9 +127,9 @@ class RowArrays:
         phi: Array = a["row_const"] + np.bincount(self._row_of_entry, jac * q[col], minlength=self.nc)[: self.nc]
         phi_t = np.zeros(self.nc)
 
-        def entry(row: Index, place: Index) -> tuple[Index, Array]:
-            """Index into the row pattern (-1: none) and the value there."""
-            at = np.where(place >= 0, start[row] + place, -1)
+        def entry(row: Index, position: Index) -> tuple[Index, Array]:
+            """Indices of coordinates at positions within their rows (-1: the constant 1), and their values."""
+            at = np.where(position >= 0, start[row] + position, -1)
             return at, padded[np.where(at >= 0, col[at], self.nq)] if len(col) else padded[np.full(len(at), self.nq)]
 
         def add(row: Index, place_a: Index, place_b: Index, h: Array) -> Array:
@@ -188,6 +175,11 @@ class RowArrays:
             phi[a["velocity_row"]] = 0.0
         matrix = sparse.csr_matrix((jac, col, start), shape=(self.nc, self.nq))
         return phi, matrix, phi_t
+
+
+def _terms(p: Polynomial, position: Mapping[int, int]) -> list[tuple[int, int, float]]:
+    """Terms (a, b, coefficient) of a polynomial, a >= b, by positions in the pattern of its row; -1: the constant 1."""
+    return sorted((max(position[i], position[j]), min(position[i], position[j]), v) for (i, j), v in p.items())
 
 
 def _pointer(owner: Array, n: int) -> Index:

@@ -39,8 +39,8 @@ def candidates(body: Body) -> list[Vector]:
 def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[RowTerms]:
     """Rigidity of one body over z; rows that hold identically are still among them.
 
-    `error`: by which the drawing was corrected, parts of its size. What it leaves of a row holds in the corrected
-    motion, but its round-off would fix what the other rows leave.
+    `error`: of the corrected drawing, parts of its size. The remainder of a row after the correction holds in the
+    corrected motion, but its round-off would fix the motion that the other rows allow.
     """
     if body.is_point:
         return []

@@ -21,7 +21,7 @@ from mbs.model.perpendicular_vectors import perpendicular
 Array = NDArray[np.float64]
 
 MOST_JOINTS, MOST_CUT_ROWS = 64, 64
-"""Relative coordinates are solved for as a dense matrix: beyond so many the sparse methods are faster."""
+"""Largest number of joints: relative coordinates have a dense matrix, and beyond it sparse methods are faster."""
 PARALLEL = 1e-9
 """Largest sine of the angle between two axes that count as the same."""
 FORMED = ("revolute", "prismatic")

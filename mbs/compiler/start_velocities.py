@@ -34,7 +34,7 @@ class GivenVelocity:
         return float(rates @ self.weight @ rates)
 
     def missed(self, full: Array) -> float:
-        """The same of what rates of the full coordinates miss."""
+        """Twice the kinetic energy of the difference between rates of the full coordinates and those asked for, J."""
         return self.energy(full[self.part] - self.rates)
 
     def text(self, rates: Array) -> str:
@@ -48,13 +48,13 @@ class GivenVelocity:
         return f"{', '.join(f'{v + 0.0:.4g}' for v in moved)} {self.unit}"
 
     def matrix(self, n: int) -> sparse.csr_matrix:
-        """Its weight over all n full coordinates."""
+        """The weight as a matrix over all `n` full coordinates, kg."""
         rows, columns = np.mgrid[self.part, self.part]
         return sparse.csr_matrix((self.weight.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
 
 
 def given_velocities(model: Model, position: Array, mass: float) -> Iterator[GivenVelocity]:
-    """All that were asked for, at full coordinates; `mass`: of a coordinate that has none, kg."""
+    """Initial velocities of a model at full coordinates; `mass`: of a coordinate that has none, kg."""
     d, turns = model.dimension, 1 if model.dimension == 2 else 3
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]

@@ -38,7 +38,7 @@ class Dependents:
 
 def tabled_coordinates(model: Model) -> list[int]:
     """Natural coordinates that tables give, in the order of dependents."""
-    return [i for t in model.tabled for i in _own(t)]
+    return [i for t in model.tabled for i in _dependents(t)]
 
 
 def base_coordinates(model: Model) -> set[int]:
@@ -87,12 +87,12 @@ def refuse_joint(name: str) -> ModelError:
 
 def columns_of(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z that each dependent depends on."""
-    return [_places(t, seen) for t in model.tabled for _ in _own(t)]
+    return [_independents(t, seen) for t in model.tabled for _ in _dependents(t)]
 
 
 def tabled_cliques(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each table couples in the tangent."""
-    return [sorted(_places(t, seen)) for t in model.tabled]
+    return [sorted(_independents(t, seen)) for t in model.tabled]
 
 
 def spread(columns: Sequence[int], of: Sequence[Sequence[int]], nz: int) -> list[int]:
@@ -123,7 +123,7 @@ def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) 
         c = t.table.coefficients
         arrays["size"] += [c.shape[2], c.shape[0], c.shape[1]]
         has_base = isinstance(t, TabledBody) and not t.base.is_ground
-        columns = [int(new[j]) for j in _places(t, seen)]
+        columns = [int(new[j]) for j in _independents(t, seen)]
         arrays["frame"] += columns[:12] if has_base else NONE
         arrays["param"] += [*columns[12 * has_base :], -1][:2]
         for axis in (*t.table.axes, np.array([0.0, 1.0]))[:2]:
@@ -142,12 +142,12 @@ def _moments(t: TabledBody | TabledNumber) -> list[float]:
     return [t.mass, *t.first_moment, J[0, 0], J[1, 1], J[2, 2], J[1, 2], J[2, 0], J[0, 1]]
 
 
-def _own(t: TabledBody | TabledNumber) -> range:
-    """Natural coordinates that a table gives."""
+def _dependents(t: TabledBody | TabledNumber) -> range:
+    """Range of the natural coordinates that a table determines."""
     return range(t.start, t.start + 12) if isinstance(t, TabledBody) else range(t.index, t.index + 1)
 
 
-def _places(t: TabledBody | TabledNumber, seen: Sequence[Affine]) -> list[int]:
+def _independents(t: TabledBody | TabledNumber, seen: Sequence[Affine]) -> list[int]:
     """Coordinates of z of the base of a table, then of its parameters: none of them is eliminated."""
     base = t.base if isinstance(t, TabledBody) else None
     frame = [] if base is None or base.is_ground else list(range(base.start, base.start + 12))

@@ -1,4 +1,4 @@
-"""Tables of the System beside mass and rows: signals, elements, sensors, inputs, guides, roads, parameters."""
+"""Tables of the System other than mass and rows: signals, elements, sensors, inputs, guides, roads, parameters."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 EQUAL_MOMENTS = 1e-12
 """Largest relative difference of two principal moments of inertia that count as equal."""
 CARRIED = 5
-"""Numbers per coordinate that the kernel's state has for what a method carries."""
+"""Numbers per coordinate that the kernel's state keeps for the history of a method."""
 
 
 def tree_arrays(
@@ -73,7 +73,7 @@ def tree_arrays(
 
 
 def _refuse_written(model: Model) -> None:
-    """Trees take inertias as constant, and know no wheels."""
+    """Refuse inertias, armatures and axes that parameters change: those of a tree are constant."""
     for k in written_armatures(model):
         raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")
     for body in model.written_inertias:
@@ -87,7 +87,7 @@ def _joined(parts: Sequence[Array]) -> Array:
 
 
 def _masses(moving: Sequence[Group]) -> dict[str, Any]:
-    """Mass, centre of mass and inertia about it in the frame."""
+    """Mass, centre of mass and inertia about it of each group of bodies, in its frame."""
     masses, centres, inertias = [], [], []
     for group in moving:
         mass, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
@@ -117,7 +117,7 @@ def _principal(J: Array) -> Array:
 
 
 def _frame_signals(group: Group, signals: Signals) -> list[int]:
-    """Signals of the origin, then of the columns of the frame."""
+    """Numbers of the signals of the origin, then of the axes of a frame."""
     body = group.bodies[0]
     parts = [_components(body, group.origin, True), *(_components(body, axis, False) for axis in group.axes.T)]
     return [signals.number(component) for part in parts for component in part.components]
@@ -135,12 +135,12 @@ def _coordinates(
 ) -> dict[str, Any]:
     """The points (1) and vectors (0) whose components are coordinates of the System: body, local components, places."""
     owner = {id(body): group for group in groups for body in group.bodies}
-    place = {i: int(new[z]) for z, i in enumerate(remaining)}
+    index = {i: int(new[z]) for z, i in enumerate(remaining)}
     bodies, locals_, columns = [], [], []
     for body in model.bodies:
         group, d = owner[id(body)], body.dimension
         for n, (_, o, w) in enumerate(choose(body)):
-            mine = [place.get(body.start + d * n + k, -1) for k in range(d)]
+            mine = [index.get(body.start + d * n + k, -1) for k in range(d)]
             if max(mine) < 0:
                 continue
             if group.number == 0:
@@ -161,13 +161,13 @@ def _payloads(model: Model, groups: Sequence[Group]) -> dict[str, Any]:
             raise NoTreeError(f"payload '{payload.name}' sits on a body that is welded to the ground")
         if payload.shared:
             raise NoTreeError(f"payload '{payload.name}' is carried by several points")
-    places = [g.local(in_space(p.position)) for p, g in zip(model.payloads, on, strict=True)]
-    return {"payload_body": [g.number for g in on], "payload_place": _joined(places)}
+    positions = [g.local(in_space(p.position)) for p, g in zip(model.payloads, on, strict=True)]
+    return {"payload_body": [g.number for g in on], "payload_place": _joined(positions)}
 
 
 def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
     """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
-    place = {i: int(new[z]) for z, i in enumerate(remaining)}
+    index = {i: int(new[z]) for z, i in enumerate(remaining)}
     arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
     for joint in model.joints:
         if joint.turn is None:
@@ -176,7 +176,7 @@ def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new
         inertia = model.inertias.get(joint.turn.coordinate, 0.0)
         if inertia > 0.0 and not _one_path(groups, [number for number, _ in parts]):
             raise NoTreeError(f"the armature of relative angle '{joint.name}' couples two branches of the tree")
-        arrays["col"].append(place[joint.turn.coordinate])
+        arrays["col"].append(index[joint.turn.coordinate])
         arrays["joint"] += [number for number, _ in parts]
         arrays["sign"] += [sign for _, sign in parts]
         arrays["ptr"].append(len(arrays["joint"]))
@@ -187,7 +187,7 @@ def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new
 
 
 def _one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
-    """Whether bodies are all on the way from one of them to the ground."""
+    """Whether the bodies are all on the path from one of them to the ground."""
     path, group = set(), groups[max(numbers, default=0)]
     while group.parent is not None:
         path.add(group.number)

@@ -70,7 +70,7 @@ def _triad(
 
 
 def _arm(edge: Edge, vertex: Vertex, end: Edge) -> tuple[AffineVector, bool]:
-    """From the joint along the body of `vertex`; of one that slides on a line of its neighbour, that line."""
+    """Arm from the joint along the body of `vertex`; if that slides on a line of its neighbour, that line."""
     if end.slides and end.line_of is not vertex and end.axis is not None:
         return end.axis, True
     return end.point - edge.point, False

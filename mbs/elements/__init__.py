@@ -1,9 +1,9 @@
 """Force elements: their data, checked, and the records that `compile()` reads.
 
-What several elements ask for in `record`: `centre`, m, and `axis`, a unit vector to the left, are those of a wheel;
-`spin`, `left` and `right` are absolute spins of wheels, rad; `f` and `g` are orthonormal vectors of the carrier, f x g
-along the axis to the left; a `coordinate` is an angle, rad, or a length, m; a `difference` is p2 - p1 of two points in
-earth axes, two or three components, m.
+Arguments of `record` that several elements share: `centre`, m, and `axis`, a unit vector to the left, are those of a
+wheel; `spin`, `left` and `right` are absolute spins of wheels, rad; `f` and `g` are orthonormal vectors of the carrier,
+f x g along the axis to the left; a `coordinate` is an angle, rad, or a length, m; a `difference` is p2 - p1 of two
+points in earth axes, two or three components, m.
 """
 
 from typing import TYPE_CHECKING

@@ -154,9 +154,9 @@ class AutomaticDrive(Element):
         """
         what = self._what(name)
         ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
-        for number, asked in ((request, "request of gears"), (clutch, "clutch")):
+        for number, input_name in ((request, "request of gears"), (clutch, "clutch")):
             if number is not None and selector is None:
-                raise ModelError(f"T{what[1:]} has a {asked} and no selector; give it one.")
+                raise ModelError(f"T{what[1:]} has a {input_name} and no selector; give it one.")
         reals_of(self, what)
         words = {field: called for field, _, called in each_real(type(self))}
         for field, wrong in self.faults():

@@ -23,9 +23,9 @@ class ContactPoints(Element):
     """Points or spheres of a body that rest, slide and bounce on a road.
 
     Normal force over the depth d: K d^2/(2 w) up to the onset w, K (d - w/2) beyond; times ``1 + chi d'`` going in and
-    ``1/(1 - chi d')`` coming out (Hunt and Crossley 1975, without their pull), so that a point that meets the road
-    with v leaves it with v1, ``(chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3``. Friction is elastoplastic, a
-    spring and damper in series with a slider that slips at mu times the normal force: it holds what rests. With hardly
+    ``1/(1 - chi d')`` coming out (Hunt and Crossley 1975, without their pull), so that a point that meets the road with
+    v leaves it with v1, ``(chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3``. Friction is elastoplastic, a spring
+    and damper in series with a slider that slips at mu times the normal force: a body at rest stays there. With hardly
     any loss a body may bounce on a slope for ever, and walk down with it.
     """
 

@@ -31,9 +31,9 @@ class Element:
     _states: ClassVar[tuple[float, ...]] = ()
     """Initial values of its slots."""
     _outputs: ClassVar[tuple[Output, ...]] = ()
-    """What it computes beside its force."""
+    """Outputs besides the force."""
     _behind: ClassVar[int | None] = 0
-    """How many other numbers follow its fields, beside those of what its integers count; None: any."""
+    """Count of further numbers behind its fields, without those that its integers count; None: any."""
     _more: ClassVar[str] = ""
     """First of the numbers that may be missing, behind all others: they are there with the optional integers, where it
     has some."""
@@ -77,7 +77,7 @@ class Element:
     ) -> ElementRecord:
         """The record.
 
-        `integer`: those that are declared, None for what is missing. `values`, `states`, `outputs`: in place of those
+        `integer`: the declared ones, None for missing ones. `values`, `states`, `outputs`: in place of those
         of the fields and of the class. `behind`: numbers between its own and those that may be missing. `more`: whether
         it has these, where no optional integer says it.
         """

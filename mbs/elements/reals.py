@@ -53,7 +53,7 @@ class Group:
     """Whether its numbers stand behind those of all fields, by their own names without that of the field."""
 
     def name(self, field: str, number: str) -> str:
-        """Of a number of it."""
+        """Name of one number of the group in a field."""
         return number if self.apart else f"{field}_{number}"
 
 
@@ -72,9 +72,9 @@ def declared(kind: type) -> dict[str, Real | Group]:
     if kind not in _DECLARED:  # a car asks for those of its tyres many times
         hints = get_type_hints(kind, include_extras=True).items()
         found = ((name, real) for name, hint in hints for real in getattr(hint, "__metadata__", ()))
-        known = {name: real for name, real in found if isinstance(real, (Real, Group))}
-        apart = {name for name, real in known.items() if isinstance(real, Group) and real.apart}
-        _DECLARED[kind] = {name: known[name] for name in sorted(known, key=apart.__contains__)}
+        numbers = {name: real for name, real in found if isinstance(real, (Real, Group))}
+        apart = {name for name, real in numbers.items() if isinstance(real, Group) and real.apart}
+        _DECLARED[kind] = {name: numbers[name] for name in sorted(numbers, key=apart.__contains__)}
     return _DECLARED[kind]
 
 
@@ -84,8 +84,8 @@ def each_real(kind: type) -> Iterator[tuple[str, Real, str]]:
         words = field.replace("_", " ")
         if isinstance(real, Group):
             noun = f"{words} {real.noun} ".strip() if real.noun else ""
-            for name, one, called in each_real(real.kind):
-                yield real.name(field, name), one, f"{called} of the {noun}" if noun else called
+            for name, member, called in each_real(real.kind):
+                yield real.name(field, name), member, f"{called} of the {noun}" if noun else called
         else:
             own = real.name or field
             for name in [f"{own}_{part}" for part in real.parts] or [own]:
@@ -107,7 +107,7 @@ def texts_of(kind: type) -> dict[str, str]:
 def reals_of(thing: object, what: str, values: Mapping[str, object] | None = None) -> Reals:
     """Checked numbers of an element or a road, in the order of the kernel.
 
-    `what`: the thing, for the message; `values`: what stands in place of fields.
+    `what`: the element, for messages; `values`: in place of fields, by name.
     """
     reals: Reals = {}
     for name, real in declared(type(thing)).items():
@@ -115,8 +115,8 @@ def reals_of(thing: object, what: str, values: Mapping[str, object] | None = Non
         if isinstance(real, Group):
             words = name.replace("_", " ")
             if not (value is None and real.optional):
-                given: object = instance_of(real.kind, value, f"The {words} of {what}", real.words)
-                numbers = reals_of(given, f"the {words} {real.noun} of {what}" if real.noun else what)
+                group: object = instance_of(real.kind, value, f"The {words} of {what}", real.words)
+                numbers = reals_of(group, f"the {words} {real.noun} of {what}" if real.noun else what)
                 reals |= {real.name(name, key): one for key, one in numbers.items()}
             continue
         own = real.name or name

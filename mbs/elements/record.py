@@ -10,7 +10,7 @@ from mbs.kernel.header.enumerations import ElementType
 
 @dataclass(frozen=True)
 class Output:
-    """One value an element computes beside its force; `display_unit` is what engineers read it in, if not the unit."""
+    """An output of an element besides its force; `display_unit` is the customary unit, if it is not `unit`."""
 
     name: str
     unit: str
@@ -38,7 +38,7 @@ class ElementRecord:
     states: Sequence[float] = ()
     """Initial values of its slots."""
     outputs: Sequence[Output] = ()
-    """What it computes beside its force."""
+    """Outputs besides the force."""
     tangent: bool = True
     """Whether its force depends on the signals or their rates, so that the tangent couples their coordinates."""
     elastic: bool = False

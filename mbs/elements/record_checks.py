@@ -1,4 +1,4 @@
-"""Checks of the data of an element beside those of numbers: each returns a clean value or raises one sentence."""
+"""Checks of the data of an element other than numbers: each returns a clean value or raises one sentence."""
 
 from collections.abc import Sequence
 

@@ -16,7 +16,7 @@ class SpinAngle(Element):
 
     The coordinate of a spin is the integral of the absolute rate about its axis; where the carrier turns about that
     axis too, or the axis itself is turned around, the angle between wheel and carrier is another. It is the sum of
-    ``Omega - e.w`` with the angular velocity w of the carrier: the coordinate less what the carrier turns about the
+    ``Omega - e.w`` with the angular velocity w of the carrier: the coordinate minus the turn of the carrier about the
     axis e beyond the smallest rotation that brings e from one step to the next.
     """
 

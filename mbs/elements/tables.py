@@ -44,7 +44,7 @@ def law_table() -> str:
 
 def _numbers(kind: type, group: Group | None = None, field: str = "") -> Iterator[tuple[list[str], str, str, str]]:
     """Names, range, default and text of each field; fields of a group have the names that the group gives them."""
-    said = texts(kind)
+    descriptions = texts(kind)
     defaults = {f.name: f.default for f in dataclasses.fields(kind)} if dataclasses.is_dataclass(kind) else {}
     for name, real in declared(kind).items():
         if isinstance(real, Group):
@@ -53,7 +53,7 @@ def _numbers(kind: type, group: Group | None = None, field: str = "") -> Iterato
         own = real.name or name
         names = [f"{own}_{part}" for part in real.parts] or [own]
         named = [group.name(field, n) for n in names] if group else names
-        yield named, _range(real), _shown(defaults.get(name, dataclasses.MISSING)), said[name]
+        yield named, _range(real), _shown(defaults.get(name, dataclasses.MISSING)), descriptions[name]
 
 
 def _range(real: Real) -> str:

@@ -148,7 +148,7 @@ class Tyre(Element):
         return record
 
     def faults_over_loads(self) -> Iterator[tuple[str, str, str]]:
-        """Where a force or slip is not positive or not in order at no load or at the largest.
+        """Faults of the curves at no load and at the largest: forces or slips that are not positive or not in order.
 
         Yields
         ------
@@ -177,7 +177,7 @@ class Tyre(Element):
 def _faulty_slips(
     slips: tuple[tuple[str, Pair, str], tuple[str, Pair, str]], q: float, load: str, direction: str = ""
 ) -> Iterator[tuple[str, str, str]]:
-    """The first of two slips must be positive, the second larger."""
+    """Faults of two slips: the first must be positive, the second larger."""
     (one, pair, called), (other, further, named) = slips
     field, name = (f"{direction}.", f"{direction} ") if direction else ("", "")
     first, last = _linear(pair, q), _linear(further, q)

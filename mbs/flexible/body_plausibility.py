@@ -142,7 +142,7 @@ def _lowest(model: FiniteElementModel, number: int, held: ArrayLike = ()) -> flo
 
 
 def _free(body: ReducedBody) -> float | None:
-    """First free frequency of a reduced body, by its modes beside the rigid motions, Hz."""
+    """First free frequency of a reduced body, by its modes without the rigid motions, Hz."""
     p, m = len(body.masses), body.n_modes
     rigid = np.zeros((p, 3, RIGID))
     rigid[:, range(3), range(3)] = 1.0

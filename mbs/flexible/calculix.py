@@ -32,7 +32,7 @@ def read_calculix(deck: str | Path, *, total_mass: float | None = None) -> Finit
     Returns
     -------
     FiniteElementModel
-        Of the nodes that have freedoms; checked, and told of, as by `external_model`.
+        Of the nodes that have freedoms; checked, with a `summary`, as by `external_model`.
 
     Raises
     ------

@@ -105,7 +105,7 @@ def craig_bampton(
 
 
 def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | None:
-    """Of the nodes, whose inertia is the load of the inner nodes in each mode: of rigid motions and of the modes."""
+    """Accelerations of nodes, from rigid motions and modes, whose inertia loads the inner nodes as each mode does."""
     model = fixed.model
     if not model.mass_along_beams:
         return None

@@ -67,7 +67,7 @@ class FiniteElementModel(Summarised):
         Parameters
         ----------
         origin : ndarray, shape (3,), optional
-            About which the model turns, m; by default that of its axes.
+            Centre of the rotations, m; by default the origin of the axes.
 
         Returns
         -------
@@ -103,7 +103,7 @@ class FiniteElementModel(Summarised):
         Parameters
         ----------
         rotations : bool
-            Whether the rotations are wanted.
+            Whether to return the rotations in place of the translations.
 
         Returns
         -------
@@ -150,9 +150,9 @@ class FiniteElementModel(Summarised):
             raise ModelError(f"The reference is one node with rotations or three nodes, not {len(reference)} nodes.")
         first, *others = (self.freedoms(node) for node in reference)
         numbers = np.concatenate(others)
-        places = self.positions[[self.node(node) for node in reference]]
-        size = max(float(np.ptp(places, axis=0).max()), np.finfo(float).tiny)
-        turns = self.rigid_motions(places[0])[numbers, 3:] / size
+        positions = self.positions[[self.node(node) for node in reference]]
+        size = max(float(np.ptp(positions, axis=0).max()), np.finfo(float).tiny)
+        turns = self.rigid_motions(positions[0])[numbers, 3:] / size
         _, triangle, order = qr(turns.T, pivoting=True)
         if abs(triangle[2, 2]) < ON_ONE_LINE:
             raise ModelError(f"The three reference nodes {list(reference)} lie on one line; they must span a triangle.")

@@ -77,7 +77,7 @@ def check_free(model: FiniteElementModel) -> None:
         return
     node, axis = (int(k[0]) for k in np.nonzero(model.dof == worst[0]))
     where = f"The stiffness resists rigid motions at node {model.names[node]!r}"
-    for words, x, dof in _mistaken(model):
+    for words, x, dof in _mistakes(model):
         if _resistance(model, x, dof).max() <= GROUNDED:
             raise ModelError(f"{where}: {words} would explain it.")
     if (turned := _turned_entry(model)) is not None:
@@ -107,7 +107,7 @@ def _resistance(model: FiniteElementModel, x: np.ndarray, dof: np.ndarray) -> np
     return forces / float(np.abs(model.K.data).max())
 
 
-def _mistaken(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+def _mistakes(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
     """Words, places and freedoms without each common mistake."""
     x, dof, n = model.positions, model.dof, len(model.positions)
     width = model.n_dof // n if model.n_dof in (3 * n, 6 * n) else 0

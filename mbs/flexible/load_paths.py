@@ -90,8 +90,8 @@ def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np
 
 def _balancing_inertia(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None) -> np.ndarray:
     """Modal forces of the inertia of the rigid motion that each load causes, shape (n_modes, n_loads)."""
-    places = np.array([interface.position for interface in body.interfaces.values()])
-    fields, moves = _rigid_field(body.mass_positions), _rigid_field(places)
+    positions = np.array([interface.position for interface in body.interfaces.values()])
+    fields, moves = _rigid_field(body.mass_positions), _rigid_field(positions)
     rigid_mass = np.einsum("k,kia,kib->ab", body.masses, fields, fields)
     coupling = np.einsum("k,kij,kia->ja", body.masses, body.mass_shapes, fields)
     total = moves.reshape(-1, 6).T @ loads + (0.0 if frame_loads is None else frame_loads)

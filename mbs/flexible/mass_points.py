@@ -32,7 +32,7 @@ class MassPoints:
         return sp.csc_array(self.interpolation.T @ sp.csr_array(weighted))
 
     def merged(self, other: MassPoints) -> MassPoints:
-        """Both sets together."""
+        """The mass points of both sets."""
         return MassPoints(
             np.vstack([self.positions, other.positions]),
             np.concatenate([self.masses, other.masses]),

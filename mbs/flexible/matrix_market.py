@@ -39,7 +39,7 @@ def read_matrix_market(path: Path) -> sp.csc_array:
             raise ValueError(f"a {symmetry} matrix has {rows} rows and {columns} columns")
         i, j = np.zeros((2, 0), int)
         if form == "array":
-            i, j = _places(rows, columns, symmetry, path)
+            i, j = _dense_indices(rows, columns, symmetry, path)
         count = sizes[2] if form == "coordinate" else len(i)
         check_memory(24 * _COPIES * count + 8 * (rows + columns), ModelError, path.name)
         width = 1 if form == "array" else 2 if field == "pattern" else 3
@@ -56,7 +56,7 @@ def read_matrix_market(path: Path) -> sp.csc_array:
     return sp.csc_array((values, (i, j)), shape=(rows, columns))
 
 
-def _places(rows: int, columns: int, symmetry: str, path: Path) -> tuple[np.ndarray, np.ndarray]:
+def _dense_indices(rows: int, columns: int, symmetry: str, path: Path) -> tuple[np.ndarray, np.ndarray]:
     """Rows and columns of the numbers of a dense matrix, column by column; of a symmetric one the lower triangle."""
     check_memory(24 * _COPIES * rows * columns, ModelError, path.name)
     j, i = np.divmod(np.arange(rows * columns), max(rows, 1))
@@ -80,17 +80,17 @@ def read_sparse_arrays(path: Path) -> sp.csc_array:
     data, names = arrays["data"], _PLACES.get(form)
     if names is None or data.dtype.kind not in "fiu":
         raise ValueError(f"a matrix '{form[:20]}' of {data.dtype} is not read")
-    places = [arrays[name] for name in names]
-    if any(place.ndim != 1 or place.dtype.kind not in "iu" for place in places):
+    indices = [arrays[name] for name in names]
+    if any(index.ndim != 1 or index.dtype.kind not in "iu" for index in indices):
         raise ValueError(f"its {' or '.join(names)} are not a list of whole numbers")
     check_memory(24 * _COPIES * data.size + 8 * sum(shape), ModelError, path.name)
     if form == "coo":
-        i, j = (place.astype(int) for place in places)
+        i, j = (index.astype(int) for index in indices)
         return sp.csc_array(sp.coo_array((data.astype(float), (i, j)), shape=(shape[0], shape[1])))
     kind = {"csc": sp.csc_array, "csr": sp.csr_array, "bsr": sp.bsr_array}[form]
-    made = kind((data.astype(float), *places), shape=shape)
-    made.check_format(full_check=True)
-    return sp.csc_array(made)
+    matrix = kind((data.astype(float), *indices), shape=shape)
+    matrix.check_format(full_check=True)
+    return sp.csc_array(matrix)
 
 
 _PLACES = {"coo": ("row", "col")} | dict.fromkeys(("csc", "csr", "bsr"), ("indices", "indptr"))

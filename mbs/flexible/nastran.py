@@ -47,7 +47,7 @@ def read_nastran(
     Returns
     -------
     FiniteElementModel
-        Nodes are named by the numbers of their grid points; checked, and told of, as by `external_model`.
+        Nodes are named by the numbers of their grid points; checked, with a `summary`, as by `external_model`.
 
     Raises
     ------
@@ -68,8 +68,8 @@ def read_nastran(
         if np.iscomplexobj(found[name.upper()]):
             raise ModelError(f"The matrix {name} of {Path(matrices).name} is complex; give a real one.")
     K, M = (_symmetric(found[name.upper()]) for name in (stiffness, mass))
-    places, names = np.array([place for place, _ in points.values()]), [str(number) for number in points]
-    return external_model(K, M, places, names, total_mass=total_mass, what=Path(matrices).name)
+    positions, names = np.array([place for place, _ in points.values()]), [str(number) for number in points]
+    return external_model(K, M, positions, names, total_mass=total_mass, what=Path(matrices).name)
 
 
 def _symmetric(data: Sparse) -> sp.csc_array:

@@ -44,12 +44,12 @@ def _matrices(source: _Binary | _Text) -> Iterator[tuple[str, sp.csc_array]]:
         if columns < 0:
             raise ValueError(f"the matrix {name} has {columns} columns")
         check_memory(8 * (columns + abs(rows)), ModelError, f"The matrix {name}")
-        places, values = [np.empty((2, 0), int)], [np.empty(0)]
+        indices, values = [np.empty((2, 0), int)], [np.empty(0)]
         for column, row, part in _strings(source, columns, rows):
             numbers = part.view(complex) if source.kind > 2 else part
-            places.append(np.stack([row - 1 + np.arange(len(numbers)), np.full(len(numbers), column - 1)]))
+            indices.append(np.stack([row - 1 + np.arange(len(numbers)), np.full(len(numbers), column - 1)]))
             values.append(numbers)
-        yield name, sp.csc_array((np.concatenate(values), np.hstack(places)), shape=(abs(rows), columns))
+        yield name, sp.csc_array((np.concatenate(values), np.hstack(indices)), shape=(abs(rows), columns))
 
 
 def _strings(source: _Binary | _Text, columns: int, rows: int) -> Iterator[tuple[int, int, Array]]:
@@ -157,7 +157,7 @@ class _Text:
         return np.array([block[k * self._width : (k + 1) * self._width] for k in range(count)], float)
 
     def end(self) -> None:
-        self._line()  # a number that is none of the matrix
+        self._line()  # a number that does not belong to the matrix
 
     def _line(self) -> str:
         line = next(self._lines, None)

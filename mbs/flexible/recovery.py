@@ -76,8 +76,8 @@ def _inertia(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarray, np.
     beam = frame.beams[int(element)]
     length, R = frame.element_axes(element)
     shear = shear_parameters(beam.section, beam.material, length, frame.theory)
-    places, masses, shapes = beam_mass_points(beam.section, beam.material, length, shear, "consistent", False)
-    share = places[:, 0] / length
+    positions, masses, shapes = beam_mass_points(beam.section, beam.material, length, shear, "consistent", False)
+    share = positions[:, 0] / length
     moved = np.stack([np.hstack([(1.0 - s) * R, s * R]) for s in share])
     to_nodes = np.einsum("p,pij,pik->jk", masses, shapes, moved)
     rest, whole = 1.0 - xi, beam.material.rho * beam.section.area * length

@@ -70,10 +70,10 @@ def flexible_parts(
     turn = np.eye(3) if axes is None else np.asarray(axes, float)
 
     def entry(nodes: NDArray[np.int64], more: dict[str, Any]) -> dict[str, Any]:
-        places = np.asarray(origin, float) + body.node_positions[nodes] @ turn.T
+        positions = np.asarray(origin, float) + body.node_positions[nodes] @ turn.T
         return {
             "frame": frame,
-            "nodes": np.round(places, 9).tolist(),
+            "nodes": np.round(positions, 9).tolist(),
             "names": [body.node_names[k] for k in nodes],
             "beams": [],
             "radii": [],
@@ -125,9 +125,9 @@ def _beams(
     rows = _round_rows(body, frame, group) if rule == "round" else _fibre_rows(body, frame, group)
     stress = {"rule": rule, "fibres": rows.shape[2], "rows": encoded(rows), "unit": "Pa"}
     strengths = [beam.material.yield_strength for beam in beams]
-    known = [strength for strength in strengths if strength is not None]
-    if len(known) == len(strengths):
-        stress |= {"limit": min(known), "limit_name": "yield strength"}
+    given_strengths = [strength for strength in strengths if strength is not None]
+    if len(given_strengths) == len(strengths):
+        stress |= {"limit": min(given_strengths), "limit_name": "yield strength"}
     if scale is not None:
         stress["range"] = scale
     part: dict[str, Any] = entry(nodes, lines | {"stress": stress})

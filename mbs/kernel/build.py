@@ -43,11 +43,11 @@ WASM_FLAGS = [
 """In place of ``-shared -fPIC`` for WebAssembly."""
 
 WASM_HELPERS = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
-"""What the host of a WebAssembly module calls beside the functions it is for: memory, and files in it."""
+"""Exports of a WebAssembly module for its host besides its own functions: memory, and files in it."""
 
 
 LANES = ("lanes", "run_many.c", "entries.c")
-"""Of `src/` what an FMU has none of: by which many instances advance together, and the functions that Python calls."""
+"""Parts of `src/` that an FMU lacks: stepping of many instances together, and the functions that Python calls."""
 
 
 def sources(lanes: bool = True, kernel: Path | None = None) -> list[Path]:
@@ -111,12 +111,12 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)
     exports = (*functions(), *WASM_HELPERS)
     command = compiler_command([], target, Path(library_name(target)), exports=exports)
-    kept = cache_directory() / "kernels" / digest_of(command, HERE) / library_name(target)
-    if not kept.is_file():
-        compile_c(sources(), target, kept, what="the kernel", exports=exports)
+    library = cache_directory() / "kernels" / digest_of(command, HERE) / library_name(target)
+    if not library.is_file():
+        compile_c(sources(), target, library, what="the kernel", exports=exports)
     path.parent.mkdir(parents=True, exist_ok=True)
     with temporary_folder(path.parent) as folder:
-        shutil.copyfile(kept, Path(folder, path.name)).replace(path)  # as in `compile_c`
+        shutil.copyfile(library, Path(folder, path.name)).replace(path)  # as in `compile_c`
     return path
 
 

@@ -21,8 +21,8 @@ MAGIC = "src/elements/magic_formula.h"
 
 ENUMERATIONS = {
     "Cause": (PUBLIC, "ALI3_CAUSE_CALL", "ALI3_CAUSE_", "`ali3_cause`: what a refusal comes from."),
-    "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "What the solver says about itself."),
-    "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "What a parameter writes to."),
+    "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "Diagnostics of the solver."),
+    "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "Target of a parameter."),
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
     "JudgedUnit": (PUBLIC, "ALI3_JUDGED_M", "ALI3_JUDGED_", "`ali3_judged.unit`."),
@@ -35,7 +35,7 @@ OF_STEPS = {
     "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
     "Balance": (PUBLIC, "ALI3_BALANCE_KEPT", "ALI3_BALANCE_", "`ali3_report.balance`."),
 }
-OF_SENSORS = {"SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from.")}
+OF_SENSORS = {"SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "Source of the value of a sensor.")}
 LIMITS = {
     "ALI3_OPEN": "A row that is open by less, m, is not why something failed.",
     "ALI3_FARTHEST": "Largest distance of a start, m.",
@@ -310,8 +310,8 @@ def header() -> dict[str, str]:
         ),
         "arrays.py": _text("Arrays of a System", [], [_array_names()]),
         "enumerations.py": _text("Types and codes", [_ENUM], _enumerations()),
-        "steps.py": _text("Methods and what steps tell", [_ENUM], _steps()),
-        "sensor_reads.py": _text("What sensors read", [_ENUM + "\n\n" + _SENSOR_TYPE], _sensor_reads()),
+        "steps.py": _text("Methods and report codes", [_ENUM], _steps()),
+        "sensor_reads.py": _text("Sources of sensor values", [_ENUM + "\n\n" + _SENSOR_TYPE], _sensor_reads()),
         "magic_coefficients.py": _text("Numbers of the Magic Formula", [], [_magic()]),
         "structures.py": _text("Structures", [_CTYPES], _structures()),
     }
@@ -323,7 +323,7 @@ _CTYPES = "from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_
 
 
 def _text(what: str, imports: list[str], parts: Iterable[str]) -> str:
-    head = f'"""{what} of the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""'
+    head = f'"""{what} from the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""'
     return "\n\n".join([head, *imports, *parts]) + "\n"
 
 

@@ -87,11 +87,11 @@ class AirVocabulary(BodyVocabulary):
         element = Lift(lift_area, air_density).record(name, owned.point(point), front, top, wind)
         return self._add_in_air(element, "lift")
 
-    def _add_in_air(self, made: ElementRecord, kind: str) -> ElementRecord:
+    def _add_in_air(self, element: ElementRecord, kind: str) -> ElementRecord:
         """Add an element of the air, whose integers are the inputs of its wind."""
-        if max(made.integer, default=-1) >= len(self.inputs):
+        if max(element.integer, default=-1) >= len(self.inputs):
             raise ModelError(
-                f"The wind of {kind} '{made.name}' has the inputs {list(made.integer)}, but the model '{self.name}' "
-                f"has {len(self.inputs)}, counted from 0."
+                f"The wind of {kind} '{element.name}' has the inputs {list(element.integer)}, but the model "
+                f"'{self.name}' has {len(self.inputs)}, counted from 0."
             )
-        return self.add(made)
+        return self.add(element)

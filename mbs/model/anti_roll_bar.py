@@ -43,7 +43,7 @@ def anti_roll_bar(
     stiffness_factor : float
         Factor on the stiffness, for a parameter.
     carrier : Body, optional
-        With arms given as bodies: what they turn on.
+        With arms given as bodies: the body on which they turn.
     axis : array_like, shape (3,), optional
         With arms given as bodies, in space.
     free_twist : float, optional
@@ -92,11 +92,11 @@ def _arm_angles(
     elif all(isinstance(arm, Body) for arm in arms):
         if carrier is None:
             raise ModelError(f"The {what} needs the carrier on which its arms turn.")
-        made = [
+        ends = [
             angle_and_joint(model, f"{name}.{side}", carrier, arm, axis, 0.0)  # type: ignore[arg-type]
             for side, arm in zip(("left", "right"), arms, strict=True)
         ]
-        angles, joints = [angle for angle, _ in made], [joint for _, joint in made]
+        angles, joints = [angle for angle, _ in ends], [joint for _, joint in ends]
     else:
         raise ModelError(
             f"The {what} needs two relative angles or two bodies as its arms, got {shown(arms[0])} and "

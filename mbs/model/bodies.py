@@ -87,8 +87,8 @@ class BodyVocabulary(Register):
         mass : float
             kg; may be 0.
         point : AffineVector, optional
-            What carries it in place of the body's own point there, such as a mean of several points of the body, which
-            then share its force.
+            Carries it in place of the body's own point there: such as a mean of several points of the body, which then
+            share its force.
 
         Raises
         ------
@@ -127,7 +127,7 @@ class BodyVocabulary(Register):
     ) -> WrittenInertia:
         """Let parameters write mass, centre of mass and inertia of a body, which has them as drawn already.
 
-        What they change acts in every method at `point` and `axes`, as a payload does. A parameter writes to its
+        Their changes act in every method at `point` and `axes`, as a payload does. A parameter writes to its
         ``mass``, ``com_x``, ``com_y``, ``com_z``, ``xx``, ``yy``, ``zz``, ``xy``, ``xz`` or ``yz`` and is fixed.
 
         Parameters
@@ -224,7 +224,7 @@ class BodyVocabulary(Register):
         return body.vector(unit)
 
     def _end(self, end: FixedEnd, what: str) -> AffineVector:
-        """Where a force acts on a body that does not slide there."""
+        """Point of a body at which a force acts."""
         body, point = body_and_point(end, what)
         return self.owned(body, f"The {what}").point(point)
 

@@ -30,7 +30,7 @@ def same_place(p: Vector, place: Vector, size: float) -> bool:
 
 
 def size_about(body: Body, place: Vector) -> float:
-    """How large a body is, m: its radius of gyration, or how far from its centre a place of it lies; else 1 m."""
+    """Size of a body, m: its radius of gyration or the distance of `place` from its centre of mass; 1 if both are 0."""
     return max(body.gyration, float(np.linalg.norm(place - body.com))) or 1.0
 
 
@@ -149,10 +149,10 @@ class Body:
         numbers = tuple(local.tolist())
         found = self._expressions.get((origin, *numbers))
         if found is None:
-            found = self._expressions[(origin, *numbers)] = self._made(numbers, origin)
+            found = self._expressions[(origin, *numbers)] = self._affine_point(numbers, origin)
         return found
 
-    def _made(self, local: tuple[float, ...], origin: float) -> AffineVector:
+    def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
         s, (x, y, *z) = self.start, local
         if self.dimension == 2:
             return AffineVector(

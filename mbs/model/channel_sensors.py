@@ -93,13 +93,13 @@ class ChannelSensorVocabulary(SensorVocabulary):
         unit: str = "",
         description: str = "",
     ) -> Sensor:
-        """A guide or one of its rates, what its limits take away, or its force.
+        """A guide or one of its rates, its excess over the limits, or its force.
 
         Parameters
         ----------
         kind : {"motion", "excess", "force"}
-            The motion; of a guide from `guide_inputs` what the limits take away from the sum of its inputs, zero where
-            it follows them; or the force with which it moves what it guides, also by guides that follow it by a table,
+            The motion; of a guide from `guide_inputs` the excess of the sum of its inputs over the limits, zero within
+            them; or the force with which it moves its joints, also by guides that follow it by a table,
             in the direction of its motion: its power over its rate.
         order : {0, 1, 2}
             Of the motion: the value, its rate or its second rate.
@@ -159,8 +159,8 @@ class ChannelSensorVocabulary(SensorVocabulary):
         ModelError
             The text is empty.
         """
-        known = isinstance(sensor, Sensor) and any(s is sensor for s in self.sensors)
-        if not known or not isinstance(text, str) or not text.strip():
+        is_own = isinstance(sensor, Sensor) and any(s is sensor for s in self.sensors)
+        if not is_own or not isinstance(text, str) or not text.strip():
             raise ModelError(
                 f"A notice of model {self.name!r} needs a sensor and a sentence, got {shown(sensor)}, {shown(text)}."
             )
@@ -178,13 +178,13 @@ def _guide_force(
     unit: str,
     description: str,
 ) -> Sensor:
-    asked = model.joints if joints is None else sensed_joints(model, name, "joints", joints)
-    terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, guide.index)]
+    sensed = model.joints if joints is None else sensed_joints(model, name, "joints", joints)
+    terms = [replace(t, weight=factor * t.weight) for joint in sensed for t in guide_terms(joint, guide.index)]
     by_table = [g.index for g in model.guides if g.type == GuideType.BY_TABLE and g.input == guide.index]
     terms += [
         replace(t, weight=factor * t.weight, slope=g)
         for g in by_table
-        for joint in asked
+        for joint in sensed
         for t in guide_terms(joint, g)
     ]
     if not terms:

@@ -49,5 +49,5 @@ class Shape:
 
     @property
     def name(self) -> str:
-        """Its name; empty where it has none."""
+        """Name of the shape; empty if it has none."""
         return str(self.fields.get("name", ""))

@@ -22,7 +22,7 @@ class ContactVocabulary(BodyVocabulary):
     """Answers on roads, and contact with them."""
 
     def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
-        """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
+        """Seven inputs with which another program gives position and friction of the road at a point, for a `PortRoad`.
 
         They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
         normal and friction there: ``name_x``, ``name_y``, ``name_height``, ``name_normal_x``, ``name_normal_y``,
@@ -34,7 +34,7 @@ class ContactVocabulary(BodyVocabulary):
         friction : float
             Coefficient of friction at the start.
         near : str, optional
-            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU warns once when
+            Name of the sensor of the x of the part that meets the road, followed by its y and z: an FMU warns once when
             the point of the answer is more than 10 m away from it.
 
         Returns

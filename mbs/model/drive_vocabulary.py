@@ -12,10 +12,10 @@ class DriveVocabulary(BodyVocabulary):
     """Shafts, travels and armatures of a model."""
 
     def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
-        """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
+        """A shaft that turns in another part, as one coordinate: its angle, from 0 as drawn.
 
-        What carries it takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or
-        the carrier turns slowly.
+        Its carrier takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or the
+        carrier turns slowly.
 
         Parameters
         ----------
@@ -28,9 +28,9 @@ class DriveVocabulary(BodyVocabulary):
         return Coordinate(name, index, "rad")
 
     def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
-        """A coordinate that tables are functions of, 0 as drawn.
+        """A coordinate as a variable of tables, 0 as drawn.
 
-        What it moves gives it its inertia; something must move with it, or a drive must hold it.
+        Its inertia is that of the parts that it moves; there must be one, or a drive must hold it.
 
         Parameters
         ----------
@@ -50,14 +50,14 @@ class DriveVocabulary(BodyVocabulary):
     def armature(self, name: str, coordinate: Coordinate, *, inertia: float, ratio: float = 1.0) -> Armature:
         """Inertia that turns with a relative angle, such as the rotor of a motor behind a gear.
 
-        Its moment on what carries it is left out: the rotor is small, or the carrier turns slowly.
+        Its moment on its carrier is neglected: the rotor is small, or the carrier turns slowly.
 
         Parameters
         ----------
         coordinate : Coordinate
             A relative angle or a spin of this model.
         inertia : float
-            About its own axis, kg m2; `inertia` times ``ratio**2`` is added to what the coordinate has already.
+            About its own axis, kg m2; `inertia` times ``ratio**2`` is added to the inertia of the coordinate.
         ratio : float
             Its turns for one of the coordinate. A fixed parameter may write it.
         """

@@ -20,7 +20,7 @@ ENERGIES = ("kinetic", "gravity", "elastic", "total")
 
 @dataclass(frozen=True)
 class _WorkFrom(Sequence[int]):
-    """Integers of the sensor of a work of all elements from a number on, those that come later too."""
+    """Integers of a work sensor of all elements from number `first` on, including elements that are added later."""
 
     elements: Sequence[ElementRecord]
     first: int
@@ -41,7 +41,7 @@ class EnergySensorVocabulary(SensorVocabulary):
     """Sensors of energy, mass and work of the whole model."""
 
     book_of_added: tuple[str, str] | None = None
-    """Name and description of a sensor of the work of all elements that come from now on; it comes with the first."""
+    """Name and description of a sensor of the work of all elements added from now on; it is added with the first."""
 
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record.
@@ -70,8 +70,8 @@ class EnergySensorVocabulary(SensorVocabulary):
         """Energy of the mechanism, or work of force elements on it since the start, J.
 
         The nonconservative work of all elements and the work of driven joints are the change of the total energy, but
-        for what the steps err by (`sense_solver`, "energy_error"). Each method adds up the work of its own steps: with
-        mean forces times ways by the trapezoidal rule (second order), with the forces of discrete gradients by
+        for the error of the steps (`sense_solver`, "energy_error"). Each method adds up the work of its own steps: with
+        mean forces times displacements by the trapezoidal rule (second order), with the forces of discrete gradients by
         energy-momentum (exact), with powers of the stages by the others.
 
         Parameters
@@ -79,7 +79,7 @@ class EnergySensorVocabulary(SensorVocabulary):
         kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative", "by inputs", "with guides"}
             The elastic energy is that of springs and flexible bodies. Work is that of all forces of the elements;
             nonconservative together with the change of their own potential energy, so that springs have none, but for
-            what jumps of inputs, as of a `PortRoad`, add to that, which is "by inputs" (with the method "ali3p" and
+            the work of jumps of inputs, as of a `PortRoad`, which is "by inputs" (with the method "ali3p" and
             generalised-alpha; with others it stays nonconservative). Work that is lost, in a damper or a brake, is
             negative. "with guides" adds the work of all guides, which drive joints, to the nonconservative work of
             elements: with "ali3p" and its projections from the mean forces of a step, jumps of inputs with them; with
@@ -105,18 +105,18 @@ class EnergySensorVocabulary(SensorVocabulary):
             elements = ()
         if not isinstance(elements, (ElementRecord, str, list, tuple)):
             raise ModelError(f"The sensor '{name}' needs force elements or their names, got {shown(elements)}.")
-        given = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
-        known = {record.name: k for k, record in enumerate(self.elements)}
-        names = [e.name if isinstance(e, ElementRecord) else e for e in given]
+        chosen = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
+        index_of = {record.name: k for k, record in enumerate(self.elements)}
+        names = [e.name if isinstance(e, ElementRecord) else e for e in chosen]
         for element in names:
-            if not isinstance(element, str) or element not in known:
+            if not isinstance(element, str) or element not in index_of:
                 raise ModelError(
                     f"The sensor '{name}' asks for element {shown(element)}, but the model has no such element; it "
-                    f"has: {', '.join(known) or 'none'}."
+                    f"has: {', '.join(index_of) or 'none'}."
                 )
         if not (names or guided) or len(set(names)) < len(names):
             raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
-        numbers = [known[element] for element in names]
+        numbers = [index_of[element] for element in names]
         if guided:
             return self._sense(name, unit, description, SensorType.GUIDED_WORK, integers=[len(numbers), *numbers])
         return self._sense(

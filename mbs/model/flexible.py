@@ -216,8 +216,8 @@ class FlexibleBody(Body):
         names = self.reduced.node_names
         if isinstance(node, str):
             if node not in names:
-                known = ", ".join(self.reduced.interfaces) or "none"
-                raise ModelError(f"Flexible body '{self.name}' has no node '{node}'; its interfaces are: {known}.")
+                available = ", ".join(self.reduced.interfaces) or "none"
+                raise ModelError(f"Flexible body '{self.name}' has no node '{node}'; its interfaces are: {available}.")
             return names.index(node)
         if not is_finite(node) or int(node) != node or not 0 <= node < len(names):
             raise ModelError(f"Flexible body '{self.name}' has the nodes 0 to {len(names) - 1}, not {shown(node)}.")

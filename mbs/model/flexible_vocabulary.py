@@ -21,7 +21,7 @@ from mbs.model.sensors import SensorVocabulary
 
 
 class FlexibleVocabulary(SensorVocabulary):
-    """Bodies with nodes or ports, and what is read of a structure at ports."""
+    """Bodies with nodes or ports, and sensors of a structure at ports."""
 
     def flexible_body(
         self,

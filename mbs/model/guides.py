@@ -91,7 +91,7 @@ class GuideVocabulary(BodyVocabulary):
         gains : tuple of float
             Of each input, in units of the guide per unit of the input.
         limits : tuple of float
-            Between which the sum is held, in units of the guide; the "excess" of `sense_guide` is what they take away.
+            Between which the sum is held, in units of the guide; `sense_guide` reads its "excess" over them.
         frequency : float
             Of the filter, Hz.
         unit : str
@@ -109,8 +109,8 @@ class GuideVocabulary(BodyVocabulary):
         low, high = (number(k, f"A limit of {what}") for k in pair(limits, f"The limits of {what}"))
         if low > high:
             raise ModelError(f"The {what} has the limits {low:g} and {high:g}; the first must not be above the second.")
-        asked = k_1 * first.start + k_2 * second.start
-        start = min(max(asked, low), high)
+        unlimited = k_1 * first.start + k_2 * second.start
+        start = min(max(unlimited, low), high)
         reals = [w, k_1, start, k_2, low, high]
         return new_guide(self, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
 
@@ -130,9 +130,9 @@ class GuideVocabulary(BodyVocabulary):
         body : Body
             Of a flexible one its floating frame is meant.
         point : array_like, shape (dimension,)
-            Where it is when the guide is 0, m, earth axes in the reference configuration.
+            Its position when the guide is 0, m, earth axes in the reference configuration.
         direction : array_like, shape (dimension,) or (n, dimension)
-            Along what it slides, of any length, in the same axes; several are at right angles to each other.
+            Direction in which it slides, of any length, in the same axes; several are at right angles to each other.
         guide : Guide or sequence of Guide
             m; one for each direction.
 

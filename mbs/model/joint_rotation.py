@@ -17,5 +17,5 @@ class Turning:
     """Vectors of the first and the second body whose product keeps the value."""
 
     def equations(self, name: str) -> list[Equation]:
-        """One per pair."""
+        """One equation per pair."""
         return [Equation(name, "turning", dot_products(u, v), Affine({}, -value)) for u, v, value in self.pairs]

@@ -65,8 +65,8 @@ class Model(
     drawing does not close, `point` (or `axis`) of a joint may be a pair, one per body; `compile` then closes the
     assembly.
 
-    Names are unique among things of one kind, and what is handed to a model must be one of its own. Otherwise, and
-    where an argument is not what it must be, a call raises `ModelError` (`ArgumentTypeError` for a thing of another
+    Names are unique within a kind, such as bodies or joints, and arguments from a model must be from this one.
+    Otherwise, or if an argument is not valid, a call raises `ModelError` (`ArgumentTypeError` for an object of another
     class), one sentence with the name and the value, and changes nothing.
 
     Parameters
@@ -78,7 +78,7 @@ class Model(
     gravity : array_like, shape (dimension,), optional
         m/s2; by default 9.81 along -y (planar) or -z (spatial).
     length : float, optional
-        What the tolerance of `simulate` is relative to, m; by default the extent of bodies and joints as drawn.
+        Length to which the tolerance of `simulate` is relative, m; by default the extent of bodies and joints as drawn.
 
     Attributes
     ----------
@@ -90,11 +90,11 @@ class Model(
         Set it to start in the static equilibrium instead of as drawn.
     with_ports : callable, optional
         Makes the same model with ports, which computes the sensors that this one leaves out; it is called when one of
-        them is first read. Set it last: with what is added later there is none.
+        them is first read. Set it last: adding anything later removes it.
     stop_time, step : float
-        What an FMU of the System proposes as its stop time and its step, s.
+        Stop time and step that an FMU of the System proposes, s.
     default_shapes : bool
-        Set it to False to draw nothing but what `shape` says and the beams of flexible bodies.
+        Set it to False to draw nothing but the shapes of `shape` and the beams of flexible bodies.
 
     Raises
     ------
@@ -139,9 +139,9 @@ class Model(
     def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
         """Start velocity of a body: of its centre of mass, its angular velocity, or both.
 
-        What is left out follows from the joints: of all velocities that have the given part, the start takes the one
-        with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
-        rest. Of the given part the joints remove what they do not allow, and no more. Where several given velocities
+        A part that is not given follows from the joints: of all velocities that have the given part, the start takes
+        the one with the least kinetic energy, and a free body turns or moves only as given. Without both the body
+        starts at rest. The joints remove no more of the given part than they must. Where several given velocities
         contradict each other through the joints the start has mass-weighted means, and `print(system)` and every run
         report the numbers.
 

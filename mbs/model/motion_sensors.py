@@ -94,7 +94,7 @@ class MotionSensorVocabulary(SensorVocabulary):
         unit : str
             By default that of the coordinate, "1" of an expression.
         display_unit : str
-            What engineers read it in, if that is not the unit.
+            Customary unit in engineering, if that is not the unit.
         """
         k = order_number(order, 2, f"sensor '{name}'")
         expression = self.expression(coordinate, f"The sensor '{name}'")

@@ -94,11 +94,11 @@ class OrientationSensorVocabulary(SensorVocabulary):
         if isinstance(of, Spin):
             self.owned_coordinate(of, what)
             element = f"{of.name}.angle"
-            known = [record.name for record in self.elements]
-            if element not in known:
+            element_names = [record.name for record in self.elements]
+            if element not in element_names:
                 self.add(SpinAngle().record(element, of.f, of.g, of.affine))
-                known.append(element)
-            integers = [known.index(element), 0]
+                element_names.append(element)
+            integers = [element_names.index(element), 0]
             return self._sense(name, unit, description, SensorType.ELEMENT_OUTPUT, integers=integers, reals=[1.0])
         if not isinstance(of, (list, tuple)) or len(of) != 3:
             raise ModelError(f"{what} needs a body, a spin or three vectors, got {shown(of)}.")

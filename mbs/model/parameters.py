@@ -54,7 +54,7 @@ class _Target:
     check: Callable[[object, str], float]
 
     def written(self, value: float) -> float:
-        """What the parameter writes."""
+        """Number that the parameter writes at its value."""
         *_, scale, offset, inverse = self.where
         return (scale / value if inverse else value * scale) + offset
 
@@ -78,7 +78,7 @@ def _moving(what: str, found: Sequence[_Target]) -> None:
 
 
 def _written_once(model: Register, what: str, found: Sequence[_Target]) -> None:
-    """A real takes its value from one parameter."""
+    """Refuse a number that two parameters write."""
     writers = {where[:3]: f"parameter '{p.name}'" for p in model.parameters for where in p.targets}
     for target in found:
         place = target.where[:3]
@@ -110,8 +110,8 @@ def _target(model: Register, what: str, given: Target) -> _Target:
         element = model.elements[index]
         names = list(element.real_names)
         if real not in names:
-            known = ", ".join(names) or "none"
-            raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {known}.")
+            available = ", ".join(names) or "none"
+            raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {available}.")
         k = names.index(str(real))
         check = element.real_checks[k] if element.real_checks else number
         return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)
@@ -128,7 +128,7 @@ def _target(model: Register, what: str, given: Target) -> _Target:
 
 
 def _owners(model: Register) -> Iterator[tuple[int, str, Sequence[Named], Callable[[int], Reals]]]:
-    """Of what a parameter writes to by name beside elements: kind, things, and the reals of the thing at a place."""
+    """Kinds of targets other than elements: kind, its word, the targets, and the numbers of the target at an index."""
     yield ParameterTarget.GUIDE, "guide", model.guides, lambda k: GUIDE_REALS.get(model.guides[k].type, {})
     yield ParameterTarget.PAYLOAD, "payload", model.payloads, lambda _: {"mass": not_negative}
     yield ParameterTarget.ARMATURE, "armature", model.armatures, lambda _: {"ratio": positive}

@@ -21,7 +21,7 @@ def folded(term: Term) -> list[Term]:
 
 
 def guide_terms(joint: Joint, guide: int) -> list[Term]:
-    """What holds a guide against the rows of a joint: lam times their derivatives with respect to the guide.
+    """Force or torque on a guide from the rows of a joint: lam times their derivatives with respect to the guide.
 
     The rows do no work on coordinates and guide together, so with -Phi_q' lam on the coordinates the guide takes
     lam dPhi/ds in the direction of its motion.

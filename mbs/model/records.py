@@ -137,7 +137,7 @@ class RoadFileParameter:
 
     @property
     def description(self) -> str:
-        """One sentence for hosts."""
+        """Description of the quantity in one sentence, for hosts."""
         return (
             "File of the road (made by ali3 road, or a table .csv with coordinates) in place of the built-in one, "
             "which an empty text means: a path, or the name of one in the folder roads of the resources"

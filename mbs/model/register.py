@@ -54,7 +54,7 @@ class Register(ModelCoordinates):
     ) -> None:
         super().__init__(name, dimension, gravity, length)
         self._names: set[tuple[str, str]] = set()  # of each kind, those that are taken
-        # what moves
+        # bodies and coordinates
         self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
         self.bodies: list[Body] = []
         self.spins: list[Spin] = []
@@ -64,13 +64,13 @@ class Register(ModelCoordinates):
         self.inertias: dict[int, float] = {}  # by coordinate, with those of `armatures`, as drawn
         self.written_inertias: list[WrittenInertia] = []
         self.written_axes: list[WrittenAxis] = []
-        # what holds and what acts
+        # joints and forces
         self.joints: list[Joint] = []
         self.elements: list[ElementRecord] = []
         self.roads: list[Road] = []
         self.switches: list[Switch] = []
         self.grounded = False  # a joint ties something to the ground
-        # what is set and what is told
+        # inputs and outputs
         self.inputs: list[Input] = []
         self.guides: list[Guide] = []
         self.parameters: list[Parameter] = []
@@ -137,7 +137,7 @@ class Register(ModelCoordinates):
 
     @property
     def with_ports(self) -> Callable[[], Self] | None:
-        """Makes the same model with ports; None where there is none, or this one has grown since it was set."""
+        """Function that makes the same model with ports; None if it was not set or this model has grown since."""
         return self._with_ports if self._size() == self._size_with_ports else None
 
     @with_ports.setter

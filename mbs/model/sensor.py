@@ -1,4 +1,4 @@
-"""One output of a model."""
+"""A sensor of a model: its type, signals and numbers."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Term:
 
 @dataclass(frozen=True)
 class Sensor:
-    """One output."""
+    """A sensor: an output of the model."""
 
     name: str
     unit: str

@@ -108,9 +108,9 @@ class SensorVocabulary(BodyVocabulary):
         outputs = self.elements[index].outputs
         k = self.place_of(outputs, output)
         if k is None:
-            known = ", ".join(o.name for o in outputs) or "none"
+            available = ", ".join(o.name for o in outputs) or "none"
             raise ModelError(
-                f"The sensor '{name}' asks for {shown(output)} of element '{element_name}', which has: {known}."
+                f"The sensor '{name}' asks for {shown(output)} of element '{element_name}', which has: {available}."
             )
         out = outputs[k]
         return self._sense(

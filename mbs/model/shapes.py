@@ -159,7 +159,7 @@ class ShapeVocabulary(BodyVocabulary):
         ali3.errors.UserError
             The mesh file cannot be read, or holds no mesh.
         """
-        given = {
+        arguments = {
             name_: value
             for name_, value in {
                 "at": at, "size": size, "axes": axes, "axis": axis, "ends": ends, "points": points, "radius": radius,
@@ -171,11 +171,11 @@ class ShapeVocabulary(BodyVocabulary):
         one_of(kind, tuple(KINDS), "The kind of a shape")
         what = f"{kind} of {_owner_text(body)}" if name is None else f"shape '{named(name, 'a shape')}'"
         owner = _owner(self, body, what)
-        _check_arguments(kind, given, what)
+        _check_arguments(kind, arguments, what)
         looks = {} if name is None else {"name": name}
-        made = _made(self, kind, owner, given, what, looks | _looks(color, material, opacity, what))
-        self._shapes.append(made)
-        return made
+        new = _new_shape(self, kind, owner, arguments, what, looks | _looks(color, material, opacity, what))
+        self._shapes.append(new)
+        return new
 
     def turning(
         self,
@@ -236,8 +236,8 @@ def _member(model: BodyVocabulary, body: Body) -> Body:
 def local_place(model: BodyVocabulary, owner: Owner, place: ArrayLike, what: str) -> Vector:
     """A place from the origin of its owner, three components."""
     origin = origin_of(owner)
-    given = place_of(place, model.dimension, what)
-    return np.asarray(given - origin)
+    position = place_of(place, model.dimension, what)
+    return np.asarray(position - origin)
 
 
 def _anchors(
@@ -261,43 +261,45 @@ def _anchors(
     return found
 
 
-def _made(
-    model: BodyVocabulary, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]
+def _new_shape(
+    model: BodyVocabulary, kind: str, owner: Owner, arguments: Mapping[str, Any], what: str, looks: Mapping[str, Any]
 ) -> Shape:
     fields = dict(looks)
     anchors: list[tuple[Owner, Vector]] = []
     for key in ("radius", "thickness", "width", "rim", "wire", "seat", "scale"):
-        if key in given:
-            fields[key] = positive(given[key], f"The {key} of {what}")
-    if "coils" in given:
-        fields["coils"] = whole(given["coils"], f"The coils of {what}", 1, 1000)
-    if "points" in given:
-        anchors = _anchors(model, owner, given["points"], "points", (3 if kind == "plate" else 2, 10_000), what)
-    if "ends" in given:
-        anchors = _anchors(model, owner, given["ends"], "ends", (2, 2), what)
+        if key in arguments:
+            fields[key] = positive(arguments[key], f"The {key} of {what}")
+    if "coils" in arguments:
+        fields["coils"] = whole(arguments["coils"], f"The coils of {what}", 1, 1000)
+    if "points" in arguments:
+        anchors = _anchors(model, owner, arguments["points"], "points", (3 if kind == "plate" else 2, 10_000), what)
+    if "ends" in arguments:
+        anchors = _anchors(model, owner, arguments["ends"], "ends", (2, 2), what)
     if kind == "cylinder" and any(of is not owner for of, _ in anchors):
         raise ModelError(f"The {what} is of one body; through points of several bodies goes a tube.")
     if kind == "cylinder" and np.array_equal(anchors[0][1], anchors[1][1]):
         raise ModelError(f"The ends of {what} are one point; a cylinder has a length.")
     if kind in ("box", "sphere", "mesh", "wheel", "steering_wheel"):
         default = np.zeros(3) - origin_of(owner) if kind == "mesh" else np.zeros(3)
-        fields["at"] = local_place(model, owner, given["at"], f"the middle of {what}") if "at" in given else default
-    if "size" in given:
-        fields["size"] = _size(given["size"], model.dimension, what)
-    if "axes" in given:
-        fields["axes"] = _axes(given["axes"], model.dimension, what)
+        fields["at"] = (
+            local_place(model, owner, arguments["at"], f"the middle of {what}") if "at" in arguments else default
+        )
+    if "size" in arguments:
+        fields["size"] = _size(arguments["size"], model.dimension, what)
+    if "axes" in arguments:
+        fields["axes"] = _axes(arguments["axes"], model.dimension, what)
     if kind in ("wheel", "steering_wheel"):
-        fields["axis"] = _axle(model, owner, given.get("axis"), what)
+        fields["axis"] = _axle(model, owner, arguments.get("axis"), what)
     if "rim" in fields and not fields["rim"] < fields["radius"]:
         raise ModelError(
             f"The rim {fields['rim']:g} m of {what} must be smaller than its radius {fields['radius']:g} m."
         )
     if kind == "mesh":
-        if not isinstance(given["file"], (str, Path)):
-            raise ModelError(f"The file of {what} must be the path of a file, not {shown(given['file'])}.")
+        if not isinstance(arguments["file"], (str, Path)):
+            raise ModelError(f"The file of {what} must be the path of a file, not {shown(arguments['file'])}.")
         scale = fields.pop("scale", 1.0)
-        fields["positions"], fields["triangles"] = read_mesh(given["file"], scale)
-        fields["file"] = Path(given["file"]).name
+        fields["positions"], fields["triangles"] = read_mesh(arguments["file"], scale)
+        fields["file"] = Path(arguments["file"]).name
     return Shape(kind, owner, fields, anchors)
 
 
@@ -331,14 +333,14 @@ def _owner_text(owner: object) -> str:
     return f"'{name}'" if isinstance(name, str) else shown(owner)
 
 
-def _check_arguments(kind: str, given: Mapping[str, Any], what: str) -> None:
-    known = KINDS[kind]
-    for key in known.needs:
-        if key not in given:
-            raise ModelError(f"The {what} needs {key}=...; a {kind} has {_listed(known)}.")
-    for key in given:
-        if key not in known.needs + known.takes:
-            raise ModelError(f"The {what} takes no {key}; a {kind} has {_listed(known)}.")
+def _check_arguments(kind: str, arguments: Mapping[str, Any], what: str) -> None:
+    allowed = KINDS[kind]
+    for key in allowed.needs:
+        if key not in arguments:
+            raise ModelError(f"The {what} needs {key}=...; a {kind} has {_listed(allowed)}.")
+    for key in arguments:
+        if key not in allowed.needs + allowed.takes:
+            raise ModelError(f"The {what} takes no {key}; a {kind} has {_listed(allowed)}.")
 
 
 def _listed(kind: _Kind) -> str:
@@ -370,9 +372,9 @@ def _size(size: object, dimension: int, what: str) -> Vector:
 
 def _axes(axes: object, dimension: int, what: str) -> NDArray[np.float64]:
     small = dimension == 2 and isinstance(axes, (list, tuple, np.ndarray)) and len(axes) == 2
-    given = array(axes, (2, 2) if small else (3, 3), f"the axes of {what}")
+    matrix = array(axes, (2, 2) if small else (3, 3), f"the axes of {what}")
     R = np.eye(3)
-    R[: len(given), : len(given)] = given
+    R[: len(matrix), : len(matrix)] = matrix
     if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
         raise ModelError(f"{capital(f'the axes of {what}')} must be the columns of a rotation matrix.")
     return R

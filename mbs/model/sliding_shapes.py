@@ -76,12 +76,12 @@ class SlidingVocabulary(ShapeVocabulary):
             Whether it hides what is within, and pages can make it see-through.
         """
         what = f"mesh '{named(name, 'a mesh')}'"
-        places = array(positions, (None, 3), f"the positions of {what}")
+        vertices = array(positions, (None, 3), f"the positions of {what}")
         given = array(triangles, (None, 3), f"the triangles of {what}")
         corners = given.astype(np.int64)
-        if len(corners) and (np.any(corners != given) or corners.min() < 0 or corners.max() >= len(places)):
+        if len(corners) and (np.any(corners != given) or corners.min() < 0 or corners.max() >= len(vertices)):
             raise ModelError(
-                f"The triangles of {what} must be numbers of its {len(places)} positions, from 0; they go from "
+                f"The triangles of {what} must be numbers of its {len(vertices)} positions, from 0; they go from "
                 f"{given.min():g} to {given.max():g}."
             )
         ball = ShapeVocabulary.shape(
@@ -92,6 +92,6 @@ class SlidingVocabulary(ShapeVocabulary):
         at = local_place(self, ball.owner, np.zeros(self.dimension), f"the origin of {what}")
         if flag(cover, f"the cover of {what}"):
             looks["cover"] = True
-        mesh: dict[str, Any] = {"at": at, "positions": places, "triangles": corners, "file": name}
+        mesh: dict[str, Any] = {"at": at, "positions": vertices, "triangles": corners, "file": name}
         self._shapes.append(Shape("mesh", ball.owner, looks | mesh))
         return self._shapes[-1]

@@ -20,8 +20,8 @@ STEEPEST = 1.4
 """rad of elevation, as in `mbs/kernel/src/system/parametric_axes.c`."""
 
 
-def _own(vector: AffineVector) -> AffineVector:
-    """The same, told apart from equal vectors of the carrier that do not turn with the axis."""
+def _own_components(vector: AffineVector) -> AffineVector:
+    """A copy with components of its own: vectors of the carrier that are equal now do not turn with the axis."""
     return AffineVector(tuple(Affine(c.terms, c.constant) for c in vector.components))
 
 
@@ -88,7 +88,7 @@ class SpinVocabulary(BodyVocabulary):
         carrier.add_mass(m, c, I_d * np.outer(e, e))
         index = self.new_coordinate(self.unique("spin", name), "spin", 0.0)
         self.inertias[index] = I_s
-        along, across, aside = (_own(carrier.vector(v)) for v in (e, x, y))
+        along, across, aside = (_own_components(carrier.vector(v)) for v in (e, x, y))
         new = Spin(
             name,
             index,
@@ -116,9 +116,9 @@ class SpinVocabulary(BodyVocabulary):
         Parameters
         ----------
         spin : Spin
-            What `Model.spin` returned.
+            The wheel, made by `Model.spin`.
         leaning : float
-            By how much its rolling radius grows with 1 over the cosine of the elevation, m: a hub that stays at its
+            Growth of its rolling radius with 1 over the cosine of the elevation, m: a hub that stays at its
             height is farther from where a leaning wheel stands.
 
         Raises
@@ -128,7 +128,7 @@ class SpinVocabulary(BodyVocabulary):
         """
         what = "wheel of Model.written_axis"
         wheel = instance_of(Spin, spin, f"The {what}", "what Model.spin returned")
-        if not any(wheel is known for known in self.spins):
+        if not any(wheel is other for other in self.spins):
             raise ModelError(f"The {what}, {shown(wheel.name)}, is not of this model.")
         grows = number(leaning, f"The leaning of the {what}")
         x, y, z = wheel.axis_reference

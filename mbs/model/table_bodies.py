@@ -36,7 +36,7 @@ class SmoothTable:
 
 
 def _weights(axis: Array, x: float) -> Array:
-    """Of the control points, beyond the ends along the tangent."""
+    """Weights of the control points of a cubic B-spline at `x`; beyond the ends it goes on along the tangent."""
     step = float(axis[1] - axis[0])
     place = (x - axis[0]) / step
     held = min(max(place, 0.0), len(axis) - 1.0)
@@ -64,8 +64,8 @@ class TabledBody(Body):
         """Dependent coordinates in the reference configuration, shape (12,)."""
         return np.concatenate([self.com - self.base.com, np.eye(3).ravel()])
 
-    def _made(self, local: tuple[float, ...], origin: float) -> AffineVector:
-        own = super()._made(local, origin)
+    def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
+        own = super()._affine_point(local, origin)
         return self.base.point(self.base.com) + own if origin else own
 
     base: Body

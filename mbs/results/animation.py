@@ -23,7 +23,7 @@ class Animation:
     recordings : list of Recording
         The run, then its ghosts.
     options : dict
-        What the player starts with.
+        Initial state of the player.
     """
 
     def __init__(self, recordings: list[Recording], options: Mapping[str, Any]) -> None:
@@ -149,9 +149,9 @@ def animate(
     names : sequence of str, optional
         Of the runs, one each; by default that of the model, of ghosts with their number.
     scene : System or mapping, optional
-        What is drawn of runs without a scene of their own, because they were read from a file.
+        Scene for runs that have none because they were read from a file.
     **options
-        What the player starts with, such as ``camera="side"``, ``plots=["bob.x"]``, ``speed=0.5``; see
+        Initial state of the player, such as ``camera="side"``, ``plots=["bob.x"]``, ``speed=0.5``; see
         `viewer.player_options.OPTIONS`.
 
     Returns

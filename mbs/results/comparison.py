@@ -80,7 +80,7 @@ class Comparison:
     Parameters
     ----------
     compared : mapping of str to Compared
-        What is compared, by name.
+        The compared values, by name.
     length : float
         Of the model, m: a smaller range than 1e-4 of it is rest, wherever the model lies.
     before : mapping of str to ComparedFields, optional
@@ -138,7 +138,7 @@ class Comparison:
         return ends
 
     def sizes(self, guided: bool = True) -> dict[str, float]:
-        """What differences of those that count are held against: the largest range in the unit, of forces the largest
+        """Reference for the differences of each value that counts: the largest range in its unit, of forces the largest
         value. `guided`: places that are the same in both motions do not move by themselves.
         """
         size = np.zeros(len(self._what))
@@ -196,10 +196,10 @@ def compared_in(
     guided: bool = False,
     energy: float = 0.0,
 ) -> dict[str, Compared]:
-    """What of a run is compared, by name: what the kernel says to count, unless the coordinates say that all `stands`:
-    rates and forces of motors do not count then. `length`, `before`, `energy`: as of `Comparison`.
+    """Values of a run that are compared, by name, as the kernel selects them.
 
-    Where something is `guided` two motions say whether a place moves by itself, see `differences`.
+    `stands`: nothing moves by the coordinates, so that rates and forces of motors do not count; `guided`: two motions
+    decide whether a place moves by itself, see `differences`; `length`, `before`, `energy`: as of `Comparison`.
     """
     found = Comparison({n: what for n, what in compared.items() if what.always or not stands}, length, before, energy)
     found.add(values, values)
@@ -212,7 +212,7 @@ def is_open(compared: Mapping[str, Compared]) -> bool:
 
 
 def has_loads(compared: Mapping[str, Compared]) -> bool:
-    """Whether forces are judged whatever else moves."""
+    """Whether some forces are always compared."""
     return any(what.load and what.always for what in compared.values())
 
 

@@ -1,4 +1,4 @@
-"""Sensors that a System leaves out: they are found when one of them is first read, never read as 0 in its place."""
+"""Sensors that a System leaves out: they are computed when one of them is first read, and never read as 0."""
 
 from __future__ import annotations
 
@@ -46,11 +46,11 @@ class OmittedSensors:
         return self._found[name]
 
     def thinned(self, every: int) -> OmittedSensors:
-        """Omitted sensors of one of every so many samples."""
-        made = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
+        """Omitted sensors of every `every`-th sample."""
+        omitted = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
         if self._compute is None and self._found is not None:
-            made._found = {name: values[::every] for name, values in self._found.items()}
-        return made
+            omitted._found = {name: values[::every] for name, values in self._found.items()}
+        return omitted
 
     def __getstate__(self) -> dict[str, Any]:
         lost = self._compute is not None and self._found is None
@@ -58,5 +58,5 @@ class OmittedSensors:
 
 
 def refused(name: str, reason: str) -> str:
-    """Why a sensor cannot be read."""
+    """Sentence that says why a sensor cannot be read."""
     return f"The sensor {name!r} is not computed by this System: {reason}."

@@ -19,7 +19,7 @@ MOST_SAMPLES, MOST_NUMBERS = 100_000, 4_000_000
 
 
 def kept_every(samples: int, nq: int, every: int = 1) -> int:
-    """Of how many samples one is kept, a multiple of `every`."""
+    """Interval of the samples whose poses are kept, a multiple of `every`."""
     most = max(100, min(MOST_SAMPLES, MOST_NUMBERS // max(nq, 1)))
     return every * max(1, math.ceil(samples / every / most))
 
@@ -78,8 +78,8 @@ class Poses(Mapping[str, Array]):
 
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._columns:
-            known = ", ".join(self.bodies) or "none"
-            raise KeyError(f"There is no pose {shown(name)}; each body has .x to .qz, the bodies are: {known}.")
+            available = ", ".join(self.bodies) or "none"
+            raise KeyError(f"There is no pose {shown(name)}; each body has .x to .qz, the bodies are: {available}.")
         kind, number, part = self._columns[name]
         if kind == "body":
             return self._pose(number)[:, part]

@@ -39,26 +39,26 @@ class Report:
     energy : float
         Kinetic and potential energy of the state, J; of methods that measure `energy_error`, as the next two.
     work : float
-        What inputs, drives, dampers and tyres gave and took, the sum of their shares of the steps, J.
+        Work of inputs, drives, dampers and tyres, the sum of their shares of the steps, J.
     kinetic_peak : float
         Largest kinetic energy, J; at least that of 1e-6 m/s, so that round-off at rest is no error.
     speed_peak, velocity_path, predictor_path : float
-        In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity, and the sum over the
-        steps of what the velocity is off ``v + h a`` of their start; of methods of order above two the larger of what
-        start and end give.
+        In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity, and the
+        sum over the steps of its distance from ``v + h a`` of their start; of methods of order above two the larger of
+        the distances from start and end.
     velocity_squares, predictor_squares : float
-        Sums of the squares of what the steps add to these two, kg m^2/s^2.
+        Sums of the squares of the steps' contributions to the last two, kg m^2/s^2.
     energy_floor : float
-        What gravity does over the tolerance of the residual, J; a smaller `energy_error` is not significant.
+        Work of gravity over the tolerance of the residual, J; a smaller `energy_error` is not significant.
     free_states : int
         Of a System on which nothing acts but forces with a potential, whose energy stays: states that were looked at;
         0 for others, and where parameters or switches changed last.
     free_start, free_steps, free_energy, free_steps_squares, free_energy_squares, free_product : float
         The energy of the first of these, J, means of the steps and of the energy, and sums of squares and products of
-        what they are off these.
+        the deviations from these.
     balance : int
-        Whether `energy_balance` is above what is wrong, and by more than the tolerance of the residual leaves open: 0
-        not, 1 it is, 2 it is and decides that the run is wrong.
+        Whether `energy_balance` is above its limit by more than the tolerance of the residual explains: 0 no, 1 yes,
+        2 yes, and that alone decides that the run is wrong.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
     divisions : int

@@ -15,7 +15,7 @@ class SimulationError(RuntimeError):
     status : int
         Code of the kernel.
     trajectory : Trajectory or None
-        What a run had recorded so far.
+        Record of the run up to the failure.
     final : bool
         Whether no other step or method would go further, as where drives lead loops no further.
     """

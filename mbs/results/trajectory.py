@@ -208,7 +208,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
 
     def thinned(self, every: int) -> Trajectory:
-        """Keep one of every so many samples, from the first on, with the same report, settings and accuracy.
+        """Keep every n-th sample, from the first on, with the same report, settings and accuracy.
 
         Parameters
         ----------
@@ -286,7 +286,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                     f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
                 )
             columns, units = self.poses.recorded(columns, units)
-        with atomic_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
+        with atomic_file(path, make_parents=False) as target, target.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())])
             writer.writerows(np.column_stack([self.t, *columns.values()]).tolist())

@@ -18,7 +18,7 @@ from mbs.roads.grid_files import read_grid
 from mbs.roads.kinds import CRG, MESHES, PICTURE
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights
-from mbs.roads.sampled_road import SampledRoad, tell
+from mbs.roads.sampled_road import SampledRoad, warn_of_deviation
 
 Length = Annotated[float, Field(gt=0.0, le=1e5)]
 Place = Annotated[float, Field(ge=-1e6, le=1e6)]
@@ -101,7 +101,7 @@ class Washboard(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> GridRoad:
-        """As the kernel takes it: 24 points a wave."""
+        """The road as a grid with 24 points per wave."""
         dx = self.wavelength / 24.0
         x = dx * np.arange(-24, math.ceil(self.length / dx) + 25)
         grown = np.clip(x / self.wavelength, 0.0, 1.0) * np.clip((self.length - x) / self.wavelength, 0.0, 1.0)
@@ -123,7 +123,7 @@ class Rough(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> GridRoad:
-        """The road as the kernel takes it."""
+        """The road as a grid."""
         n = [math.ceil(side / self.spacing) + 1 for side in (self.length, self.width)]
         heights = rough_heights(n[0], n[1], self.spacing, ISO_8608[self.roughness], self.seed)
         x = self.spacing * np.arange(n[0])
@@ -141,7 +141,7 @@ class Split(_Road):
     right: Friction
 
     def road(self, folder: Path) -> GridRoad:
-        """As the kernel takes it: the frictions change within 0.1 m."""
+        """The road as a grid; the friction changes within 0.1 m."""
         y = 0.1 * np.arange(-2, 2) + 0.05
         frictions = np.where(y > 0.0, self.left, self.right)
         return GridRoad((self.start, y[0]), (self.length, 0.1), np.zeros((2, 4)), np.tile(frictions, (2, 1)))
@@ -204,7 +204,7 @@ def grid_road(
     road = replace(grid, frictions=values)
     if isinstance(road, SampledRoad):
         road = road.moved_to(origin or road.origin)
-        tell(road)
+        warn_of_deviation(road)
         return road
     return replace(road, origin=origin or road.origin)
 

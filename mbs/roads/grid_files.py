@@ -137,8 +137,10 @@ def _regular(values: NDArray[np.float64], name: str, path: object) -> tuple[floa
     off = np.abs(values - (values[0] + spacing * np.arange(len(values))))
     k = int(np.argmax(off))
     if not off[k] <= REGULAR * spacing + 1e-12 * float(np.abs(values).max()):
-        meant = values[0] + spacing * k
-        raise RoadFileError(f"{path}: the coordinates {name} are not regular: {values[k]:.12g} should be {meant:.12g}.")
+        expected = values[0] + spacing * k
+        raise RoadFileError(
+            f"{path}: the coordinates {name} are not regular: {values[k]:.12g} should be {expected:.12g}."
+        )
     return float(values[0]), spacing
 
 
@@ -146,9 +148,9 @@ def _arrays(file: Path, what: str) -> Grid:
     arrays = read_arrays(file, MOST_BYTES, RoadFileError)
     if file.suffix.lower() == ".npy":
         return Grid(_real(arrays[""], file))
-    known = {"heights", "frictions", "origin", "spacing"}
-    if unknown := sorted(set(arrays) - known):
-        raise RoadFileError(f"{file} has an array '{unknown[0]}'; known are {', '.join(sorted(known))}.")
+    keys = {"heights", "frictions", "origin", "spacing"}
+    if unknown := sorted(set(arrays) - keys):
+        raise RoadFileError(f"{file} has an array '{unknown[0]}'; known are {', '.join(sorted(keys))}.")
     if what not in arrays:
         raise RoadFileError(f"{file} has no array '{what}'.")
     pairs = {

@@ -39,7 +39,7 @@ def mesh_road(
     scale: float = 1.0,
     up: Literal["y", "z"] | None = None,
 ) -> SampledRoad:
-    """Sample the heights of a mesh on a grid; beside the mesh the heights at its border continue.
+    """Sample the heights of a mesh on a grid; outside the mesh the heights at its border continue.
 
     Parameters
     ----------

@@ -60,19 +60,19 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     spacing = float(x[1] - x[0]), float(y[1] - y[0])
     grid = GridRoad((float(x[0]), float(y[0])), spacing, _heights_about(crg, x, y))
     worst = list[Values]()
-    found = compared(grid, _known(crg, grid, worst), source)
+    found = compared(grid, _surface_samples(crg, grid, worst), source)
     largest, place = _largest(crg, grid, np.concatenate(worst), found.largest, found.place)
     return replace(found, largest=largest, place=place)
 
 
 def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights at places, beside the road those of its border."""
+    """Heights at points x, y, m; outside the road those of its border."""
     u, v = crg.xy_to_uv(x, y)
     return np.asarray(crg.uv_to_z(np.clip(u, crg.u[0], crg.u[-1]), np.clip(v, crg.v[0], crg.v[-1])))
 
 
 def _heights_about(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights of an OpenCRG road on a grid: at each point near the road, at every 16th beside it and linear in between.
+    """Heights of an OpenCRG road on a grid: at each point near the road, elsewhere at every 16th and linear in between.
 
     Finding where a place lies along the road takes a microsecond, and most of the box of a long road is beside it.
     """
@@ -90,12 +90,12 @@ def _heights_about(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
         columns = np.flatnonzero(np.repeat(near[i], np.diff(lines[1])))
         columns = np.union1d(columns, columns + 1)
         if len(columns):
-            places = np.meshgrid(x[rows], y[columns], indexing="ij")
-            heights[rows, columns] = _heights(crg, *(a.ravel() for a in places)).reshape(places[0].shape)
+            positions = np.meshgrid(x[rows], y[columns], indexing="ij")
+            heights[rows, columns] = _heights(crg, *(a.ravel() for a in positions)).reshape(positions[0].shape)
     return np.asarray(heights)
 
 
-def _known(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]) -> Iterator[tuple[Values, Values]]:
+def _surface_samples(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]) -> Iterator[tuple[Values, Values]]:
     """Places with heights of the road, evenly between its points and closer than those of the grid.
 
     `worst`: takes u, v of those at which the grid is farthest off, shape (k, 2).
@@ -110,26 +110,26 @@ def _known(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]) -> Itera
     )
     for some in np.array_split(u, math.ceil(len(u) * len(v) / _AT_ONCE)):
         at = np.stack([np.repeat(some, len(v)), np.tile(v, len(some))], -1)
-        places, z = _surface(crg, at)
-        off = np.abs(grid_heights(road, np.asarray(road.heights), places) - z)
+        positions, z = _surface(crg, at)
+        off = np.abs(grid_heights(road, np.asarray(road.heights), positions) - z)
         worst.append(at[np.argsort(off)[-_LOOKED_INTO:]])
-        yield places, z
+        yield positions, z
 
 
 def _largest(
     crg: pyopencrg.CrgRoad, road: GridRoad, at: Values, largest: float, place: tuple[float, float]
 ) -> tuple[float, tuple[float, float]]:
-    """The largest difference of a grid near points u, v (k, 2) of a road, and its place; at least what is given."""
+    """The largest difference of a grid near points u, v (k, 2) of a road, and its place, if it exceeds `largest`."""
     reach = np.array([crg.u_inc, float(np.diff(crg.v).max())]) / 2.0
     around = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), -1).reshape(-1, 2)
     for _ in range(_ROUNDS):
         tried = np.clip(at[:, None] + reach * around, (crg.u[0], crg.v[0]), (crg.u[-1], crg.v[-1]))
-        places, z = _surface(crg, tried.reshape(-1, 2))
-        off = np.abs(grid_heights(road, np.asarray(road.heights), places) - z).reshape(tried.shape[:2])
+        positions, z = _surface(crg, tried.reshape(-1, 2))
+        off = np.abs(grid_heights(road, np.asarray(road.heights), positions) - z).reshape(tried.shape[:2])
         best = off.argmax(axis=1)
         k = int(off.max(axis=1).argmax())
         if off[k, best[k]] > largest:
-            x, y = places[k * len(around) + int(best[k])].tolist()
+            x, y = positions[k * len(around) + int(best[k])].tolist()
             largest, place = float(off[k, best[k]]), (x, y)
         at, reach = tried[np.arange(len(at)), best], reach / 4.0
     return largest, place
@@ -156,9 +156,9 @@ def _read(source: str) -> pyopencrg.CrgRoad:
     return crg
 
 
-def _first_fault(said: object, source: str) -> str:
+def _first_fault(message: object, source: str) -> str:
     """The first fault of those that the reader lists, as one causes others, and how many more there are."""
-    text, *faults = str(said).partition("\nTo open it anyway")[0].split("\n  - ")
+    text, *faults = str(message).partition("\nTo open it anyway")[0].split("\n  - ")
     first = faults[0].removeprefix("(reading) ") if faults else text.removeprefix(f"{source}: ")
     more = f", the first of {len(faults)} faults" if len(faults) > 1 else ""
     return one_line(" ".join(first.split()).rstrip(".")) + more

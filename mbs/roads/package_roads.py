@@ -9,7 +9,7 @@ FOLDER = Path(__file__).with_name("files")
 
 
 def road_path(value: str | os.PathLike[str]) -> str:
-    """A path as it is; a bare name that is not a file here may be that of a road of the package."""
+    """The path itself, or the road of the package with that name if there is no such file."""
     text = os.fspath(value)
     shipped = text in {path.name for path in FOLDER.glob("*.road")}
     return str(FOLDER / text) if shipped and not (is_file(text) or is_folder(text)) else text

@@ -37,7 +37,7 @@ def read_road(
     spacing : (float, float), optional
         Of a grid: distances of its points in x and y, m; by default what the file says, of a mesh 0.1.
     height_range, friction_range : (float, float), optional
-        What black and white of a picture mean, m and coefficients of friction.
+        Values of black and white of a picture, m and coefficients of friction.
 
     Returns
     -------

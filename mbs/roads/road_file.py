@@ -102,8 +102,7 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
         for number, block in read_shared(file, head, name):
             i, j = (number // tiles_y) * ROAD_TILE, (number % tiles_y) * ROAD_TILE
             values[:, i : i + ROAD_TILE, j : j + ROAD_TILE] = block
-        maps = values[:, : head.nx, : head.ny]
-        return maps[0].copy(), maps[1].copy() if head.maps == 2 else None
+        return _maps(values, head)
     file.seek(HEADER.size)
     for number in range(tiles_x * tiles_y):
         data = file.read(head.tile_bytes)
@@ -116,5 +115,10 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
         checksums.append(crc)
     if head.contents != zlib.crc32(struct.pack(f"<{len(checksums)}I", *checksums)):
         raise RoadFileError(f"Parts of the road {name} belong to another file.")
-    maps = values[:, : head.nx, : head.ny]
-    return maps[0].copy(), maps[1].copy() if head.maps == 2 else None
+    return _maps(values, head)
+
+
+def _maps(values: NDArray[np.float64], head: Header) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Heights and frictions (None: the file has one friction) of the points of a grid, cut from whole tiles."""
+    heights, *frictions = values[:, : head.nx, : head.ny]
+    return heights.copy(), frictions[0].copy() if frictions else None

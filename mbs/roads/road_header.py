@@ -72,7 +72,7 @@ class Header:
         return HEADER.size + self.tiles[0] * self.tiles[1] * self.tile_bytes
 
     def to_bytes(self) -> bytes:
-        """The header as it stands in the file. Raises `RoadFileError` where no reader takes it."""
+        """The bytes of the header in a file. Raises `RoadFileError` if no reader accepts it."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
         tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
         if problem := _problem(int(self.kind), self.nx, self.ny, *tile, self.real):
@@ -127,7 +127,7 @@ def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[f
 
 
 def check_grid(heights: NDArray[np.float64], frictions: NDArray[np.float64] | None, name: object) -> None:
-    """One sentence for values that no road has, with the first place."""
+    """Check the values of a grid; the error is one sentence with the place of the first wrong value."""
     for what, values, low, high, unit in (
         ("height", heights, -ROAD_HIGHEST, ROAD_HIGHEST, " m"),
         ("friction", frictions, 0.0, ROAD_FRICTION, ""),

@@ -106,7 +106,7 @@ def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
 
 def _placed(place: Place, start: Start) -> list[Value]:
     """Values of extent and distance from the start."""
-    return [*_sides(place), *_away(place, start)]
+    return [*_sides(place), *_distance_values(place, start)]
 
 
 def start_mistakes(place: Place, start: Start) -> list[Mistake]:
@@ -115,12 +115,12 @@ def start_mistakes(place: Place, start: Start) -> list[Mistake]:
     map_text = f"coordinates of a map or another origin, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken"
     at_start = tuple(s - 0.5 * side for s, side in zip(start, place.extent, strict=True))
     return [
-        Mistake(text, frozenset({"origin"}), partial(_away, replace(place, origin=origin), start))
+        Mistake(text, frozenset({"origin"}), partial(_distance_values, replace(place, origin=origin), start))
         for text, origin in (("x and y exchanged in the origin", place.origin[::-1]), (map_text, at_start))
     ]
 
 
-def _away(place: Place, start: Start) -> list[Value]:
+def _distance_values(place: Place, start: Start) -> list[Value]:
     """Value of the distance of the start from the grid."""
     keys = place.keys | {"extent": place.extent, "start": list(start)}
     return [Value(QUANTITIES["away"], place.distance(start), keys)]
@@ -154,7 +154,7 @@ def road_values(
         Value(QUANTITIES["step"], step, {"number type of heights": step}),
         *([Value(QUANTITIES["slope"], slope, heights | spacing)] if slope else []),
         *_frictions(float(frictions.min()), float(frictions.max()), road.friction_factor),
-        *([] if start is None else _away(place, start)),
+        *([] if start is None else _distance_values(place, start)),
     ]
 
 

@@ -12,7 +12,7 @@ ISO_8608 = {"A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6, "F"
 REFERENCE = 0.1
 """Spatial frequency of these, 1/m."""
 SQUARE = 2048
-"""A road of up to so many points a side is cut from a square."""
+"""Largest number of points per side of a road that is cut from a square."""
 MOST_POINTS = 2**25
 LOWEST, HIGHEST = 0.011, 2.83
 """Range of spatial frequencies, 1/m (ISO 8608:2016, 5.1.2)."""

@@ -82,25 +82,25 @@ def between(road: GridRoad) -> tuple[Values, Values]:
     return x, y
 
 
-def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
+def compared(road: GridRoad, samples: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
     """The road with its deviation from the surface that it was sampled from.
 
-    `known`: x and y (n, 2) and heights (n,) of the surface, m; NaN where it has none.
+    `samples`: x and y (n, 2) and heights (n,) of the surface, m; NaN where it has none.
     """
     heights = np.ascontiguousarray(road.heights, np.float64)
     largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
-    for places, heights_there in known:
-        off = np.abs(grid_heights(road, heights, places) - heights_there)
+    for positions, heights_there in samples:
+        off = np.abs(grid_heights(road, heights, positions) - heights_there)
         off = np.where(np.isnan(off), 0.0, off)
         k = int(off.argmax())
         if off[k] > largest:
-            largest, place = float(off[k]), (float(places[k, 0]), float(places[k, 1]))
+            largest, place = float(off[k]), (float(positions[k, 0]), float(positions[k, 1]))
         squares, count = squares + float(off @ off), count + int(np.isfinite(heights_there).sum())
     rms = float(np.sqrt(squares / max(count, 1)))
     return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
 
 
-def tell(road: SampledRoad) -> None:
+def warn_of_deviation(road: SampledRoad) -> None:
     """Warn of a large deviation."""
     if road.largest > TOLD:
         step = " by ".join(f"{h:.4g}" for h in road.spacing)
@@ -111,14 +111,14 @@ def tell(road: SampledRoad) -> None:
         )
 
 
-def grid_heights(road: GridRoad, heights: Values, places: Values) -> Values:
+def grid_heights(road: GridRoad, heights: Values, positions: Values) -> Values:
     """Heights (n,) of the surface of a grid, m, as the kernel computes them.
 
-    `heights`: those of the road, contiguous, (nx, ny), m; `places`: x and y, (n, 2), m.
+    `heights`: those of the road, contiguous, (nx, ny), m; `positions`: x and y, (n, 2), m.
     """
-    found = np.empty(len(places))
+    found = np.empty(len(positions))
     grid = np.array((*road.origin, *road.spacing), np.float64)
-    where = np.ascontiguousarray(places, np.float64)
+    where = np.ascontiguousarray(positions, np.float64)
     pointers = [a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, where, found)]
-    load_library().ali3_grid_heights(*heights.shape, *pointers[:2], len(places), *pointers[2:])
+    load_library().ali3_grid_heights(*heights.shape, *pointers[:2], len(positions), *pointers[2:])
     return found

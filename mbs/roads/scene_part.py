@@ -19,7 +19,7 @@ from mbs.roads.shared_tiles import read_shared
 MOST_READ = 4_000_000
 """Points of a large road file that are read to draw it."""
 MOST = 400
-"""Points along a side of a grid; of a larger one every so many are left, as its note says."""
+"""Most points along a side of a drawn grid; a larger one is thinned, as its note says."""
 BESIDE = 10.0  # m, to which a level strip of frictions is drawn at least: the values of its border go on
 EDGE = 1e-3  # m, along which the step of a kerb is drawn
 
@@ -37,7 +37,7 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
 
 
 def _grip(friction: float | None, factor: float) -> dict[str, Any]:
-    """What is said of the friction of a road. `friction`: if it is the same everywhere."""
+    """Entries of a road's friction in the scene. `friction`: None if it differs from place to place."""
     friction_entry = {} if friction is None else {"friction": friction}
     return friction_entry if factor == 1.0 else friction_entry | {"friction_factor": factor}
 

@@ -42,7 +42,7 @@ class SharedWriter:
     friction : float or None
         Of all points; None: each tile comes with its own.
     name : object
-        What errors call the file.
+        Name of the file in errors.
     tolerance : float
         m; 0: heights are stored as they are.
     """
@@ -131,7 +131,7 @@ def polynomial_values(c: Float) -> Float:
 
 
 def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | None]:
-    """Of each tile the fewest coefficients that give its heights within the tolerance; None where none do.
+    """Fewest polynomial coefficients for the heights of each tile within the tolerance; None where none suffice.
 
     `blocks`: heights, m, shape (tiles, n, n); `places`: where in a tile they are, -1 to 1, shape (n,); `tolerance`: in
     m; 0: only level tiles are polynomials.
@@ -163,7 +163,7 @@ def _fit(places: tuple[float, ...], order: int) -> tuple[Float, Float]:
 
 
 def record_bytes(heights: Float, frictions: Float | None) -> bytes:
-    """A tile as it stands in the file. `heights`, `frictions`: as of `SharedWriter.tile`."""
+    """The bytes of a tile in a file. `heights`, `frictions`: as of `SharedWriter.tile`."""
     levels, behind = 0, b""
     if frictions is not None:
         levels, behind = _friction_bytes(frictions)
@@ -183,7 +183,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Numbers and values of tiles.
 
-    `file`: open; `name`: what errors call it. Raises `RoadFileError`: a part is damaged.
+    `file`: open; `name`: in errors. Raises `RoadFileError`: a part is damaged.
 
     Yields
     ------

@@ -50,7 +50,7 @@ def write_road(
         A grid has a wall, a face that is higher than the radius of a wheel.
     """
     instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
-    with atomic_file(file) as made, made.open("wb") as out:
+    with atomic_file(file) as target, target.open("wb") as out:
         if shared and isinstance(road, GridRoad):
             _write_shared(road, out, file, tolerance)
         else:

@@ -22,7 +22,7 @@ SPIN = 2.0 * pi  # rad/s
 
 
 def build() -> Model:
-    """All turns as one at the start; gravity along -z."""
+    """The governor, which turns as one rigid body at the start; gravity along -z."""
     m = Model("flyball governor", dimension=3)
     bar = DENSITY * LENGTH * WIDTH**2
     cube = DENSITY * SLIDER_SIDE**3

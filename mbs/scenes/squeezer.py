@@ -31,20 +31,20 @@ def build() -> Model:
     """Model of the squeezer at rest in the published starting position."""
     m = Model("squeezer", dimension=2, gravity=(0.0, 0.0))
     points = {
-        "F": _from(O, BETA, 0.007, 0.0),
-        "D": _from(B, GAMMA, 0.020, -0.018),
-        "E": _from(B, GAMMA, 0.0, -0.035),
-        "G": _from(A, DELTA, 0.040, 0.0),
-        "H": _from(A, EPSILON, 0.0, -0.040),
+        "F": _point_in_axes(O, BETA, 0.007, 0.0),
+        "D": _point_in_axes(B, GAMMA, 0.020, -0.018),
+        "E": _point_in_axes(B, GAMMA, 0.0, -0.035),
+        "G": _point_in_axes(A, DELTA, 0.040, 0.0),
+        "H": _point_in_axes(A, EPSILON, 0.0, -0.040),
     }
     centres = {
-        "OF": _from(O, BETA, 0.00092, 0.0),
-        "EF": _from(points["F"], BETA + THETA, -0.0115, 0.0),
-        "BDE": _from(B, GAMMA, 0.01043, -0.01874),
-        "EG": _from(points["G"], PHI + DELTA, 0.0, -(0.020 - 0.01421)),
-        "AG": _from(A, DELTA, 0.02308, 0.00916),
-        "EH": _from(points["H"], OMEGA + EPSILON, 0.020 - 0.01421, 0.0),
-        "AH": _from(A, EPSILON, -0.00449, -0.01228),
+        "OF": _point_in_axes(O, BETA, 0.00092, 0.0),
+        "EF": _point_in_axes(points["F"], BETA + THETA, -0.0115, 0.0),
+        "BDE": _point_in_axes(B, GAMMA, 0.01043, -0.01874),
+        "EG": _point_in_axes(points["G"], PHI + DELTA, 0.0, -(0.020 - 0.01421)),
+        "AG": _point_in_axes(A, DELTA, 0.02308, 0.00916),
+        "EH": _point_in_axes(points["H"], OMEGA + EPSILON, 0.020 - 0.01421, 0.0),
+        "AH": _point_in_axes(A, EPSILON, -0.00449, -0.01228),
     }
     body = {name: m.body(name, mass=data[0], com=centres[name], inertia=data[1]) for name, data in BODIES.items()}
     m.revolute("O", m.ground, body["OF"], point=O)
@@ -73,7 +73,7 @@ def build() -> Model:
     return m
 
 
-def _from(origin: tuple[float, float], angle: float, along: float, across: float) -> tuple[float, float]:
+def _point_in_axes(origin: tuple[float, float], angle: float, along: float, across: float) -> tuple[float, float]:
     """Point at (along, across) in axes at `origin` turned by `angle`."""
     return (
         origin[0] + along * cos(angle) - across * sin(angle),

@@ -11,7 +11,7 @@ from mbs.common.polyline import needed_points
 Array = NDArray[np.float64]
 Table = tuple[Array, Array]
 LEAST = 0.05  # of the range of the table: a smaller departure is noise of a record
-FINE = 0.01  # of the range: by how much parts of a step that departs by more may depart
+FINE = 0.01  # of the range: largest departure of the parts of a step that is divided
 AT_END = 1e-6  # steps: what is so near to the end of one, or to another break, is at it
 ROUND_OFF = 1e-6  # of the largest value: a smaller range is that of a constant; in single precision it is 2e-7
 HUGE = 1e300  # differences of smaller values are finite
@@ -20,8 +20,10 @@ BLOCK = 4096  # steps: of samples that are kept at a time
 
 
 def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> Array:
-    """Times, s, at which steps of `h` from `t0` are parted: in each part tables go straight, but for `FINE` in one
-    that departs from a straight line by more than `LEAST`.
+    """Times, s, at which steps of `h` from `t0` are divided.
+
+    A step in which a table departs from a straight line by more than `LEAST` is divided until its parts depart by no
+    more than `FINE`.
     """
     return distinct([_breaks(t, x, _range(x), t0, t_end, h) for t, x in tables], t_end, h)
 
@@ -29,10 +31,10 @@ def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> 
 def function_breaks(
     function: Callable[[float], float], t0: float, t_end: float, h: float
 ) -> tuple[Array, list[tuple[float, float]]]:
-    """The same of a function, and the last time before and the first one behind each of its jumps, s.
+    """Break times of a function, and the last time before and the first one after each of its jumps, s.
 
-    A step in which the function is smooth is not parted. What is sampled is kept for `BLOCK` steps at a time; of a
-    longer run the range is taken from one sample a step.
+    A step in which the function is smooth is not divided. Samples are kept for `BLOCK` steps at a time; for a longer
+    run the range is taken from one sample per step.
     """
     edges = np.append(np.arange(t0, t_end - 0.5 * h, BLOCK * h), t_end)
     blocks = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
@@ -56,7 +58,7 @@ def function_breaks(
 
 
 def distinct(found: Iterable[Array], t_end: float, h: float) -> Array:
-    """Times before `t_end` in ascending order, one of those that are the same but for `AT_END`."""
+    """Times before `t_end` in ascending order; of times within `AT_END` only one."""
     times = np.unique(np.concatenate([*found, [t_end]]))[:-1]
     return times[np.diff(times, prepend=-np.inf) > AT_END * h]
 
@@ -104,7 +106,7 @@ def _ask(function: Callable[[float], float], times: Array) -> Array:
 
 
 def _breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: float, rough: bool = False) -> Array:
-    """Of one table, whose signal has the range `size`; `rough`: only steps in which it is not smooth are parted."""
+    """Break times of one table whose signal has the range `size`; `rough`: only in steps in which it is not smooth."""
     found = [np.zeros(0)]
     phase = (t - t0) / h
     step = np.floor(phase)
@@ -123,8 +125,10 @@ def _breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: float, 
 
 
 def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> NDArray[np.bool_]:
-    """In which steps a signal has a jump, a kink or a narrow peak: a cubic misses it by as much as the best one misses
-    a kink in the middle of a step that departs by `LEAST` from a straight line, which is an eighth of that.
+    """Whether a signal has a jump, a kink or a narrow peak in each step.
+
+    It has one if the error of its best cubic is that of a kink in the middle of a step that departs by `LEAST` from a
+    straight line; that error is an eighth of the departure.
     """
     at = np.linspace(AT_END, 1.0 - AT_END, ASKED + 1)
     cubic, _ = np.linalg.qr(np.vander(2.0 * at - 1.0, 4))
@@ -134,8 +138,8 @@ def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> NDArray[
 
 
 def _jumps(t: Array, x: Array, size: float, h: float) -> list[tuple[float, float]]:
-    there = np.flatnonzero((np.diff(t) <= _apart(t[-1], h)) & (np.abs(np.diff(x)) > LEAST * size))
-    return [(float(t[k]), float(t[k + 1])) for k in there]
+    jumps = np.flatnonzero((np.diff(t) <= _apart(t[-1], h)) & (np.abs(np.diff(x)) > LEAST * size))
+    return [(float(t[k]), float(t[k + 1])) for k in jumps]
 
 
 def _apart(t: float, h: float) -> float:
@@ -144,7 +148,7 @@ def _apart(t: float, h: float) -> float:
 
 
 def _range(x: Array) -> float:
-    """Of a signal; infinite where it is constant but for round-off, from which nothing departs."""
+    """Range of a signal; infinite if it is constant up to round-off, so that nothing departs from it."""
     size = float(np.ptp(x))
     return size if size > ROUND_OFF * float(np.abs(x).max()) else math.inf
 

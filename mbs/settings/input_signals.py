@@ -40,8 +40,8 @@ class InputSignals:
         self._jumps: dict[int, list[tuple[float, float]]] = {}
         for name, signal in signals.items():
             if not isinstance(name, str) or name not in self._names:
-                known = ", ".join(self._names) or "none"
-                raise ValueError(f"There is no input {shown(name)}; the System has: {known}.")
+                available = ", ".join(self._names) or "none"
+                raise ValueError(f"There is no input {shown(name)}; the System has: {available}.")
             i = self._names.index(name)
             signal = _checked(name, signal)
             if self._whole[i] and isinstance(signal, tuple):
@@ -70,7 +70,7 @@ class InputSignals:
 
     @property
     def has_functions(self) -> bool:
-        """Whether one is a function of time."""
+        """Whether any input is a function of time."""
         return any(callable(signal) for signal in self._signals.values())
 
     def check(self, index: int, t: float, value: float) -> None:
@@ -122,7 +122,7 @@ class InputSignals:
         instance.set_input_function(function)
 
     def attach_to_steps(self, instance: Instance, t0: float, t_end: float, h: float) -> None:
-        """The same for steps of `h`, s, which are parted where a signal jumps or peaks within them."""
+        """Attach the signals for steps of `h`, s, which end early where a signal jumps or peaks."""
         breaks = self.breaks(t0, t_end, h)
         self.attach(instance, t0, t_end, AT_END * h)
         instance.set_input_breaks(breaks)
@@ -225,5 +225,5 @@ def _interpolate(
     right = np.clip(right, 0, len(times) - 1)
     span = times[right] - times[left]
     share = np.where(span > 0.0, (t - times[left]) / np.where(span > 0.0, span, 1.0), 0.0)
-    result: NDArray[np.float64] = values[left] + np.clip(share, 0.0, 1.0) * (values[right] - values[left])
-    return result
+    interpolated: NDArray[np.float64] = values[left] + np.clip(share, 0.0, 1.0) * (values[right] - values[left])
+    return interpolated

@@ -58,7 +58,7 @@ class Settings:
         - "semi_recursive": the same rule in relative coordinates along a spanning tree of rigid bodies on revolute and
           prismatic joints, many times as fast.
         - "semi_recursive_4": the same with the classical rule of order four, for coarse errors.
-        - "radau_5": implicit, order five, damps what is too fast for the step; stiff, dissipative models without
+        - "radau_5": implicit, order five, damps motion that is too fast for the step; stiff, dissipative models without
           element states or rolling.
     predictor : {"parabola", "acceleration"}
         Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
@@ -66,15 +66,15 @@ class Settings:
     step_iterations : int
         Of ALi3-P and generalised-alpha: most Newton iterations of a step with its parts, so that its work is bounded;
         of each part also `max_iterations`. The iterate that is reached then is accepted as it is, steps are halved at
-        abrupt forces only, where there is room below the limit, and `Report.capped` and `Report.capped_residual` say
-        how often and what was left, m. 0, the default: no such limit.
+        abrupt forces only, where there is room below the limit, and `Report.capped` and `Report.capped_residual` are
+        their number and the largest residual, m. 0, the default: no such limit.
     rho_infinity : float
         Of generalised-alpha: spectral radius at infinite frequency, 0 to 1.
 
     Raises
     ------
     ValueError
-        A value is not what it must be; the message names the setting and says what would be right.
+        A value is not valid; the message names the setting and its valid values.
     """
 
     alpha: float = 0.0

@@ -23,10 +23,10 @@ def arrows_of(model: Model, names: FrameNames, lines: Sequence[Line]) -> list[Ar
     """Forces of springs and rods along their lines, tension pulling the ends together, and of joints on their first
     bodies, of which sensors read all components.
     """
-    return [*_along_lines(model, lines), *_of_tyres(model), *_of_joints(model, names)]
+    return [*_along_lines(model, lines), *_tyre_arrows(model), *_joint_arrows(model, names)]
 
 
-def _of_tyres(model: Model) -> list[Arrow]:
+def _tyre_arrows(model: Model) -> list[Arrow]:
     """Forces of tyres whose contact, forces and axis sensors read."""
     outputs: dict[tuple[int, str], str] = {}
     vectors: dict[tuple[tuple[int, float], ...], str] = {}
@@ -75,7 +75,7 @@ def _tension(model: Model, sensor: Sensor) -> tuple[str, float]:
     return "", 0.0
 
 
-def _of_joints(model: Model, names: FrameNames) -> list[Arrow]:
+def _joint_arrows(model: Model, names: FrameNames) -> list[Arrow]:
     components: dict[str, dict[int, str]] = {}
     joints = {joint.name: joint for joint in model.joints}
     for sensor in model.sensors:

@@ -16,7 +16,7 @@ from mbs.model.joints.joint import RollingBody, RollingSpin
 from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.shapes.frames import FrameNames, numbers
-from mbs.shapes.joint_points import SAME, Line, Pivot, Slide, Touched, apart, sensed_points
+from mbs.shapes.joint_points import SAME, JointGeometry, Line, Pivot, Slide, apart, sensed_points
 
 COLORS = ("#c8553d", "#3d7ea6", "#6a994e", "#e09f3e", "#7d5ba6", "#2a9d8f", "#b56576", "#8d99ae")
 GROUND, RAIL, SPRING, ROD = "#4a4e57", "#8b9099", "#d9a441", "#aeb4bd"
@@ -36,14 +36,14 @@ class Defaults:
 
     model: Model
     names: FrameNames
-    touched: Touched
+    geometry: JointGeometry
     extent: float
     """Size of the drawing, m."""
 
     @cached_property
     def tube(self) -> float:
-        """Radius of tubes, m: slender beside the scene, and beside its longest body where there are many in a row."""
-        bodies = [points for frame, points in self.touched.points.items() if frame != "ground" and len(points) > 1]
+        """Radius of tubes, m: slender relative to the scene, and to its longest body if many are in a row."""
+        bodies = [points for frame, points in self.geometry.points.items() if frame != "ground" and len(points) > 1]
         longest = max((float(np.linalg.norm(np.ptp(points, axis=0))) for points in bodies), default=0.0)
         return min(TUBE * self.extent, LONGEST_TUBE * longest) if longest > 0.0 else TUBE * self.extent
 
@@ -63,20 +63,20 @@ class Defaults:
     @cached_property
     def _turning(self) -> set[str]:
         """Frames with a joint that turns."""
-        return {self.names.of_body(body) for pivot in self.touched.pivots for body in pivot.bodies}
+        return {self.names.of_body(body) for pivot in self.geometry.pivots for body in pivot.bodies}
 
     @cached_property
     def _sliding(self) -> dict[str, list[Slide]]:
         """Slides by the frame that slides."""
         found: dict[str, list[Slide]] = {}
-        for slide in self.touched.slides:
+        for slide in self.geometry.slides:
             found.setdefault(self.names.of_body(slide.bodies[0]), []).append(slide)
         return found
 
     @cached_property
     def _middle(self) -> Vector:
-        """Mean of all places where the bodies are touched, m."""
-        return np.asarray(np.mean([p for points in self.touched.points.values() for p in points], axis=0))
+        """Mean of all points at which joints, wheels and springs act, m."""
+        return np.asarray(np.mean([p for points in self.geometry.points.values() for p in points], axis=0))
 
     def all(self, drawn: set[str], named: set[str]) -> list[Shape]:
         """Shapes of all frames and lines but those that are drawn by the user, by frame and by name."""
@@ -89,13 +89,13 @@ class Defaults:
         for spin in (s for s in self.model.spins if s.name in self.names.turns):  # what a table moves is not drawn
             if self.names.turns[spin.name] not in drawn:
                 found.append(self._wheel(spin) | {"body": spin.name})
-        for line in self.touched.lines:
+        for line in self.geometry.lines:
             if line.name not in named:
                 found += self._line(line)
-        for pivot in self.touched.pivots:
+        for pivot in self.geometry.pivots:
             if pivot.joint.name not in named:
                 found += self._pivot(pivot, drawn)
-        for slide in self.touched.slides:
+        for slide in self.geometry.slides:
             if slide.joint.name not in named:
                 found += self._rail(slide, drawn)
         return found
@@ -121,7 +121,7 @@ class Defaults:
             return [{"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.5 * self.tube}]
         least = SAME * self.extent
         com = origin_of(body)
-        points = apart(self.touched.points.get(frame, []), least)
+        points = apart(self.geometry.points.get(frame, []), least)
         if len(points) < 2:
             points = apart([*points, *self._sensed.get(body, [])], least)
             ends = [p for p in points if np.linalg.norm(p - com) > least]
@@ -134,7 +134,7 @@ class Defaults:
         shapes = self._plate(frame, points, com) or self._tubes(frame, points, com)
         if len(points) > 2:
             return shapes
-        if _beyond(com, points[0], points[1]):
+        if _is_beyond(com, points[0], points[1]):
             shapes = [*self._tubes(frame, [*points, com], com), self._ball(frame)]
         return shapes + [self._block(frame, com, slide) for slide in self._sliding.get(frame, [])]
 
@@ -254,7 +254,7 @@ class Defaults:
         if base.is_ground:
             middle = slide.place + np.dot(self._middle - slide.place, unit) * unit
         frame, local = self.names.anchor(base, middle)
-        if not base.is_ground and (frame in drawn or len(self.touched.points.get(frame, [])) > 2):
+        if not base.is_ground and (frame in drawn or len(self.geometry.points.get(frame, [])) > 2):
             return []
         half = (1.2 if base.is_ground else 0.25) * self.extent * unit
         ends = [numbers(np.array(local) - half), numbers(np.array(local) + half)]
@@ -277,7 +277,7 @@ def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
     return pairs
 
 
-def _beyond(com: Vector, a: Vector, b: Vector) -> bool:
+def _is_beyond(com: Vector, a: Vector, b: Vector) -> bool:
     """Whether a centre of mass lies beyond the ends of a tube from a to b."""
     share = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
     return not -BEYOND <= share <= 1.0 + BEYOND

@@ -76,7 +76,7 @@ class FrameNames:
 
 
 def turns_of(model: Model) -> list[Spin | Turning]:
-    """What turns about an axis of a body; on a tabled one a wheel that sensors place, nothing else."""
+    """Wheels and parts that turn about an axis of a body; on a tabled body only wheels that sensors place."""
     every: list[Spin | Turning] = [*model.spins, *model.turnings]
     return [t for t in every if not _body_of(t).is_tabled or _outputs_of(t)]
 
@@ -135,7 +135,7 @@ def _angle_column(turn: Spin | Turning, names: FrameNames) -> str:
 
 
 def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
-    """Where the bodies are, of a model whose full coordinates are ``T q + constant``."""
+    """Rows that place the frames of a model whose full coordinates are ``T q + constant``."""
     full: list[int] = []
     rows: list[sparse.csr_matrix] = []
     angles: list[NDArray[np.float64]] = []

@@ -34,7 +34,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Pivot:
-    """A joint that turns, with the two bodies, its place and its axis as drawn (None: in every direction)."""
+    """A joint that turns, with both bodies, its point and its axis as drawn (None: any axis)."""
 
     joint: Joint
     bodies: tuple[Body, Body]
@@ -44,7 +44,7 @@ class Pivot:
 
 @dataclass(frozen=True)
 class Slide:
-    """A point of the first body that slides along an axis of the second; as drawn."""
+    """A joint whose point on the first body slides along an axis of the second; as drawn."""
 
     joint: Joint
     bodies: tuple[Body, Body]
@@ -53,63 +53,63 @@ class Slide:
 
 
 @dataclass
-class Touched:
-    """Points at which joints, wheels and springs act on the bodies of a model."""
+class JointGeometry:
+    """Points at which joints, wheels and springs act on the bodies of a model, and the parts between them."""
 
     points: dict[str, list[Vector]] = field(default_factory=dict)
-    """Places by frame, earth axes as drawn, m."""
+    """Points by frame, earth axes as drawn, m."""
     pivots: list[Pivot] = field(default_factory=list)
     slides: list[Slide] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     sliding: list[str] = field(default_factory=list)
-    """Rods with an end that a guide slides, which no sensor reads."""
+    """Names of rods with an end that slides by a guide without a sensor; they are not drawn."""
     frames: dict[str, dict[str, Any]] = field(default_factory=dict)
-    """Frames of such ends that one reads."""
+    """Frames of the ends of rods that slide by guides with sensors, by name."""
 
 
-def touched(model: Model, names: FrameNames) -> Touched:
-    """Joints, springs and wheels of a model, with the points at which they touch its bodies."""
-    found, drawn = Touched(), model.drawn()
+def joint_geometry(model: Model, names: FrameNames) -> JointGeometry:
+    """Joints, springs and wheels of a model, with the points at which they act on its bodies."""
+    geometry, drawn = JointGeometry(), model.drawn()
     for joint in model.joints:
-        where = joint.ends or joint.actuator
-        if where is None:
+        action = joint.ends or joint.actuator
+        if action is None:
             continue
-        bodies = where.bodies
-        places = [place_drawn(drawn, p) for p in where.points]
-        if where.rod:
-            ends = (names.anchor(bodies[0], places[0]), names.anchor(bodies[1], places[1]))
+        bodies = action.bodies
+        points = [place_drawn(drawn, p) for p in action.points]
+        if action.rod:
+            ends = (names.anchor(bodies[0], points[0]), names.anchor(bodies[1], points[1]))
             if joint.slide is not None:
                 number, slide = joint.slide
                 sliding = _sliding_frames(model, names, drawn, slide)
                 if not sliding:
-                    found.sliding.append(joint.name)
+                    geometry.sliding.append(joint.name)
                     continue
-                found.frames |= sliding
+                geometry.frames |= sliding
                 end = list(sliding)[-1], [0.0, 0.0, 0.0]
                 ends = (end, ends[1]) if number == 0 else (ends[0], end)
-            found.lines.append(Line(joint.name, ends, drives=joint.actuator is not None))
-        elif where.slides and where.axis is not None:
-            found.slides.append(Slide(joint, bodies, places[0], place_drawn(drawn, where.axis)))
+            geometry.lines.append(Line(joint.name, ends, drives=joint.actuator is not None))
+        elif action.slides and action.axis is not None:
+            geometry.slides.append(Slide(joint, bodies, points[0], place_drawn(drawn, action.axis)))
         elif joint.type in ("revolute", "spherical", "universal"):
-            found.pivots.append(Pivot(joint, bodies, places[0], _axis(model.dimension, drawn, joint)))
-        for body, place in zip(bodies, places, strict=True):
-            found.points.setdefault(names.of_body(body), []).append(place)
+            geometry.pivots.append(Pivot(joint, bodies, points[0], _axis(model.dimension, drawn, joint)))
+        for body, point in zip(bodies, points, strict=True):
+            geometry.points.setdefault(names.of_body(body), []).append(point)
     origins = {names.of_body(b): origin_of(b) for b in model.bodies} | {"ground": np.zeros(3)}
     starts = {body.start: body for body in model.bodies}
     for record in model.elements:
         if record.type not in LINES:
             continue
-        if (ends_ := anchors_of_difference(model, names, starts, drawn, record.signals)) is not None:
-            found.lines.append(Line(record.name, ends_, record))
-            for frame, local in ends_:
-                found.points.setdefault(frame, []).append(origins[frame] + np.array(local))
+        if (line_ends := anchors_of_difference(model, names, starts, drawn, record.signals)) is not None:
+            geometry.lines.append(Line(record.name, line_ends, record))
+            for frame, local in line_ends:
+                geometry.points.setdefault(frame, []).append(origins[frame] + np.array(local))
     for spin in (s for s in model.spins if not s.carrier.is_tabled):
-        found.points.setdefault(names.of_body(spin.carrier), []).append(origin_of(spin))
-    return found
+        geometry.points.setdefault(names.of_body(spin.carrier), []).append(origin_of(spin))
+    return geometry
 
 
-def _way(model: Model, guide: int) -> str:
-    """The sensor that reads a guide in m; empty where none does."""
+def _guide_sensor(model: Model, guide: int) -> str:
+    """Name of the sensor that reads a guide in m; empty if there is none."""
     for sensor in model.sensors:
         if sensor.type == SensorType.GUIDE and list(sensor.integers) == [guide, 0] and list(sensor.reals) == [1.0]:
             return sensor.name
@@ -117,21 +117,21 @@ def _way(model: Model, guide: int) -> str:
 
 
 def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint) -> dict[str, dict[str, Any]]:
-    """Frames of a sliding point by their names, one on the other and the point last; none where no sensor reads it."""
+    """Frames of a sliding point by name, each on the one before; empty if a sensor of a guide is missing."""
     parent, at = names.anchor(slide.body, place_drawn(drawn, slide.start))
     taken = {"ground", *names.bodies.values(), *names.turns.values()}
     name = f"end of {slide.name}" if slide.name in taken else slide.name
-    found: dict[str, dict[str, Any]] = {}
+    frames: dict[str, dict[str, Any]] = {}
     for k, (direction, guide) in enumerate(slide.ways):
-        sliding_direction = _way(model, guide)
-        if not sliding_direction:
+        sensor = _guide_sensor(model, guide)
+        if not sensor:
             return {}
         last = k == len(slide.ways) - 1
         own, start = name if last else f"{name} {k + 1}", float(model.guides[guide].start)
         along = numbers(place_drawn(drawn, direction))
-        found[own] = {"parent": parent, "at": at, "direction": along, "way": sliding_direction, "start": start}
+        frames[own] = {"parent": parent, "at": at, "direction": along, "way": sensor, "start": start}
         parent, at = own, [0.0, 0.0, 0.0]
-    return found
+    return frames
 
 
 def _axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:
@@ -143,21 +143,21 @@ def _axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:
 
 
 def sensed_points(model: Model) -> dict[Body, list[Vector]]:
-    """Places of rigid bodies whose position a sensor reads, by body; earth axes as drawn, m."""
+    """Points of rigid bodies whose position a sensor reads, by body; earth axes as drawn, m."""
     bodies = {body.start + k: body for body in model.bodies for k in range(model.dimension)}
-    found: dict[Body, list[Vector]] = {}
+    points: dict[Body, list[Vector]] = {}
     for sensor in model.sensors:
         if sensor.type != SensorType.SIGNAL or len(sensor.signals) != 1 or list(sensor.reals) != [1.0]:
             continue
         for body in {bodies[i] for i in sensor.signals[0].terms if i in bodies}:
             local = _local(body, sensor.signals[0])
             if local is not None:
-                found.setdefault(body, []).append(in_space(body.com) + local)
-    return found
+                points.setdefault(body, []).append(in_space(body.com) + local)
+    return points
 
 
 def _local(body: Body, signal: Affine) -> Vector | None:
-    """The place in a rigid body of which a signal is a component."""
+    """Point of a rigid body, in its axes, m, of which a signal is one component; None if it is not one."""
     d, s = body.dimension, body.start
     terms = dict(signal.terms)
     k = next((k for k in range(d) if terms.pop(s + k, None) == 1.0), -1)
@@ -172,7 +172,7 @@ def _local(body: Body, signal: Affine) -> Vector | None:
 
 
 def apart(points: Sequence[Vector], least: float) -> list[Vector]:
-    """Points without those that are nearer than `least` to an earlier one."""
+    """Points, without those within `least` (m) of an earlier one."""
     kept: list[Vector] = []
     for p in points:
         if all(np.linalg.norm(p - q) > least for q in kept):

@@ -19,7 +19,7 @@ from mbs.model.table_bodies import TabledBody
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
-from mbs.shapes.joint_points import touched
+from mbs.shapes.joint_points import joint_geometry
 from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
 from mbs.system.drawing import Drawing, Places, matrices
@@ -34,11 +34,11 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
 
     `places`: of its bodies among the coordinates; `q`: coordinates at the start, shape (nq,).
     """
-    found = touched(model, names)
+    geometry = joint_geometry(model, names)
     meshes: dict[str, Any] = {}
     shapes = [s for shape in model.shapes if (s := _drawn(shape, names, meshes)) is not None]
-    extent = _extent([*_places_of_bodies(model), *(p for ps in found.points.values() for p in ps)])
-    defaults = Defaults(model, names, found, extent)
+    extent = _extent([*_places_of_bodies(model), *(p for ps in geometry.points.values() for p in ps)])
+    defaults = Defaults(model, names, geometry, extent)
     for shape in shapes:
         _fill(shape, defaults)
     named = {s.name for s in model.shapes} - {""}
@@ -47,8 +47,8 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         shapes += defaults.all(owned, named)
     frames = frames_of(model, names, places, q)
     used = {frame for shape in shapes for frame in scene_parts.frames_of(shape)}
-    frames |= {name: frame for name, frame in found.frames.items() if name in used}
-    rails = {slide.joint.name for slide in found.slides}
+    frames |= {name: frame for name, frame in geometry.frames.items() if name in used}
+    rails = {slide.joint.name for slide in geometry.slides}
     sized = [shape for shape in shapes if shape.get("name") not in rails]
     scene: Scene = {
         "format": "ALi3 scene",
@@ -63,16 +63,16 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "shapes": shapes,
         "meshes": meshes,
         "flexible": list(model.flexible_scene),
-        "arrows": arrows_of(model, names, found.lines),
+        "arrows": arrows_of(model, names, geometry.lines),
         "roads": roads_of(model),
-        "missing": [{"name": name, "why": SLIDES} for name in found.sliding if name not in named]
+        "missing": [{"name": name, "why": SLIDES} for name in geometry.sliding if name not in named]
         + [{"name": t.name, "why": TABLED} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],
     }
     return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
 
 
 def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | None:
-    """A shape of the user as the scene has it; None for one that is not drawn."""
+    """Entry of the scene for a shape of the user; None for one that is not drawn."""
     if shape.kind == "none":
         return None
     found: Scene = {"kind": shape.kind}
@@ -119,7 +119,7 @@ def _fill(shape: Scene, defaults: Defaults) -> None:
 def _flexible(
     model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]
 ) -> tuple[Callable[[], list[Scene]], ...]:
-    """What makes beams, modes and rows of stress of what bends."""
+    """Functions that make beams, modes and rows of stress of flexible bodies."""
     found = []
     bodies = [body for body in model.bodies if isinstance(body, FlexibleBody)]
     hidden = {shape.owner for shape in model.shapes if shape.kind == "none"}

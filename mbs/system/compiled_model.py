@@ -37,7 +37,7 @@ class SystemFileError(ValueError):
 class CompiledModel:
     """The arrays and names of a System, without what is drawn; immutable.
 
-    `arrays`, `meta` and `frames` are those that `mbs.System` tells of.
+    `arrays`, `meta` and `frames`: as of `mbs.System`.
     """
 
     def __init__(
@@ -63,13 +63,13 @@ class CompiledModel:
 
     @property
     def fineness(self) -> float:
-        """Factor of tolerances in m: of a very small or large drawing not 1."""
+        """Factor on tolerances in m; not 1 for a very small or large drawing."""
         return float(self.arrays["fineness"][0]) if len(self.arrays["fineness"]) else 1.0
 
     def kernel_bytes(self, *, modes: bool = True) -> bytes:
         """The System file without what is drawn, which the kernel does not read.
 
-        `modes`: whether with the assembly modes, by which steps are watched.
+        `modes`: whether to include the assembly modes, by which steps are checked.
         """
         return self._file(modes, b"")
 
@@ -95,7 +95,7 @@ class CompiledModel:
 
 
 class Arrays(Mapping[str, NDArray[Any]]):
-    """Arrays by name, read-only; those that `modes` makes are made when they are first asked for."""
+    """Arrays by name, read-only; those of the assembly modes are computed by `modes` when they are first read."""
 
     def __init__(
         self, arrays: Mapping[str, ArrayLike], modes: Callable[[], Mapping[str, ArrayLike]] | None = None
@@ -105,15 +105,15 @@ class Arrays(Mapping[str, NDArray[Any]]):
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if self._modes is not None and name in MODES:
-            self._arrays |= {made: _frozen(made, values) for made, values in self._modes().items()}
+            self._arrays |= {mode: _frozen(mode, values) for mode, values in self._modes().items()}
             self._modes = None
         return self._arrays[name]
 
     def changed(self, arrays: Mapping[str, ArrayLike]) -> Arrays:
-        """A copy with other values of some."""
-        made = copy.copy(self)
-        made._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
-        return made
+        """A copy with the values of some arrays replaced."""
+        copied = copy.copy(self)
+        copied._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
+        return copied
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
@@ -123,6 +123,6 @@ class Arrays(Mapping[str, NDArray[Any]]):
 
 
 def _frozen(name: str, values: ArrayLike) -> NDArray[Any]:
-    found = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
-    found.setflags(write=False)
-    return found
+    array = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
+    array.setflags(write=False)
+    return array

@@ -1,4 +1,4 @@
-"""What a System carries for those who draw it: its scene, and how its coordinates place the frames of the scene."""
+"""Drawing data of a System: its scene, and how its coordinates place the frames of the scene."""
 
 from __future__ import annotations
 

@@ -82,13 +82,13 @@ class System(CompiledModel):
     @classmethod
     def of(
         cls,
-        made: CompiledModel,
+        compiled: CompiledModel,
         drawing: Drawing | LazyValue[Drawing] | None = None,
         ported: Callable[[System], System | None] | None = None,
     ) -> System:
         """A compiled System with its drawing, or a function that makes it on demand, and with `ported`."""
         system = object.__new__(cls)
-        system.__dict__.update(vars(made))
+        system.__dict__.update(vars(compiled))
         system._drawing, system.ported = drawing, ported
         return system
 
@@ -139,19 +139,19 @@ class System(CompiledModel):
         arrays : mapping of str to array_like
             By name, each of shape (n,) as `docs/system_file.md` has it.
         """
-        made = copy.copy(self)
-        made.arrays = self.arrays.changed(arrays)
-        made.ported = made.native = None  # they would not have them
-        return made
+        changed = copy.copy(self)
+        changed.arrays = self.arrays.changed(arrays)
+        changed.ported = changed.native = None  # they would not have them
+        return changed
 
     def __reduce__(self) -> tuple[Callable[..., System], tuple[bytes, Frames | None, Path | None]]:
         """Pickled as its file with `frames` and the place of its code; `ported`, a function, is left behind."""
         return _unpickled, (self.to_bytes(), self.frames, self.native)
 
     def __copy__(self) -> System:
-        made = object.__new__(type(self))
-        made.__dict__.update(self.__dict__)
-        return made
+        copied = object.__new__(type(self))
+        copied.__dict__.update(self.__dict__)
+        return copied
 
     def __deepcopy__(self, memo: dict[int, Any]) -> System:
         return self  # nothing of it changes
@@ -207,8 +207,8 @@ class System(CompiledModel):
         OSError
             The file cannot be written.
         """
-        with atomic_file(path, make_parents=False) as made:
-            made.write_bytes(self.to_bytes())
+        with atomic_file(path, make_parents=False) as target:
+            target.write_bytes(self.to_bytes())
 
     @classmethod
     def load(cls, path: str | Path) -> System:
@@ -230,10 +230,11 @@ class System(CompiledModel):
 
 
 def _unpickled(data: bytes, frames: Frames | None, native: Path | None) -> System:
-    made = System.from_bytes(data)
-    made.frames = frames
-    made.native = native if native is not None and native.is_file() else None  # another machine: the same bits without
-    return made
+    system = System.from_bytes(data)
+    system.frames = frames
+    # without its code on another machine: the same bits
+    system.native = native if native is not None and native.is_file() else None
+    return system
 
 
 def _parse(data: bytes) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from mbs.tyre_files.pure_curves import (
 
 Array = NDArray[np.float64]
 LOADS = (0.5, 1.0, 1.5, 2.0)
-"""Over the nominal load: where fits are made and their errors told."""
+"""Loads over the nominal one at which curves are fitted and compared."""
 KAPPA = np.concatenate([-np.geomspace(0.5, 1e-3, 60), np.geomspace(1e-3, 1.0, 60)])
 TANGENT = np.geomspace(1e-3, 0.6, 80)
 _LESS, _MORE = 0.7, 1.9  # of a slip at two nominal loads over that at one: on a line through both it stays positive
@@ -37,7 +37,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
 
     Returns
     -------
-    made : MagicTyre
+    fitted_tyre : MagicTyre
         Symmetric, in ISO axes.
     errors : dict of str to float
         Largest difference over loads of 0.5 to 2 nominal loads: "longitudinal" and "lateral" over the largest force
@@ -52,22 +52,22 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     peaks = {name: getattr(tyre, name).max_force[0] / nominal for name in most}
 
     def fitted(
-        names: Sequence[str], start: Sequence[float], left: Callable[[dict[str, float]], Array]
+        names: Sequence[str], start: Sequence[float], residuals: Callable[[dict[str, float]], Array]
     ) -> dict[str, float]:
         def named(x: Array) -> dict[str, float]:
             return dict(zip(names, map(float, x), strict=True))
 
         def differences(x: Array) -> Array:
-            return left(named(x))
+            return residuals(named(x))
 
         return named(least_squares(differences, start, x_scale="jac").x)
 
     def errors(name: str, c: dict[str, float]) -> Array:
-        law, slip, wanted = (
+        law, slip, target = (
             (magic_longitudinal, KAPPA, along) if name == "longitudinal" else (magic_lateral, alpha, across)
         )
         return np.concatenate(
-            [(law(c, nominal, q * nominal, slip) - wanted[q]) / m for q, m in zip(LOADS, most[name], strict=True)]
+            [(law(c, nominal, q * nominal, slip) - target[q]) / m for q, m in zip(LOADS, most[name], strict=True)]
         )
 
     c = fitted(
@@ -99,7 +99,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     c["PTY2"] = 2.0
     c["PTY1"] = cornering_stiffness(c, nominal, nominal) / stiffness[1] / (tyre.radius * sin(2.0 * atan(0.5)))
     c["QSY1"] = tyre.rolling_resistance
-    made = MagicTyre(
+    fitted_tyre = MagicTyre(
         "MF52",
         c,
         tyre.radius,
@@ -113,7 +113,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
         combination="ellipse",
         largest_load=2.5 * nominal,
     )
-    return made, largest_errors
+    return fitted_tyre, largest_errors
 
 
 def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
@@ -126,7 +126,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
 
     Returns
     -------
-    made : Tyre
+    fitted_tyre : Tyre
         On the road of the reference friction.
     errors : dict of str to float
         As of `magic_of_tmeasy`.
@@ -151,7 +151,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     first = _three(shares[1.0], weights[1.0])
     three = first, _three(shares[2.0], weights[2.0], first)
     of_carcass = carcass(tyre, c)
-    made = Tyre(
+    fitted_tyre = Tyre(
         radius=tyre.radius * c.get("Q_RE0", 1.0),
         bottoming_radius=tyre.bottoming_radius,
         stiffness=stiffness,
@@ -173,19 +173,19 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     )
     largest_errors = {
         "longitudinal": max(
-            float(np.abs(_tmeasy(made.longitudinal, q, KAPPA / (1.0 + KAPPA)) - along[q]).max() / along[q].max())
+            float(np.abs(_tmeasy(fitted_tyre.longitudinal, q, KAPPA / (1.0 + KAPPA)) - along[q]).max() / along[q].max())
             for q in LOADS
         ),
         "lateral": max(
-            float(np.abs(_tmeasy(made.lateral, q, TANGENT) - across[q]).max() / across[q].max()) for q in LOADS
+            float(np.abs(_tmeasy(fitted_tyre.lateral, q, TANGENT) - across[q]).max() / across[q].max()) for q in LOADS
         ),
         "moment": max(
-            float(np.abs((_length(made, q) * _trail(made, q) - trails[q]) * across[q]).max())
+            float(np.abs((_length(fitted_tyre, q) * _trail(fitted_tyre, q) - trails[q]) * across[q]).max())
             / (float(np.abs(trails[q] * across[q]).max()) or 1.0)  # none: of a tyre without a trail
             for q in LOADS
         ),
     }
-    return made, largest_errors
+    return fitted_tyre, largest_errors
 
 
 def _tmeasy(curve: TyreCurve, q: float, slip: Array) -> Array:

@@ -118,10 +118,11 @@ class TyreFile(Summarised):
         slip, _, force = SIGNS[one_of(signs, tuple(SIGNS), f"{self.name}: the signs of the tyre", TyreFileError)]
         slope = self.values["coefficients"]["PKY1"]
         if slope * slip * force > 0.0:
-            wanted = "negative" if signs != "adapted_sae" else "positive"
+            expected = "negative" if signs != "adapted_sae" else "positive"
             raise TyreFileError(
-                f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {wanted}, else the lateral force "
-                "has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most files."
+                f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {expected}, else the lateral "
+                "force has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most "
+                "files."
             )
         given = self.pressure if pressure is None else pressure
         if pressure is not None and not self.nominal_pressure > 0.0:
@@ -140,7 +141,7 @@ class TyreFile(Summarised):
 def read_tyre(file: str | Path) -> TyreFile:
     """A tyre from a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2. `file`: usually with the extension .tir.
 
-    Raises `TyreFileError`: it cannot be read, is of another format, lacks what is needed or holds what cannot be; one
+    Raises `TyreFileError`: it cannot be read, is of another format, lacks a needed number or has an impossible one; one
     sentence.
     """
     text = read_properties(file)
@@ -150,8 +151,8 @@ def read_tyre(file: str | Path) -> TyreFile:
     missing = [section for section in _SECTIONS if section not in text.sections]
     if missing:
         raise text.fault(f"it has no section [{missing[0]}]; it may be cut, or no tyre property file.")
-    given = {_ALIASES.get(key, key): value for key, value in found.items()}
-    numbers = in_si(text, given)
+    entries = {_ALIASES.get(key, key): value for key, value in found.items()}
+    numbers = in_si(text, entries)
     lacking = [key for key in _NEEDED if not numbers.get(key)]
     if lacking:
         raise text.fault(f"{', '.join(lacking)} {'is' if len(lacking) == 1 else 'are'} missing or 0; it may be cut.")
@@ -219,14 +220,14 @@ def _version(text: PropertyText, notes: list[str]) -> str:
     if isinstance(fit, float) and (form in _BY_FIT or form.startswith("MF")):
         if fit in FITS:
             return FITS[int(fit)]
-        known = ", ".join(map(str, FITS))
-        raise text.fault(f"FITTYP is {fit:g}; Magic Formulas that are known have {known}.")
+        available = ", ".join(map(str, FITS))
+        raise text.fault(f"FITTYP is {fit:g}; Magic Formulas that are known have {available}.")
     plain = form.replace("-", "").replace("_", "").replace("TYRE", "")
     if form in FORMATS or plain in FORMATS:
         return FORMATS.get(form) or FORMATS[plain]
-    given = f"is '{form}'" if form else "is missing"
+    found = f"is '{form}'" if form else "is missing"
     raise text.fault(
-        f"PROPERTY_FILE_FORMAT in [MODEL] {given}; it must be PAC2002, or MF-Tyre 5.2, 6.1 or 6.2 (FITTYP 6, 61, 62)."
+        f"PROPERTY_FILE_FORMAT in [MODEL] {found}; it must be PAC2002, or MF-Tyre 5.2, 6.1 or 6.2 (FITTYP 6, 61, 62)."
     )
 
 
@@ -312,16 +313,18 @@ def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> 
     return found
 
 
-def _largest_load(text: PropertyText, given: dict[str, float], numbers: dict[str, float], notes: list[str]) -> float:
+def _largest_load(
+    text: PropertyText, coefficients: dict[str, float], numbers: dict[str, float], notes: list[str]
+) -> float:
     """FZMAX, or less where friction or slip stiffness fade or turn round before it."""
-    c = {**MAGIC_COEFFICIENTS, **given}
+    c = {**MAGIC_COEFFICIENTS, **coefficients}
     most = numbers.get("FZMAX", 0.0) or _MOST_LOAD * numbers["FNOMIN"]
     nominal = numbers["FNOMIN"] * c["LFZO"]
     if most < numbers["FNOMIN"]:
         notes.append(f"FZMAX is {most:g} N, below FNOMIN, {numbers['FNOMIN']:g} N; above FZMAX the forces stay.")
     for key in ("LFZO", "LMUX", "LMUY", "LKX", "LKY", "LCX", "LCY", "LONGVL"):
         if not c[key] > 0.0:
-            raise text.fault(f"{key} is {given[key]:g}; it must be positive.")
+            raise text.fault(f"{key} is {coefficients[key]:g}; it must be positive.")
 
     def shares(load: float) -> dict[str, float]:
         dfz = load / nominal - 1.0

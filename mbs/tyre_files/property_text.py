@@ -133,8 +133,8 @@ def _value(text: str, what: str) -> str | float:
             f"{what} is {brief(text)}; its decimal mark must be a point, as in {text.replace(',', '.')}."
         )
     if not _NUMBER.fullmatch(text):
-        given = f"{one_line(text, 60)}, without quotation marks" if text else "empty"
-        raise TyreFileError(f"{what} is {given}; it must be a number, or a word in quotation marks.")
+        found = f"{one_line(text, 60)}, without quotation marks" if text else "empty"
+        raise TyreFileError(f"{what} is {found}; it must be a number, or a word in quotation marks.")
     number = float(re.sub("[dD]", "e", text))
     if not math.isfinite(number):
         raise TyreFileError(f"{what} is {brief(text)}; it must be finite.")

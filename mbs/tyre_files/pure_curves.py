@@ -51,12 +51,12 @@ def _sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
     return np.asarray(D * np.sin(C * np.arctan(turned - min(E, 1.0) * (turned - np.arctan(turned)))))
 
 
-def magic_longitudinal(given: Mapping[str, float], nominal: float, load: float, kappa: ArrayLike) -> Array:
+def magic_longitudinal(coefficients: Mapping[str, float], nominal: float, load: float, kappa: ArrayLike) -> Array:
     """Longitudinal force of the Magic Formula at pure slip (4.E9 to 4.E18), N.
 
-    `given`: coefficients; others are the usual ones; `nominal`, `load`: in N.
+    `coefficients`: by name, the missing ones at their defaults; `nominal`, `load`: in N.
     """
-    c = {**MAGIC_COEFFICIENTS, **given}
+    c = {**MAGIC_COEFFICIENTS, **coefficients}
     nominal *= c["LFZO"]
     dfz = load / nominal - 1.0
     C, D = c["PCX1"] * c["LCX"], (c["PDX1"] + c["PDX2"] * dfz) * c["LMUX"] * load
@@ -65,29 +65,31 @@ def magic_longitudinal(given: Mapping[str, float], nominal: float, load: float, 
     return _sine(K / (C * D), C, D, E, np.asarray(kappa, float))
 
 
-def cornering_stiffness(given: Mapping[str, float], nominal: float, load: float) -> float:
+def cornering_stiffness(coefficients: Mapping[str, float], nominal: float, load: float) -> float:
     """K of 4.E25 without camber, N/rad, positive."""
-    c = {**MAGIC_COEFFICIENTS, **given}
+    c = {**MAGIC_COEFFICIENTS, **coefficients}
     nominal *= c["LFZO"]
     turn = c["PKY4"] * np.arctan(load / (c["PKY2"] * nominal))
     return float(abs(c["PKY1"]) * nominal * np.sin(turn) * c["LKY"])
 
 
-def magic_lateral(given: Mapping[str, float], nominal: float, load: float, alpha: ArrayLike) -> Array:
+def magic_lateral(coefficients: Mapping[str, float], nominal: float, load: float, alpha: ArrayLike) -> Array:
     """Lateral force against the slip at pure slip (4.E19 to 4.E30), N.
 
     `alpha`: the slip angle, rad, up to 5.2; its tangent from 6.1 on.
     """
-    c = {**MAGIC_COEFFICIENTS, **given}
+    c = {**MAGIC_COEFFICIENTS, **coefficients}
     dfz = load / (nominal * c["LFZO"]) - 1.0
     C, D = c["PCY1"] * c["LCY"], (c["PDY1"] + c["PDY2"] * dfz) * c["LMUY"] * load
     E = (c["PEY1"] + c["PEY2"] * dfz) * c["LEY"]
-    return _sine(cornering_stiffness(given, nominal, load) / (C * D), C, D, E, np.asarray(alpha, float))
+    return _sine(cornering_stiffness(coefficients, nominal, load) / (C * D), C, D, E, np.asarray(alpha, float))
 
 
-def magic_trail(given: Mapping[str, float], nominal: float, radius: float, load: float, alpha: ArrayLike) -> Array:
+def magic_trail(
+    coefficients: Mapping[str, float], nominal: float, radius: float, load: float, alpha: ArrayLike
+) -> Array:
     """Pneumatic trail (4.E71 to 4.E75) without camber and shifts, m."""
-    c = {**MAGIC_COEFFICIENTS, **given}
+    c = {**MAGIC_COEFFICIENTS, **coefficients}
     a = np.asarray(alpha, float)
     dfz = load / (nominal * c["LFZO"]) - 1.0
     B = (c["QBZ1"] + c["QBZ2"] * dfz + c["QBZ3"] * dfz**2) * c["LKY"] / c["LMUY"]

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 AnyTyre: TypeAlias = "MagicTyre | Tyre"
 DEG = math.pi / 180.0
 FARTHEST = 0.6
-"""Slip, and slip angle, rad, up to which a peak is looked for."""
+"""Slip, and slip angle, rad, up to which a peak is sought."""
 BEYOND = 0.5
 """Slip at which a curve is compared with its peak."""
 NEAR = 0.95
@@ -118,10 +118,10 @@ def magic_plausibility(
     """
     tyre = replace(tyre, largest_load=numbers.get("FZMAX") or tyre.largest_load)
     values = partial(_magic_values, prefix=prefix, numbers=numbers)
-    given, mistakes = {**numbers, **tyre.coefficients}, []
+    coefficients, mistakes = {**numbers, **tyre.coefficients}, []
     for keys, factor, words in SCALED:
-        changed = {key: factor * given[key] for key in keys if given.get(key)}
-        if not changed or all(key[0] == "L" and given[key] == 1.0 for key in changed):
+        changed = {key: factor * coefficients[key] for key in keys if coefficients.get(key)}
+        if not changed or all(key[0] == "L" and coefficients[key] == 1.0 for key in changed):
             continue
         own = {key: v for key, v in changed.items() if key in tyre.coefficients}
         ends: dict[str, Any] = {
@@ -163,7 +163,7 @@ def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
 
 
 def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[Value]]) -> list[Mistake]:
-    """Of radii, loads and stiffness. `values`: of a tyre."""
+    """Mistakes in radii, loads and stiffness. `values`: of a tyre."""
     names = _vertical_names(tyre, prefix)
     found = [
         (f"{unit} in place of newtons in {names[field]}", {field: factor})
@@ -192,33 +192,35 @@ def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[
 def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> list[Value]:
     nominal = tyre.nominal_load
     c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
-    given = {**c, "FNOMIN": nominal}
-    keys = {name: {prefix + k: given[k] for k in own if k in given} for name, own in OWN.items()}
+    coefficients = {**c, "FNOMIN": nominal}
+    keys = {name: {prefix + k: coefficients[k] for k in own if k in coefficients} for name, own in OWN.items()}
     curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
-    found = [*_of_curves(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
+    found = [*_curve_values(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
     slips = tyre.along[0], cornering(tyre, nominal)
     lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
     for of, slip, across, own in zip(("longitudinal", "lateral"), slips, carcass(tyre, c), lengths, strict=True):
         if any(c[k] for k in own):
-            told = {prefix + k: c[k] for k in own if c[k]}
-            found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, told, of))
-    return [*found, *_vertical(tyre, prefix), *_of_numbers(tyre, prefix, numbers)]
+            nonzero = {prefix + k: c[k] for k in own if c[k]}
+            found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, nonzero, of))
+    return [*found, *_vertical(tyre, prefix), *_number_values(tyre, prefix, numbers)]
 
 
-def _of_numbers(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
+def _number_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
     """Values of single numbers of the file, and of those that belong together."""
     n = {**MAGIC_COEFFICIENTS, **numbers, **tyre.coefficients, "FNOMIN": tyre.nominal_load}
     n |= {"UNLOADED_RADIUS": tyre.radius}
     for name, keys, of, formula in RELATIONS:
-        given = [n.get(key, 0.0) for key in keys]
-        if all(given):
-            yield Value(QUANTITIES[name], formula(*given), {prefix + key: n[key] for key in keys}, of)
+        arguments = [n.get(key, 0.0) for key in keys]
+        if all(arguments):
+            yield Value(QUANTITIES[name], formula(*arguments), {prefix + key: n[key] for key in keys}, of)
     for key, value in tyre.coefficients.items():
         if key in FACTORS and value:
             yield Value(QUANTITIES["factor"], value, {prefix + key: value}, key)
     for name, ends in RANGES.items():
-        told = {prefix + key: numbers[key] for key in ends if key in numbers}
-        yield Value(QUANTITIES[name], max(map(abs, getattr(tyre, name))) / (1.0 if ends[0] == "KPUMIN" else DEG), told)
+        limits = {prefix + key: numbers[key] for key in ends if key in numbers}
+        yield Value(
+            QUANTITIES[name], max(map(abs, getattr(tyre, name))) / (1.0 if ends[0] == "KPUMIN" else DEG), limits
+        )
 
 
 def _lateral(tyre: MagicTyre, part: float) -> _Curve:
@@ -248,18 +250,18 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
     nominal = tyre.nominal_load
     curves = {}
     for part in PART:
-        made = []
+        pair = []
         for curve in (tyre.lateral, tyre.longitudinal):
             slope, most, slides = (at_load(getattr(curve, f), part) for f in ("slope", "max_force", "slide_force"))
             at, end = (v[0] + (part - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
             # the lateral slip is the tangent of the angle
             slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
-            made.append(
+            pair.append(
                 _Curve(
                     slope / (part * nominal), tmeasy_force(slope, most, at, slides, end, slips) / (part * nominal), 0.0
                 )
             )
-        curves[part] = (made[0], made[1])
+        curves[part] = (pair[0], pair[1])
     keys: dict[str, dict[str, Any]] = {}
     for axis, name in (("y", "lateral"), ("x", "longitudinal")):
         curve = getattr(tyre, name)
@@ -273,10 +275,10 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
                 k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
             }
     keys["ratio"] = keys["muy"] | keys["mux"]
-    return [*_of_curves(curves, keys), *_vertical(tyre, prefix)]
+    return [*_curve_values(curves, keys), *_vertical(tyre, prefix)]
 
 
-def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
+def _curve_values(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
     found = []
     for part, pair in curves.items():
         peaks: list[float] = []

@@ -51,15 +51,15 @@ def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
     radians, for which the coefficients of the Magic Formula hold.
     """
     scales = {}
-    for quantity, known in _UNITS.items():
+    for quantity, units in _UNITS.items():
         unit = text.word(quantity, "UNITS")
         if not unit and quantity in ("PRESSURE", "ANGLE"):
             continue
-        if unit not in known:
+        if unit not in units:
             given = f"is '{unit.lower()}'" if unit else "is missing"
-            words = ", ".join(word.lower() for word in known)
+            words = ", ".join(word.lower() for word in units)
             raise text.fault(f"{quantity} in [UNITS] {given}; it must be one of {words}.")
-        scales[quantity] = known[unit]
+        scales[quantity] = units[unit]
     length, force, time = (scales[quantity] for quantity in ("LENGTH", "FORCE", "TIME"))
     pressure = scales.get("PRESSURE", force / length**2)
     found = dict(numbers)

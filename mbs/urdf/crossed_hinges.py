@@ -55,7 +55,7 @@ def crossed_hinges(
     Raises
     ------
     ModelError
-        A chain is neither: what holds the group without mass is said.
+        A chain is neither; the message says what holds the group without mass.
     """
     above = {group_of[joint.child]: joint for joint in moving.values()}
     below: dict[str, list[Any]] = {}

@@ -36,12 +36,12 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
     """
     found = []
     for link, pose in parts:
-        given = link.inertial
-        if given is None or not (given.mass or (given.inertia is not None and np.any(given.inertia))):
+        inertial = link.inertial
+        if inertial is None or not (inertial.mass or (inertial.inertia is not None and np.any(inertial.inertia))):
             continue
-        own = pose @ pose_of(given.origin)
-        inertia = array(given.inertia, (3, 3), f"the inertia of the link '{link.name}'")
-        found.append((float(given.mass or 0.0), own[:3, 3], own[:3, :3] @ inertia @ own[:3, :3].T))
+        own = pose @ pose_of(inertial.origin)
+        inertia = array(inertial.inertia, (3, 3), f"the inertia of the link '{link.name}'")
+        found.append((float(inertial.mass or 0.0), own[:3, 3], own[:3, :3] @ inertia @ own[:3, :3].T))
     mass = sum(m for m, _, _ in found)
     if mass <= 0.0:
         return mass, np.zeros(3), sum((tensor for _, _, tensor in found), np.zeros((3, 3)))
@@ -64,14 +64,14 @@ def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
         return inertia_matrix(inertia, 3, what), ""
     except ModelError as error:
         symmetric = 0.5 * (inertia + inertia.T)
-        given, axes = np.linalg.eigh(symmetric)
-        moments = 0.5 * np.sum(given) - given
-        if not np.max(moments) > 0.0 or np.max(np.abs(inertia - symmetric)) > SLIGHT * given[-1]:
+        eigenvalues, axes = np.linalg.eigh(symmetric)
+        moments = 0.5 * np.sum(eigenvalues) - eigenvalues
+        if not np.max(moments) > 0.0 or np.max(np.abs(inertia - symmetric)) > SLIGHT * eigenvalues[-1]:
             raise
         moments = np.maximum(moments, THIN * np.max(moments))
         near = np.sum(moments) - moments
-        change = float(np.max(np.abs(near - given))) / given[-1]
-        values, nearest = (", ".join(f"{v:.6g}" for v in principal) for principal in (given, near))
+        change = float(np.max(np.abs(near - eigenvalues))) / eigenvalues[-1]
+        values, nearest = (", ".join(f"{v:.6g}" for v in principal) for principal in (eigenvalues, near))
         fault = f"{what} has the principal values {values} kg m2, which no mass distribution can have"
         if change > SLIGHT:
             raise ModelError(

@@ -62,19 +62,19 @@ class LinkMass(NamedTuple):
         return float(self.mass / (4.0 / 3.0 * math.pi * np.prod(axes)))
 
 
-def link_mass(link: Element, given: Factors) -> LinkMass:
+def link_mass(link: Element, factors: Factors) -> LinkMass:
     """Mass, centre of mass and inertia of a link, with the factors applied; without `inertial` all are zero."""
     inertial = link.first("inertial")
     if inertial is None:
         return LinkMass(0.0, np.zeros(3), np.zeros((3, 3)), link.line)
     mass, origin, inertia = (inertial.first(tag) for tag in ("mass", "origin", "inertia"))
-    centre = np.zeros(3) if origin is None else given.lengths * given.centres * np.array(origin.numbers("xyz"))
-    heavy = 0.0 if mass is None else given.masses * mass.numbers("value")[0]
+    centre = np.zeros(3) if origin is None else factors.lengths * factors.centres * np.array(origin.numbers("xyz"))
+    heavy = 0.0 if mass is None else factors.masses * mass.numbers("value")[0]
     upper = np.zeros((3, 3))
     if inertia is not None:
-        upper[np.triu_indices(3)] = [given.inertias * inertia.numbers(name)[0] for name in INERTIA]
+        upper[np.triu_indices(3)] = [factors.inertias * inertia.numbers(name)[0] for name in INERTIA]
     tensor = upper + np.triu(upper, 1).T
     least = tensor[0, 0]
-    if given.solid and least > 0.0 and abs(math.log10(least) % 1.0) < 1e-9 and np.all(tensor == least * np.eye(3)):
+    if factors.solid and least > 0.0 and abs(math.log10(least) % 1.0) < 1e-9 and np.all(tensor == least * np.eye(3)):
         tensor = 0.4 * heavy * (heavy / (4.0 / 3.0 * math.pi * SOLID)) ** (2.0 / 3.0) * np.eye(3)
     return LinkMass(heavy, centre, tensor, inertial.line)

@@ -1,4 +1,4 @@
-"""Links of a left and a right side: their masses over each other, and their places as mirror images."""
+"""Symmetry of a robot: ratios of masses of left and right links, and their centres as mirror images."""
 
 import re
 from collections.abc import Mapping
@@ -20,9 +20,9 @@ QUANTITIES = quantities_of("robot")
 
 
 def pair_values(
-    parts: Mapping[str, LinkMass], poses: Mapping[str, NDArray[np.float64]], scale: float, given: Factors
+    parts: Mapping[str, LinkMass], poses: Mapping[str, NDArray[np.float64]], scale: float, factors: Factors
 ) -> list[Value]:
-    """Links of a left and a right side, one over the other, and how far their centres are from each other's image."""
+    """Ratios of masses and of moments of left and right links, and distances of their centres from mirror images."""
     pairs = [(a, b) for a in parts if (b := other_side(a)) != a and b in parts]
     found = []
     for a, b in pairs:
@@ -34,7 +34,9 @@ def pair_values(
         found.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, of))
     if len(pairs) < FEWEST_PAIRS or scale <= SMALLEST:
         return found
-    centres = {n: given.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair}
+    centres = {
+        n: factors.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair
+    }
     sums = np.array([centres[a] + centres[b] for a, b in pairs])
     gaps = np.array([centres[a] - centres[b] for a, b in pairs])
     off = np.stack([np.where(np.eye(3)[k] > 0.0, sums - np.median(sums, axis=0), gaps) for k in range(3)])

@@ -17,11 +17,11 @@ class MimicJoint:
     offset: float
 
 
-def mimic_joints_of(joints: Mapping[str, Any], given: Collection[str], what: str) -> dict[str, MimicJoint]:
+def mimic_joints_of(joints: Mapping[str, Any], prescribed: Collection[str], what: str) -> dict[str, MimicJoint]:
     """The joints that follow others, by their names, each after those that it follows.
 
-    `given`: joints that the user places or moves; `what`: the robot, for messages. Raises `ModelError`: one follows a
-    joint that does not move or is not there, or itself; its multiplier is zero; it is given.
+    `prescribed`: joints that the user places or moves; `what`: the robot, for messages. Raises `ModelError`: one
+    follows a joint that does not move or is not there, or itself; its multiplier is zero; it is prescribed.
     """
     left: dict[str, MimicJoint] = {}
     for name, joint in joints.items():
@@ -31,7 +31,7 @@ def mimic_joints_of(joints: Mapping[str, Any], given: Collection[str], what: str
         says = f"{what}: the joint '{name}' follows '{mimic.joint}' (mimic)"
         if mimic.joint not in joints:
             raise ModelError(f"{says}, which is not a moving joint; these are {', '.join(joints)}.")
-        if name in given:
+        if name in prescribed:
             raise ModelError(f"{says} and is given a place or a motion; give it to '{mimic.joint}'.")
         multiplier = 1.0 if mimic.multiplier is None else float(mimic.multiplier)
         if multiplier == 0.0:

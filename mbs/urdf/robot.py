@@ -93,7 +93,7 @@ def read_urdf(
     ------
     ModelError
         The file cannot be read, the package is missing, a joint is planar or floating, follows one that is not there or
-        is moved by what is given besides, a moving link has no mass, a name is none of a joint.
+        has a motion of its own besides, a moving link has no mass, a name is not that of a joint.
 
     Warns
     -----
@@ -109,8 +109,8 @@ def read_urdf(
     _free_root(urdf, joints, below, floating, file.name)
     for name in (*at, *guides):
         if name not in joints:
-            known = f"the joints that move are {', '.join(joints)}"
-            raise ModelError(f"{file.name}: there is no joint '{name}'{did_you_mean(name, joints, known)}")
+            movable = f"the joints that move are {', '.join(joints)}"
+            raise ModelError(f"{file.name}: there is no joint '{name}'{did_you_mean(name, joints, movable)}")
     for name, joint in joints.items():
         if joint.type not in (*TURNING, "prismatic"):
             raise ModelError(
@@ -124,7 +124,7 @@ def read_urdf(
     at |= start_of(followers, at)
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
-    _place(robot, below, at)
+    _set_poses(robot, below, at)
     robot.plausibility = robot_plausibility(file.name, source, robot.poses, at, _turning(below, floating))
     robot.plausibility.warn(UrdfWarning)
     groups = _groups(below)
@@ -192,7 +192,7 @@ def _tree(urdf: Any, what: str) -> dict[str, Any]:
     return ordered
 
 
-def _place(robot: Robot, below: Mapping[str, Any], at: Mapping[str, float]) -> None:
+def _set_poses(robot: Robot, below: Mapping[str, Any], at: Mapping[str, float]) -> None:
     """Poses of the links at the values of the joints."""
     for name, joint in below.items():
         if joint is None:
@@ -216,7 +216,7 @@ def _turning(below: Mapping[str, Any], floating: bool) -> frozenset[str]:
 
 
 def _free_root(urdf: Any, joints: dict[str, Any], below: dict[str, Any], floating: bool, what: str) -> None:
-    """Takes a floating joint above the only link on a root without mass out of what is read; that link is the root."""
+    """Remove a floating joint between a root without mass and the only link on it; that link becomes the root."""
     free = next((joint for joint in joints.values() if joint.type == "floating"), None)
     if free is None:
         return
@@ -231,7 +231,7 @@ def _free_root(urdf: Any, joints: dict[str, Any], below: dict[str, Any], floatin
 
 
 def _groups(below: Mapping[str, Any]) -> dict[str, str]:
-    """Of each link the first of those that are fixed to each other."""
+    """First link of the group of each link; links of a group are fixed to each other."""
     groups: dict[str, str] = {}
     for name, joint in below.items():
         groups[name] = groups[joint.parent] if joint is not None and joint.type == "fixed" else name
@@ -271,10 +271,10 @@ def _cross(
 ) -> None:
     """A universal or ball joint in the place of hinges with links without mass between them."""
     of = {joint.name for joint in crossed.hinges}
-    if given := of & (set(guides) | {f.leader for f in followers.values()}):
+    if prescribed := of & (set(guides) | {f.leader for f in followers.values()}):
         raise ModelError(
             f"{what}: the joints {crossed.names}, with links without mass, are one joint without angles, and "
-            f"'{min(given)}' is given a motion or followed; give its links a small mass and inertia."
+            f"'{min(prescribed)}' is given a motion or followed; give its links a small mass and inertia."
         )
     m, name = robot.model, " ".join(joint.name for joint in crossed.hinges)
     first, second = robot.bodies[crossed.parent], robot.bodies[crossed.child]
@@ -295,11 +295,11 @@ def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, drive
         m.prismatic(name, second, first, axis=axis, point=point)
         along = first.vector(axis)
         base = robot.poses[joint.parent] @ pose_of(joint.origin)
-        way = second.point(point) - first.point(base[:3, 3])
+        offset = second.point(point) - first.point(base[:3, 3])
         if driven:
             _push(robot, joint, axis, point, most)
-        m.sense_vector(f"{name}.position", way, [along], description=f"of the joint '{name}'")
-        m.sense_vector(f"{name}.speed", way, [along], order=1, description=f"of the joint '{name}'")
+        m.sense_vector(f"{name}.position", offset, [along], description=f"of the joint '{name}'")
+        m.sense_vector(f"{name}.speed", offset, [along], order=1, description=f"of the joint '{name}'")
         return
     m.revolute(name, first, second, point=point, axis=axis)
     angle = robot.angles[name] = m.relative_angle(f"{name} angle", first, second, axis=axis, zero=value)

@@ -72,30 +72,30 @@ def robot_plausibility(
     found = values(Factors())
     keys = {key for v in found if not v.inside() for key in v.keys}
     mistakes = []
-    for words, names, given in UNDONE:
-        own = {key for key in keys if key.split(" of ")[0] in names and (given not in EVERYWHERE or "'" not in key)}
+    for words, names, factors in UNDONE:
+        own = {key for key in keys if key.split(" of ")[0] in names and (factors not in EVERYWHERE or "'" not in key)}
         single = {match[1] for key in own if (match := re.search("'(.*)'", key))}
         few = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
         if not few or len(single) > 1:
-            mistakes.append(Mistake(words, frozenset(own), partial(values, given), guessed=few))
+            mistakes.append(Mistake(words, frozenset(own), partial(values, factors), guessed=few))
         for name in sorted(single) if few else ():
             alone = frozenset(key for key in own if f"'{name}'" in key)
-            mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, given._replace(only=name))))
+            mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, factors._replace(only=name))))
     return Plausibility(what, found, mistakes)
 
 
 @np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
 def _values(
-    root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], given: Factors
+    root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], factors: Factors
 ) -> list[Value]:
-    frames = np.array([pose[:3, 3] for pose in poses.values()]) * given.lengths
+    frames = np.array([pose[:3, 3] for pose in poses.values()]) * factors.lengths
     links = {link.attributes.get("name", ""): link for link in root.all("link")}
-    parts = {name: part for name, link in links.items() if (part := link_mass(link, given.of(name))).mass > 0.0}
+    parts = {name: part for name, link in links.items() if (part := link_mass(link, factors.of(name))).mass > 0.0}
     total, far = sum(p.mass for p in parts.values()), [float(np.linalg.norm(p.centre)) for p in parts.values()]
     scale = max(_spread(frames), float(np.median(far or [0.0])))
     size = max(scale, 2.0 * max(far, default=0.0))
     if not total > 0.0:
-        return list(_joints(root, at, given))
+        return list(_joints(root, at, factors))
     masses: dict[str, Any] = {"mass of links": total}
     found = [Value(QUANTITIES["mass"], total, masses)]
     if size > SMALLEST:
@@ -109,22 +109,22 @@ def _values(
     least, most = LEAST_SHARE * total, LARGE_SHARE * sum(p.moment for p in parts.values())
     own = {n: p for n, p in parts.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
     found += _densities({n: p for n, p in own.items() if n in turning}, masses)
-    found += _reaches(root, own, given) + pair_values(own, poses, scale, given)
+    found += _reaches(root, own, factors) + pair_values(own, poses, scale, factors)
     efforts = {
-        (joint.attributes.get("name", ""), limit.line): given.efforts * limit.numbers("effort")[0]
+        (joint.attributes.get("name", ""), limit.line): factors.efforts * limit.numbers("effort")[0]
         for joint in root.all("joint")
         if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
-        if _known(limit.numbers("effort")[0])
+        if _is_meaningful(limit.numbers("effort")[0])
     }
     if efforts and scale > SMALLEST and all(v.inside() for v in found[:3]) and max(efforts.values()) > 0.0:
         name, line = max(efforts, key=efforts.__getitem__)
         most = efforts[name, line]
         keys = {f"effort of '{name}' in line {line}": most}
         found.append(Value(QUANTITIES["effort"], most / (GRAVITY * total * scale), keys))
-    return [*found, *_joints(root, at, given)]
+    return [*found, *_joints(root, at, factors)]
 
 
-def _known(limit: float) -> bool:
+def _is_meaningful(limit: float) -> bool:
     """Whether a limit is meaningful: 100, 1000, ... are placeholders."""
     return limit < 100.0 or abs(math.log10(limit) % 1.0) > SMALLEST
 
@@ -140,14 +140,14 @@ def _densities(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list
     return found
 
 
-def _reaches(root: Element, parts: Mapping[str, LinkMass], given: Factors) -> list[Value]:
-    """Centres of mass and the places of joints, over what is beside them."""
+def _reaches(root: Element, parts: Mapping[str, LinkMass], factors: Factors) -> list[Value]:
+    """Centres of mass and positions of joints, relative to those of their neighbours."""
     ends: dict[str, list[float]] = {}
     offsets = {}
     for joint in root.all("joint"):
         origin, beside = joint.first("origin"), [joint.first(end) for end in ("parent", "child")]
         if origin is not None:
-            far = given.lengths * float(np.linalg.norm(origin.numbers("xyz")))
+            far = factors.lengths * float(np.linalg.norm(origin.numbers("xyz")))
             for link in filter(None, beside):
                 ends.setdefault(link.attributes.get("link", ""), []).append(far)
             offsets[f"xyz of '{joint.attributes.get('name', '')}' in line {origin.line}"] = far
@@ -163,21 +163,21 @@ def _reaches(root: Element, parts: Mapping[str, LinkMass], given: Factors) -> li
     return found
 
 
-def _joints(root: Element, at: Mapping[str, float], given: Factors) -> Iterator[Value]:
+def _joints(root: Element, at: Mapping[str, float], factors: Factors) -> Iterator[Value]:
     for joint in root.all("joint"):
         name, kind = joint.attributes.get("name", ""), joint.attributes.get("type", "")
         of, limit, origin = f"joint '{name}',", joint.first("limit"), joint.first("origin")
         if origin is not None:
-            rpy = [given.angles * v for v in origin.numbers("rpy")]
+            rpy = [factors.angles * v for v in origin.numbers("rpy")]
             key = {f"rpy of '{name}' in line {origin.line}": rpy}
             yield Value(QUANTITIES["angle"], max(map(abs, rpy)), key, of)
         if limit is None or kind not in ("revolute", "prismatic"):
             continue
         speed = limit.numbers("velocity")[0]
-        if kind == "revolute" and speed > 0.0 and _known(speed):
+        if kind == "revolute" and speed > 0.0 and _is_meaningful(speed):
             key = {f"velocity of '{name}' in line {limit.line}": [speed]}
-            yield Value(QUANTITIES["speed"], given.speeds * speed, key, of)
-        scale = given.limits if kind == "revolute" else given.lengths
+            yield Value(QUANTITIES["speed"], factors.speeds * speed, key, of)
+        scale = factors.limits if kind == "revolute" else factors.lengths
         low, high = (scale * limit.numbers(end)[0] for end in ("lower", "upper"))
         if low == high == 0.0 or high - low > NO_LIMIT:
             continue

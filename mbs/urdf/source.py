@@ -57,8 +57,8 @@ class Element:
 def read_source(data: bytes, what: str) -> Element:
     """The root of the elements, checked. `what`: the file, for messages.
 
-    Raises `ModelError`: it is not XML, has macros, an element twice that there is once, a number that is none, or an
-    inertia without a part; with the line.
+    Raises `ModelError`: it is not XML, has macros, an element twice that may occur once, text in place of a number, or
+    an inertia without a part; with the line.
     """
     parser, top = expat.ParserCreate(), Element("", 0, {})
     path = [top]
@@ -66,9 +66,9 @@ def read_source(data: bytes, what: str) -> Element:
     def start(tag: str, attributes: dict[str, str]) -> None:
         if tag.startswith("xacro:"):
             raise ModelError(f"{what} has the macro '{tag}'; expand it first: xacro {what} > robot.urdf.")
-        made = Element(tag, parser.CurrentLineNumber, attributes)
-        path[-1].inside.append(made)
-        path.append(made)
+        element = Element(tag, parser.CurrentLineNumber, attributes)
+        path[-1].inside.append(element)
+        path.append(element)
 
     parser.StartElementHandler, parser.EndElementHandler = start, lambda tag: path.pop()
     try:  # the reader takes what it understands; prefixes of robots are often of no namespace

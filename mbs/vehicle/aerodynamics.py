@@ -11,7 +11,7 @@ from mbs.vehicle.section import Section
 
 
 class Aerodynamics(Section):
-    """Still air, but for a wind by ports; the drag area is the same for every direction of the flow."""
+    """Still air, or a wind by ports; the drag area is the same for every direction of the flow."""
 
     drag_area: Area
     """Drag coefficient times frontal area."""

@@ -95,7 +95,7 @@ class Axle(Section):
     ) -> dict[str, Spin]:
         """Add the axle and return the spins of its wheels by the wheels' names.
 
-        `axle`: "front" or "rear"; `tie_rod`: gives what the inner ends of the tie rods hang on; `brake`: adds the brake
+        `axle`: "front" or "rear"; `tie_rod`: gives the owner of the inner ends of the tie rods; `brake`: adds the brake
         of a wheel, of which it is given the spin inertia, kg.m2.
         """
         spins = {}
@@ -127,8 +127,10 @@ class Axle(Section):
         if b.ports.tyre is not None:
             hub_port(b, w, spin, self.tyre, self.wheel.spin_inertia)
             return spin
-        made = self.tyre.tyre(corner.side.name)
-        tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))
+        element = self.tyre.tyre(corner.side.name)
+        tyre = b.m.add(
+            element.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road))
+        )
         b.tie_numbers(self.tyre, tyre)
         b.tie(self.tyre, "grip", tyre, "friction_factor")
         return spin

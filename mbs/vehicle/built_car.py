@@ -51,7 +51,7 @@ MOST_FAULTS = 8
 
 C = TypeVar("C", bound="BuiltCar")
 Outputs: TypeAlias = Callable[[CarBuilder, Steered, Mapping[str, Spin]], None]
-"""Adds what a car reports. Its arguments: the car but for its drawing, its steering, its wheels by name."""
+"""Adds the outputs of a car. Arguments: the car without its drawing, its steering, its wheels by name."""
 
 
 class BuiltCar(Summarised, CarContent):
@@ -92,7 +92,7 @@ class BuiltCar(Summarised, CarContent):
         """
         car = self
         if self.ports.tyre is not None:
-            car = checked_car(type(self), _on_own_tyres(self._data), self.folder, self.name, at_rest=False)
+            car = checked_car(type(self), _without_tyre_port(self._data), self.folder, self.name, at_rest=False)
         return settled(car.build(car.empty(), rest_outputs).m, car)
 
     @property
@@ -110,7 +110,7 @@ class BuiltCar(Summarised, CarContent):
     ) -> CarBuilder:
         """Add the car to an empty model (`empty`); the arguments are those of `Car.model`.
 
-        `outputs`: adds what the car reports; `drive`: adds what drives the x coordinate of the chassis' reference
+        `outputs`: adds the outputs of the car; `drive`: adds a drive of the x coordinate of the chassis' reference
         point, m; the selector is then in neutral.
         """
         if not fidelity.rigid and not self.steering.on_flexible_chassis:
@@ -192,7 +192,7 @@ class BuiltCar(Summarised, CarContent):
         m.put_off(partial(self._draw, b, spins, fidelity))
 
     def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
-        """Add all shapes, when somebody asks for the drawing."""
+        """Add all shapes when the drawing is first used."""
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def plausibility(self, what: str = "") -> list[Plausibility]:
@@ -210,8 +210,8 @@ class BuiltCar(Summarised, CarContent):
     def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
         """The car of altered content at rest, or None where that is not a car."""
         try:
-            made = checked_car(type(self), data, self.folder, self.name, at_rest=False)
-            return made, made.rest
+            car = checked_car(type(self), data, self.folder, self.name, at_rest=False)
+            return car, car.rest
         except (ModelError, ValueError):
             return None
 
@@ -241,7 +241,7 @@ class BuiltCar(Summarised, CarContent):
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
     def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
-        """The same by tables."""
+        """Add the steering, and both axles with suspensions by tables."""
         steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:
             raise ModelError(
@@ -289,7 +289,7 @@ def checked_car(
     try:
         car = kind.model_validate(data)
     except ValidationError as error:
-        raise CarFileError(_told(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
+        raise CarFileError(_fault_text(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
     car.locate("")
     car._folder = folder
     car._data = dict(data)
@@ -297,12 +297,12 @@ def checked_car(
         for axle in (car.front, car.rear):
             axle.open(folder)
     except CarFileError as error:
-        raise CarFileError(_told(what, [str(error)])) from None
+        raise CarFileError(_fault_text(what, [str(error)])) from None
     faults = car_faults(car)
     if faults:
-        raise CarFileError(_told(what, faults))
+        raise CarFileError(_fault_text(what, faults))
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
-        checked_car(kind, _on_own_tyres(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
+        checked_car(kind, _without_tyre_port(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
         return car
     if not at_rest:
         return car
@@ -312,14 +312,14 @@ def checked_car(
             if Fidelity.LOAD_PATHS in car.offered:
                 frame.recorded_loads()
         except ModelError as error:
-            raise CarFileError(_told(what, [str(error)])) from error
+            raise CarFileError(_fault_text(what, [str(error)])) from error
     try:
         model = car.empty()
         car.reported(model)
         model.look()
         rest = settled(model, car)
     except ValueError as error:
-        raise CarFileError(_told(what, [f"as drawn it is not a valid car. {error}"])) from error
+        raise CarFileError(_fault_text(what, [f"as drawn it is not a valid car. {error}"])) from error
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
         lines = [
@@ -332,12 +332,12 @@ def checked_car(
     return car
 
 
-def _on_own_tyres(data: Mapping[str, Any]) -> dict[str, Any]:
+def _without_tyre_port(data: Mapping[str, Any]) -> dict[str, Any]:
     """The content of a car file without the port of its tyres."""
     return {**data, "ports": {name: port for name, port in data["ports"].items() if name != "tyre"}}
 
 
-def _told(what: str, faults: Sequence[str]) -> str:
+def _fault_text(what: str, faults: Sequence[str]) -> str:
     lines = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
     if len(faults) > MOST_FAULTS:
         lines.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")

@@ -36,7 +36,7 @@ class Vehicle(Section):
     width: Length
     """Width of the outline without mirrors."""
     category: Literal["passenger_car", "racing_car", "truck"] | None = None
-    """Kind of vehicle: what is told is what is unusual of it, without the key what is unusual of all kinds."""
+    """Kind of vehicle, against which numbers are called unusual; without the key against all kinds."""
 
 
 class CarContent(Section):
@@ -81,7 +81,7 @@ class CarContent(Section):
 
     @property
     def axles(self) -> dict[str, Axle]:
-        """Both axles."""
+        """Front and rear axle by name."""
         return {"front": self.front, "rear": self.rear}
 
     @property

@@ -33,19 +33,19 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
                 of_list = k + 1 == len(tables) and last in PRODUCTS
                 table = table.setdefault(key, [0.0] * len(PRODUCTS) if of_list else {})
             else:
-                table = table[_place(table, key, tables[:k], what)]
+                table = table[_index(table, key, tables[:k], what)]
             if not isinstance(table, (dict, list)):
                 raise CarFileError(
                     f"{what}: {path} is not known; {'.'.join(tables[: k + 1])} is {shown(table)}, which has no keys."
                 )
         if isinstance(table, list):
-            table[_place(table, last, tables, what)] = _plain(value)
+            table[_index(table, last, tables, what)] = _plain(value)
         else:
             table[last] = _plain(value)
     return new
 
 
-def _place(table: list[Any], key: str, tables: list[str], what: str) -> int:
+def _index(table: list[Any], key: str, tables: list[str], what: str) -> int:
     """Index of an element of a list, by its number or as parameters call it."""
     key = PARTS.get(key, key)
     if not key.isdigit() or int(key) >= len(table):
@@ -55,7 +55,7 @@ def _place(table: list[Any], key: str, tables: list[str], what: str) -> int:
 
 
 def _plain(value: Any) -> Any:
-    """As a file would have it: numbers of Python, lists and tables."""
+    """A value with NumPy numbers and arrays as numbers and lists of Python."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, np.generic):

@@ -127,8 +127,8 @@ def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | N
     if picture is not None:
         from mbs.vehicle.picture import draw_car
 
-        with atomic_file(picture) as made:
-            draw_car(loaded, made)
+        with atomic_file(picture) as target:
+            draw_car(loaded, target)
         print(f"written: {picture}")
     if parameters:
         print("\n" + parameter_table(loaded))

@@ -12,7 +12,7 @@ from mbs.vehicle.schema import SCHEMA_FILE
 
 
 def copy_car(name: str, folder: Path) -> list[Path]:
-    """Copy the folder of a car; it is there whole or not at all.
+    """Copy the folder of a car, completely or not at all.
 
     Raises `CarFileError`: there is no such car, or the folder exists; `FileError`: it cannot be written.
     """

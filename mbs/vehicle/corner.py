@@ -14,7 +14,7 @@ TieRodEnd: TypeAlias = Callable[[Side, Point], End]
 
 @dataclass(frozen=True)
 class Corner:
-    """One wheel's side of a suspension."""
+    """The side of a suspension at one wheel."""
 
     side: Side
     """Axle, and left or right."""

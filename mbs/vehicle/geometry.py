@@ -11,7 +11,7 @@ LEAST = 0.02  # m: shorter links, arms and levers are refused
 
 
 def apart(points: Section, first: str, second: str, what: str, least: float = LEAST) -> Iterator[str]:
-    """Two points must not be at one place.
+    """Fault of two points at one place.
 
     `what`: stands between them, as in "the tie rod"; `least`: distance, m.
     """
@@ -23,7 +23,7 @@ def apart(points: Section, first: str, second: str, what: str, least: float = LE
 def off_line(
     points: Section, name: str, ends: tuple[str, str], what: str, line: str, least: float = LEAST
 ) -> Iterator[str]:
-    """A point must not lie on the line through two others.
+    """Fault of a point on the line through two others.
 
     `what`: what is between point and line, as in "the steering arm"; `line`: what the line is, as in "the steering
     axis"; `least`: distance, m.
@@ -40,7 +40,7 @@ def off_line(
 def farther(
     points: Section, axis: str, first: str, second: str, way: str, what: str, least: float = 0.0
 ) -> Iterator[str]:
-    """A point must lie farther along an axis than another.
+    """Fault of a point that does not lie farther along an axis than another.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def farther(
 
 
 def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
-    """The steering axis of a wheel stands nearly upright."""
+    """Faults of a steering axis that is not nearly upright."""
     x, y, z = np.subtract(getattr(points, upper), getattr(points, lower))
     if z <= 0.0:
         return  # `farther` says so
@@ -78,7 +78,7 @@ def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
 
 
 def arm(points: Section, part: str, what: str) -> Iterator[str]:
-    """An arm with two pivots and a ball joint has an axis and a length, and its ends are where their names say.
+    """Faults of an arm with two pivots and a ball joint: no axis, no length, or ends not where their names say.
 
     `points`: table of the points, with those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
     ``{part}_ball_joint``; `part`: "lower" or "upper"; `what`: what it is, as in "wishbone".
@@ -92,7 +92,7 @@ def arm(points: Section, part: str, what: str) -> Iterator[str]:
 
 
 def steering_rod(points: Section, rod: str, axis: tuple[str, str], line: str) -> Iterator[str]:
-    """A rod that steers has a length and a lever about the steering axis, which stands nearly upright.
+    """Faults of a rod that steers: no length, no lever about the steering axis, or an axis that is not upright.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def steering_rod(points: Section, rod: str, axis: tuple[str, str], line: str) ->
     axis : (str, str)
         Lower and upper point of the steering axis.
     line : str
-        What the axis is, as in "the steering axis".
+        Name of the axis, as in "the steering axis".
     """
     inner, outer = (f"{rod.replace(' ', '_')}_{end}" for end in ("inner", "outer"))
     yield from steering_axis(points, *axis)

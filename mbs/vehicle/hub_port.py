@@ -12,10 +12,10 @@ LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
 
 
 def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) -> None:
-    """Add inputs, their element, and what a tyre needs to know beside place, axis, velocity and speed of the wheel.
+    """Add inputs, their element, and constants of the wheel for a tyre model in another program.
 
-    `wheel`: its name, as "FL"; `tyre`: that which is left out; what another program has in its place is taken for like
-    it; `inertia`: of the wheel about its axis, kg m2.
+    `wheel`: its name, as "FL"; `tyre`: the one left out, to which that of the other program is taken to be
+    similar; `inertia`: of the wheel about its axis, kg m2.
     """
     by_slip, stiffness, settling, fading = tyre.carcass
     lever = tyre.radius**2 / inertia

@@ -43,7 +43,7 @@ def car_outputs(
         stress_outputs(m, b.chassis, frame, fidelity)
     if car.chassis.ground_contact is not None:
         _ground(m)
-    _works(m)
+    _work_sensors(m)
     vehicle_constants(m, car)
     steered.torque_outputs()
     for name, spin in spins.items():
@@ -216,7 +216,7 @@ WORKS = {  # what works on the car: first words of the names of its elements, de
 }
 
 
-def _works(m: Model) -> None:
+def _work_sensors(m: Model) -> None:
     """Work since the start of all that may give or take energy, without what it stores."""
     for name, (starts, text) in WORKS.items():
         elements = [e for e in m.elements if e.name.startswith(starts)]

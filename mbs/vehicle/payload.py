@@ -24,10 +24,10 @@ class Payload(Section):
         """
         body, share = b.chassis.frame, None
         if not fidelity.rigid:
-            origin, axes, place = b.chassis.contact_frame
+            origin, axes, position = b.chassis.contact_frame
             body = b.chassis.body
             share = origin
-            for axis, size in zip(axes, np.subtract(self.point, place), strict=True):
+            for axis, size in zip(axes, np.subtract(self.point, position), strict=True):
                 share = share + axis * float(size)
         payload = b.m.payload(name, body, self.point, mass=self.mass, point=share)
         b.tie(self, "mass", payload, "mass")

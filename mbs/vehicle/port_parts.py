@@ -34,7 +34,7 @@ def torque_ports(
 ) -> None:
     """Torques on the wheels in place of a drive.
 
-    `spins`: of the wheels, by their names; `drive`: what they replace; with half shafts its parts that turn with the
+    `spins`: of the wheels, by their names; `drive`: the one they replace; with half shafts its parts that turn with the
     wheels stay; `kind`: "half_shafts" or "hub_motors": with half shafts the reaction is about the lateral axis of the
     chassis, as that of `drive` is; with hub motors about the axis of the wheel on its carrier.
     """
@@ -151,8 +151,8 @@ def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, S
     elements = [element for element in m.elements if element.name.startswith("port ")]
     if car.ports.road is not None:
         standing = [e for e in m.elements if e.name.startswith("tyre ") or e.name == GROUND_CONTACT]
-        told = "what answers on the road have added to the energy stored in tyres and ground since the start"
-        m.sense_energy("energy.road", "by inputs", standing, description=told)
+        text = "what answers on the road have added to the energy stored in tyres and ground since the start"
+        m.sense_energy("energy.road", "by inputs", standing, description=text)
     text = "work of the ports since the start; that of the brakes is in energy.brakes"
     guided = car.ports.steering == "rack_position"
     if elements or guided:

@@ -23,8 +23,8 @@ def car_names() -> list[str]:
 def read_car(kind: type[C], car: str | Path) -> C:
     """`mbs.vehicle.load`, which describes the argument `car`, for a car of any class."""
     if isinstance(car, str) and car in car_names():
-        known: C = _of_package(kind, car)
-        return known
+        shipped: C = _shipped_car(kind, car)
+        return shipped
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
@@ -43,10 +43,10 @@ def file_of(car: str | Path) -> Path:
     try:
         if path.is_dir():
             path = path / FILE
-        there = path.exists()
+        exists = path.exists()
     except (OSError, ValueError):
-        there = False
-    if not str(car) or not there:
+        exists = False
+    if not str(car) or not exists:
         names = car_names()
         file = "" if "\0" in str(car) else f": no file {path}"
         near = did_you_mean(str(car), names, f"the cars of the package are {', '.join(names)}", 1)
@@ -55,7 +55,7 @@ def file_of(car: str | Path) -> Path:
 
 
 @cache
-def _of_package(kind: type[C], name: str) -> C:
+def _shipped_car(kind: type[C], name: str) -> C:
     path = CARS / name / FILE
     content = read_toml(path, CarFileError)
     # a test holds that they stand as drawn

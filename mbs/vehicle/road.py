@@ -23,10 +23,10 @@ class RoadSection(Section):
     friction: RoadFriction
     """Friction of the road: the forces of each tyre are those of its curves times it over `reference_friction`."""
     friction_factor: Factor = 1.0
-    """Multiplies it, and the frictions of a road from a file."""
+    """Factor on `friction`, and on the frictions of a road from a file."""
 
     def default(self) -> KerbRoad:
-        """Level ground with a kerb."""
+        """The road without a file: level ground with a kerb."""
         return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
 
     def grip_of(self, tyre: Tyre) -> float:

@@ -24,11 +24,11 @@ def json_schema() -> dict[str, Any]:
     dict
         As `json.dumps` takes it.
     """
-    made = Car.model_json_schema(ref_template="#/definitions/{model}", schema_generator=_Generator)
-    made["definitions"] = dict(sorted(made.pop("$defs").items()))
-    made["definitions"] = {name: _plain(table) for name, table in made["definitions"].items()}
+    schema = Car.model_json_schema(ref_template="#/definitions/{model}", schema_generator=_Generator)
+    schema["definitions"] = dict(sorted(schema.pop("$defs").items()))
+    schema["definitions"] = {name: _plain(table) for name, table in schema["definitions"].items()}
     head: dict[str, Any] = {"$schema": DRAFT, "title": "Car file of ALi3"}
-    head.update(_plain({key: value for key, value in made.items() if key != "title"}))
+    head.update(_plain({key: value for key, value in schema.items() if key != "title"}))
     return head
 
 
@@ -74,7 +74,7 @@ def _plain(schema: Any) -> Any:
 
 
 def _field(schema: Any) -> Any:
-    """Its unit stands in the description, which editors show."""
+    """Schema of a field with its unit in the description, which editors show."""
     items = schema.get("items", {})
     unit = schema.get("unit") or (items.get("unit") if isinstance(items, dict) else None)
     text = " ".join(schema.get("description", "").split())

@@ -30,15 +30,15 @@ class Section(BaseModel):
 
     def __init_subclass__(cls, of: type | None = None, **options: Any) -> None:
         super().__init_subclass__(**options)
-        texts, known = {} if of is None else texts_of(of), vars(sys.modules[cls.__module__])
+        texts, namespace = {} if of is None else texts_of(of), vars(sys.modules[cls.__module__])
         for name in texts.keys() & cls.__annotations__.keys():
-            given = cls.__dict__.get(name, ...)
-            if not isinstance(given, FieldInfo):  # else it has a text of its own
+            field = cls.__dict__.get(name, ...)
+            if not isinstance(field, FieldInfo):  # else it has a text of its own
                 annotation = cls.__annotations__[name]
                 if isinstance(annotation, str):  # of a module that defers its annotations
-                    annotation = eval(annotation, known)
+                    annotation = eval(annotation, namespace)
                 text = _without_unit(" ".join(texts[name].split()), annotation)
-                setattr(cls, name, Field(given, description=text))
+                setattr(cls, name, Field(field, description=text))
 
     def element(self, kind: type[Element], **more: Any) -> Element:
         """An element that has the numbers of this table in its fields of the same names.
@@ -98,7 +98,7 @@ class Section(BaseModel):
 
 
 def _without_unit(text: str, annotation: Any) -> str:
-    """A sentence on a number without the unit, which a quantity has beside it."""
+    """A sentence on a number without its unit, which a quantity states separately."""
     units = {q.unit.replace(".", " ") for q in quantities_in(annotation)} - {"1"}
     assert all(f", {unit}" in text for unit in units), f"{text!r} must say its unit, {units}"
     for unit in units or {"a ratio"}:

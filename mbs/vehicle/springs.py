@@ -117,7 +117,7 @@ class Spring(Section, of=SpringDamper):
     """Factor on the force of the spring."""
 
     def faults(self) -> Iterator[str]:
-        """The force is given by a number or by a table, not by both."""
+        """Fault of a force that has neither or both of a number and a table."""
         yield from law_faults(self, "stiffness", self.stiffness, self.table, SPRING_TABLE)
 
     @property
@@ -145,7 +145,7 @@ class Damper(Section, of=SpringDamper):
     """Factor on the force of the damper."""
 
     def faults(self) -> Iterator[str]:
-        """The force is given by a number or by a table, not by both."""
+        """Fault of a force that has neither or both of a number and a table."""
         yield from law_faults(self, "damping", self.damping, self.table, DAMPER_TABLE)
 
     @property
@@ -220,7 +220,7 @@ def spring_and_damper(
     `lower`, `upper`: the ends as drawn, m.
     """
     difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
-    return _on_line(b, name, difference, math.dist(lower[1], upper[1]), springs)
+    return _add_along_line(b, name, difference, math.dist(lower[1], upper[1]), springs)
 
 
 def spring_beside_damper(
@@ -251,10 +251,12 @@ def spring_of_length(
     """
     both = ((spring, springs),) if damper is None else zip((spring, damper), springs.beside_damper, strict=True)
     for name, ((length, drawn), alone) in zip(("spring", "damper"), both, strict=False):
-        _on_line(b, f"{name} {wheel}", AffineVector((Affine(), Affine(), length)), drawn, alone)
+        _add_along_line(b, f"{name} {wheel}", AffineVector((Affine(), Affine(), length)), drawn, alone)
 
 
-def _on_line(b: CarBuilder, name: str, difference: AffineVector, drawn: float, springs: AxleSprings) -> ElementRecord:
+def _add_along_line(
+    b: CarBuilder, name: str, difference: AffineVector, drawn: float, springs: AxleSprings
+) -> ElementRecord:
     """Add spring, damper and stops along a line between two ends. `drawn`: its length in the drawing, m."""
     spring, damper, stops = springs.spring, springs.damper, springs.stops
     stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law

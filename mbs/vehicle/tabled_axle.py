@@ -55,7 +55,7 @@ class TabledParts:
         """
         (part,) = (b for b in self._grid.linkage.model.bodies if b.name == name)
         poses = self._grid.full(part.start, 12)
-        parameters, axes, poses = self._over(name, poses)
+        parameters, axes, poses = self._table_of(name, poses)
         rotations = np.swapaxes(poses[..., 3:].reshape(*poses.shape[:-1], 3, 3), -1, -2)
         return self._m.tabled_body(
             name,
@@ -79,10 +79,10 @@ class TabledParts:
 
     def _angle(self, name: str) -> Coordinate:
         (k,) = (k for k, c in enumerate(self._grid.linkage.model.coordinates) if c.name == name)
-        parameters, axes, values = self._over(name, self._grid.full(k, 1))
+        parameters, axes, values = self._table_of(name, self._grid.full(k, 1))
         return self._m.tabled_number(name, parameters=parameters, axes=axes, values=values[..., 0])
 
-    def _over(self, name: str, values: Array) -> tuple[list[Coordinate], list[Array], Array]:
+    def _table_of(self, name: str, values: Array) -> tuple[list[Coordinate], list[Array], Array]:
         """Table of a quantity of a wheel: its coordinates, the grid points along each, and the values on the grid."""
         grid = self._grid
         if grid.coupled:

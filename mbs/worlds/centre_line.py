@@ -19,7 +19,7 @@ ITERATIONS = 3
 LEAST_SLOPE, LONGEST = 0.3, 5.0
 """Of its derivative, which is 0 at the centre of curvature, and of one correction, m: guards where a place is far."""
 GAP = 0.05
-"""m: by how much the ends of a closed course may miss each other."""
+"""m: largest gap between the ends of a closed course."""
 
 
 @dataclass(frozen=True)
@@ -95,11 +95,11 @@ def curve_through(points: Float, closed: bool, name: str) -> tuple[CubicSpline, 
     """
     if closed and np.hypot(*(points[0] - points[-1])) > 1e-9:
         points = np.vstack([points, points[:1]])
-    way = np.hypot(*np.diff(points, axis=0).T)
-    if (way <= 1e-6).any():
-        k = int(np.argmin(way))
+    lengths = np.hypot(*np.diff(points, axis=0).T)
+    if (lengths <= 1e-6).any():
+        k = int(np.argmin(lengths))
         raise RoadFileError(f"Points {k + 1} and {k + 2} of the course '{name}' are the same; leave one out.")
-    u = np.concatenate([[0.0], np.cumsum(way)])
+    u = np.concatenate([[0.0], np.cumsum(lengths)])
     return CubicSpline(u, points, bc_type="periodic" if closed else "natural"), u
 
 
@@ -160,9 +160,9 @@ def _arc(x: float, y: float, yaw: float, curvature: float, s: Float) -> tuple[Fl
 
 
 def _equal(points: Float, closed: bool, length: float | None = None) -> CentreLine:
-    way = points[-1] - points[0]
-    size = float(np.hypot(*way))
-    off = np.abs(way[0] * (points[:, 1] - points[0, 1]) - way[1] * (points[:, 0] - points[0, 0]))
+    chord = points[-1] - points[0]
+    size = float(np.hypot(*chord))
+    off = np.abs(chord[0] * (points[:, 1] - points[0, 1]) - chord[1] * (points[:, 0] - points[0, 0]))
     straight = not closed and bool((off <= 1e-9 * size * max(size, 1.0)).all())
     if straight:
         points = np.linspace(points[0], points[-1], max(5, math.ceil(size / STEP) + 1))

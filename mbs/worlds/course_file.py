@@ -45,13 +45,13 @@ KNOWN = (
 STEEP = 0.3
 """A course that climbs more is warned about: the steepest streets have 0.35."""
 GAP = 25.0
-"""Two points that are so many times as far apart as the others, and 10 m, are a gap."""
+"""Two points this many times as far apart as the others, and 10 m or more, are a gap."""
 
 
 def course_layer(
     course: Course, folder: Path, bounds: tuple[float, float, float, float], ground: HeightOf
 ) -> CourseLayer:
-    """A course as it is laid on the ground. Raises `RoadFileError` with what is wrong with the course."""
+    """Layer of a course on the ground. Raises `RoadFileError` with the fault of the course."""
     given = [name for name in ("segments", "points") if getattr(course, name) is not None]
     if len(given) != 1:
         raise RoadFileError(f"The course '{course.name}' must have segments or points, one of them.")
@@ -209,7 +209,7 @@ def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float,
 
 
 def _crossings(line: CentreLine, course: Course, width: Float) -> None:
-    """A course may not cross itself: it would have two heights there. `width`: at each point of the line, m."""
+    """Refuse a course that crosses itself, where it would have two heights. `width`: at each point of the line, m."""
     s = line.stations[:-1] if line.closed else line.stations
     points = line.points[: len(s)]
     pairs = cKDTree(points).query_pairs(0.9 * width.max(), output_type="ndarray")

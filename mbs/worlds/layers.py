@@ -43,7 +43,7 @@ class Layer(Protocol):
     blend: float
 
     def near(self, x: Float, y: Float) -> tuple[Float, Float]:
-        """About how far places are from the surface, m, and their station; beyond its reach FAR."""
+        """Approximate distances of points from the surface, m, and their stations; FAR beyond its reach."""
 
     def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
         """The layer at places whose stations are about known."""

@@ -62,9 +62,9 @@ def make_world(
 ) -> dict[str, Any]:
     """Write the road file of a world, and return its record.
 
-    `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with what is done and its part, 0 to 1;
-    `thin`: fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off. Raises
-    `RoadFileError` with what is wrong.
+    `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with the name of a stage and its completed
+    share, 0 to 1; `thin`: fewer and rounder numbers, for a page; their deviation is under ``thin`` in the record.
+    Raises `RoadFileError` with the fault.
     """
     if (world := described(file)) is not None:
         if thin:
@@ -80,7 +80,7 @@ def make_world(
         write_world_road(terrain, road, lambda part: tell("road", part), thin)
         off = {"thin": off_by(terrain, road).sentence} if thin else {}
         return record | {"checksum": checksum_of(road)} | off
-    return _of_road(file, name, road)
+    return _road_record(file, name, road)
 
 
 def _check_size(world: WorldDescription, file: Path) -> None:
@@ -106,7 +106,7 @@ def checksum_of(road: Path) -> int:
 
 
 def part_of_world(road: Path) -> dict[str, Any] | None:
-    """What is drawn of a road file by the record beside it, where there is one and it is of this road."""
+    """Drawing of a road from the record beside its file; None if there is no record of this road."""
     record = record_of_road(road)
     return None if record is None or not record.get("roads") else record["roads"][0]
 
@@ -122,7 +122,7 @@ def record_of_road(road: Path) -> dict[str, Any] | None:
     return None
 
 
-def _of_road(file: Path, name: str, target: Path) -> dict[str, Any]:
+def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
     """A world that is a road alone."""
     road = read_thinned(file) if file.suffix.lower() == ".road" else read_road(file)
     if file.suffix.lower() == ".road":

@@ -92,7 +92,7 @@ def _cut(terrain: Terrain, rectangle: tuple[float, float, float, float], z: Floa
 
 
 def _detail(terrain: Terrain, rectangle: tuple[float, float, float, float], dx: float, dy: float) -> str:
-    """Patches on obstacles are cut until their points cannot miss them."""
+    """Axis along which a patch is cut so that its points cannot miss an obstacle; empty if it is fine enough."""
     x, y, a, b = rectangle
     for base, part in terrain.obstacles:
         x0, y0, x1, y1 = base.box()

@@ -31,7 +31,7 @@ def make_road(options: argparse.Namespace) -> int:
     output: Path | None = options.output
     if output is not None and output.suffix.lower() != ".road":
         raise UserError(f"{output} would be a road file; give it the suffix .road.")
-    given = _given(options)
+    arguments = _grid_arguments(options)
     only_part = options.part is not None and output is None and options.picture is None
     if only_part and (part := part_of_world(options.input)) is not None:
         write_text(options.part, json.dumps(part, allow_nan=False))
@@ -48,7 +48,7 @@ def make_road(options: argparse.Namespace) -> int:
         _write_table(options.json, plausibility)
         return 0
     with warning_lines():
-        road = read_road(options.input, **given)
+        road = read_road(options.input, **arguments)
         # who makes a road file says later where a drive on it begins
         start = tuple(options.start or (0.0, 0.0)) if output is None or options.start is not None else None
         plausibility = road_plausibility(str(options.input), road, start)
@@ -58,8 +58,8 @@ def make_road(options: argparse.Namespace) -> int:
             write_road(road, output)
         RoadFile(output).read()  # as it lies on the disk
     if options.picture is not None:
-        with atomic_file(options.picture) as made:
-            draw_road(road, made, options.input.name, _starts(options))
+        with atomic_file(options.picture) as target:
+            draw_road(road, target, options.input.name, _starts(options))
     if options.part is not None:
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
     print("\n".join([*_lines(road), plausibility.text()]))
@@ -76,22 +76,22 @@ def _write_table(file: Path | None, plausibility: Plausibility) -> None:
 
 
 def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
-    """Where a drive may begin: as asked, the places of the world that a road file is of, else the origin."""
+    """Starts of a drive by name, x and y in m: that of the options, else those of the road's world, else (0, 0)."""
     if options.start is not None:
         return {"start": tuple(options.start)}
     record = record_of_road(options.input) or {}
     return {p["name"]: (p["x"], p["y"]) for p in record.get("places", [])} or {"start": (0.0, 0.0)}
 
 
-def _given(options: argparse.Namespace) -> dict[str, Any]:
+def _grid_arguments(options: argparse.Namespace) -> dict[str, Any]:
     """Arguments of a grid; refused for what says it all itself."""
-    given: dict[str, Any] = {
+    arguments: dict[str, Any] = {
         "origin": options.origin,
         "spacing": options.spacing,
         "height_range": options.range,
         "friction_range": options.friction_range,
     }
-    found: dict[str, Any] = {name: tuple(value) for name, value in given.items() if value is not None}
+    found: dict[str, Any] = {name: tuple(value) for name, value in arguments.items() if value is not None}
     if options.frictions is not None:
         try:
             found["frictions"] = float(options.frictions)
@@ -104,7 +104,7 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
-    """What the road is, beside its quantities."""
+    """Lines that describe the kind and extent of a road."""
     if not isinstance(road, GridRoad):
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
         words = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))

@@ -35,10 +35,10 @@ def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:
     for line in world.lines:
         found += _painted(terrain, line)
     for cones in world.cones:
-        places = np.array(cone_places(cones), float)
+        positions = np.array(cone_places(cones), float)
         found += [
             {"kind": "cone", "at": at, "height": cones.height, "colour": cones.colour}
-            for at in _on_ground(terrain, places)
+            for at in _on_ground(terrain, positions)
         ]
     for kind, parts in (("sign", world.signs), ("arrow", world.arrows), ("building", world.buildings)):
         for part in parts:
@@ -52,8 +52,8 @@ def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:
 
 def cone_places(cones: Cones) -> list[tuple[float, float]]:
     """x and y of cones, m. Raises `RoadFileError`: it is not said where they stand."""
-    given = [cones.at is not None, cones.lane_change is not None, cones.slalom is not None]
-    if sum(given) != 1 or (cones.at is None and cones.start is None):
+    definitions = [cones.at is not None, cones.lane_change is not None, cones.slalom is not None]
+    if sum(definitions) != 1 or (cones.at is None and cones.start is None):
         raise RoadFileError("Cones must have `at`, or `start` and one of `lane_change` and `slalom`.")
     if cones.at is not None:
         return list(cones.at)
@@ -68,27 +68,27 @@ def cone_places(cones: Cones) -> list[tuple[float, float]]:
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]
 
 
-def _on_ground(terrain: Terrain, places: Float) -> list[list[float]]:
-    z = terrain.at(places[:, 0], places[:, 1])
-    return [[round(float(v), 4) for v in (*place, height)] for place, height in zip(places, z, strict=True)]
+def _on_ground(terrain: Terrain, positions: Float) -> list[list[float]]:
+    z = terrain.at(positions[:, 0], positions[:, 1])
+    return [[round(float(v), 4) for v in (*position, height)] for position, height in zip(positions, z, strict=True)]
 
 
 def draped(terrain: Terrain, x: Float, y: Float) -> list[list[float]]:
     """A line on the ground through dense places: points between which straight lines are near enough."""
     points = np.stack([x, y, terrain.at(x, y)], axis=1)
-    kept = _thinned(points)
-    return [[round(float(v), 4) for v in point] for point in points[kept]]
+    needed = _thinned(points)
+    return [[round(float(v), 4) for v in point] for point in points[needed]]
 
 
 def _thinned(points: Float) -> list[int]:
     """Indices of the points that a line needs."""
 
     def off(a: int, b: int) -> Float:
-        way = points[b] - points[a]
-        size = float(way @ way)
+        chord = points[b] - points[a]
+        size = float(chord @ chord)
         inner = points[a + 1 : b] - points[a]
-        share = np.clip(inner @ way / size, 0.0, 1.0) if size > 0.0 else np.zeros(len(inner))
-        distance: Float = np.linalg.norm(inner - share[:, None] * way, axis=1)
+        share = np.clip(inner @ chord / size, 0.0, 1.0) if size > 0.0 else np.zeros(len(inner))
+        distance: Float = np.linalg.norm(inner - share[:, None] * chord, axis=1)
         return distance
 
     return needed_points(len(points), off, OFF)
@@ -141,8 +141,8 @@ def _posts(terrain: Terrain, layer: CourseLayer) -> Iterator[dict[str, Any]]:
         s = np.arange(0.0, layer.line.length, layer.course.posts)
         for side in (-1.0, 1.0):
             x, y = _beside(layer, s, side * (layer.half(s) + 1.0))
-            kept = terrain.nearest_layer(x, y) > -0.5
-            for at in _on_ground(terrain, np.stack([x, y], axis=1)[kept]):
+            free = terrain.nearest_layer(x, y) > -0.5
+            for at in _on_ground(terrain, np.stack([x, y], axis=1)[free]):
                 yield {"kind": "post", "at": at, "height": 1.0}
 
 
@@ -197,7 +197,7 @@ def _trees(terrain: Terrain) -> Iterator[dict[str, Any]]:
     free = terrain.nearest_layer(x, y) > trees.distance
     for building in terrain.world.buildings:
         free &= np.hypot(x - building.at[0], y - building.at[1]) > 0.7 * max(building.size[:2]) + 5.0
-    kept = np.flatnonzero(free)[: trees.count]
-    places = _on_ground(terrain, np.stack([x, y], axis=1)[kept])
-    for at, h, k in zip(places, height[kept], seed[kept], strict=True):
+    chosen = np.flatnonzero(free)[: trees.count]
+    positions = _on_ground(terrain, np.stack([x, y], axis=1)[chosen])
+    for at, h, k in zip(positions, height[chosen], seed[chosen], strict=True):
         yield {"kind": "tree", "at": at, "height": round(float(h), 2), "seed": int(k)}

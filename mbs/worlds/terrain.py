@@ -20,7 +20,7 @@ MOST_NODES = 1_500_000
 STEEPEST = 3.0
 """Slope of what is carved into the ground, times its weight, that only a step has."""
 EDGE = 1.0
-"""m: beside a layer and its shoulder, where its own heights go over into those of the lattice."""
+"""m: width of the transition from the heights of a layer with its shoulder to those of the lattice."""
 
 
 class Terrain:
@@ -94,7 +94,7 @@ class Terrain:
         return np.asarray(np.clip(np.rint((values - first[0]) / self.step), 0.0, len(first) - 1.0), np.int64)
 
     def on_grid(self, x: Float, y: Float) -> tuple[Float, NDArray[np.uint8], Float]:
-        """Heights, surfaces as places in `names`, and how far they go on, at all pairs of rising coordinates.
+        """Heights, surfaces as indices in `names`, and how far they extend, at all pairs of rising coordinates.
 
         `x`, `y`: m, shapes (n,) and (m,).
 
@@ -112,7 +112,7 @@ class Terrain:
         rows, columns = np.nonzero(self.nearest[np.ix_(i, j)] < EDGE + self.step)
         if len(rows):
             part = (rows, columns)
-            z[part], surfaces[part], same[part] = self._laid(x[rows], y[columns], i[rows], j[columns], z[part])
+            z[part], surfaces[part], same[part] = self._with_layers(x[rows], y[columns], i[rows], j[columns], z[part])
         for base, band in self.bands:
             if (block := _block(base, x, y)) is not None:
                 inside = base.inside(x[block[0], None], y[None, block[1]])
@@ -131,7 +131,7 @@ class Terrain:
         i, j = self._node(x, self.x), self._node(y, self.y)
         part = np.flatnonzero(self.nearest[i, j] < EDGE + self.step)
         if len(part):
-            z[part] = self._laid(x[part], y[part], i[part], j[part], z[part])[0]
+            z[part] = self._with_layers(x[part], y[part], i[part], j[part], z[part])[0]
         for base, obstacle in self.obstacles:
             inside = np.flatnonzero(base.inside(x, y))
             if len(inside):
@@ -149,13 +149,13 @@ class Terrain:
         return found
 
     def nearest_layer(self, x: Float, y: Float) -> Float:
-        """About how far places are from the nearest course or area and its shoulder, m; beyond its reach 1e6."""
+        """Approximate distances of points from the nearest course or area and its shoulder, m; 1e6 beyond its reach."""
         return self.nearest[self._node(x, self.x), self._node(y, self.y)].astype(float)
 
-    def _laid(
+    def _with_layers(
         self, x: Float, y: Float, i: NDArray[np.int64], j: NDArray[np.int64], carved: Float
     ) -> tuple[Float, NDArray[np.uint8], Float]:
-        """As `on_grid`, near layers, at places to which lattice points (i, j) are nearest."""
+        """Heights, surfaces and distances as of `on_grid`, near layers, at places next to the lattice points (i, j)."""
         z = self.ground.at(x, y)
         surfaces = np.zeros(len(x), np.uint8)
         nearest, same = np.full(len(x), FAR), np.full(len(x), FAR)
@@ -173,7 +173,7 @@ class Terrain:
 
 
 def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
-    """What a footprint reaches of a grid."""
+    """Rows and columns of a grid within the box of a footprint; None if there are none."""
     x0, y0, x1, y1 = base.box()
     rows = slice(int(np.searchsorted(x, x0)), int(np.searchsorted(x, x1, "right")))
     columns = slice(int(np.searchsorted(y, y0)), int(np.searchsorted(y, y1, "right")))

@@ -26,37 +26,37 @@ from mbs.worlds.world_cache import add_file, key_of, world_files
 from mbs.worlds.world_file import named_files
 
 
-def world(given: str, out: Path, picture: Path | None, thin: bool = False, table: Path | None = None) -> int:
+def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False, table: Path | None = None) -> int:
     """Put the files of a world into a folder; gives the exit code.
 
-    `given`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers, for a
-    page; `table`: JSON file of what was understood of it. Raises `UserError`: it is not a world.
+    `name_or_file`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers,
+    for a page; `table`: JSON file of its plausibility. Raises `UserError`: it is not a world.
     """
     begin = time.perf_counter()
-    file = _file(given)
+    file = _file(name_or_file)
     name = file.stem
     files = [file]
     if file.suffix.lower() == ".toml":
         name, others = named_files(file)
         files += others
     key = key_of(files) + ("-thin" if thin else "")
-    made, kept = world_files(key, lambda folder: _make(file, name, folder, thin), out)
+    paths, cached = world_files(key, lambda folder: _make(file, name, folder, thin), out)
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw(out / f"{name}.json", target), picture)
-        made.append(picture)
+        paths.append(picture)
     plausibilities = _plausibilities(file, out / f"{name}.road")
     print(summary_of(plausibilities))
     if table is not None:
         write_json(table, tables_of(plausibilities))
-        made.append(table)
-    for path in made:
+        paths.append(table)
+    for path in paths:
         print(f"written: {path} ({path.stat().st_size / 1e6:.3g} MB)")
     record = read_json(out / f"{name}.json")
-    for told in record.get("warnings", []) if kept else []:
-        print(f"warning: {told}", file=sys.stderr)
+    for warning in record.get("warnings", []) if cached else []:
+        print(f"warning: {warning}", file=sys.stderr)
     if (off := record.get("thin")) is not None:
         print(off)
-    print(f"{'kept from before' if kept else 'made'}: {time.perf_counter() - begin:.2f} s")
+    print(f"{'kept from before' if cached else 'made'}: {time.perf_counter() - begin:.2f} s")
     return 0
 
 
@@ -66,26 +66,28 @@ def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
     return [*(plausibility_of(found) if found is not None else []), *plausibility_of(RoadFile(road))]
 
 
-def _file(given: str) -> Path:
-    """The file that a name or path means."""
-    path = Path(given)
+def _file(name_or_file: str) -> Path:
+    """File of a world of the package by its name, or of a path."""
+    path = Path(name_or_file)
     if is_file(path):
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
-            raise UserError(f"{given} is not a world; a world or a road is a file of these kinds: {', '.join(kinds)}.")
+            raise UserError(
+                f"{name_or_file} is not a world; a world or a road is a file of these kinds: {', '.join(kinds)}."
+            )
         return path
-    for place in (WORLDS / f"{given}.toml", ROADS / f"{given.removesuffix('.road')}.road"):
-        if is_file(place) and Path(given).name == given:
-            return place
+    for candidate in (WORLDS / f"{name_or_file}.toml", ROADS / f"{name_or_file.removesuffix('.road')}.road"):
+        if is_file(candidate) and Path(name_or_file).name == name_or_file:
+            return candidate
     worlds = shipped_worlds()
-    near = did_you_mean(given, worlds, f"worlds are {', '.join(worlds)}", 1)
-    raise UserError(f"There is no world '{given}' and no such file{near}")
+    near = did_you_mean(name_or_file, worlds, f"worlds are {', '.join(worlds)}", 1)
+    raise UserError(f"There is no world '{name_or_file}' and no such file{near}")
 
 
 def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
-    with warning_lines() as told:
+    with warning_lines() as messages:
         record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name), thin)
-    if told:
-        record["warnings"] = told
+    if messages:
+        record["warnings"] = messages
     (folder / f"{name}.json").write_text(
         json.dumps(record, allow_nan=False, separators=(",", ":"), ensure_ascii=False), encoding="utf-8"
     )
@@ -96,16 +98,16 @@ def _draw(record: Path, target: Path) -> None:
 
 
 class _Line:
-    """A line that says what is done, on a terminal over and over, else once a part."""
+    """Progress of the work on standard error: on a terminal one line that is overwritten, else a line per part."""
 
     def __init__(self, name: str) -> None:
-        self.name, self.said, self.part = name, 0.0, ""
+        self.name, self.printed, self.part = name, 0.0, ""
 
     def __call__(self, part: str, share: float) -> None:
         now = time.perf_counter()
         if sys.stderr.isatty():
-            if now - self.said > 0.2 or share >= 1.0:
-                self.said = now
+            if now - self.printed > 0.2 or share >= 1.0:
+                self.printed = now
                 end = "\n" if share >= 1.0 else ""
                 print(f"\r{self.name}: {part} {100.0 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
         elif part != self.part:

@@ -27,7 +27,7 @@ MADE = "made"
 
 
 def key_of(files: Iterable[Path]) -> str:
-    """A name for what is made of files: another content or another version of the code, another name."""
+    """Name of the world made from files, different for another content or another version of the code."""
     digest = hashlib.sha256()
     sources = [path for entry in CODE for path in _sources(ROOT / entry)]
     for path in (*sources, *files):
@@ -37,12 +37,12 @@ def key_of(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:32]
 
 
-def _sources(place: Path) -> list[Path]:
-    return sorted(p for p in place.iterdir() if p.suffix in (".py", ".csv")) if place.is_dir() else [place]
+def _sources(entry: Path) -> list[Path]:
+    return sorted(p for p in entry.iterdir() if p.suffix in (".py", ".csv")) if entry.is_dir() else [entry]
 
 
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
-    """The files of a world in a folder, from those that are kept, or made.
+    """The files of a world in a folder, from the cache or newly made.
 
     `key`: from `key_of`; `make`: writes the files into an empty folder.
 
@@ -50,22 +50,22 @@ def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list
     -------
     files : list of Path
         In `out`.
-    kept : bool
+    cached : bool
         Whether they had been made before.
     """
     make_folder(out)
     home = cache_folder("worlds")
     entry = home / key
-    if kept := (entry / MADE).is_file():
+    if cached := (entry / MADE).is_file():
         try:
             os.utime(entry)  # used now
-            return _copied(entry, out), kept
+            return _copied(entry, out), cached
         except FileNotFoundError:  # removed by another run just now
             pass
-    with temporary_folder(out) as made:
-        make(made)
-        _keep(made, home, entry)
-        return _copied(made, out), False
+    with temporary_folder(out) as folder:
+        make(folder)
+        _keep(folder, home, entry)
+        return _copied(folder, out), False
 
 
 def _copied(folder: Path, out: Path) -> list[Path]:
@@ -76,20 +76,20 @@ def _copied(folder: Path, out: Path) -> list[Path]:
     return [out / name for name in names]
 
 
-def _keep(made: Path, home: Path, entry: Path) -> None:
-    """Copy what was made into the cache, whole or not at all; without one it is made again next time."""
+def _keep(folder: Path, home: Path, entry: Path) -> None:
+    """Copy the files of a world into the cache, all or none; otherwise they are made again next time."""
     try:
-        with atomic_folder(entry) as place:
-            for path in made.iterdir():
-                shutil.copyfile(path, place / path.name)
-            (place / MADE).touch()
+        with atomic_folder(entry) as target:
+            for path in folder.iterdir():
+                shutil.copyfile(path, target / path.name)
+            (target / MADE).touch()
         forget_oldest(home, MOST_KEPT)
     except OSError as error:
         print(f"The world is not kept for the next time: {str(error).rstrip('.')}.", file=sys.stderr)
 
 
 def add_file(key: str, name: str, make: Callable[[Path], None], out: Path) -> None:
-    """One more file of a world that is kept, such as its map; `make` writes it where there is none."""
+    """Add a file to a cached world, such as its map; `make` writes it if it is missing."""
     entry = cache_folder("worlds") / key
     stored: Any = entry / name
     with atomic_file(out) as target:

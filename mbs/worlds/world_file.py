@@ -14,7 +14,7 @@ def is_world(table: Mapping[str, Any]) -> bool:
 
 
 def named_files(file: Path) -> tuple[str, list[Path]]:
-    """The name of a world, and the files that its description names, as far as they are there."""
+    """The name of a world, and the existing files that its description names."""
     table = read_toml(file, RoadFileError)
     found = []
     if is_world(table):

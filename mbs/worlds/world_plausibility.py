@@ -15,14 +15,14 @@ from mbs.worlds.obstacles import added, footprint
 from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Washboard, WorldDescription
 
 MOST = 400
-"""Points along a side of a thing that are looked at; of a longer one not all."""
+"""Points along a side of a feature that are looked at; of a longer one not all."""
 FELT = 1e-6  # m
 LEAST_MM, MM = 0.5, 1e-3
 """m: coordinates that were in mm are farther from 0, or 0."""
 Places: TypeAlias = list[tuple[float, float]]
 ON_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
-"""What lies on roads or beside them, with the quantity that says so."""
-Thing: TypeAlias = Kerb | Ramp | Washboard | Band | Area
+"""Objects on roads or next to them, with their quantity."""
+Feature: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 
 QUANTITIES = quantities_of("world")
 MOVED: dict[str, Callable[[float, float], tuple[float, float]]] = {
@@ -43,11 +43,11 @@ def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
     """Plausibility of a world. `what`: its file."""
     values, mistakes = _values(world), []
     outside = {v.of for v in values if not v.inside()}
-    for key, thing in _things(world):
-        for words, altered in _undone(thing) if key in outside else ():
+    for key, feature in _features(world):
+        for words, altered in _without_mistakes(feature) if key in outside else ():
             keys = frozenset({f"{key}.{name}" for name in ("at", "left", "right", "length")})
-            mistakes.append(Mistake(f"{words} in {key}", keys, partial(_with, world, key, altered)))
-    for key, places in _seen(world):
+            mistakes.append(Mistake(f"{words} in {key}", keys, partial(_altered_values, world, key, altered)))
+    for key, places in _scenery_points(world):
         for words, moved in MOVED.items() if key in outside else ():
             elsewhere = _outside(world, key, [moved(x, y) for x, y in places])
             mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
@@ -60,9 +60,9 @@ def _values(world: WorldDescription) -> list[Value]:
     x0, y0, x1, y1 = world.bounds
     sides = {"x": x1 - x0, "y": y1 - y0}
     values = [Value(QUANTITIES["size"], side, {"bounds": list(world.bounds)}, axis) for axis, side in sides.items()]
-    values += [*_ground(world), *_stands(world)]
-    values += [_points(world, key, thing) for key, thing in _things(world)]
-    return values + [_outside(world, key, places) for key, places in _seen(world)]
+    values += [*_ground(world), *_objects(world)]
+    values += [_points(world, key, feature) for key, feature in _features(world)]
+    return values + [_outside(world, key, places) for key, places in _scenery_points(world)]
 
 
 def _ground(world: WorldDescription) -> Iterator[Value]:
@@ -101,16 +101,18 @@ def _line(course: Course) -> Places:
     return [(x, y) for x, y in line.points.tolist()]
 
 
-def _stands(world: WorldDescription) -> Iterator[Value]:
-    """What stands as nothing does: beside all roads, in one, twice, larger than the world, finer than its points."""
+def _objects(world: WorldDescription) -> Iterator[Value]:
+    """Implausible objects: beside all roads, on one, twice, larger than the world, finer than its points."""
     lines = [np.array(_line(course), float) for course in world.courses]
     if all(map(len, lines)) and (lines or world.areas):
         for name, quantity in ON_ROADS.items():
-            for k, thing in enumerate(getattr(world, name)):
-                at = np.array(thing.at[:2])
-                off = [_far(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)]
+            for k, feature in enumerate(getattr(world, name)):
+                at = np.array(feature.at[:2])
+                off = [
+                    _distance(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)
+                ]
                 off += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
-                yield Value(QUANTITIES[quantity], min(off), {f"{name}.{k}.at": list(thing.at)}, f"{name}.{k}")
+                yield Value(QUANTITIES[quantity], min(off), {f"{name}.{k}.at": list(feature.at)}, f"{name}.{k}")
     for k, course in enumerate(world.courses):
         yield Value(QUANTITIES["width"], course.width, {f"courses.{k}.width": course.width}, f"courses.{k}")
     strips = [(f"courses.{k}.shoulder", course.shoulder) for k, course in enumerate(world.courses)]
@@ -124,10 +126,10 @@ def _stands(world: WorldDescription) -> Iterator[Value]:
     for k, house in enumerate(world.buildings):
         for side, axis in zip(house.size, ("length", "width", "height"), strict=True):
             yield Value(QUANTITIES["house"], side, {f"buildings.{k}.size": list(house.size)}, f"buildings.{k} {axis}")
-    for k, thing in enumerate(world.obstacles):
-        name = "wavelength" if isinstance(thing, Washboard) else "face"
-        if not isinstance(thing, Ramp):
-            given, spacing = getattr(thing, name), list(world.spacing)
+    for k, feature in enumerate(world.obstacles):
+        name = "wavelength" if isinstance(feature, Washboard) else "face"
+        if not isinstance(feature, Ramp):
+            given, spacing = getattr(feature, name), list(world.spacing)
             fine: dict[str, Any] = {f"obstacles.{k}.{name}": given, "spacing": spacing}
             yield Value(QUANTITIES["fine"], given / max(spacing), fine, f"obstacles.{k}")
     if world.trees is not None:
@@ -135,13 +137,13 @@ def _stands(world: WorldDescription) -> Iterator[Value]:
         least: dict[str, Any] = {"trees.distance": world.trees.distance, "bounds": list(world.bounds)}
         yield Value(QUANTITIES["trees"], world.trees.distance / min(x1 - x0, y1 - y0), least)
     for name in ("courses", "obstacles", "areas", "bands", "places", "signs", "buildings"):
-        things = getattr(world, name)
-        twice = [k for k, thing in enumerate(things) if thing in things[:k]]
-        if things:
+        features = getattr(world, name)
+        twice = [k for k, feature in enumerate(features) if feature in features[:k]]
+        if features:
             yield Value(QUANTITIES["twice"], float(len(twice)), {f"{name}.{k}": "as before" for k in twice}, name)
 
 
-def _far(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
+def _distance(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
     """Distance of a place from a line through points, m."""
     first, step = line[:-1], np.diff(line, axis=0)
     along = np.clip(((at - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), FELT), 0.0, 1.0)
@@ -155,77 +157,79 @@ def _outside(world: WorldDescription, key: str, places: Sequence[tuple[float, fl
     return Value(QUANTITIES["outside"], off, {key: [x, y], "bounds": list(world.bounds)}, key)
 
 
-def _with(world: WorldDescription, key: str, thing: Thing) -> list[Value]:
-    """The values with another thing in place of one."""
+def _altered_values(world: WorldDescription, key: str, feature: Feature) -> list[Value]:
+    """The values with another feature in place of one."""
     name, k = key.split(".")
-    things = [thing if j == int(k) else other for j, other in enumerate(getattr(world, name))]
-    return _values(world.model_copy(update={name: things}))
+    features = [feature if j == int(k) else other for j, other in enumerate(getattr(world, name))]
+    return _values(world.model_copy(update={name: features}))
 
 
 def _replaced(values: list[Value], changed: Value) -> list[Value]:
     return [changed if v.name == changed.name else v for v in values]
 
 
-def _things(world: WorldDescription) -> Iterator[tuple[str, Thing]]:
+def _features(world: WorldDescription) -> Iterator[tuple[str, Feature]]:
     for name in ("obstacles", "bands", "areas"):
-        for k, thing in enumerate(getattr(world, name)):
-            yield f"{name}.{k}", thing
+        for k, feature in enumerate(getattr(world, name)):
+            yield f"{name}.{k}", feature
 
 
-def _points(world: WorldDescription, key: str, thing: Thing) -> Value:
-    found = changed_points(world, thing)
+def _points(world: WorldDescription, key: str, feature: Feature) -> Value:
+    found = changed_points(world, feature)
     keys = {
-        f"{key}.{n}": getattr(thing, n)
+        f"{key}.{n}": getattr(feature, n)
         for n in ("at", "left", "right", "length", "width", "radius")
-        if hasattr(thing, n)
+        if hasattr(feature, n)
     }
     return Value(QUANTITIES["points"], float(found), {**keys, "spacing": list(world.spacing)}, key)
 
 
-def _box(thing: Thing) -> tuple[float, float, float, float]:
-    """x and y of the two corners of the box around a thing, m."""
-    if not isinstance(thing, Area):
-        return footprint(thing).box()
-    (x, y), r = thing.at, thing.radius
-    a, b = (r, r) if r is not None else (0.5 * side for side in thing.size or (0.0, 0.0))
+def _box(feature: Feature) -> tuple[float, float, float, float]:
+    """x and y of the two corners of the box around a feature, m."""
+    if not isinstance(feature, Area):
+        return footprint(feature).box()
+    (x, y), r = feature.at, feature.radius
+    a, b = (r, r) if r is not None else (0.5 * side for side in feature.size or (0.0, 0.0))
     return x - a, y - b, x + a, y + b
 
 
-def changed_points(world: WorldDescription, thing: Thing) -> int:
+def changed_points(world: WorldDescription, feature: Feature) -> int:
     """Number of grid points of a world that an object raises or colours; of a large object a sample of them."""
-    box, axes = _box(thing), []
+    box, axes = _box(feature), []
     for k in range(2):
         first, step, last = world.bounds[k], world.spacing[k], world.bounds[k + 2]
         low, high = (max(box[k], first) - first) / step, (min(box[k + 2], last) - first) / step
         numbers = np.arange(np.ceil(low - 1e-9), np.floor(high + 1e-9) + 1.0)
         axes.append(first + step * numbers[:: max(1, len(numbers) // MOST)])
     x, y = np.meshgrid(*axes, indexing="ij")
-    if isinstance(thing, Area):
-        (cx, cy), r = thing.at, thing.radius
+    if isinstance(feature, Area):
+        (cx, cy), r = feature.at, feature.radius
         return x.size if r is None else int((np.hypot(x - cx, y - cy) <= r).sum())
-    inside = footprint(thing).inside(x, y)
-    return int(inside.sum() if isinstance(thing, Band) else (inside & (np.abs(added(thing, x, y)) > FELT)).sum())
+    inside = footprint(feature).inside(x, y)
+    return int(inside.sum() if isinstance(feature, Band) else (inside & (np.abs(added(feature, x, y)) > FELT)).sum())
 
 
-def _undone(thing: Thing) -> Iterator[tuple[str, Thing]]:
-    """Common mistakes of a thing, and it without each."""
-    if isinstance(thing, (Band, Kerb)):
-        yield "left and right exchanged", thing.model_copy(update={"left": thing.right, "right": thing.left})
-    x, y, *yaw = thing.at
+def _without_mistakes(feature: Feature) -> Iterator[tuple[str, Feature]]:
+    """Common mistakes of a feature, and it without each."""
+    if isinstance(feature, (Band, Kerb)):
+        yield "left and right exchanged", feature.model_copy(update={"left": feature.right, "right": feature.left})
+    x, y, *yaw = feature.at
     for words, moved in MOVED.items():
-        yield words, thing.model_copy(update={"at": (*moved(x, y), *yaw)})
-    if not isinstance(thing, Area):
+        yield words, feature.model_copy(update={"at": (*moved(x, y), *yaw)})
+    if not isinstance(feature, Area):
         smaller = {
-            name: 1e3 * getattr(thing, name) for name in ("length", "width", "left", "right") if hasattr(thing, name)
+            name: 1e3 * getattr(feature, name)
+            for name in ("length", "width", "left", "right")
+            if hasattr(feature, name)
         }
-        yield "km in place of m", thing.model_copy(update=smaller)
+        yield "km in place of m", feature.model_copy(update=smaller)
 
 
-def _seen(world: WorldDescription) -> Iterator[tuple[str, Places]]:
+def _scenery_points(world: WorldDescription) -> Iterator[tuple[str, Places]]:
     """Places of scenery by their keys, and the corners of what wheels feel."""
-    for key, thing in _things(world):
-        (x0, y0, x1, y1), (left, low, right, high) = _box(thing), world.bounds
-        if x0 < right and x1 > left and y0 < high and y1 > low:  # else no point of it is felt, which is told
+    for key, feature in _features(world):
+        (x0, y0, x1, y1), (left, low, right, high) = _box(feature), world.bounds
+        if x0 < right and x1 > left and y0 < high and y1 > low:  # else no wheel feels it: value "points"
             yield f"{key}.size", [(x0, y0), (x1, y1)]
     for k, line in enumerate(world.lines):
         if line.centre is not None and line.radius is not None:
@@ -236,8 +240,8 @@ def _seen(world: WorldDescription) -> Iterator[tuple[str, Places]]:
             (x, y, yaw), far = cones.start, cones.distance * (cones.slalom - 1)
             yield f"cones.{k}.distance", [(x + far * np.cos(np.radians(yaw)), y + far * np.sin(np.radians(yaw)))]
     for name in ("cones", "lines", "signs", "arrows", "barriers", "buildings"):
-        for k, thing in enumerate(getattr(world, name)):
-            given = [p for n in ("at", "points", "start", "centre") if (p := getattr(thing, n, None))]
+        for k, feature in enumerate(getattr(world, name)):
+            given = [p for n in ("at", "points", "start", "centre") if (p := getattr(feature, n, None))]
             places = [p[:2] for one in given for p in (one if isinstance(one[0], tuple) else (one,))]
-            if places and getattr(thing, "course", None) is None:
+            if places and getattr(feature, "course", None) is None:
                 yield f"{name}.{k}", places

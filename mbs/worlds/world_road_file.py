@@ -41,7 +41,7 @@ def write_world_road(
     shape = points_of(terrain.world)
     uniform = float(terrain.frictions[0]) if len(terrain.names) == 1 else None
     tolerance = thin_world.TOLERANCE if thin else TOLERANCE
-    with atomic_file(file) as made, made.open("wb") as out:
+    with atomic_file(file) as target, target.open("wb") as out:
         writer = SharedWriter(out, shape, (x0, y0), (dx, dy), uniform, file, tolerance)
         rows, columns = writer.head.tiles
         y = spaced(y0, dy, columns * ROAD_TILE)

@@ -48,7 +48,7 @@ class Variation(_Table):
 
 
 class Ground(_Table):
-    """What lies under and beside the courses."""
+    """Terrain under and beside the courses."""
 
     surface: SurfaceClass = "grass"
     height: Height = 0.0
@@ -70,7 +70,7 @@ class Segment(_Table):
 
 
 class Bank(_Table):
-    """How a course leans in its curves."""
+    """Superelevation of a course in its curves."""
 
     grades: Annotated[list[tuple[Distance, Annotated[float, Field(ge=-1.0, le=1.0)]]], Field(min_length=1)]
     """Station, m, and slope across, positive where the right side is higher; smooth between."""

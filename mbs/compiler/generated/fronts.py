@@ -26,20 +26,20 @@ class Piece:
 
     @property
     def kind(self) -> str:
-        """Its type in C."""
+        """C type of the variable."""
         return "four" if self.wide else "double"
 
     def load(self, column: str) -> str:
-        """Its numbers in a column."""
+        """C expression that reads the piece from a column."""
         return f"V({column} + {self.first})" if self.wide else f"{column}[{self.first}]"
 
     def store(self, column: str, value: str) -> str:
-        """The statement that writes them."""
+        """C statement that writes `value` to the piece of a column."""
         return f"  PUT({column} + {self.first}, {value});" if self.wide else f"  {column}[{self.first}] = {value};"
 
 
 def pieces(first: int, size: int) -> list[Piece]:
-    """Those of rows `first` to `size` - 1; the first of them may begin up to three rows above."""
+    """Pieces of the rows `first` to `size` - 1; the first piece may begin up to three rows above."""
     begin = size - 4 * ((size - first + 3) // 4)
     if begin >= 0:
         return [Piece(i, True) for i in range(begin, size, 4)]
@@ -47,7 +47,7 @@ def pieces(first: int, size: int) -> list[Piece]:
 
 
 def factorise(pattern: Pattern) -> list[str]:
-    """All shapes, then front by front with sums into the parents."""
+    """Elimination functions of all shapes of fronts, and the function that factorises front by front."""
     lines: list[str] = []
     for size, pivots in sorted({(f.size, f.pivots) for f in pattern.fronts}):
         lines += _Shape(size, pivots).eliminate()
@@ -63,7 +63,7 @@ def factorise(pattern: Pattern) -> list[str]:
 
 
 def _assemble(front: Front, parent: Front) -> list[str]:
-    """What is left of a front is added to its parent."""
+    """C that adds the Schur complement of a front to its parent."""
     lines = ["  {", f"  const double *from = F + {front.offset};", f"  double *to = F + {parent.offset};"]
     for j in range(front.pivots, front.size):
         source, target = j * front.size, front.place[j] * parent.size
@@ -102,7 +102,7 @@ class _Shape:
             for j in range(start, start + count):
                 lines += self._column(j, q)
             lines += self._triangle(start, count)
-            lines += self._below(q, start, count)
+            lines += self._columns_below(q, start, count)
         for j in range(self.pivots, self.size):
             lines += self._column(j, len(self.panels))
         return function(ELIMINATE.format(self.size, self.pivots), [*lines, "  return -1;"])
@@ -136,7 +136,7 @@ class _Shape:
         return value
 
     def _triangle(self, start: int, count: int) -> list[str]:
-        """Factorise the pivots of a panel among themselves: 1/D and L as C variables, which `_below` stores."""
+        """Factorise the pivots of a panel among themselves: 1/D and L as C variables, which `_columns_below` stores."""
         n, lines = self.size, []
         for p in range(count):
             for i in range(p, count):
@@ -152,7 +152,7 @@ class _Shape:
                       for i in range(p + 1, count)]  # fmt: skip
         return lines
 
-    def _below(self, q: int, start: int, count: int) -> list[str]:
+    def _columns_below(self, q: int, start: int, count: int) -> list[str]:
         """The columns of the panel below its pivots: u unscaled, L in their place."""
         n, lines = self.size, []
         for p in range(count):

@@ -1,4 +1,4 @@
-"""Generated code as a library, compiled once for the same content."""
+"""Library of the generated code of a System, compiled once for the same content."""
 
 import hashlib
 from pathlib import Path
@@ -14,27 +14,27 @@ HEADERS = build.HERE / "src"
 
 
 def code_of(system: System, avx2: bool | None = None) -> str:
-    """C of the algebra of a System; `avx2`: as `source` takes it, by default for the processor this runs on."""
+    """C source of the algebra of a System; `avx2`: as of `source`, by default that of this processor."""
     loaded = LoadedSystem(system.kernel_bytes(modes=False))
     return source(system.arrays, loaded.structure, avx2=loaded.has_avx2 if avx2 is None else avx2)
 
 
 def named_code_of(system: System) -> tuple[str, str]:
-    """C that compilers for any processor take, and before it the name of its table, which no other C shares."""
+    """Name of the table of functions, unique to its content, and C source that compiles for any processor."""
     text = code_of(system, avx2=True)
     name = f"{TABLE}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     return name, text.replace(TABLE, name)
 
 
 def library_of(system: System) -> Path:
-    """The library of the code of a System: compiled, or from the compiler's cache.
+    """Path of the library of the generated code of a System, compiled or from the cache.
 
     Raises
     ------
     ModelError
         There is no compiler.
     RuntimeError
-        The compiler refuses the code, with its words.
+        The compiler refuses the code; the message is the compiler's.
     """
     text, target = code_of(system), build.host_target()
     name = build.library_name(target)
@@ -48,10 +48,10 @@ def library_of(system: System) -> Path:
     digest = hashlib.sha256(build.digest_of(command).encode())
     for content in (text.encode(), (HEADERS / "generated.h").read_bytes()):
         digest.update(f"\n{len(content)}\n".encode() + content)
-    kept = build.cache_directory() / "generated" / digest.hexdigest() / name
-    if not kept.is_file():
+    library = build.cache_directory() / "generated" / digest.hexdigest() / name
+    if not library.is_file():
         with temporary_folder() as folder:
             file = Path(folder, "algebra.c")
             file.write_text(text, encoding="utf-8")
-            build.compile_c([file], target, kept, include=(HEADERS,), what="the generated code")
-    return kept
+            build.compile_c([file], target, library, include=(HEADERS,), what="the generated code")
+    return library

@@ -43,7 +43,7 @@ class Element:
 
 
 class Pattern:
-    """What is derived of the arrays of a System, as the kernel does when it loads it.
+    """Sparsity patterns of a System, derived from its arrays as the kernel does on loading.
 
     `turned`: of the System with room for all directions of axes that parameters write; its functions have other names.
     """
@@ -95,7 +95,7 @@ class Pattern:
         return True
 
     def _triples(self, signals: Integers) -> list[bool]:
-        """Of signals in the order in which they are gone through, which are the first of a point."""
+        """Whether each signal, in this order, is the first of the three components of a point."""
         found = [False] * len(signals)
         a = 0
         while a < len(signals):
@@ -120,7 +120,7 @@ class Pattern:
                 if one != other:
                     of[other].append((t, self.row_col[one], False))
         self.in_triples = [self._row_in_triples(k, of) for k in range(self.nc)]
-        points = [self.in_triples[k] and self._of_points(k, of) for k in range(self.nc)]
+        points = [self.in_triples[k] and self._has_point_factors(k, of) for k in range(self.nc)]
         starts = [0, *np.cumsum([len(x) for x in of]).tolist()]
         terms: list[list[tuple[int, int]]] = []
         first: dict[int, int] = {}
@@ -128,9 +128,9 @@ class Pattern:
             for i in range(self.row_ptr[k], self.row_ptr[k + 1]):
                 d = (i - self.row_ptr[k]) % 3
                 begin, apart = (starts[i - d] + d, 3) if points[k] else (starts[i], 1)
-                places = [begin + apart * m for m in range(len(of[i]))]
-                terms.append([(at, c) for at, (_, c, _) in zip(places, of[i], strict=True)])
-                first |= {t: at for at, (t, _, mine) in zip(places, of[i], strict=True) if mine}
+                indices = [begin + apart * m for m in range(len(of[i]))]
+                terms.append([(at, c) for at, (_, c, _) in zip(indices, of[i], strict=True)])
+                first |= {t: at for at, (t, _, mine) in zip(indices, of[i], strict=True) if mine}
         self.quad_place = first
         return terms
 
@@ -147,7 +147,7 @@ class Pattern:
             for i in range(begin, end, 3)
         )
 
-    def _of_points(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
+    def _has_point_factors(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
         """Whether the second factors of a row of triples are three neighbours each too."""
         return all(
             y == x + 1 and z == x + 2

@@ -18,7 +18,10 @@ FORCES = (
 
 
 def put(array: str, first: int, length: int, value: str, end: int) -> list[str]:
-    """Up to four numbers of a vector go to an array, whose later ones are written afterwards."""
+    """C that stores `length` numbers of a vector from `first` on in an array with `end` entries.
+
+    Entries behind them may be overwritten: they are written afterwards.
+    """
     if length == 1:
         return [f"  {array}[{first}] = {value};"]
     if length == 2:
@@ -75,13 +78,13 @@ def signals(pattern: Pattern) -> list[str]:
         i, triple = pattern.active[at], pattern.active_triple[at]
         length = 3 if triple else 1
         follows = at + 3 < len(pattern.active) and pattern.active[at + 3] == i + 3
-        place = f"(four){{constant[{i}], constant[{i + 1}], constant[{i + 2}], 0.0}}" if triple else f"constant[{i}]"
+        value = f"(four){{constant[{i}], constant[{i + 1}], constant[{i + 2}], 0.0}}" if triple else f"constant[{i}]"
         rate = "NONE" if triple else "0.0"
         for k in pattern.entries(i):
             columns = range(pattern.sig_col[k], pattern.sig_col[k] + length)
-            place = f"({place} + val[{k}] * {vector('q', columns)})"
+            value = f"({value} + val[{k}] * {vector('q', columns)})"
             rate = f"({rate} + val[{k}] * {vector('qd', columns)})"
-        for name, text in (("u", place), ("ud", rate)):
+        for name, text in (("u", value), ("ud", rate)):
             if triple:
                 lines.append(f"  {'PUT' if follows else 'put3'}({name} + {i}, {text});")
             else:
@@ -118,17 +121,22 @@ def forces(pattern: Pattern) -> list[str]:
 
 def _force(pattern: Pattern, terms: Sequence[tuple[int, int, int] | None]) -> str:
     """Values times forces at one coordinate or three."""
-    there = [t for t in terms if t is not None]
+    present = [t for t in terms if t is not None]
     if len(terms) == 1:
-        e, i, k = there[0]
+        e, i, k = present[0]
         return f"val[{k}] * f{e}[{i}]"
-    if len(there) == 3:
-        e, i, k = there[0]
-        same = all(t[0] == e for t in there)
+    if len(present) == 3:
+        e, i, k = present[0]
+        same = all(t[0] == e for t in present)
         inside = pattern.array["el_sig_ptr"][e] + i + 4 <= len(pattern.array["el_sig"])
-        if same and inside and follow([t[1] for t in there]) and _alike(pattern, e, i, there):
+        if same and inside and follow([t[1] for t in present]) and _alike(pattern, e, i, present):
             return f"val[{k}] * V(f{e} + {i})"
-        if same and all(t[1] == i for t in there) and follow([t[2] for t in there]) and k + 4 <= len(pattern.sig_val):
+        if (
+            same
+            and all(t[1] == i for t in present)
+            and follow([t[2] for t in present])
+            and k + 4 <= len(pattern.sig_val)
+        ):
             return f"V(val + {k}) * f{e}[{i}]"
     words = ["0.0" if t is None else f"val[{t[2]}] * f{t[0]}[{t[1]}]" for t in terms]
     return "(four){" + ", ".join([*words, "0.0"]) + "}"

@@ -19,7 +19,7 @@ def rows(pattern: Pattern) -> list[str]:
 
 
 def gamma(pattern: Pattern) -> list[str]:
-    """The same of entries without linear parts, with rates."""
+    """`gamma[k] = 0.5 sum e q` with entries e of Phi_q without their linear parts, and rates in place of q."""
     return function(GAMMA, _by_fours(pattern, True))
 
 
@@ -101,18 +101,18 @@ def _sum_of_terms(pattern: Pattern, run: Sequence[int], begin: str) -> str:
     text, most = begin, max(len(pattern.terms[i]) for i in run)
     for m in range(most):
         of = [pattern.terms[i][m] if m < len(pattern.terms[i]) else None for i in run]
-        places = [None if t is None else t[0] for t in of]
+        indices = [None if t is None else t[0] for t in of]
         columns = [None if t is None else t[1] for t in of]
-        text = f"({text} + {_literal('hess', places)} * {_literal('q', columns)})"
+        text = f"({text} + {_literal('hess', indices)} * {_literal('q', columns)})"
     return text
 
 
-def _literal(array: str, places: Sequence[int | None]) -> str:
-    """As `vector`, but three equal places are no single number: both factors may be so."""
-    if len(places) > 1 and not follow(places):
-        words = ["0.0" if p is None else f"{array}[{p}]" for p in places]
+def _literal(array: str, indices: Sequence[int | None]) -> str:
+    """C vector of entries of an array: as `vector`, but equal places are not read as one number."""
+    if len(indices) > 1 and not follow(indices):
+        words = ["0.0" if p is None else f"{array}[{p}]" for p in indices]
         return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"
-    return vector(array, places)
+    return vector(array, indices)
 
 
 def _value(pattern: Pattern, row: int, run: Sequence[int], name: str, lin: Sequence[float]) -> list[str]:

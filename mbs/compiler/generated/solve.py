@@ -57,7 +57,7 @@ def _forward(front: Front) -> list[str]:
         lines += _scalars(front, parts, p, count)
         for piece in parts:
             if piece.first + (3 if piece.wide else 0) >= p + count:
-                lines.append(f"  x{piece.first} = {_taken(piece, p, count, n)};")
+                lines.append(f"  x{piece.first} = {_subtracted(piece, p, count, n)};")
         p += count
     for piece in parts:
         if piece.first + (3 if piece.wide else 0) >= pivots:
@@ -66,7 +66,7 @@ def _forward(front: Front) -> list[str]:
 
 
 def _scalars(front: Front, parts: Sequence[Piece], p: int, count: int) -> list[str]:
-    """Unknowns of `count` pivots from p on, each less the products with the pivots before it in this group."""
+    """Statements for the unknowns of `count` pivots from p on, minus the products with earlier pivots of the group."""
 
     def at(i: int) -> str:
         piece = next(x for x in parts if x.first <= i < x.first + (4 if x.wide else 1))
@@ -87,8 +87,8 @@ def _scalars(front: Front, parts: Sequence[Piece], p: int, count: int) -> list[s
             for line in (f"  const double {name} = {word};", f"  b[{first + k}] = {name};")]  # fmt: skip
 
 
-def _taken(piece: Piece, p: int, count: int, n: int) -> str:
-    """A piece less its products with `count` pivots from p on."""
+def _subtracted(piece: Piece, p: int, count: int, n: int) -> str:
+    """C expression of a piece minus its products with `count` pivots from p on."""
     x = f"x{piece.first}"
     term = [f"{piece.load(f'(A + {(p + k) * n})')} * y{p + k}" for k in range(count)]
     if count == 1:
@@ -103,7 +103,7 @@ def _back(front: Front) -> list[str]:
 
 
 def _few_back(front: Front) -> list[str]:
-    """Each product is added to one of two sums, by turns."""
+    """Back substitution of a small front: products are added to two sums alternately."""
     n, at = front.size, front.coordinates
     lines = [f"  const double y{i} = b[{at[i]}];" for i in range(front.pivots, n)]
     for p in range(front.pivots - 1, -1, -1):
@@ -117,7 +117,10 @@ def _few_back(front: Front) -> list[str]:
 
 
 def _many_back(front: Front) -> list[str]:
-    """Four sums from the last entry back; pivots whose blocks of four begin at the same entry are done together."""
+    """Back substitution of a large front with four sums from the last entry back.
+
+    Pivots whose blocks of four begin at the same entry are done together.
+    """
     n, pivots, at = front.size, front.pivots, front.coordinates
     lines = []
     whole = 0  # blocks of four from the end that are known
@@ -139,7 +142,7 @@ def _many_back(front: Front) -> list[str]:
 
 
 def _block(front: Front, first: int) -> list[str]:
-    """Four unknowns that are solved already, as a vector."""
+    """Statement that declares four solved unknowns as a vector."""
     at, rows = front.coordinates, range(first, first + 4)
     if all(i >= front.pivots for i in rows):
         return [f"  const four x{first} = {_gather(front, Piece(first, True))};"]
@@ -148,7 +151,7 @@ def _block(front: Front, first: int) -> list[str]:
 
 
 def _sums(front: Front, p: int, blocks: int) -> list[str]:
-    """Sums for pivot p and for those before it that have as many blocks of four."""
+    """Statements for the sums of pivot p and of the pivots before it with as many blocks of four."""
     n = front.size
     columns = [c for c in range(p, -1, -1) if (n - c - 1) // 4 == blocks]
     if blocks == 0:

@@ -1,4 +1,4 @@
-"""The whole file: functions, and the tables by which the kernel finds them."""
+"""Generated C file: its functions, and the tables by which the kernel finds them."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -40,13 +40,13 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
     """
     pattern = Pattern(arrays)
     common = _written(pattern, _FRONTS | ({} if len(pattern.array["flex_front"]) else _ROWS))
-    own = _written(pattern, _of_signals(pattern))
+    own = _written(pattern, _signal_functions(pattern))
     lines = [line for body in (common | own).values() for line in body]
     head = [f"  .version = ALI3_GENERATED_VERSION, .structure = 0x{structure:08x}u, .avx2 = AVX2,"]
     tail = []
     if len(pattern.array["axis_signal"]):
         other = Pattern(arrays, turned=True)
-        turned = _written(other, _of_signals(other))
+        turned = _written(other, _signal_functions(other))
         lines += [line for body in turned.values() for line in body]
         tail = _table("static const ali3_generated turned", [*head, *_members(common), *_members(turned, other.suffix)])
         head.append("  .turned = &turned,")
@@ -59,14 +59,14 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
     return "\n".join([HEAD.replace("INSTRUCTIONS", begin), nothing, *lines, *tail, END])
 
 
-def _of_signals(pattern: Pattern) -> dict[str, _Function]:
-    """What hangs on modes or on tables has no tangent of its own."""
+def _signal_functions(pattern: Pattern) -> dict[str, _Function]:
+    """Functions of signals, and of the tangent if no body is flexible or moves by a table."""
     return (_SIGNALS if pattern.elements else {}) | (_TANGENT if pattern.is_rigid else {})
 
 
 def _written(pattern: Pattern, functions: Mapping[str, _Function]) -> dict[str, list[str]]:
-    made = {name: make(pattern) for name, make in functions.items()}
-    return {name: lines for name, lines in made.items() if len(lines) <= LONGEST}
+    bodies = {name: make(pattern) for name, make in functions.items()}
+    return {name: lines for name, lines in bodies.items() if len(lines) <= LONGEST}
 
 
 def _members(functions: Mapping[str, Sequence[str]], suffix: str = "") -> list[str]:

@@ -25,7 +25,7 @@ class _Block:
 
 
 def tangent(pattern: Pattern) -> list[str]:
-    """A function a front, and the one that calls them."""
+    """A function for each front, and the function that calls them."""
     lines: list[str] = []
     for front in pattern.fronts:
         lines += _OfFront(pattern, front).function()
@@ -116,7 +116,7 @@ class _OfFront:
                 found[self.local[self.pattern.sig_col[k]]].append((s, k))
         return found
 
-    def _of_element(self, element: Element) -> list[Sequence[int]]:
+    def _element_groups(self, element: Element) -> list[Sequence[int]]:
         there = self._entries(element)
         return [g for g in self.groups if any(i in there for i in g)]
 
@@ -124,7 +124,7 @@ class _OfFront:
         """S B of an element: per signal and group of coordinates a vector."""
         e, n, there = element.number, len(element.signals), self._entries(element)
         lines = [f"  const double *T{e} = parts->idle[{e}] ? nothing : parts->S + {element.tangent};"]
-        for group in self._of_element(element):
+        for group in self._element_groups(element):
             lists = [there.get(i, []) for i in group]
             for s in range(n):
                 name = f"B{e}_{s}_{group[0]}"
@@ -141,17 +141,17 @@ class _OfFront:
     def _term(self, element: Element, s: int, terms: Sequence[tuple[int, int] | None]) -> str:
         """A tangent of signal s times values, at one coordinate or three."""
         e, n = element.number, len(element.signals)
-        there = [t for t in terms if t is not None]
+        present = [t for t in terms if t is not None]
         if len(terms) == 1:
-            return f"T{e}[{s * n + there[0][0]}] * val[{there[0][1]}]"
-        if len(there) == 3:
-            first, k = there[0]
+            return f"T{e}[{s * n + present[0][0]}] * val[{present[0][1]}]"
+        if len(present) == 3:
+            first, k = present[0]
             last = element.tangent + s * n + first + 4 > self._all_tangents()
-            offsets = {k - self.pattern.entries(element.signals[i])[0] for i, k in there}
-            if element.triple[first] and follow([i for i, _ in there]) and len(offsets) == 1 and not last:
+            offsets = {k - self.pattern.entries(element.signals[i])[0] for i, k in present}
+            if element.triple[first] and follow([i for i, _ in present]) and len(offsets) == 1 and not last:
                 return f"V(T{e} + {s * n + first}) * val[{k}]"
-            same = all(i == first for i, _ in there)
-            if same and follow([k for _, k in there]) and k + 4 <= len(self.pattern.sig_val):
+            same = all(i == first for i, _ in present)
+            if same and follow([k for _, k in present]) and k + 4 <= len(self.pattern.sig_val):
                 return f"T{e}[{s * n + first}] * V(val + {k})"
         words = ["0.0" if t is None else f"T{e}[{s * n + t[0]}] * val[{t[1]}]" for t in terms]
         return "(four){" + ", ".join([*words, "0.0"]) + "}"
@@ -170,8 +170,8 @@ class _OfFront:
             begin = vector("parts->front_mass", places, self._storage()) if any_mass else zero
             lines.append(f"  {kind} a{d} = {begin};")
         if block.rows == block.columns:
-            lines += self._above(block)
-        lines += self._squares(block) + self._second(block) + self._of_elements(block)
+            lines += self._zeros_above(block)
+        lines += self._squares(block) + self._second(block) + self._element_terms(block)
         for d, place in enumerate(at):
             if kind == "double":
                 lines.append(f"  F[{place}] = a{d};")
@@ -179,8 +179,8 @@ class _OfFront:
                 lines.append(f"  {'PUT' if place + 4 <= self._storage() else 'put3'}(F + {place}, a{d});")
         return [*lines, "  }"]
 
-    def _above(self, block: _Block) -> list[str]:
-        """What factors work on above the diagonal, for whole fours: nobody reads it, but it must not grow."""
+    def _zeros_above(self, block: _Block) -> list[str]:
+        """Zeros above the diagonal in whole blocks of four of the factorisation; never read, but they must not grow."""
         front, lines = self.front, []
         for j in block.columns:
             begin = pieces(j, front.size)[0].first
@@ -203,7 +203,7 @@ class _OfFront:
         return lines
 
     def _second(self, block: _Block) -> list[str]:
-        """On the diagonal of the block its places together, elsewhere one by one."""
+        """Statements for the second-order terms: entries on the diagonal of a block together, others one by one."""
         places = [(i, j) for j in block.columns for i in block.rows if (i, j) in self.bends]
         if not places:
             return []
@@ -220,9 +220,9 @@ class _OfFront:
         return lines + self._single(block, [p for p in places if p not in diagonal])
 
     def _bend(self, terms: Sequence[tuple[str, int, int] | None]) -> str:
-        there = [t for t in terms if t is not None]
-        if len(there) == 3 and len({(t[0], t[2]) for t in there}) == 1 and follow([t[1] for t in there]):
-            array, at, k = there[0]
+        present = [t for t in terms if t is not None]
+        if len(present) == 3 and len({(t[0], t[2]) for t in present}) == 1 and follow([t[1] for t in present]):
+            array, at, k = present[0]
             if array == "hess":
                 return f"factor[{k}] * V(hess + {at})"
         words = ["0.0" if t is None else self._number(t) for t in terms]
@@ -239,7 +239,7 @@ class _OfFront:
             lines += [f"  {lane} += {self._number(t)};" for t in self.bends[i, j]]
         return lines
 
-    def _of_elements(self, block: _Block) -> list[str]:
+    def _element_terms(self, block: _Block) -> list[str]:
         lines = []
         for element in self.elements:
             there = self._entries(element)

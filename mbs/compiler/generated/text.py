@@ -94,7 +94,7 @@ def vector(array: str, places: Sequence[int | None], most: int | None = None) ->
 
 
 def room(name: str, numbers: int) -> str:
-    """Declares an array; one number that is never used where there is none, which compilers want to have a value."""
+    """C declaration of an array; an empty one gets one unused number with a value, as compilers demand."""
     return f"  double {name}[{numbers}];" if numbers else f"  double {name}[1] = {{0.0}};"
 
 

@@ -58,7 +58,7 @@ class Many(KernelMemory):
 
     @property
     def size(self) -> int:
-        """Bytes beside those of the instances."""
+        """Bytes in addition to those of the instances."""
         return int(self._library.ali3_many_size(self.system._handle, self.width))
 
     def run(

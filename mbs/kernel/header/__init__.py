@@ -1,1 +1,1 @@
-"""What the kernel's C headers say, in Python; all but this file is written by `python mbs/kernel/read_headers.py`."""
+"""Definitions of the kernel's C headers in Python, written by `python mbs/kernel/read_headers.py` but for this file."""

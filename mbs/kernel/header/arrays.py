@@ -1,4 +1,4 @@
-"""Arrays of a System of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+"""Arrays of a System from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 ARRAYS = {
     "meta": ("BYTES", "MUST"),

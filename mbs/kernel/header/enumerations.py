@@ -1,4 +1,4 @@
-"""Types and codes of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+"""Types and codes from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 from enum import IntEnum
 
@@ -45,7 +45,7 @@ class Cause(IntEnum):
 
 
 class SolverValue(IntEnum):
-    """What the solver says about itself."""
+    """Diagnostics of the solver."""
 
     ITERATIONS = 0
     VIOLATION = 1
@@ -59,7 +59,7 @@ class SolverValue(IntEnum):
 
 
 class ParameterTarget(IntEnum):
-    """What a parameter writes to."""
+    """Target of a parameter."""
 
     ELEMENT = 0
     GUIDE = 1

@@ -1,4 +1,4 @@
-"""Limits and versions of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+"""Limits and versions from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 OPEN = 1e-9
 """A row that is open by less, m, is not why something failed."""

@@ -1,4 +1,4 @@
-"""Numbers of the Magic Formula of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+"""Numbers of the Magic Formula from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 MAGIC_COEFFICIENTS = {
     "LFZO": 1.0,

@@ -1,4 +1,4 @@
-"""What sensors read of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+"""Sources of sensor values from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 from enum import IntEnum
 
@@ -6,7 +6,7 @@ from mbs.kernel.header.enumerations import SensorType
 
 
 class SensorReads(IntEnum):
-    """What the value of a sensor comes from."""
+    """Source of the value of a sensor."""
 
     MOTION = 0
     INPUTS = 1

@@ -1,4 +1,4 @@
-"""Methods and what steps tell of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+"""Methods and report codes from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 from enum import IntEnum
 

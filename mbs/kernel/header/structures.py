@@ -1,4 +1,4 @@
-"""Structures of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+"""Structures from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_void_p
 

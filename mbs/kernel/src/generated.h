@@ -16,7 +16,7 @@ enum { ALI3_GENERATED_VERSION = 1 };
 #define ALI3_GENERATES
 #endif
 
-/* What the tangent is the sum of; names as in the System and its instance. */
+/* Parts of the tangent, whose sum it is; names as in the System and its instance. */
 typedef struct {
   const double *front_mass, *J, *lam, *s, *hess_val, *gterm_h, *angle_hc, *angle_hs, *sig_val, *S;
   const double *q; /* near the origin, as the rows were evaluated */

@@ -1,11 +1,11 @@
-/* The contract of a method: what a time integrator says of itself. Each defines its ali3_method_<name> in its own file
+/* The contract of a time integrator. Each defines its ali3_method_<name> in its own file
  * of methods/ and has one line in ALI3_METHODS of ali3.h. */
 #ifndef ALI3_METHOD_H
 #define ALI3_METHOD_H
 #include "instance.h"
 #include "request.h"
 
-/* What bounds the steps of a controlled run from below: the round-off of equations of index three, solved by rules of
+/* Round-off that bounds the steps of a controlled run from below: that of equations of index three, solved by rules of
  * order two or by collocation, or of index one. */
 typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_COLLOCATION, ALI3_ROUND_OFF_INDEX_1 } ali3_round_off;
 
@@ -39,8 +39,8 @@ typedef struct {
 ALI3_METHODS(ALI3_METHOD_DECLARED)
 #undef ALI3_METHOD_DECLARED
 
-/* That of the settings, whether it takes the System, whether its steps end with ali3_energy_watch; order of its steps
- * where they change. */
+/* The method of the settings, whether it takes the System, whether its steps end with ali3_energy_watch; order of its
+ * steps where they change. */
 const ali3_method *ali3_method_of(const ali3_instance *in);
 ali3_status ali3_check_method(const ali3_instance *in);
 bool ali3_has_balance(const ali3_instance *in);

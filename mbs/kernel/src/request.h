@@ -1,10 +1,10 @@
-/* What a step is asked for. */
+/* Request for a step. */
 #ifndef ALI3_REQUEST_H
 #define ALI3_REQUEST_H
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What will be read of the state at its end. */
+/* Parts of the state that are read at the end of the step. */
 typedef enum { ALI3_READ_ALL = 0, ALI3_READ_SENSORS, ALI3_READ_NOTHING } ali3_reading;
 
 /* A step as a caller asks for it, or a part of one. */

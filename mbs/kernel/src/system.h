@@ -163,6 +163,6 @@ struct ali3_system {
 
 enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 }; /* of mode_triad: 9 signals, kind, ring; of a loop */
 
-/* Of the System as loaded and that of instances with other axes the one that needs no less memory. */
+/* The larger in memory of the System as loaded and that of instances with other axes. */
 static inline const ali3_system *ali3_widest_system(const ali3_system *s) { return s->turned != NULL ? s->turned : s; }
 #endif

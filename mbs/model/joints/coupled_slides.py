@@ -51,13 +51,17 @@ def coupled_slides(
     if body_1 is body_2:
         raise ModelError(f"The {what} couple '{body_1.name}' with itself; they need two bodies that slide.")
     i = not_zero(ratio, f"The ratio of {what}")
-    products = _way(model, body_1, carrier_1, axis_1, 1.0, what) + _way(model, body_2, carrier_2, axis_2, -i, what)
+    products = _travel_products(model, body_1, carrier_1, axis_1, 1.0, what) + _travel_products(
+        model, body_2, carrier_2, axis_2, -i, what
+    )
     joint = Joint(name, "rack", [Equation(name, "rack", products)], rows_weight=1.0)
     joint.as_rows = True  # where both axes are the ground's the row is linear, and its force is asked for all the same
     return joint
 
 
-def _way(model: BodyVocabulary, body: Body, carrier: Body, axis: ArrayLike, factor: float, what: str) -> list[Product]:
+def _travel_products(
+    model: BodyVocabulary, body: Body, carrier: Body, axis: ArrayLike, factor: float, what: str
+) -> list[Product]:
     """Travel of a body along an axis of its carrier, times a factor."""
     different(body, carrier, what)
     if model.owned(carrier, f"The {what}").is_point:

@@ -99,7 +99,7 @@ def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
     first, second = (body_and_point(end, name) for end in (end_1, end_2))
     return Drawing(
         (first[0], second[0]),
-        (_place(*first), _place(*second)),
+        (_end_point(*first), _end_point(*second)),
         None,
         ("distance",),
         lambda p, _, rod: distance(model, name, (first[0], p[0]), (second[0], p[1]), length=rod),
@@ -107,6 +107,6 @@ def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
     )
 
 
-def _place(body: Body, point: ArrayLike | None) -> ArrayLike:
+def _end_point(body: Body, point: ArrayLike | None) -> ArrayLike:
     """Point of an end of the joint; for a particle its own position."""
     return body.com if point is None else point

@@ -46,7 +46,7 @@ def drive(
     Raises
     ------
     ModelError
-        What is driven cannot move, an end slides, or a driven distance starts at zero.
+        The driven coordinate or distance cannot move, an end slides, or a driven distance starts at zero.
     """
     joint = _drive(model, name, driven, guide)
     if switch is not None:

@@ -42,7 +42,7 @@ def drop_link(
     Parameters
     ----------
     carrier, body : Body
-        What the lever turns on, and where the rod ends; in space, not point masses.
+        Body on which the lever turns, and body at the end of the rod; in space, not point masses.
     pivot, axis : array_like, shape (3,)
         A point of the lever's axis, m, and its direction, fixed in the carrier; earth axes as drawn.
     lever_end, link_end : array_like, shape (3,)

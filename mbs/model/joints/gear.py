@@ -21,7 +21,7 @@ def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordin
     Parameters
     ----------
     wheel_1, wheel_2 : Coordinate
-        Relative angles of the wheels against what carries them, or spins.
+        Relative angles of the wheels against their carriers, or spins.
     ratio : float
         Turns of the first wheel for one of the second, each against its carrier; negative where they turn opposite
         ways about the axes of their angles (-z2/z1 for external teeth on parallel axes).

@@ -43,7 +43,7 @@ class JointPlaces:
 
 @dataclass(frozen=True)
 class Drawing:
-    """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little."""
+    """Conditions of a joint on a point and an axis of each of two rigid bodies; compile may move these a little."""
 
     bodies: tuple[Body, Body]
     points: tuple[ArrayLike, ArrayLike]
@@ -63,7 +63,7 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Turn:
-    """What a relative angle measures: body 2 against body 1 about an axis (as drawn, earth axes; None in the plane)."""
+    """Bodies and axis of a relative angle: of body 2 against body 1 (axis as drawn, earth axes; None in the plane)."""
 
     bodies: tuple[Body, Body]
     axis: ArrayLike | None
@@ -72,7 +72,7 @@ class Turn:
 
 @dataclass(frozen=True)
 class JointEnds:
-    """What closed loops need of a joint: its bodies (the ground, a body or a node), its point on each, its axis."""
+    """Ends of a joint for closing loops: its bodies (the ground, a body or a node), its point on each, its axis."""
 
     bodies: tuple[Body, Body]
     points: tuple[AffineVector, AffineVector]
@@ -114,7 +114,7 @@ class Joint:
         Its force equations are rows, never eliminated, so that their multipliers (the joint force) exist; a joint-force
         sensor sets it.
     switch : Switch or None
-        What turns its rows on and off; None: they are always on.
+        Switches its rows on and off; None: they are always on.
     rows_weight : float
         Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
     normals : sequence of AffineVector
@@ -132,11 +132,11 @@ class Joint:
     rolls : RollingBody, RollingSpin or None
         Of a wheel that rolls.
     couples : (int, int, float) or None
-        Of a gear: the coordinates of its wheels, and how far the first turns for one turn of the second.
+        Of a gear: the coordinates of its wheels, and the turns of the first for one turn of the second.
     actuator : JointEnds or None
         Of a driven distance: its ends.
     slide : (int, SlidingPoint) or None
-        Of a distance: the number of the end that a guide slides, and what it is.
+        Of a distance: the number of the end that a guide slides, and that sliding point.
     """
 
     def __init__(

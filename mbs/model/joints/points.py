@@ -18,7 +18,7 @@ from mbs.model.perpendicular_vectors import perpendicular
 def shared_point(
     model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, what: str
 ) -> list[Equation]:
-    """The point of body 1 is the point of body 2."""
+    """Equations by which the point of body 1 is the point of body 2."""
     p1, p2 = point_pair(point, model.dimension, what)
     return equal_vectors(name, "point", model.anchor(body_1, p1, what), model.anchor(body_2, p2, what))
 
@@ -26,7 +26,7 @@ def shared_point(
 def shared_axis(
     model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: PointPair, what: str
 ) -> list[Equation]:
-    """The unit vector of body 1 is the unit vector of body 2; of nodes that bend, their directions are the same."""
+    """Equations by which both bodies share a unit vector, or its direction where a node bends."""
     a1, a2 = point_pair(axis, model.dimension, what, "axis")
     if may_share(body_1, body_2):
         return equal_vectors(name, "axis", model.anchor_axis(body_1, a1, what), model.anchor_axis(body_2, a2, what))
@@ -38,12 +38,12 @@ def shared_axis(
 
 
 def points_of(body_1: Body, p1: ArrayLike, body_2: Body, p2: ArrayLike) -> tuple[AffineVector, AffineVector]:
-    """Point of the joint on either body."""
+    """Points of the joint on both bodies."""
     return body_1.point(p1), body_2.point(p2)
 
 
 def turning_about(body_1: Body, p1: ArrayLike, a1: ArrayLike, body_2: Body, p2: ArrayLike, a2: ArrayLike) -> Turning:
-    """The axis of body 1 stays square to two vectors of body 2 that are square to its own axis."""
+    """Rotation that keeps the axis of body 1 perpendicular to two vectors of body 2, perpendicular to its own axis."""
     u = body_1.vector(direction(a1, 3, "an axis"))
     across = perpendicular(direction(a2, 3, "an axis"))
     return Turning(points_of(body_1, p1, body_2, p2), [(u, body_2.vector(e), 0.0) for e in across])

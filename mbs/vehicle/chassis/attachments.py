@@ -28,7 +28,7 @@ class Attachments:
 
 
 class _Noted(Body):
-    """The chassis, with what was asked of it."""
+    """The chassis, with a record of the points that the suspension asks for."""
 
     def __init__(self, owner: Body, reference: Point) -> None:
         super().__init__(owner.model, owner.name, owner.com, owner.start)
@@ -56,10 +56,10 @@ def attachments(b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) 
     points = list(noted.points)
     found = (points[: at[0]], points[at[0] : at[1]])
     axles = tuple(tuple(p for p in part if p[1] >= 0.0) for part in found)
-    return Attachments((axles[0], axles[1]), tuple(_held(noted, b.m.joints)))
+    return Attachments((axles[0], axles[1]), tuple(_joint_pairs(noted, b.m.joints)))
 
 
-def _held(chassis: Body, joints: list[Joint]) -> Iterator[tuple[Point, Point]]:
+def _joint_pairs(chassis: Body, joints: list[Joint]) -> Iterator[tuple[Point, Point]]:
     """Pairs of points of which no other is the image, at which one part is joined to the chassis."""
     found: dict[Body, list[Point]] = {}
     for joint in joints:

@@ -169,7 +169,7 @@ class FlexibleFrame:
         return self._with_stretch(self.gauge_rows)
 
     def _with_stretch(self, outputs: np.ndarray) -> tuple[InertiaRelief, np.ndarray, int]:
-        """The same for other rows of outputs."""
+        """`_relief_with_stretch` for the rows of outputs `outputs` in place of the gauges."""
         model = self.model
         stretch = np.zeros((len(self.stiff_pairs), outputs.shape[1]))
         pairs = np.zeros((3 * len(self.interfaces), len(self.stiff_pairs)))

@@ -54,24 +54,24 @@ class JointFinder:
         self._places = np.array(list(structure.joints.values()))
 
     def joints(self, chassis: Chassis, driven: int) -> FrameJoints:
-        """All joints that the car needs.
+        """Joints of the frame that the car needs.
 
         `chassis`: with the place of the floating frame and accelerometers; `driven`: 0: the front axle is driven, 1:
         the rear one. Raises `ModelError`: a hard point is not a joint, a joint that the file names does not exist, or
         one must be named.
         """
-        interfaces, held = {}, []
+        interfaces, arms = {}, []
         for point in dict.fromkeys((*self._axles[0], *self._axles[1])):
-            for place in (point, _image(point)):
-                interfaces[self._at(place, point)] = place
+            for position in (point, _image(point)):
+                interfaces[self._joint_at(position, point)] = position
         for a, b in self._held:
-            held.append((self._at(a), self._at(b)))
+            arms.append((self._joint_at(a), self._joint_at(b)))
             if a[1] + b[1] > 0.0:
-                held.append((self._at(_image(a), a), self._at(_image(b), b)))
+                arms.append((self._joint_at(_image(a), a), self._joint_at(_image(b), b)))
         drive = self._drive(driven)
         ground = self._named("ground_mounts") or (self._pair(self._axles[1 - driven][0]), *drive)
-        accelerometers = {self._at(point): point for point in chassis.accelerometers.values()}
-        return FrameJoints(interfaces, tuple(held), drive, ground, self._reference(chassis.reference), accelerometers)
+        accelerometers = {self._joint_at(point): point for point in chassis.accelerometers.values()}
+        return FrameJoints(interfaces, tuple(arms), drive, ground, self._reference(chassis.reference), accelerometers)
 
     def _drive(self, driven: int) -> tuple[Pair, ...]:
         named = self._named("drive_mounts")
@@ -87,21 +87,21 @@ class JointFinder:
         rear, front = sorted(arms[0])
         return tuple(self._pair(point) for point in (front, rear, max(points, key=lambda p: p[2])))
 
-    def _reference(self, place: Point) -> str | tuple[str, ...]:
+    def _reference(self, position: Point) -> str | tuple[str, ...]:
         key, model = self._section.key("reference"), self._structure.model
-        given = self._section.reference
-        if given is None:
-            given = self._nearest(place, "chassis.reference")
-        first = given if isinstance(given, str) else given[0]
-        for name in (given,) if isinstance(given, str) else given:
+        reference = self._section.reference
+        if reference is None:
+            reference = self._nearest(position, "chassis.reference")
+        first = reference if isinstance(reference, str) else reference[0]
+        for name in (reference,) if isinstance(reference, str) else reference:
             if name not in model.names:
                 raise ModelError(f"{key} names {name!r}; the frame has no such joint.")
-        gap = float(np.linalg.norm(model.positions[model.node(first)] - place))
+        gap = float(np.linalg.norm(model.positions[model.node(first)] - position))
         if gap > SAME_PLACE:
             raise ModelError(f"{key} names {first}, which is {gap:.3g} m away from chassis.reference.")
-        if isinstance(given, str) and (model.dof[model.node(given), 3:] < 0).any():
-            raise ModelError(f"{key} must name three nodes that span a triangle: node {given} has no rotations.")
-        return given
+        if isinstance(reference, str) and (model.dof[model.node(reference), 3:] < 0).any():
+            raise ModelError(f"{key} must name three nodes that span a triangle: node {reference} has no rotations.")
+        return reference
 
     def _named(self, field: str) -> tuple[Pair, ...]:
         """Joints that the file names, with their images."""
@@ -115,18 +115,18 @@ class JointFinder:
         return tuple(found)
 
     def _pair(self, point: Point) -> Pair:
-        return tuple(dict.fromkeys((self._at(point), self._at(_image(point), point))))
+        return tuple(dict.fromkeys((self._joint_at(point), self._joint_at(_image(point), point))))
 
-    def _at(self, place: Point, point: Point | None = None) -> str:
+    def _joint_at(self, position: Point, point: Point | None = None) -> str:
         """Joint at a hard point, or at the image of one."""
-        what = self._keys.get(point or place, "A point of the suspension on the chassis")
-        return self._nearest(place, what if point in (None, place) else f"The image of {what}")
+        what = self._keys.get(point or position, "A point of the suspension on the chassis")
+        return self._nearest(position, what if point in (None, position) else f"The image of {what}")
 
-    def _nearest(self, place: Point, what: str) -> str:
-        gaps = np.linalg.norm(self._places - place, axis=1)
+    def _nearest(self, position: Point, what: str) -> str:
+        gaps = np.linalg.norm(self._places - position, axis=1)
         nearest = int(gaps.argmin())
         if gaps[nearest] > SAME_PLACE:
-            where = ", ".join(f"{v:g}" for v in place)
+            where = ", ".join(f"{v:g}" for v in position)
             raise ModelError(
                 f"{what} is at ({where}) m, where the frame has no joint; the nearest is {self._names[nearest]}, "
                 f"{gaps[nearest]:.3g} m away."

@@ -1,4 +1,4 @@
-"""Whether the mass of a frame is the one that the file gives the chassis."""
+"""Check of the mass of a frame against that of the chassis in the file."""
 
 import numpy as np
 

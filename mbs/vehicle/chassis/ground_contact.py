@@ -31,17 +31,19 @@ def ground_contact(
         radius=data.radius,
         gravity=GRAVITY,
     )
-    left = [_place(data, point, joints) for point in data.points]
+    left = [_position(data, point, joints) for point in data.points]
     points = np.array([(x, sign * y, z) for x, y, z in left for sign in ((1.0, -1.0) if y else (1.0,))])
-    origin, axes, place = b.chassis.contact_frame
-    b.m.add(contact.record(NAME, origin, axes, points - place, b.road))
+    origin, axes, position = b.chassis.contact_frame
+    b.m.add(contact.record(NAME, origin, axes, points - position, b.road))
 
 
-def _place(data: GroundContact, point: Point | str, joints: Callable[[], Mapping[str, NDArray[np.float64]]]) -> Point:
+def _position(
+    data: GroundContact, point: Point | str, joints: Callable[[], Mapping[str, NDArray[np.float64]]]
+) -> Point:
     if not isinstance(point, str):
         return point
-    known = joints()
-    if point not in known:
+    positions = joints()
+    if point not in positions:
         raise ModelError(f"{data.key('points')} names {point!r}; the frame has no such joint.")
-    x, y, z = (float(v) for v in known[point])
+    x, y, z = (float(v) for v in positions[point])
     return x, y, z

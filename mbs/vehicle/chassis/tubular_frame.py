@@ -108,10 +108,10 @@ class TubularFrame:
         seen: set[str] = set()
         for row in read_table(self.folder, self.section.joints, self.section.key("joints"), ("joint", "x", "y", "z")):
             name = row["joint"]
-            place = np.array([row.number(axis, -REACH, REACH, "m") for axis in "xyz"])
-            _check_joint(row, name, float(place[1]), seen)
-            joints[name] = place
-            joints.setdefault(mirrored(name), place * [1.0, -1.0, 1.0])
+            position = np.array([row.number(axis, -REACH, REACH, "m") for axis in "xyz"])
+            _check_joint(row, name, float(position[1]), seen)
+            joints[name] = position
+            joints.setdefault(mirrored(name), position * [1.0, -1.0, 1.0])
         return joints
 
     def _tubes(self, joints: dict[str, np.ndarray]) -> list[tuple[str, str, str, int]]:
@@ -121,8 +121,8 @@ class TubularFrame:
         for row in read_table(self.folder, self.section.tubes, key, ("from", "to", "section", "elements")):
             start, end = row["from"], row["to"]
             for name in (start, end):
-                _known(row, name, joints, "joint", self.section.key("joints"))
-            _known(row, row["section"], sections, "section", self.section.key("sections"))
+                _check_name(row, name, joints, "joint", self.section.key("joints"))
+            _check_name(row, row["section"], sections, "section", self.section.key("sections"))
             image = (mirrored(start), mirrored(end))
             pairs = [(start, end)] if set(image) == {start, end} else [(start, end), image]
             if start == end or not ends.isdisjoint(frozenset(pair) for pair in pairs):
@@ -142,8 +142,8 @@ class TubularFrame:
         if self.section.masses is None:
             return masses
         for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
-            _known(row, row["joint"], joints, "joint", self.section.key("joints"))
-            for joint in _carrying(row, image):
+            _check_name(row, row["joint"], joints, "joint", self.section.key("joints"))
+            for joint in _loaded_joints(row, image):
                 masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MOST_MASS, "kg")
         return masses
 
@@ -153,7 +153,7 @@ def mirrored(name: str) -> str:
     return name[:-1] + IMAGE[name[-1]]
 
 
-def _carrying(row: Row, wanted: str) -> tuple[str, ...]:
+def _loaded_joints(row: Row, wanted: str) -> tuple[str, ...]:
     """Joints that have the mass of a line: the named one and its image, unless the column `image` says no."""
     joint, image = row["joint"], row.cells.get("image") or "yes"
     if image not in ("yes", "no"):
@@ -183,10 +183,10 @@ def _check_joint(row: Row, name: str, y: float, seen: set[str]) -> None:
         raise ModelError(f"{row.where}: joint {name} occurs twice.")
     seen.add(name)
     if (name[-1] == "L") != (y > 0.0) or (name[-1] == "c" and y != 0.0):
-        wanted = "positive on the left" if name[-1] == "L" else "0 on the centre plane"
-        raise ModelError(f"{row.where}: joint {name} has y = {y:g} m; y must be {wanted}.")
+        rule = "positive on the left" if name[-1] == "L" else "0 on the centre plane"
+        raise ModelError(f"{row.where}: joint {name} has y = {y:g} m; y must be {rule}.")
 
 
-def _known(row: Row, name: str, names: Container[str], what: str, key: str) -> None:
+def _check_name(row: Row, name: str, names: Container[str], what: str, key: str) -> None:
     if name not in names:
         raise ModelError(f"{row.where}: {what} {name!r} is not in {key}.")

@@ -1,4 +1,4 @@
-"""All checks of a car."""
+"""Checks of a car, in order."""
 
 from collections.abc import Iterator
 

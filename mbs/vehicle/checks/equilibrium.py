@@ -130,7 +130,7 @@ def _fitting(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, flo
 
 
 def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
-    """Of both wheels of an axle. `name`: of a sensor, with {} in the place of the wheel's."""
+    """Mean value of a sensor of both wheels of an axle. `name`: of the sensor, with {} for the wheel."""
     return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
 
@@ -139,8 +139,8 @@ def settled(model: Model, car: CarContent) -> Rest:
 
     Raises `ModelError`: its parts refuse a number, or it has no equilibrium.
     """
-    made = compiled(model)
-    at_rest = StandingSystem(made).sensors
+    system = compiled(model)
+    at_rest = StandingSystem(system).sensors
 
     def means(name: str) -> dict[str, float]:
         return {axle: _mean(at_rest, name, axle) for axle in car.axles}
@@ -152,5 +152,5 @@ def settled(model: Model, car: CarContent) -> Rest:
         means("wheel_{}.deflection"),
         means("spring_{}.length"),
         at_rest["chassis.roll"],
-        made,
+        system,
     )

@@ -51,7 +51,7 @@ def _sum(car: CarContent) -> Iterator[str]:
 
 
 def centre_ranges(car: CarContent) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float]]:
-    """Between which x, y and z the centre of mass of a car lies, m."""
+    """Ranges of x, y and z for the centre of mass of a car, m."""
     base, track = max(car.wheelbase, 1e-3), min(car.front.track, car.rear.track)
     return (base * (SHARE - 1.0), -base * SHARE), (-ASIDE * track, ASIDE * track), (LOW * track, track)
 

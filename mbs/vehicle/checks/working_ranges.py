@@ -1,4 +1,4 @@
-"""Between which values of its parameters a car works, where the range of the type of the number is wider."""
+"""Ranges of parameters within which a car works, where they are narrower than those of their types."""
 
 import math
 from collections.abc import Mapping
@@ -46,7 +46,7 @@ def working_ranges(car: CarContent) -> Ranges:
         room = PRESSED[1] * tyre.radius * tyre.stiffness - load
         carried = weight_on_spring(axle, load)
         if carried > 0.0:
-            room = min(room, _of_suspension(found, axle, carried))
+            room = min(room, _add_suspension(found, axle, carried))
         loads[name], radii = (2.0 * load, 2.0 * max(room, 0.0)), [*radii, tyre.radius]
     if len(radii) == 2:
         weight, more = (sum(part) for part in zip(*loads.values(), strict=True))
@@ -56,17 +56,17 @@ def working_ranges(car: CarContent) -> Ranges:
             for name in {"max_torque", "ratio", "ratio_factor"} & set(type(car.drive).model_fields):
                 value = getattr(car.drive, name)
                 _put(found, car.drive, name, *(value * part * torque / driven for part in DRIVEN))
-        _of_air(found, car.aerodynamics, loads)
+        _add_air(found, car.aerodynamics, loads)
         _put(found, car.chassis, "mass", 0.0, car.chassis.mass + more / GRAVITY)
         for payload in car.payload.values():
             _put(found, payload, "mass", 0.0, payload.mass + more / GRAVITY)
-    _of_mass_centre(found, car)
-    _of_grip(found, car)
+    _add_mass_centre(found, car)
+    _add_grip(found, car)
     return found
 
 
-def _of_mass_centre(found: Ranges, car: CarContent) -> None:
-    """Of the centre of mass of the chassis, so that that of the car is where a file may have it."""
+def _add_mass_centre(found: Ranges, car: CarContent) -> None:
+    """Add the range of the chassis' centre of mass that keeps the car's within `centre_ranges`."""
     lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
     centre, spans = centre_of(car, payloads=False), centre_ranges(car)
     for (path, value), now, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
@@ -74,10 +74,10 @@ def _of_mass_centre(found: Ranges, car: CarContent) -> None:
         found[path] = min(low, value), max(high, value)
 
 
-def _of_grip(found: Ranges, car: CarContent) -> None:
-    """Of each axle's grip, and of the road's friction and its factor, with the others as they are.
+def _add_grip(found: Ranges, car: CarContent) -> None:
+    """Add the ranges of each axle's grip, the road's friction and its factor, each with the others as they are.
 
-    A file that has less itself is not within.
+    The value of the file may lie below its range.
     """
     road = car.road
     for axle in (car.front, car.rear):
@@ -98,9 +98,9 @@ def under_load(spring: Spring, force: float) -> tuple[float, float]:
     A law is taken as lines from row to row, which go on beyond its ends. `force`: N, with the factor, which is above 0.
     """
     x, of_one = _rows(spring)
-    place = int(np.clip(np.searchsorted(of_one, force / spring.factor), 1, len(x) - 1))
-    slope = float((of_one[place] - of_one[place - 1]) / (x[place] - x[place - 1]))
-    return float(x[place] + (force / spring.factor - of_one[place]) / slope), slope
+    row = int(np.clip(np.searchsorted(of_one, force / spring.factor), 1, len(x) - 1))
+    slope = float((of_one[row] - of_one[row - 1]) / (x[row] - x[row - 1]))
+    return float(x[row] + (force / spring.factor - of_one[row]) / slope), slope
 
 
 def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
@@ -112,7 +112,7 @@ def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
         found[path] = min(max(least, found.get(path, (0.0,))[0]), high), high
 
 
-def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:
+def _add_suspension(found: Ranges, axle: Axle, carried: float) -> float:
     """Ranges of a spring that carries a weight, N, and of its damper.
 
     Result: how much more load, N, the spring carries until it has sunk by `SUNK`.
@@ -147,7 +147,7 @@ def _rows(spring: Spring) -> tuple[np.ndarray, np.ndarray]:
     return x, force
 
 
-def _of_air(found: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float, float]]) -> None:
+def _add_air(found: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float, float]]) -> None:
     """Ranges of the areas and of the density of the air.
 
     `loads`: load of each axle and how much more it can carry, N, by "front" and "rear".

@@ -58,7 +58,7 @@ class Automatic(Section, of=AutomaticDrive):
     locking: Locking = AutomaticDrive.locking
 
     def faults(self) -> Iterator[str]:
-        """Gears and speeds are in order."""
+        """Faults in the order of gears and speeds."""
         for field, wrong in self.element(AutomaticDrive).faults():
             yield f"{self.key(field)} {wrong}."
 
@@ -92,7 +92,7 @@ class Automatic(Section, of=AutomaticDrive):
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 
     def turning_parts(self, b: CarBuilder, spins: Mapping[str, Spin]) -> None:
-        """Nothing: the inertia of this drive is neglected."""
+        """No parts: the inertia of this drive is neglected."""
 
     def outputs(self, b: CarBuilder) -> None:
         """Add the outputs of the drive."""

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from mbs.vehicle.kinematics.curves import Curve
     from mbs.vehicle.kinematics.quantities import Quantity, quantity_of
 
-# imported when they are first asked for: a car measures its axles as it is read, and these need the car
+# imported on first use: a car measures its axles while it is read, and these modules need the car
 _HOMES = {
     "car_kinematics": ("Kinematics", "kinematics"),
     "axle_compliance": ("Compliance", "compliance"),

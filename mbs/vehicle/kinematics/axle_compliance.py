@@ -59,13 +59,13 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     chosen = fidelity_of(car, fidelity)
     if not car.linked_axles:
         car.front.suspension.needs_links()
-    held = HeldCar(car, chosen)
-    V, soft = held.flexibility(held.wheel_rows())
-    values = {axle: _responses(held, axle, V, soft) for axle in car.linked_axles}
-    free, springs = held.flexibility(np.zeros((0, len(held.q))))
+    held_car = HeldCar(car, chosen)
+    V, soft = held_car.flexibility(held_car.wheel_rows())
+    values = {axle: _responses(held_car, axle, V, soft) for axle in car.linked_axles}
+    free, springs = held_car.flexibility(np.zeros((0, len(held_car.q))))
     for axle, found in values.items():
-        found |= _rates(held, axle, free, springs)
-    return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _words(car, chosen))
+        found |= _rates(held_car, axle, free, springs)
+    return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _note(car, chosen))
 
 
 def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
@@ -84,7 +84,7 @@ def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
     return chosen
 
 
-def _words(car: Car, fidelity: Fidelity) -> str:
+def _note(car: Car, fidelity: Fidelity) -> str:
     if fidelity is not Fidelity.RIGID:
         how = f"at fidelity {fidelity.value} the chassis is {fidelity.description}"
     elif car.misfit:
@@ -99,8 +99,8 @@ def _words(car: Car, fidelity: Fidelity) -> str:
     )
 
 
-def _responses(held: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
-    left, right = (held.wheels[axle[0].upper() + side] for side in "LR")
+def _responses(held_car: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
+    left, right = (held_car.wheels[axle[0].upper() + side] for side in "LR")
     found = {}
     for load in LOADS:
         for sense, sign in DIRECTIONS.items():
@@ -131,9 +131,9 @@ def _responding(wheel: HeldWheel) -> dict[str, Array]:
     }
 
 
-def _rates(held: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
+def _rates(held_car: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
     """Load of a wheel per its rise, both wheels alike and against each other."""
-    left, right = (held.wheels[axle[0].upper() + side] for side in "LR")
+    left, right = (held_car.wheels[axle[0].upper() + side] for side in "LR")
     found = {}
     for name, sign in (("wheel_rate", 1.0), ("roll_wheel_rate", -1.0)):
         moved = V @ (soft @ (V.T @ (left.contact[2] + sign * right.contact[2])))

@@ -21,7 +21,7 @@ TRAVEL = (-0.08, 0.08)
 POINTS = 81
 MOTIONS = ("parallel", "opposite", "single")
 SAME_ANGLE = 1e-9
-"""By how much both wheels may differ and count as set alike, rad."""
+"""Largest difference of both wheels that counts as the same setting, rad."""
 FARTHEST, MOST_POINTS = 0.5, 10_001
 
 
@@ -101,11 +101,11 @@ def kinematics(
         for motion in MOTIONS:
             ends = (-both, both) if motion == "opposite" else (low, high)
             curves[axle, motion] = travel_curve(linkage, motion, _grid(*ends, points))
-            _tell(progress, len(curves))
+            _report(progress, len(curves))
         if axle == "front":
             full = car.steering.full
             curves[axle, "steer"] = steer_curve(linkage, _grid(-full, full, points), wheel_by_rack(car))
-            _tell(progress, len(curves))
+            _report(progress, len(curves))
         notes += stop_notes(linkage, curves[axle, "parallel"])
     ends_early = [note for curve in curves.values() for note in curve.notes]
     unlinked = [axle.suspension.unlinked for axle in car.axles.values()]
@@ -113,12 +113,12 @@ def kinematics(
 
 
 def wheel_by_rack(car: Car) -> WheelByRack:
-    """What gives the angle of the steering wheel, rad, and its change per motion of the steering, at a motion."""
-    way = car.steering.signed(car.rack_direction)
+    """Function of the steering's motion: angle of the steering wheel, rad, and its derivative by that motion."""
+    sign = car.steering.signed(car.rack_direction)
 
     def at(travel: float) -> tuple[float, float]:
         angle, rate = car.steering.wheel_at(travel)
-        return way * angle, way * rate
+        return sign * angle, sign * rate
 
     return at
 
@@ -146,6 +146,6 @@ def _grid(low: float, high: float, points: int) -> Array:
     return np.sort(np.append(grid, 0.0))
 
 
-def _tell(progress: Callable[[float], None] | None, done: int) -> None:
+def _report(progress: Callable[[float], None] | None, done: int) -> None:
     if progress is not None:
         progress(done / (2 * len(MOTIONS) + 1))

@@ -40,15 +40,15 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
         for sense in DIRECTIONS:
             for name, kind, meaning in (*_ANGLES, *_SHOWN.get(load, ())):
                 factor, unit = units[kind]
-                front, rear = _of_axles(found, f"{load}.{sense}.{name}", factor)
+                front, rear = _axle_cells(found, f"{load}.{sense}.{name}", factor)
                 lines.append((f"{_WORDS[load]}, {_SENSE[sense]}", front, rear, unit, meaning))
     for name, words in (("wheel_rate", "wheel rate with what gives"), ("roll_wheel_rate", "the same in roll")):
-        front, rear = _of_axles(found, name, 1e-3)
+        front, rear = _axle_cells(found, name, 1e-3)
         lines.append((words, front, rear, "N/mm", "load per travel, frame or column in series"))
     return lines
 
 
-def _of_axles(found: Compliance, name: str, factor: float) -> tuple[str, str]:
+def _axle_cells(found: Compliance, name: str, factor: float) -> tuple[str, str]:
     """A value times a factor at the front and the rear axle, as text."""
     front, rear = (factor * found.values.get(axle, {}).get(name, math.nan) for axle in ("front", "rear"))
     return shown_number(front), shown_number(rear)

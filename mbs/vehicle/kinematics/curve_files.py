@@ -27,7 +27,7 @@ def write_curve(curve: Curve, file: str | PathLike[str]) -> None:
     OSError
         It cannot be written.
     """
-    with atomic_file(file) as made, made.open("w", newline="", encoding="utf-8") as out:
+    with atomic_file(file) as target, target.open("w", newline="", encoding="utf-8") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow([f"{name} [{unit}]" for name, unit in curve.units.items()])
         writer.writerows(np.column_stack(list(curve.columns.values())).tolist())

@@ -64,7 +64,7 @@ def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
     Parameters
     ----------
     motion : {"parallel", "opposite", "single"}
-        What the right wheel does.
+        Motion of the right wheel.
     travel : ndarray, shape (n,)
         Rising, with 0 among them, m.
     """

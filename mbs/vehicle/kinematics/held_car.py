@@ -88,7 +88,7 @@ class HeldCar(StandingModel):
         }
         self._carriers = {
             name: (
-                _down(centre, as_set[name][2]),
+                _to_ground(centre, as_set[name][2]),
                 [self.linear(v) for v in (carrier.point(centre), *map(carrier.vector, as_set[name]))],
             )
             for name, (carrier, centre) in carriers.items()
@@ -165,6 +165,6 @@ class HeldCar(StandingModel):
         return HeldWheel(float(np.linalg.norm(down)), place[0], axes[1][0], turn, contact)
 
 
-def _down(centre: Point, up: Point) -> Array:
+def _to_ground(centre: Point, up: Point) -> Array:
     """From a wheel's centre to the ground in its plane, both as drawn, m."""
     return np.multiply(-centre[2] / up[2], up)

@@ -1,4 +1,4 @@
-"""One HTML page with the table, the notes and the plots in it."""
+"""HTML page of a car's kinematics: table, notes and plots."""
 
 from ali3.charts import drawing
 from ali3.html_elements import document, element, picture, table

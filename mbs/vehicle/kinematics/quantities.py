@@ -19,7 +19,7 @@ class Quantity:
     shown: str
     """Unit in tables and plots for people."""
     factor: float
-    """From the unit to the one that is shown."""
+    """Factor from the unit to the displayed one."""
     meaning: str
     """What is positive, and against what it is measured."""
 

@@ -26,7 +26,7 @@ TRAVEL = (-80.0, 80.0)  # mm
 
 def report(options: argparse.Namespace) -> int:
     """Print what the axles are as drawn, and write page and tables; gives the exit code, 1 where a curve has notes."""
-    import matplotlib  # noqa: F401  # missing, it is told before the work
+    import matplotlib  # noqa: F401  # if it is missing, the error comes before the work
 
     from mbs.vehicle.kinematics.page import page
 

@@ -36,7 +36,7 @@ class LevelChoice:
 
     @property
     def left_out(self) -> str:
-        """What a car of this fidelity does without."""
+        """Effects that this fidelity neglects."""
         return LEFT_OUT[self.fidelity]
 
 
@@ -50,11 +50,11 @@ def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Le
     found: list[LevelChoice] = []
     for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
         fidelity = Fidelity.of(name)
-        mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
-        known = all(row[output] is not None for row in mine for output in outputs)
-        if fidelity in LEFT_OUT and known and {row["manoeuvre"] for row in mine} == names:
-            errors = {output: max(row[output] for row in mine) for output in outputs}
-            found.append(LevelChoice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in mine)))
+        level_rows = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
+        complete = all(row[output] is not None for row in level_rows for output in outputs)
+        if fidelity in LEFT_OUT and complete and {row["manoeuvre"] for row in level_rows} == names:
+            errors = {output: max(row[output] for row in level_rows) for output in outputs}
+            found.append(LevelChoice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in level_rows)))
     return found
 
 
@@ -71,12 +71,14 @@ def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float])
     good = [c for c in found if all(c.errors[output] <= most for output, most in tolerances.items())]
     if good:
         return min(good, key=lambda c: c.ms_per_second)
-    asked = " and ".join(f"{output} right to {most:g}" for output, most in tolerances.items())
+    limits = " and ".join(f"{output} right to {most:g}" for output, most in tolerances.items())
     if not found:
-        raise ValueError(f"No fidelity that was measured has {asked}: none has all of these outputs in all manoeuvres.")
+        raise ValueError(
+            f"No fidelity that was measured has {limits}: none has all of these outputs in all manoeuvres."
+        )
     near = nearest(found, tolerances).errors
     named = [f"{output} {error:.2g}" if len(near) > 1 else f"{error:.2g}" for output, error in near.items()]
-    raise ValueError(f"No fidelity that was measured has {asked}; the best is {' and '.join(named)} away.")
+    raise ValueError(f"No fidelity that was measured has {limits}; the best is {' and '.join(named)} away.")
 
 
 def nearest(found: Sequence[LevelChoice], tolerances: Mapping[str, float]) -> LevelChoice:

@@ -56,7 +56,7 @@ def measure(
     systems : dict of Fidelity to System
         Of `systems_of`; the last is the reference.
     drives : sequence of Drive
-        What the car does.
+        Manoeuvres of the car.
     steps : sequence of float
         s; whole parts of the longest one.
     repeats : int

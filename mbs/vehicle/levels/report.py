@@ -112,28 +112,28 @@ def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         ("fidelity", "step, ms", "path, %", "loads, %", "moments, %", "ms per s", "times real time")
     ]
     for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
-        mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
-        errors = [_most(mine, output, 100.0, ".2g") for output in TITLES]
-        cost = _most(mine, "us_per_step", 1e-3 / h, ".1f")
-        real = "-" if cost == "-" else f"{1e3 / max(1e-3 * row['us_per_step'] / h for row in mine):.0f}"
+        level_rows = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
+        errors = [_largest_text(level_rows, output, 100.0, ".2g") for output in TITLES]
+        cost = _largest_text(level_rows, "us_per_step", 1e-3 / h, ".1f")
+        real = "-" if cost == "-" else f"{1e3 / max(1e-3 * row['us_per_step'] / h for row in level_rows):.0f}"
         lines.append((f"{Fidelity.of(name).value:>3} {name}", f"{1e3 * h:g}", *errors, cost, real))
     return in_columns(lines, range(1, 7))
 
 
-def _most(rows: Sequence[Mapping[str, Any]], key: str, factor: float, form: str) -> str:
+def _largest_text(rows: Sequence[Mapping[str, Any]], key: str, factor: float, form: str) -> str:
     values = [row[key] for row in rows]
     return "-" if None in values else format(factor * max(values), form)
 
 
-def _asked(tolerances: Mapping[str, float]) -> str:
+def _tolerance_text(tolerances: Mapping[str, float]) -> str:
     words = [f"{100.0 * most:g} % {TITLES[output]}" for output, most in tolerances.items()]
     return ", ".join(words[:-1]) + (" and " if len(words) > 1 else "") + words[-1]
 
 
 def _sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:
     return (
-        f"Cheapest within {_asked(tolerances)}: fidelity {choice.fidelity.value} with steps of {1e3 * choice.h:g} ms, "
-        f"{choice.ms_per_second:.1f} ms of processor time a simulated second "
+        f"Cheapest within {_tolerance_text(tolerances)}: fidelity {choice.fidelity.value} with steps of "
+        f"{1e3 * choice.h:g} ms, {choice.ms_per_second:.1f} ms of processor time a simulated second "
         f"({1e3 / choice.ms_per_second:.0f} times real time). It leaves out {LEFT_OUT[choice.fidelity]}."
     )
 
@@ -141,11 +141,13 @@ def _sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:
 def _none(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> str:
     found = levels(rows, list(tolerances))
     if not found:
-        return f"No level is within {_asked(tolerances)}: no run of a level with these outputs reached its end."
+        return (
+            f"No level is within {_tolerance_text(tolerances)}: no run of a level with these outputs reached its end."
+        )
     near = nearest(found, tolerances)
     errors = ", ".join(f"{100.0 * near.errors[output]:.2g} % {TITLES[output]}" for output in tolerances)
     return (
-        f"No level is within {_asked(tolerances)}; the nearest is fidelity {near.fidelity.value} with steps of "
-        f"{1e3 * near.h:g} ms, {errors}. Give a larger tolerance, or take steps shorter than "
+        f"No level is within {_tolerance_text(tolerances)}; the nearest is fidelity {near.fidelity.value} with steps "
+        f"of {1e3 * near.h:g} ms, {errors}. Give a larger tolerance, or take steps shorter than "
         f"{1e3 * min(c.h for c in found):g} ms."
     )

@@ -38,21 +38,23 @@ def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
 def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike[str]) -> None:
     """Write `curve_rows` as CSV, with units in the heading; an older file is replaced when the new one is whole."""
     columns = curve_rows(linkage, rack_travel)
-    with atomic_file(Path(file)) as made, made.open("w", newline="", encoding="utf-8") as out:
+    with atomic_file(Path(file)) as target, target.open("w", newline="", encoding="utf-8") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow([f"{name} [{COLUMNS[name]}]" for name in columns])
         writer.writerows(np.column_stack(list(columns.values())).tolist())
 
 
 def _travels(linkage: Linkage, coupled: bool) -> Array:
-    """Travels (n,) of a wheel, m, from beyond one stop to beyond the other, whatever the other wheel does."""
+    """Travels (n,) of a wheel, m, from beyond one stop to beyond the other at any position of the other wheel."""
     extended, compressed = compression_range(linkage)
     ends = []
-    for way, most in ((-1.0, extended), (1.0, compressed)):
+    for direction, most in ((-1.0, extended), (1.0, compressed)):
         t = 0.0
         others = (1.0, -1.0) if coupled else (1.0,)
-        while min(way * _compression(linkage, _reached(linkage, np.array([t, o * t]), 0.0)) for o in others) < most:
-            t += way * 0.5 * SPACING[0]
+        while (
+            min(direction * _compression(linkage, _reached(linkage, np.array([t, o * t]), 0.0)) for o in others) < most
+        ):
+            t += direction * 0.5 * SPACING[0]
         ends.append(t)
     return even_points(ends[0], ends[1], SPACING[0])
 

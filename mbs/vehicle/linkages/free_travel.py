@@ -18,11 +18,11 @@ def notes_without_stops(car: CarContent) -> Iterator[str]:
 
     `car`: at rest near the drawing.
     """
-    yield from _of_the_springs(car)
-    yield from _of_the_steering(car)
+    yield from _missing_stops(car)
+    yield from _missing_steering_stop(car)
 
 
-def _of_the_springs(car: CarContent) -> Iterator[str]:
+def _missing_stops(car: CarContent) -> Iterator[str]:
     for name, axle in car.axles.items():
         if axle.stops is not None:
             continue
@@ -45,7 +45,7 @@ def _of_the_springs(car: CarContent) -> Iterator[str]:
         )
 
 
-def _of_the_steering(car: CarContent) -> Iterator[str]:
+def _missing_steering_stop(car: CarContent) -> Iterator[str]:
     stop, steering = car.front.suspension.stop_left_out, car.steering
     if not stop:
         return
@@ -67,7 +67,7 @@ def _of_the_steering(car: CarContent) -> Iterator[str]:
 
 
 def _ends(linkage: Linkage, direction: Array, start: Position | None = None) -> tuple[float, float] | None:
-    """Where the links end to both sides of a start, m; None where they follow as far as is looked at."""
+    """Travel to both sides of a start up to which the links follow, m; None if it is `FARTHEST` on both sides."""
     low, high = (reached(linkage, direction, np.array([far]), start)[1] for far in (-FARTHEST, FARTHEST))
     if low is None and high is None:
         return None

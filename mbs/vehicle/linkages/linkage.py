@@ -85,7 +85,7 @@ class Linkage(StandingModel):
         self.data.suspension.needs_links()
         m = self.model = Model(f"{car.name} {axle} suspension", gravity=(0.0, 0.0, 0.0))
         b = CarBuilder(m, m.road(PlaneRoad()), {})
-        b.chassis = _held(m, car)
+        b.chassis = _fixed_chassis(m, car)
         ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
         rack = m.guide_time("rack", ramp, unit="m")
         steered = car.steering.ends(b, rack, car.rack_direction) if axle == "front" else rack_ends(b, rack)
@@ -196,7 +196,7 @@ class Linkage(StandingModel):
         return np.asarray(np.linalg.lstsq(np.vstack(rows), right, rcond=RANK_TOLERANCE)[0])
 
 
-def _held(m: Model, car: CarContent) -> Mount:
+def _fixed_chassis(m: Model, car: CarContent) -> Mount:
     """The earth as the chassis."""
     ground = m.ground
     axes = [ground.vector(e) for e in np.eye(3)]

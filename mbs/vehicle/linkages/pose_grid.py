@@ -49,7 +49,7 @@ class PoseGrid:
 
 
 def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
-    """Positions of an axle over all it can be asked for.
+    """Positions of an axle over the whole range of its springs and rack.
 
     `rack_travel`: to each side, m; 0 where the axle is not steered. Raises `NotReachedError`: the links end before the
     stops.
@@ -87,17 +87,21 @@ def even_points(low: float, high: float, spacing: float) -> Array:
 
 
 def _march(
-    linkage: Linkage, start: Array, places: list[tuple[tuple[float, float], float]], begin: int | None = None
+    linkage: Linkage, start: Array, points: list[tuple[tuple[float, float], float]], begin: int | None = None
 ) -> Array:
     """Coordinates at places along a line, from the one nearest to the drawing (or `begin`) to both ends."""
-    first = int(np.argmin([abs(c[0]) + abs(u) for c, u in places])) if begin is None else begin
-    found = np.zeros((len(places), len(start)))
-    found[first] = at_springs(linkage, start, *places[first])
-    for way, end in ((1, len(places)), (-1, -1)):
-        for k in range(first + way, end, way):
-            before = found[k - way]
-            guess = 2.0 * before - found[k - 2 * way] if 0 <= k - 2 * way < len(places) and k != first + way else before
-            found[k] = at_springs(linkage, guess, *places[k])
+    first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points])) if begin is None else begin
+    found = np.zeros((len(points), len(start)))
+    found[first] = at_springs(linkage, start, *points[first])
+    for direction, end in ((1, len(points)), (-1, -1)):
+        for k in range(first + direction, end, direction):
+            before = found[k - direction]
+            guess = (
+                2.0 * before - found[k - 2 * direction]
+                if 0 <= k - 2 * direction < len(points) and k != first + direction
+                else before
+            )
+            found[k] = at_springs(linkage, guess, *points[k])
     return found
 
 
@@ -112,9 +116,11 @@ def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float],
     drawn = [float(np.linalg.norm(D @ linkage.drawn.q + d)) for D, d in lines]
     for _ in range(MOST_ITERATIONS):
         phi, jacobian, _ = linkage.constraints(q, still, rack)
-        ways = [D @ q + d for D, d in lines]
-        lengths = np.array([np.linalg.norm(way) for way in ways])
-        rows = np.vstack([jacobian, *(way @ D / size for (D, _), way, size in zip(lines, ways, lengths, strict=True))])
+        vectors = [D @ q + d for D, d in lines]
+        lengths = np.array([np.linalg.norm(vector) for vector in vectors])
+        rows = np.vstack(
+            [jacobian, *(vector @ D / size for (D, _), vector, size in zip(lines, vectors, lengths, strict=True))]
+        )
         off = np.concatenate([phi, lengths - drawn + compression])
         step = np.linalg.lstsq(rows, off, rcond=RANK_TOLERANCE)[0]
         q = q - step

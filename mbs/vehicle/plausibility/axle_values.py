@@ -40,7 +40,9 @@ class AxleRates:
 
 
 def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
-    """By the links as drawn, or without links by virtual work at rest; None where a spring is not pressed.
+    """Rates of an axle by its links as drawn, or without links by virtual work at rest.
+
+    None if a spring is not compressed.
 
     `name`: "front" or "rear".
     """
@@ -75,7 +77,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
             away = math.hypot(point[0] - centre[0], point[2] - centre[2])
             yield Value(CAR["joint"], centre[1] - point[1], {key: list(point), **y}, of)
             yield Value(CAR["joint_radius"], away / axle.tyre.radius, {key: list(point), **y}, of)
-    yield from _places(axle, name)
+    yield from _distances(axle, name)
     yield from _alignment(axle, name)
     yield Value(
         CAR["wheel_radius"],
@@ -88,7 +90,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
     nominal = axle.tyre.nominal_load
     yield Value(CAR["loaded"], rest.load[name] / nominal, {axle.tyre.key("nominal_load"): nominal}, name)
     if isinstance(axle.suspension, Curves):
-        yield from _of_curves(axle.suspension, name, y)
+        yield from _curve_values(axle.suspension, name, y)
     if rates is not None:
         for quantity, angle in (("caster", "caster_angle"), ("kingpin", "kingpin_inclination_angle")):
             if angle in rates.steering_axis:
@@ -98,8 +100,8 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
         yield from _springs(axle, name, rest, rates)
 
 
-def _places(axle: Axle, name: str) -> Iterator[Value]:
-    """Of points and parts the farthest."""
+def _distances(axle: Axle, name: str) -> Iterator[Value]:
+    """Distances of the farthest points and parts of an axle."""
     points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
     if not axle.suspension.linked:
         points = parts
@@ -160,7 +162,7 @@ def damping_at(damper: Damper, speed: float) -> float:
     return float(np.interp(at, v, force)) / at * damper.factor if at else 0.0
 
 
-def _of_curves(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
+def _curve_values(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
     table, key = curves.table, {curves.key("file"): curves.file}
     i, k = (int(np.argmin(np.abs(axis))) for axis in (table.travel, table.second))
     (wheel,) = centre.values()

@@ -39,7 +39,8 @@ def car_plausibility(what: str, car: CarContent, rest: Rest, data: Data, remake:
     """
     kind = car.vehicle.category or ""
     mistakes = [
-        Mistake(words, frozenset(keys), partial(_undone, undo, data, remake)) for words, keys, undo in _mistakes(car)
+        Mistake(words, frozenset(keys), partial(_altered_values, undo, data, remake))
+        for words, keys, undo in _mistakes(car)
     ]
     whole = Plausibility(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
     return [whole, *(tyre_plausibility(what, a, kind) for a in car.axles.values())]
@@ -57,7 +58,7 @@ def tyre_plausibility(what: str, axle: Axle, kind: str) -> Plausibility:
 def car_values(car: CarContent, rest: Rest) -> list[Value]:
     """Values of all quantities of a car."""
     rates = {name: axle_rates(car, name, rest) for name in car.axles}
-    found = [*_of_dimensions(car), *_of_masses(car)]
+    found = [*_dimension_values(car), *_mass_values(car)]
     for name in car.axles:
         found += axle_values(car, name, rest, rates[name])
     linked = [r for r in rates.values() if r is not None]
@@ -72,7 +73,7 @@ def car_values(car: CarContent, rest: Rest) -> list[Value]:
             lean = _mass(car) * GRAVITY * centre_of(car, payloads=True)[2] / total
             found.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
             found.append(Value(CAR["split"], stiffness[0] / total, keys))
-    return [*found, *_of_driving(car, rest)]
+    return [*found, *_driving_values(car, rest)]
 
 
 def _centre_key(car: CarContent) -> dict[str, Any]:
@@ -80,11 +81,11 @@ def _centre_key(car: CarContent) -> dict[str, Any]:
 
 
 def _mass(car: CarContent) -> float:
-    """Of all parts, kg; what the wheels carry is less where the body lies on the ground."""
+    """Mass of all parts, kg; the wheels carry less if the body lies on the ground."""
     return sum(mass for mass, _ in weighed_points(car, payloads=True))
 
 
-def _of_dimensions(car: CarContent) -> Iterator[Value]:
+def _dimension_values(car: CarContent) -> Iterator[Value]:
     centres = {axle.wheel.key("centre"): list(axle.wheel.centre) for axle in car.axles.values()}
     tracks = [axle.track for axle in car.axles.values()]
     yield Value(CAR["mass"], _mass(car), {car.vehicle.key("mass"): car.vehicle.mass})
@@ -94,7 +95,7 @@ def _of_dimensions(car: CarContent) -> Iterator[Value]:
     body = car.vehicle
     yield Value(CAR["length"], body.length / car.wheelbase, {body.key("length"): body.length, **centres})
     yield Value(CAR["width"], body.width / max(tracks), {body.key("width"): body.width, **centres})
-    yield from _of_points(car)
+    yield from _point_values(car)
     contact = car.chassis.ground_contact
     points = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
     if contact and points:
@@ -102,9 +103,8 @@ def _of_dimensions(car: CarContent) -> Iterator[Value]:
         yield Value(CAR["clearance"], lowest[2], {contact.key("points"): list(lowest)})
 
 
-def _of_points(car: CarContent) -> Iterator[Value]:
-    """Of points of the body the farthest outside of its outline and the nearest to the front axle, and of all points
-    the coordinate nearest to 0."""
+def _point_values(car: CarContent) -> Iterator[Value]:
+    """Extreme points: farthest outside the body's outline, nearest to the front axle, smallest coordinate but 0."""
     points, body = points_of_the_body(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
     beyond = {
@@ -122,7 +122,7 @@ def _of_points(car: CarContent) -> Iterator[Value]:
     yield Value(CAR["nearest"], nearest[key], {key: list(points[key])})
 
 
-def _of_masses(car: CarContent) -> Iterator[Value]:
+def _mass_values(car: CarContent) -> Iterator[Value]:
     x, y, height = centre_of(car, payloads=True)
     track, chassis = 0.5 * sum(axle.track for axle in car.axles.values()), car.chassis
     share = (x - car.rear.wheel.centre[0]) / car.wheelbase
@@ -153,7 +153,7 @@ def _of_masses(car: CarContent) -> Iterator[Value]:
     yield Value(CAR["pitch_yaw"], chassis.inertia[1] / chassis.inertia[2], key)
 
 
-def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
+def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
     stiffness = {name: 2.0 * cornering(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()}
     if min(stiffness.values()) > 0.0:
         front, rear = (2.0 * rest.load[name] / stiffness[name] * DEG for name in car.axles)
@@ -201,14 +201,14 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
 Undo: TypeAlias = Callable[[Data], None]
 
 
-def _undone(undo: Undo, data: Data, remake: Remake) -> list[Value] | None:
+def _altered_values(undo: Undo, data: Data, remake: Remake) -> list[Value] | None:
     altered = copy.deepcopy(data)
     try:
         undo(altered)
     except (KeyError, TypeError):
         return None  # the file has not these keys
-    made = remake(altered)
-    return None if made is None else car_values(*made)
+    altered_car = remake(altered)
+    return None if altered_car is None else car_values(*altered_car)
 
 
 def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
@@ -219,11 +219,11 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         yield f"the track in place of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
         for angle in ("toe", "camber"):
             keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
-            there = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
-            yield f"degrees in place of radians in {' and '.join(there)}", set(keys), _scale(there, 1.0 / DEG)
-            for key in there if angle == "camber" else ():
+            present = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
+            yield f"degrees in place of radians in {' and '.join(present)}", set(keys), _scale(present, 1.0 / DEG)
+            for key in present if angle == "camber" else ():
                 yield f"the sign of {key}", {key}, _scale(key, -1.0)
-            yield f"the signs of {' and '.join(there)}", set(keys), _scale(there, -1.0)
+            yield f"the signs of {' and '.join(present)}", set(keys), _scale(present, -1.0)
         damper, spring = axle.damper, axle.spring
         if damper.table is not None:
             key = damper.key("table")
@@ -266,7 +266,7 @@ def _scale(keys: str | list[str], factor: float) -> Undo:
 
     def undo(data: Data) -> None:
         for key in [keys] if isinstance(keys, str) else keys:
-            holder, last = _holder(data, key)
+            holder, last = _container(data, key)
             holder[last] = _scaled(holder[last], factor)
 
     return undo
@@ -280,7 +280,7 @@ def _scaled(value: Any, factor: float) -> Any:
     return value * factor
 
 
-def _holder(data: Data, key: str) -> tuple[Any, Any]:
+def _container(data: Data, key: str) -> tuple[Any, Any]:
     *path, last = key.split(".")
     holder: Any = data
     for part in path:
@@ -292,22 +292,22 @@ def _holder(data: Data, key: str) -> tuple[Any, Any]:
 
 
 def _mirror(key: str, data: Data) -> None:
-    holder, last = _holder(data, key)
+    holder, last = _container(data, key)
     holder[last] = [[-v, -force] for v, force in reversed(holder[last])]
 
 
 def _swap(key: str, a: int, b: int, data: Data) -> None:
-    holder, last = _holder(data, key)
+    holder, last = _container(data, key)
     values = list(holder[last])
     values[a], values[b] = values[b], values[a]
     holder[last] = list(np.array(values, float))
 
 
 def _exchange(key: str, other: str, data: Data) -> None:
-    (one, a), (two, b) = _holder(data, key), _holder(data, other)
+    (one, a), (two, b) = _container(data, key), _container(data, other)
     one[a], two[b] = two[b], one[a]
 
 
 def _rest_of_one(key: str, data: Data) -> None:
-    holder, last = _holder(data, key)
+    holder, last = _container(data, key)
     holder[last] = 1.0 - holder[last]

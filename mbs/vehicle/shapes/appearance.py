@@ -52,7 +52,7 @@ class Looks:
 
     @property
     def chassis(self) -> Body:
-        """Its axes and points do not deform."""
+        """Rigid frame of the chassis, whose axes and points do not deform."""
         return self.b.chassis.frame
 
     @cached_property

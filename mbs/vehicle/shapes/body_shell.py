@@ -227,14 +227,14 @@ class BodyShell:
     def windows(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Mesh of the surface between lower body and roof: vertices, m, and triangles."""
         share = np.linspace(self.outline.roof[0, 0], self.windscreen, 25)
-        return loft(self._above(share, 0.0))
+        return loft(self._upper_sections(share, 0.0))
 
     def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Mesh of the roof panel: vertices, m, and triangles."""
         share = np.linspace(self.outline.panel[0], self.outline.panel[1], 15)
-        return loft([section[1:] for section in self._above(share, 0.006)])
+        return loft([section[1:] for section in self._upper_sections(share, 0.006)])
 
-    def _above(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
+    def _upper_sections(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
         """Cross-sections of the left half above the lower body, m, with the roof raised by `lifted`, m."""
         lower, upper = self.edge(share)
         height = np.maximum(self.roof(lower[:, 0])[0], lower[:, 2] + 0.004)

@@ -1,4 +1,4 @@
-"""All shapes of a car: each part draws its own."""
+"""Shapes of a car, each part's by a module of its own."""
 
 from collections.abc import Callable, Mapping
 

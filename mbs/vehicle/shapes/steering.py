@@ -13,7 +13,7 @@ from mbs.vehicle.steering.pitman_arm import LINK, PitmanArm
 
 
 def rack_of(b: CarBuilder, car: CarContent) -> Owner:
-    """What the inner ends of the tie rods move with: a rack slides by its travel, a link moves in its plane."""
+    """Owner of the shapes at the inner ends of the tie rods: the rack, or a link that moves in its plane."""
     inner, frame = car.rack_end, b.chassis.frame
     if isinstance(car.steering, PitmanArm):
         ahead, left = car.steering.plane

@@ -23,8 +23,8 @@ def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None
             points = [(looks.chassis, joints[name]) for name in (tube.start, tube.end)]
             radius = 0.5 * frame.section.sections[tube.section].diameter
             looks.shape(looks.chassis, "tube", points=points, radius=radius, name=FRAME, **paint)
-    places = np.array(list(joints.values()))
-    low = places[places[:, 2] < places[:, 2].min() + LOW]
+    positions = np.array(list(joints.values()))
+    low = positions[positions[:, 2] < positions[:, 2].min() + LOW]
     try:
         corners = low[ConvexHull(low[:, :2]).vertices]
     except (QhullError, ValueError):  # no area

@@ -69,7 +69,7 @@ class Column(RackSection, of=TorsionBar):
     """1: steering_torque turns a free steering wheel; 0: the steering wheel follows steering and its angle demand."""
 
     def faults(self) -> Iterator[str]:
-        """Assistance has a limit."""
+        """Fault of an assistance without a limit."""
         if self.assistance > 0.0 and "assistance_limit" not in self.model_fields_set:
             yield (
                 f"{self.key('assistance_limit')} is missing; without it {self.key('assistance')}, {self.assistance:g}, "

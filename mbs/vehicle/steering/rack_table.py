@@ -14,14 +14,14 @@ from mbs.vehicle.quantities import RackMillimetres, SteeringWheelDegrees
 
 Rows: TypeAlias = tuple[tuple[SteeringWheelDegrees, RackMillimetres], ...]
 SAME = 1e-3
-"""Share by which the table may differ at straight ahead from the travel per turn without a word."""
+"""Relative difference at straight ahead between table and travel per turn below which nothing is reported."""
 
 
 class RackTable:
     """A curve of the rack's travel over the angle of the steering wheel, the same to both sides.
 
-    Between the rows a monotone cubic. It is stretched along the angle so that at straight ahead it has the travel per
-    turn of the file or of the parameter.
+    Between the rows it is a monotone cubic. It is scaled along the angle so that at straight ahead it has the travel
+    per turn of the file or of the parameter.
 
     `rows`: without faults: angle, deg, and travel, mm, of one side from (0, 0) on; `per_radian`: travel per radian at
     straight ahead, m/rad.
@@ -54,7 +54,7 @@ class RackTable:
 
 
 def table_faults(key: str, rows: Rows, travel_key: str, travel: float) -> Iterator[str]:
-    """What a table must be. `travel_key`, `travel`: of the travel at full lock, m, that it must reach."""
+    """Faults of a table in words. `travel_key`, `travel`: of the travel at full lock, m, that it must reach."""
     if len(rows) < 2:
         yield f"{key} has {len(rows)} rows; it must have two or more."
         return

@@ -58,7 +58,7 @@ class SteeringSection(Section):
 
     @abstractmethod
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
-        """What the inner ends of the tie rods hang on where a guide gives its motion.
+        """Owner of the inner ends of the tie rods, moved by a guide.
 
         `guide`: in m or rad; `way`: as of `signed`.
         """

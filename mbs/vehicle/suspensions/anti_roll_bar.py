@@ -30,7 +30,7 @@ class AntiRollBarPoints(Section):
     """End of the drop link on the suspension."""
 
     def faults(self) -> Iterator[str]:
-        """The link must turn its lever."""
+        """Fault of a link that does not turn its lever."""
         lever = self.lever_end[0] - self.pivot[0], self.lever_end[2] - self.pivot[2]  # seen along the bar
         link = self.link_end[0] - self.lever_end[0], self.link_end[2] - self.lever_end[2]
         length, rod = math.hypot(*lever), math.dist(self.link_end, self.lever_end)

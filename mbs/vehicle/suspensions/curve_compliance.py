@@ -50,9 +50,9 @@ class Compliance(Section):
     camber_per_lateral_force: SteerPerForce = 0.0
     """Camber angle, positive with the top outwards, per lateral force, positive to the left."""
     lateral_per_lateral_force: DisplacementPerForce = 0.0
-    """Way of the contact to the left per lateral force, beside that of the turn; with a camber only."""
+    """Displacement of the contact to the left per lateral force, besides that of the turn; with a camber only."""
     longitudinal_per_longitudinal_force: DisplacementPerForce = 0.0
-    """Way of the wheel forward per longitudinal force, beside that of the turn."""
+    """Displacement of the wheel forward per longitudinal force, besides that of the turn."""
     loss_time: LossTime = 0.001
     """Damping over stiffness."""
 
@@ -68,34 +68,35 @@ class Compliance(Section):
                 )
 
     def faults(self) -> Iterator[str]:
-        """The axis about which a wheel leans is at a height near the car."""
-        camber, way = self.camber_per_lateral_force, self.lateral_per_lateral_force
-        if not LEAST_HEIGHT * abs(camber) <= way <= LARGEST_HEIGHT * abs(camber):
+        """Fault of an axis about which a wheel leans at a height far from the car."""
+        camber, lateral = self.camber_per_lateral_force, self.lateral_per_lateral_force
+        if not LEAST_HEIGHT * abs(camber) <= lateral <= LARGEST_HEIGHT * abs(camber):
             yield (
-                f"{self.key('lateral_per_lateral_force')} is {way:g} m/N and {self.key('camber_per_lateral_force')} "
-                f"{camber:g} rad/N; their ratio is the height of the axis about which the wheel leans, which must be "
-                f"{LEAST_HEIGHT:g} to {LARGEST_HEIGHT:g} m over or under the contact."
+                f"{self.key('lateral_per_lateral_force')} is {lateral:g} m/N and "
+                f"{self.key('camber_per_lateral_force')} {camber:g} rad/N; their ratio is the height of "
+                f"the axis about which the wheel leans, which must be {LEAST_HEIGHT:g} to {LARGEST_HEIGHT:g} m over "
+                f"or under the contact."
             )
 
     def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
-        """What the table of a wheel stands on, and the share of its carrier's mass that the table keeps.
+        """Base body of the table of a wheel, and the share of its carrier's mass that stays with the table.
 
         `centre`: of the left wheel, m.
         """
         chassis, slide = b.chassis.frame, self.longitudinal_per_longitudinal_force
-        lean, way = -self.camber_per_lateral_force, self.lateral_per_lateral_force
+        lean, lateral = -self.camber_per_lateral_force, self.lateral_per_lateral_force
         if not (lean or slide):
             return chassis, 1.0
         w = side.wheel
         inertia = [BASE_SHARE * value for value in part.inertia]
         base = b.m.body(f"compliance {w}", mass=BASE_SHARE * part.mass, com=side.point(part.com), inertia=inertia)
-        point = side.point((centre[0], centre[1], way / lean if lean else centre[2]))
-        for name, place in (("rear", point), ("front", np.add(point, FORWARD))):  # no row twice, as joints would have
-            b.m.point_on_line(f"compliance axis {w} {name}", (base, place), (chassis, point), axis=FORWARD)
+        point = side.point((centre[0], centre[1], lateral / lean if lean else centre[2]))
+        for name, end in (("rear", point), ("front", np.add(point, FORWARD))):  # no row twice, as joints would have
+            b.m.point_on_line(f"compliance axis {w} {name}", (base, end), (chassis, point), axis=FORWARD)
         # 1 m long, to points that move along it: at the contact to the side, on the axis forward
         contact = (point[0], point[1], 0.0)
         for name, last, along, compliance in (
-            ("lean", contact, (0.0, 1.0, 0.0), way),
+            ("lean", contact, (0.0, 1.0, 0.0), lateral),
             ("slide", point, FORWARD, slide),
         ):
             ends = (chassis, np.subtract(last, along)), (base, last)
@@ -132,8 +133,8 @@ class Compliance(Section):
         about[:, 0, 1], about[:, 1, 0], about[:, 2, 2] = -s, s, 1.0
         # the mirrored wheel turns the other way under the mirrored lateral force, and under the same one along x
         mirror = np.array([side.sign, 1.0, 0.0])
-        way = mirror * [self.per_longitudinal_force, self.per_lateral_force, 0.0] / self.per_moment
-        centres = curves.centres + TURNS[:, None] * way
+        shift = mirror * [self.per_longitudinal_force, self.per_lateral_force, 0.0] / self.per_moment
+        centres = curves.centres + TURNS[:, None] * shift
         rotations = about @ curves.rotations
         lengths = {name: np.repeat(values, len(TURNS), axis=1) for name, values in curves.lengths.items()}
         return replace(curves, second=TURNS, centres=centres, rotations=rotations, lengths=lengths)

@@ -1,7 +1,7 @@
-"""Arms and rods of an axle by its curves: bodies that turn as their outer ends, points of the carrier, ask for.
+"""Arms and rods of an axle by its curves: bodies that turn so that their outer ends follow points of the carrier.
 
-A share of an arm in the carrier that weighs right has too much kinetic energy over the travel of the wheel: that of m/2
-at the end of a uniform rod, which has that of m/3.
+Half of the mass of a uniform rod in the carrier would weigh right, but have the kinetic energy of m/2 at its end over
+the travel of the wheel; the rod has that of m/3.
 """
 
 from collections.abc import Iterator, Sequence
@@ -34,13 +34,13 @@ class LinkPoints(Section):
     """On the carrier."""
 
     def foot(self) -> Array:
-        """Where the link turns: its inner end, or the point of the axis next to its outer end, m."""
+        """Point about which the link turns, m: its inner end, or the point of its axis nearest to its outer end."""
         inner = np.array(self.inner)
         along = np.subtract(self.second_inner or self.inner, inner)
         return np.asarray(inner + along * (along @ (np.array(self.outer) - inner)) / max(along @ along, SHORTEST**2))
 
     def faults(self) -> Iterator[str]:
-        """The link has a length."""
+        """Fault of a link that is too short."""
         length = float(np.linalg.norm(np.array(self.outer) - self.foot()))
         if length < SHORTEST:
             what = "the axis of both inner ends" if self.second_inner else self.key("inner")
@@ -65,9 +65,9 @@ class CurveLink(Part):
         centre : ndarray, shape (3,)
             Of the wheel as drawn, m.
         curves : WheelCurves
-            Of the wheel that it carries, without compliance: what gives are bushes of small mass.
+            Of the wheel that it carries, without compliance, which is that of bushes of small mass.
         over : sequence of Coordinate
-            What they are functions of.
+            Variables of the curves.
         """
         drawn = self.points.foot().tolist(), self.points.outer, self.com
         foot, outer, com = np.array([side.point(point) for point in drawn])

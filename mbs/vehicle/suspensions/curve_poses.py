@@ -63,7 +63,7 @@ def pitched(pitch: Array) -> Array:
 def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
     """The motion of a wheel; that of the right one mirrors the left where the table has no columns of its own for it.
 
-    Angles count from those of the table at the drawing, as places do: what is drawn stays as drawn.
+    Angles count from those of the table at the drawing, as positions do: there the wheel is as drawn.
 
     `hub`: the left wheel as drawn.
     """

@@ -100,18 +100,18 @@ def read_curves(folder: Path, name: str, key: str, size: float) -> CurveTable:
     """
     what = f"{key} ({name})"
     table = TextTable(beside(folder, name, key), CarFileError, what, known=(TRAVEL, f"{TRAVEL}_left"), units=True)
-    given = dict(zip(table.names, table.values(finite=False).T, strict=True))
-    used = [n for n in given if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER))]
-    columns = {n: _in_si(what, n, table.units.get(n, ""), given[n], size) for n in used}
-    travel = _travel(what, given, columns)
+    file_columns = dict(zip(table.names, table.values(finite=False).T, strict=True))
+    used = [n for n in file_columns if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER))]
+    columns = {n: _in_si(what, n, table.units.get(n, ""), file_columns[n], size) for n in used}
+    travel = _travel(what, file_columns, columns)
     seconds = [n for n in (RACK, OTHER) if n in columns]
     if len(seconds) > 1:
         raise CarFileError(f"{what} has the columns {RACK} and {OTHER}; give at most one of them.")
-    _check_sides(what, given, columns)
+    _check_sides(what, file_columns, columns)
     second_name = seconds[0] if seconds else ""
-    made = _grid(what, travel, columns.pop(second_name, None), second_name, columns)
-    _check_rates(what, made)
-    return replace(made, left_out=tuple(n for n in given if n not in used))
+    curves = _grid(what, travel, columns.pop(second_name, None), second_name, columns)
+    _check_rates(what, curves)
+    return replace(curves, left_out=tuple(n for n in file_columns if n not in used))
 
 
 def _base(name: str) -> str:
@@ -137,33 +137,33 @@ def _travel(what: str, given: Iterable[str], columns: dict[str, Array]) -> Array
     return travel
 
 
-def _check_sides(what: str, given: Iterable[str], columns: Mapping[str, Array]) -> None:
-    """All that is needed is there, and once the right wheel has a column of its own, for both wheels."""
+def _check_sides(what: str, file_columns: Iterable[str], columns: Mapping[str, Array]) -> None:
+    """Check that the needed columns are there, for both wheels if the right wheel has a column of its own."""
     both = any(n.endswith("_right") for n in columns)
     for names in NEEDED:
         for side in ("left", "right") if both else ("left",):
             if not any(f"{n}_{side}" in columns or (side == "left" and n in columns) for n in names):
                 raise CarFileError(
                     f"{what} has no column {' or '.join(names)}{f' of the {side} wheel' if both else ''}; "
-                    f"its columns are {', '.join(given)}."
+                    f"its columns are {', '.join(file_columns)}."
                 )
     for name in OPTIONAL if both else ():
-        there = [n for n in (name, f"{name}_left", f"{name}_right") if n in columns]
-        asked = [f"{name}_left", f"{name}_right"]
-        if there and there != asked:
+        present = [n for n in (name, f"{name}_left", f"{name}_right") if n in columns]
+        pair = [f"{name}_left", f"{name}_right"]
+        if present and present != pair:
             raise CarFileError(
-                f"{what} has columns of the right wheel and {', '.join(there)}; there must be {' and '.join(asked)}, "
+                f"{what} has columns of the right wheel and {', '.join(present)}; there must be {' and '.join(pair)}, "
                 "or neither."
             )
 
 
 def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array:
     base = _base(name)
-    known = [u for u, (si, _) in UNITS.items() if si == COLUMNS[base]]
-    if unit not in known:
+    available = [u for u, (si, _) in UNITS.items() if si == COLUMNS[base]]
+    if unit not in available:
         raise CarFileError(
             f"{what} has the heading '{f'{name} [{unit}]' if unit else name}'; it must be '{name} [UNIT]' with "
-            f"{' or '.join(known)}."
+            f"{' or '.join(available)}."
         )
     found = values * UNITS[unit][1]
     if COLUMNS[base] == "m":  # whose origin is that of the rig
@@ -187,7 +187,9 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
             )
         _check_axis(what, TRAVEL, travel)
         even = _even(travel, COARSEST[TRAVEL])
-        return CurveTable(even, np.zeros(1), "", {n: _on(travel, even, v[:, None], 0) for n, v in columns.items()})
+        return CurveTable(
+            even, np.zeros(1), "", {n: _resampled(travel, even, v[:, None], 0) for n, v in columns.items()}
+        )
     along, across = _points(travel), _points(second)
     for name, points in ((TRAVEL, along), (second_name, across)):
         _check_axis(what, name, points)
@@ -209,11 +211,11 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     evens, found = (_even(along, COARSEST[TRAVEL]), _even(across, COARSEST[second_name])), {}
     for name, values in columns.items():
         if cross:
-            changes = _on(across, evens[1], values[other][None] - values[one[i]], 1)
-            found[name] = _on(along, evens[0], values[one][:, None], 0) + changes
+            changes = _resampled(across, evens[1], values[other][None] - values[one[i]], 1)
+            found[name] = _resampled(along, evens[0], values[one][:, None], 0) + changes
         else:
             grid = values[order].reshape(len(along), len(across))
-            found[name] = _on(across, evens[1], _on(along, evens[0], grid, 0), 1)
+            found[name] = _resampled(across, evens[1], _resampled(along, evens[0], grid, 0), 1)
     return CurveTable(*evens, second_name, found)
 
 
@@ -280,7 +282,7 @@ def _even(points: Array, coarsest: float) -> Array:
     return np.asarray(step * np.arange(-low, high + 1), float)
 
 
-def _on(points: Array, even: Array, values: Array, axis: int) -> Array:
+def _resampled(points: Array, even: Array, values: Array, axis: int) -> Array:
     if len(points) == len(even) and np.max(np.abs(points - even)) < SAME:
         return values
     return np.asarray(CubicSpline(points, values, axis=axis)(even))

@@ -28,7 +28,7 @@ from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, 
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
 LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the front axle is a rear one
-CURVES_MISS = 0.1  # of the angle: a table says it, but for what both wheels differ
+CURVES_MISS = 0.1  # of the angle: largest deviation of the table, since both wheels steer by different angles
 
 
 class CurvesBodies(Section):
@@ -95,7 +95,7 @@ class Curves(SuspensionSection):
 
     @property
     def unlinked(self) -> str:
-        """It has none."""
+        """Sentence that the axle has no links."""
         return (
             f"{self.key('kind')} is 'curves': the axle has no links whose curves or compliance could be found; "
             f"{self.file} has its curves."
@@ -114,12 +114,12 @@ class Curves(SuspensionSection):
         return self._hub
 
     def oddities(self) -> Iterator[str]:
-        """What of the file is not used."""
+        """Sentence on the columns of the file that are not used."""
         if self.table.left_out:
             yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.left_out)}."
 
     def steers_left(self, centre: Point) -> bool:
-        """By the table."""
+        """Whether rack travel to the left steers to the left by the table."""
         return self._steer_per_rack(self.of(Side("front", "left", 1.0))) > 0.0
 
     def steered_angle(self, rack: float) -> float:
@@ -142,7 +142,7 @@ class Curves(SuspensionSection):
         return wheel_curves(self.table, side, self.hub)
 
     def faults(self) -> Iterator[str]:
-        """The bar has levers; the table has what its name asks for."""
+        """Faults of an anti-roll bar without levers, and of columns that the table lacks."""
         found = self.of(Side("front", "left", 1.0)).lengths
         if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in found):
             both = "is there too" if self.bar.lever is not None else "is not there"
@@ -155,7 +155,7 @@ class Curves(SuspensionSection):
             yield from self.compliance.fits(self.table.second_name)
 
     def stop_faults(self, stops: Stops) -> Iterator[str]:
-        """The table reaches to the ends of the stops."""
+        """Fault of a table that does not reach to the ends of the stops."""
         least, largest = self.compressions
         for name, reached, gap, travel in (
             ("bump", largest, stops.bump_gap, stops.bump_travel),
@@ -185,7 +185,7 @@ class Curves(SuspensionSection):
                 )
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """The angle in the table."""
+        """Sentence on an angle of the file that is not that of the table."""
         found, given = self.steered_angle(steering.full), steering.front_wheel_angle_max
         if abs(found - given) > CURVES_MISS * given:
             yield (
@@ -204,7 +204,7 @@ class Curves(SuspensionSection):
         for side in sides(axle):
             own, w = travels[side.name], side.wheel
             rigid = self.of(side)
-            over, curves = self._over(b, side, rigid, travels)
+            over, curves = self._table_variables(b, side, rigid, travels)
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
@@ -236,10 +236,10 @@ class Curves(SuspensionSection):
             law = ScalarSpringDamper(self.bar.stiffness, stiffness_factor=self.bar.factor)
             self.bar.tie(b, b.m.add(law.record(f"anti-roll bar {axle}", levers[0] - levers[1])))
 
-    def _over(
+    def _table_variables(
         self, b: CarBuilder, side: Side, curves: WheelCurves, travels: Mapping[str, Coordinate]
     ) -> tuple[list[Coordinate], WheelCurves]:
-        """What the tables of a wheel are functions of, and its curves over it."""
+        """Coordinates over which a wheel is tabled, and its curves over them."""
         own = travels[side.name]
         if self.table.second_name == RACK:
             assert b.rack is not None, "the front axle steers"
@@ -255,7 +255,7 @@ class Curves(SuspensionSection):
         return [own], curves
 
     def _steer_per_rack(self, curves: WheelCurves) -> float:
-        """Of a wheel at the drawing, rad/m."""
+        """Steer angle of a wheel per travel of the rack at the drawing, rad/m."""
         return float(CubicSpline(*self._steer(curves))(0.0, 1))
 
     def _steer(self, curves: WheelCurves) -> tuple[Array, Array]:

@@ -100,7 +100,7 @@ class DoubleWishbone(IndependentSuspension):
         return self.key("steering_stop") if self.steering_stop is None else ""
 
     def faults(self) -> Iterator[str]:
-        """The steering stop must not act in the drawing."""
+        """Fault of a steering stop that acts in the drawing."""
         if self.steering_stop is None:
             return
         drawn = math.dist(self.points.tie_rod_outer, self.points.lower_pivot_front)

@@ -55,7 +55,7 @@ class SuspensionSection(Section):
         return rod[0] > centre[0]
 
     def steering_faults(self, steering: Steering | None) -> Iterator[str]:
-        """Why it cannot be steered so. `steering`: None of the rear axle."""
+        """Reasons why the axle cannot be steered so. `steering`: None for the rear axle."""
         yield from ()
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:

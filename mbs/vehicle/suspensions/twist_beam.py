@@ -78,7 +78,7 @@ class TwistBeam(SuspensionSection):
     """Masses and inertias."""
 
     def steering_faults(self, steering: Steering | None) -> Iterator[str]:
-        """It cannot steer."""
+        """Fault of a steered twist-beam axle: it cannot steer."""
         if steering is not None:
             yield f"{self.key('kind')} is '{self.kind}'; such an axle cannot steer and may be the rear one only."
 

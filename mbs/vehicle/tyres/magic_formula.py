@@ -92,24 +92,24 @@ class MagicFormula(TyreSection, of=MagicTyre):
         yield from (f"{self.key('file')} ({self.file}): {note}" for note in self._read.notes)
 
     @property
-    def _left(self) -> MagicTyre:
+    def _left_tyre(self) -> MagicTyre:
         assert self._tyre is not None, "the file is opened with the car"
         return self._tyre
 
     @property
     def radius(self) -> float:
         """Free radius at rest, m."""
-        return self._left.radius * self._left.coefficients.get("Q_RE0", 1.0)
+        return self._left_tyre.radius * self._left_tyre.coefficients.get("Q_RE0", 1.0)
 
     @property
     def bottoming_radius(self) -> float:
         """Loaded radius below which the rim bears, m."""
-        return self._left.bottoming_radius
+        return self._left_tyre.bottoming_radius
 
     @property
     def stiffness(self) -> float:
         """Radial stiffness at the nominal load and pressure of the car, N/m."""
-        t = self._left
+        t = self._left_tyre
         first = t.stiffness * (1.0 + t.coefficients.get("PFZ1", 0.0) * t.pressure)
         second = t.progression * first / t.stiffness
         return sqrt(first**2 + 4.0 * second * t.nominal_load)
@@ -117,12 +117,12 @@ class MagicFormula(TyreSection, of=MagicTyre):
     @property
     def nominal_load(self) -> float:
         """Nominal load according to the file, N."""
-        return self._left.nominal_load
+        return self._left_tyre.nominal_load
 
     @property
     def largest_load(self) -> tuple[float, str]:
         """Load up to which forces grow, N, and the key of the car file that determines it."""
-        return self._left.largest_load, self.key("file")
+        return self._left_tyre.largest_load, self.key("file")
 
     @property
     def friction(self) -> tuple[float, float]:
@@ -133,8 +133,8 @@ class MagicFormula(TyreSection, of=MagicTyre):
         return self._friction("X"), self._friction("Y")
 
     def _friction(self, axis: str) -> float:
-        c, dfz = self._left.coefficients, 1.0 / self._left.coefficients.get("LFZO", 1.0) - 1.0
-        pressure = self._left.pressure
+        c, dfz = self._left_tyre.coefficients, 1.0 / self._left_tyre.coefficients.get("LFZO", 1.0) - 1.0
+        pressure = self._left_tyre.pressure
         of_pressure = 1.0 + c.get(f"PP{axis}3", 0.0) * pressure + c.get(f"PP{axis}4", 0.0) * pressure**2
         largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * of_pressure * c.get(f"LMU{axis}", 1.0)
         return largest * (self.lmux if axis == "X" else self.lmuy)
@@ -146,12 +146,12 @@ class MagicFormula(TyreSection, of=MagicTyre):
         Slip stiffness at the nominal load, N; stiffness, N/m; damping over stiffness at rest, s, and its decrease with
         the square of the speed, s2/m2.
         """
-        by_slip, stiffness = self._left.along
-        return by_slip, stiffness, self._left.settling, 1.0
+        by_slip, stiffness = self._left_tyre.along
+        return by_slip, stiffness, self._left_tyre.settling, 1.0
 
     def rolling_radius(self, loaded: float) -> float:
         """Rolling radius of a free wheel, m, that rolls slowly with a loaded radius. `loaded`: that radius, m."""
-        t, c = self._left, self._left.coefficients
+        t, c = self._left_tyre, self._left_tyre.coefficients
         free = self.radius
         depth, inflated = free - loaded, 1.0 + c.get("PFZ1", 0.0) * t.pressure
         if not (c.get("DREFF") or c.get("FREFF")):

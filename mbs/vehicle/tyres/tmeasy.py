@@ -36,7 +36,7 @@ class Curve(Section, of=TyreCurve):
     slide_slip: tuple[Slip, Slip]
 
     def faults(self) -> Iterator[str]:
-        """Force rises to its maximum and falls to sliding, at both loads."""
+        """Faults of curves whose force does not rise to its maximum and fall to sliding at both loads."""
         for k in range(2):
             if self.slide_slip[k] <= self.max_slip[k]:
                 yield (
@@ -104,7 +104,7 @@ class TMeasy(TyreSection, of=Tyre):
 
     @property
     def largest_load(self) -> tuple[float, str]:
-        """Load up to which forces grow, N, and the key that says it."""
+        """Load up to which forces grow, N, and the key path that determines it."""
         return self.max_load_factor * self.nominal_load, self.key("max_load_factor")
 
     @property

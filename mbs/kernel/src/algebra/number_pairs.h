@@ -43,7 +43,7 @@ static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 #endif
 }
 
-/* The same from an entry on that is no less than three. */
+/* ali3_by_fours for a first entry of three or more. */
 static inline int64_t ali3_by_fours_below(int64_t from, int64_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
@@ -150,7 +150,7 @@ static inline double ali3_sum_product_from_far(const double *restrict x, const d
 }
 
 #else
-/* The same in the order of the sums of one instance. */
+/* Sums for lanes, in the order of those of one instance. */
 #define ALI3_FROM_FAR(name, declared, term)                                                                            \
   static inline real name declared {                                                                                   \
     real sum[4] = {0};                                                                                                 \
@@ -235,7 +235,7 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const do
   *to += *(const ali3_four *)a * *(const ali3_four *)x;
 }
 
-/* What is behind is written afterwards, or nobody's. */
+/* Overwrites a fourth number, which is written afterwards or belongs to nobody. */
 static inline void ali3_three_put(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
 
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }

@@ -1,4 +1,4 @@
-/* How long the vectors are that the processor has instructions for. */
+/* Vector width for which the processor has instructions. */
 #include "processor.h"
 
 #if defined(__x86_64__)

@@ -1,4 +1,4 @@
-/* What the processor has, asked at run time, and functions that are compiled for more than one of them. */
+/* Instruction sets of the processor, found at run time, and functions compiled for more than one of them. */
 #ifndef ALI3_PROCESSOR_H
 #define ALI3_PROCESSOR_H
 #include <stdint.h>

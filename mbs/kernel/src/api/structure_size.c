@@ -1,4 +1,4 @@
-/* How large the structures of ali3.h are, for callers that declare them in another language. */
+/* Sizes of the structures of ali3.h, for callers that declare them in another language. */
 #include <string.h>
 
 #include "../../include/ali3.h"

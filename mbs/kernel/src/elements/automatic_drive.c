@@ -35,7 +35,7 @@ static double frame_rate(const ali3_element_args *a) {
 
 static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
-/* The gear that is asked for, 0 for none. */
+/* Requested gear, 0 for none. */
 static int asked_gear(const ali3_element_args *a) {
   return a->nint > REQUEST && a->integer[REQUEST] >= 0
              ? (int)ali3_clamp(a->input[a->integer[REQUEST]], 0.0, a->integer[GEARS])

@@ -12,7 +12,7 @@
 #include "element.h"
 #include "element_math.h"
 
-/* What the pads can hold: both pedals press them. */
+/* Largest friction torque of the pads, which pedal and hand brake press. */
 static real capacity(const ali3_element_args *a) {
   const real none = {0}, all = ali3_same(1.0);
   const real most = a->nint > BY_SIZE && a->integer[BY_SIZE] ? ali3_same(INFINITY) : all;

@@ -1,3 +1,4 @@
+/* Normal force, loss and exact means of the contact law over the penetration. */
 #include "contact_law.h"
 
 #include <math.h>

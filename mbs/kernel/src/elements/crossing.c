@@ -1,3 +1,4 @@
+/* Time within a step at which a gap closes or opens, by a cubic through both ends. */
 #include "crossing.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ typedef struct {
 
 static double at(const cubic *p, double s) { return ((p->a * s + p->b) * s + p->c) * s + p->d; }
 
-/* Where the cubic changes its sign from `from` to `to`, between which it is monotone. */
+/* Root of the cubic between `from` and `to`, where it is monotone and changes its sign. */
 static double root(const cubic *p, double from, double to) {
   const bool above = at(p, from) > 0.0;
   for (int i = 0; i < BISECTIONS; i++) {

@@ -1,4 +1,4 @@
-/* When a gap closes or opens within a step. */
+/* Time within a step at which a gap closes or opens. */
 #ifndef ALI3_CROSSING_H
 #define ALI3_CROSSING_H
 

@@ -1,3 +1,4 @@
+/* Value, derivatives and means of a curve of cubic pieces, and checks of its table. */
 #include "cubic_table.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@ typedef struct {
 } piece;
 
 /* Number of the piece that holds x: 0 before the first point, n behind the last. */
-static int32_t place(const ali3_cubic_table *t, double x) {
+static int32_t piece_number(const ali3_cubic_table *t, double x) {
   int32_t low = 0, high = t->n;
   while (low < high) { /* x[low - 1] <= x < x[high] */
     const int32_t middle = low + (high - low) / 2;
@@ -42,7 +43,7 @@ static double at(const piece *p, double x) {
 }
 
 double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral) {
-  const piece p = piece_of(t, place(t, x));
+  const piece p = piece_of(t, piece_number(t, x));
   const double d = x - p.start;
   *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
   if (integral != NULL) *integral += p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
@@ -50,7 +51,7 @@ double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, doub
 }
 
 double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope, double *curvature) {
-  const piece p = piece_of(t, place(t, x));
+  const piece p = piece_of(t, piece_number(t, x));
   const double d = x - p.start;
   *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
   *curvature = 2.0 * p.c + d * 6.0 * p.e;
@@ -60,7 +61,7 @@ double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope
 /* Simpson's rule is exact on every piece. */
 double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
   const double low = fmin(x0, x1), high = fmax(x0, x1), width = high - low;
-  const int32_t first = place(t, low);
+  const int32_t first = piece_number(t, low);
   piece p = piece_of(t, first);
   if (!(width > 0.0)) return at(&p, low);
   double mean = 0.0, from = low;

@@ -1,4 +1,4 @@
-/* What the tangents of elements do not tell of their forces. */
+/* Defects: changes of the forces of elements that their tangents miss. */
 #ifndef ALI3_DEFECT_H
 #define ALI3_DEFECT_H
 #include "../algebra/real.h"
@@ -11,7 +11,7 @@
 ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, truth lanes, const real *q, const real *qd,
                                          real *r);
 
-/* Of one element, where its signals have the rates ud and its forces are f. */
+/* Adds the defect of element e with rates ud of its signals and forces f to r. */
 static inline void ali3_add_defect(const ali3_instance *in, int32_t e, const real *ud, const real *f, real *r) {
   const ali3_system *S = in->system;
   const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];

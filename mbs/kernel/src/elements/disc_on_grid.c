@@ -136,7 +136,7 @@ static int tangent_planes(const profile *p, const double axis[3], double radius,
   return 1;
 }
 
-/* Both contacts share the smooth maximum of their depths. */
+/* Number of contacts; two of nearly the same depth share the smooth maximum of both depths. */
 static int shared(ali3_contact out[2]) {
   const double gap = out[0].penetration - out[1].penetration;
   if (!(gap < EQUAL)) return 1;

@@ -1,4 +1,4 @@
-/* Where a disc touches a grid. */
+/* Contacts of a disc with a grid. */
 #ifndef ALI3_DISC_ON_GRID_H
 #define ALI3_DISC_ON_GRID_H
 #include "../roads/grid.h"

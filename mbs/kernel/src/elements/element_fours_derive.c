@@ -1,4 +1,4 @@
-/* Which elements are evaluated four at a time. */
+/* Selects, at load, the elements that are evaluated four at a time. */
 #include <string.h>
 
 #include "element.h"
@@ -6,7 +6,7 @@
 #include "laws.h"
 #include "road.h"
 
-/* It has a law that goes in fours, and no more numbers than element_fours.c has room for. */
+/* Whether element e has a law for fours, and no more numbers than element_fours.c has room for. */
 static bool goes_in_fours(const ali3_system *s, int32_t e) {
   const ali3_element_type *type = s->el_kind[e];
   const ali3_element_size *z = s->el_size + e;
@@ -18,7 +18,7 @@ static bool goes_in_fours(const ali3_system *s, int32_t e) {
 #undef ALI3_IS
 }
 
-/* The same law, numbers of everything and integers: what a law may ask for to choose what it computes. */
+/* Whether two elements have the same law, sizes and integers, so that the law takes the same branches for both. */
 static bool alike(const ali3_system *s, int32_t a, int32_t b) {
   const ali3_element_size *x = s->el_size + a, *y = s->el_size + b;
   return s->el_kind[a] == s->el_kind[b] && x->nsig == y->nsig && x->nreal == y->nreal && x->nint == y->nint &&

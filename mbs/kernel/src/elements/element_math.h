@@ -1,4 +1,4 @@
-/* What force elements share: friction in the tangent, inputs that may be missing, first-order states. */
+/* Functions common to force elements: friction in the tangent, optional inputs, first-order states. */
 #ifndef ALI3_ELEMENT_MATH_H
 #define ALI3_ELEMENT_MATH_H
 #include <stdint.h>

@@ -1,3 +1,4 @@
+/* Forces of bump and rebound stops: at a length, as the mean of a step, and when one is met. */
 #include "end_stops.h"
 
 #include <math.h>

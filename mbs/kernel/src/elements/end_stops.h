@@ -34,7 +34,7 @@ ALI3_PER_WIDTH void ali3_end_stops_at(const real *p, int progressive, real lengt
 /* Adds their mean over a step from length l0 to l1, with the slopes by the length and rate of its middle. */
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);
 
-/* When a stop is met or left in a step of size h, as a share of it, from length and rate at both ends; 1: none is. */
+/* Share of a step of size h at which a stop is met or left, from length and rate at both ends; 1: none is. */
 double ali3_end_stops_event(const double *p, const double length[2], const double rate[2], double h);
 
 /* Whether a length lies beyond a stop. */

@@ -21,7 +21,7 @@ static ali3_element_args common(const ali3_instance *in, const ali3_force_call *
                              .roads = in->roads.used};
 }
 
-/* Those of element e at its own signals u and their rates ud; f and S live with the caller. */
+/* Arguments of element e at its signals u and their rates ud; f and S belong to the caller. */
 static void prepare(const ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                     double *f, double *tangent, ali3_element_args *a) {
   const ali3_system *S = in->system;
@@ -139,7 +139,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   if (!call->iterate) watch(in);
 }
 
-/* The same with flexible and tabled bodies, their changing mass too. */
+/* Adds the tangents of elements, and of flexible and tabled bodies with their changing mass, to the fronts. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->element.wC, in->element.wK, F);
   if (in->system->size.ne > 0) ali3_elements_tangent(in, F);

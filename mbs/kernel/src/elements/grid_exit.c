@@ -36,7 +36,7 @@ static double crossing(const ali3_grid *g, ali3_cell *cell, const double point[3
   return fmin(out, reach);
 }
 
-/* The same along the direction of an angle, rad. */
+/* `crossing` along the direction of an angle, rad. */
 static double crossing_at(const ali3_grid *g, ali3_cell *cell, const double point[3], double angle, double step,
                           double reach) {
   const double direction[2] = {ali3_cos(angle), ali3_sin(angle)};

@@ -1,4 +1,4 @@
-/* Where a point that is deep inside a face of a grid leaves it on the shortest level way. */
+/* Shortest horizontal exit of a point below the surface of a grid. */
 #ifndef ALI3_GRID_EXIT_H
 #define ALI3_GRID_EXIT_H
 #include "../roads/grid.h"

@@ -1,3 +1,4 @@
+/* Contact of a disc with the half-space below a plane, upright or lying. */
 #include "half_space.h"
 
 #include "../algebra/small_vectors.h"
@@ -6,8 +7,7 @@
  * centre LYING/2 radii high, half as high as it is wide, and is 4/LYING^2 times as stiff as upright. */
 #define LYING 0.5
 
-/* What stands for the sine as a divisor, and its slope: the sine itself, and below LYING a parabola of the same slope
- * there. */
+/* Divisor in place of the sine, and its slope: the sine itself, below LYING a parabola with the same slope there. */
 static real upright(real sine, real *slope) {
   const real part = sine / LYING;
   const truth lies = part < 1.0;

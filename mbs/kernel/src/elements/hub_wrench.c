@@ -1,5 +1,5 @@
-/* Force and moment on the hub of a wheel from inputs, earth axes, in place of a tyre: what turns about the axis acts on
- * the spin, the rest on the carrier. */
+/* Force and moment on the hub of a wheel from inputs, earth axes, in place of a tyre. The moment about the axis acts on
+ * the spin (signal 6), the force (0 to 2) and the rest of the moment (3 to 5) on the carrier. */
 #include "element.h"
 #include "element_math.h"
 #include "hub_wrench_fields.h"

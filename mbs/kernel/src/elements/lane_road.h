@@ -1,4 +1,4 @@
-/* A road as laws see it that are computed for several discs at once: of instances (../lanes/) or of one
+/* Roads for laws that are evaluated for several discs at once: of several instances (../lanes/) or of one
  * (element_fours.h). */
 #ifndef ALI3_LANE_ROAD_H
 #define ALI3_LANE_ROAD_H
@@ -12,7 +12,7 @@ typedef struct ali3_lane_road {
   real *numbers, *friction_factor; /* of ali3_road_numbers */
 } ali3_lane_road;
 
-/* What ali3_road_contacts gives in each lane, two contacts. */
+/* The two contacts of ali3_road_contacts in each lane. */
 void ali3_lane_contacts(const ali3_lane_road *road, int32_t width, const real *centre, const real *axis,
                         const real *radius, real *contacts);
 #endif

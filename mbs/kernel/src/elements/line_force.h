@@ -1,4 +1,4 @@
-/* What springs along the line between two points share: their signals are d = p2 - p1 (2 or 3). */
+/* Forces along the line between two points, common to springs: their signals are d = p2 - p1 (2 or 3). */
 #ifndef ALI3_LINE_FORCE_H
 #define ALI3_LINE_FORCE_H
 #include "../algebra/small_vectors.h"

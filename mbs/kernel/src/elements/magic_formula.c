@@ -1,3 +1,4 @@
+/* Magic Formula: forces and moments of a tyre with their derivatives by the slips. */
 #include "magic_formula.h"
 
 #include <math.h>
@@ -169,8 +170,8 @@ static dual induced(const ali3_magic_state *s, const terms *q, const pure *y, du
       size);
 }
 
-/* What the friction ellipse of PAC2002 (FE_METHOD) leaves of the force of direction `own`: the ratio of both slips times
- * the other's part of the ellipse. */
+/* Factor of the friction ellipse of PAC2002 (FE_METHOD) on the force of direction `own`, from the ratio of both slips
+ * times the other's part of the ellipse. */
 static dual ellipse(const pure *own, const pure *other, dual own_slip, dual other_slip) {
   const dual acts = times(own->base, 1.0 / other->D); /* mu_act over mu_max */
   const double own2 = own_slip.v * own_slip.v + NO_SLIP * NO_SLIP;
@@ -181,7 +182,7 @@ static dual ellipse(const pure *own, const pure *other, dual own_slip, dual othe
   return chain(x, value, -0.5 * value / size);
 }
 
-/* Of the trail and the residual moment: slip with the part of the longitudinal one, 4.E77, 4.E78. */
+/* Equivalent slip of the trail and the residual moment with the part of the longitudinal slip, 4.E77, 4.E78. */
 static double equivalent(const terms *q, double slip, double ratio, double kappa) {
   const double along = ratio * kappa;
   if (q->book) return sign(slip) * sqrt(slip * slip + along * along);

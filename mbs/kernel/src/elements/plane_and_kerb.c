@@ -1,3 +1,4 @@
+/* Contacts of a disc with a plane and with a kerb. */
 #include "plane_and_kerb.h"
 
 #include <stddef.h>

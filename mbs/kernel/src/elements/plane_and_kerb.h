@@ -1,13 +1,13 @@
-/* Contacts of a disc with the roads that a few numbers describe. */
+/* Contacts of a disc with a plane or a kerb. */
 #ifndef ALI3_PLANE_AND_KERB_H
 #define ALI3_PLANE_AND_KERB_H
 #include "road.h"
 
-/* Their numbers, see road.h. */
+/* Indices of the numbers of both roads, see road.h. */
 enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_FACTOR, PLANE_REALS };
 enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_FACTOR, KERB_REALS };
 
-/* As ali3_road_contacts, of the type ALI3_ROAD_PLANE or ALI3_ROAD_KERB. */
+/* ali3_road_contacts for the type ALI3_ROAD_PLANE or ALI3_ROAD_KERB. */
 ALI3_PER_WIDTH int ali3_contacts_by_numbers(int32_t type, const real *p, real friction_factor, const real centre[3],
                                             const real axis[3], real radius, ali3_contact out[2]);
 

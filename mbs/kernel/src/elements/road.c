@@ -19,7 +19,7 @@ static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   return 1;
 }
 
-/* What a road is: its file, or its own numbers. */
+/* Type of a road: that of its file, or its own. */
 static int32_t type_of(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_kind(road->file) : road->type;
 }

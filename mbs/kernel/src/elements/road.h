@@ -52,7 +52,7 @@ ALI3_PER_WIDTH int ali3_road_contacts(const ali3_road *road, const real centre[3
 
 enum { ALI3_ROAD_INPUTS = 7 }; /* of an answer of a road at a port */
 
-/* What kind of road it is, its numbers where it is a plane or a kerb, and the factor of its friction. */
+/* Returns the type of a road; writes its numbers if it is a plane or a kerb, and the factor of its friction. */
 enum { ALI3_ROAD_NUMBERS = 5 };
 int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBERS], double *friction_factor);
 

@@ -11,7 +11,7 @@ enum { PORT_X, PORT_Y, PORT_HEIGHT, PORT_NORMAL, PORT_FRICTION = PORT_NORMAL + 3
 /* Numbers of the road. */
 enum { PORT_ANSWERS, PORT_FIRST };
 
-/* What lies under a place; foot: a point of its plane. */
+/* Surface under a place; foot: a point of its plane. */
 ali3_surface ali3_port_surface(const ali3_road *road, const double place[3], double foot[3]);
 int ali3_port_contact(const ali3_road *road, const double centre[3], const double axis[3], double radius,
                       ali3_contact *out);

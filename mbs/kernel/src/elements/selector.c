@@ -1,3 +1,4 @@
+/* Rates of the states of a drive's selector, and the share of the torque that it passes on. */
 #include "selector.h"
 
 #include "../algebra/small_vectors.h"

@@ -4,7 +4,7 @@
 #include "../algebra/number_pairs.h"
 #include "../instance.h"
 
-/* Of coordinates x, or the rate of the signal where x are rates (or accelerations). */
+/* Value of signal i at coordinates x, or its rate where x are rates (or accelerations). */
 static inline double ali3_signal_at(const ali3_system *S, int32_t i, const double *x, bool rate) {
   double sum = rate ? 0.0 : S->sig_const[i];
   ALI3_SHORT
@@ -12,7 +12,7 @@ static inline double ali3_signal_at(const ali3_system *S, int32_t i, const doubl
   return sum;
 }
 
-/* How coordinate i of x (or its rate) changes by a unit turn of the scene to the left about the origin. */
+/* Derivative of coordinate i of x (or its rate) by the angle of a turn of the scene to the left about the origin. */
 static inline double ali3_turned(const ali3_system *S, int32_t i, const double *x, bool rate) {
   const int32_t partner = S->pose_partner[i];
   if (partner == 0) return 0.0;

@@ -88,8 +88,8 @@ ALI3_INLINED void add_column(const place *p, int32_t j, const real *row, double 
   add_row(column + p->loc[p->m - 1] - (p->m - 1) + i, row + i, value, idle, p->m - i);
 }
 
-/* The same of the three coordinates of a point with three rows: while an index is in hand, from the diagonal of the first
- * on or some entries above, which nobody reads. */
+/* add_column for the three coordinates of a point with three rows at once, from the diagonal of the first on or some
+ * entries above, which nobody reads. */
 ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *row, const double *value, int32_t apart) {
   const int32_t from = j > p->apart ? p->apart + ali3_by_fours(j - p->apart, p->m - p->apart) : p->apart;
   real *restrict a = p->block + (int64_t)p->loc[j] * p->size, *restrict b = a + p->size, *restrict c = b + p->size;

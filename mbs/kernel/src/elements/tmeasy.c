@@ -1,3 +1,4 @@
+/* TMeasy characteristics: one curve, both directions over their slips, and the dynamic trail. */
 #include "tmeasy.h"
 
 /* y/q for y = q (2 y1 - y2/2 - (y1 - y2/2) q): through 0, y1 at q = 1, y2 at q = 2 */

@@ -18,7 +18,7 @@ typedef struct { /* both directions over the normalised slips n_i = s_i / scale_
 /* pairs: values at the nominal load and at twice of it of slope, max_force, max_slip, slide_force, slide_slip. */
 ALI3_PER_WIDTH ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio);
 
-/* Both directions at one load and friction. */
+/* Curves of both directions at one load and friction. */
 ALI3_PER_WIDTH ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q,
                                                     real friction_ratio);
 

@@ -1,3 +1,4 @@
+/* Bore torque of a tyre with the state of its torsion spring. */
 #include "tyre_bore.h"
 
 #include "element_math.h"

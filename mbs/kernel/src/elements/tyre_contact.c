@@ -1,3 +1,4 @@
+/* Contact of a tyre of any formula: radial spring, axes and velocities of the patch, outputs, depth at a start. */
 #include "tyre_contact.h"
 
 #include "../algebra/elementary.h"

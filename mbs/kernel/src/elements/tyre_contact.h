@@ -1,4 +1,4 @@
-/* What tyres of every formula share: the disc on its road, the radial spring, the axes and velocities of the patch, the
+/* Contact of tyres of every formula: the disc on its road, the radial spring, the axes and velocities of the patch, the
  * verdict on a start. */
 #ifndef ALI3_TYRE_CONTACT_H
 #define ALI3_TYRE_CONTACT_H
@@ -70,7 +70,7 @@ ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patc
 /* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
 ALI3_PER_WIDTH void ali3_tyre_semidefinite(real C[3]);
 
-/* Of an element whose first number is its radius and first integer its road. */
+/* Depth of a tyre in its road; its first number is the radius, its first integer the road. */
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part);
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised);
 #define ALI3_TYRE_START_WORDS "lies deeper in the road than its radius"

@@ -1,4 +1,5 @@
-/* What a host without an operating system calls before it opens anything; only with ALI3_ALONE. One thread. */
+/* Files in memory for hosts without an operating system, put there before any is opened; only with ALI3_ALONE. One
+ * thread. */
 #ifndef ALI3_FILE_ROOM_H
 #define ALI3_FILE_ROOM_H
 #include <stddef.h>

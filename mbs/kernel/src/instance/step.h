@@ -37,7 +37,7 @@ typedef struct {
   double *local; /* ALI3_LOCAL columns of a front */
 } ali3_tangent_work;
 
-/* Where a step is divided, see ../methods/contact_event.c and abrupt_force.c. */
+/* Division of a step, see ../methods/contact_event.c and abrupt_force.c. */
 typedef struct {
   double event; /* share of the present part at which a stop is met or left */
   int32_t events_left; /* how often the present step may still be divided at events; below 0: never */

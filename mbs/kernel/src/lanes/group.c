@@ -218,7 +218,7 @@ static void roads(ali3_lane_group *g) {
   }
 }
 
-/* What parameters change and steps do not. */
+/* Takes over the numbers of each lane that parameters change and steps do not. */
 void ali3_group_parameters(ali3_lane_group *g) {
   const ali3_sizes *z = &g->system->size;
   PUT(g, g->mass.val, z->nnz_mass, in, in->mass.val);
@@ -291,8 +291,8 @@ static void counts(const ali3_lane_group *g, int32_t l) {
   r->velocity_violation = g->velocity_violation[l];
 }
 
-/* What the step and its counters left: in->next, of rigid Systems with its part of the past: the mean acceleration and
- * the multipliers of Newton's loop, before (25). */
+/* Writes the state after a step and its counters to the instances: in->next and, of rigid Systems, its part of the
+ * past: the mean acceleration and the multipliers of Newton's loop, before (25). */
 void ali3_group_to(const ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq;

@@ -1,6 +1,6 @@
 /* The step of methods/augmented_lagrangian.c with the control of its iterations by lane: each lane decides alone what
  * follows, and one that is finished keeps its D, multipliers, tangent and forces, from which the rest comes out the same
- * again. What fails is told by group->good and made again from its instance. */
+ * again. Lanes that fail are marked in group->good and repeated from their instances. */
 #ifndef ALI3_LANE_STEP_H
 #define ALI3_LANE_STEP_H
 #ifdef ALI3_WIDTH
@@ -123,7 +123,7 @@ static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
   for (int32_t i = 0; i < S->size.nq; i++) r[i] -= c * Q[i];
 }
 
-/* Of n sizes |x| factor the largest, infinite where one is NaN; *worst becomes the first that has it, if it is not 0. The
+/* Largest of n sizes |x| factor, infinite where one is NaN; *worst becomes the first that has it, if it is not 0. The
  * factors are numbers of the lanes or the same for all. */
 static inline real largest_of(const real *x, const real *of_lanes, const double *of_all, int32_t n, truth *worst) {
   enum { CHAINS = 4 }; /* a comparison waits for the last one of its chain */
@@ -273,7 +273,7 @@ static void predict(ali3_lane_group *in) {
     in->step.D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->step.x[i], in->now.qdd[i]);
 }
 
-/* What balance_squares of methods/energy_balance.c sums, in its order. */
+/* Sums of balance_squares of methods/energy_balance.c, in its order. */
 static void speed_squares(const ali3_lane_group *in, double h, const real *v0, const real *a, const real *v1,
                           real out[3]) {
   enum { FOUR = 4 };

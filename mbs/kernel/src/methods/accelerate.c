@@ -12,7 +12,7 @@ static const double SLOW = 0.05; /* ratio of two corrections from which on conve
 static const double LEAST = -100.0, MOST = 0.5; /* bounds of a mixing factor; -6 is a factor of 6/7 per iteration */
 
 /* in->step.x and in->step.lam hold the correction of D and of the multipliers; they become the step to take. `mixes`:
- * where the correction before this one tells of it. */
+ * where the correction before this one shows it. */
 ALI3_INLINED void accelerate(ali3_instance *in, truth mixes) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;

@@ -16,9 +16,9 @@ static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
 static const double CLOSES = 0.5; /* of the violation before: rows that stay above it close no further */
 static const double KEPT_VIOLATION = 2e-5, KEPT_RESIDUAL = 0.3;
 
-/* Where the last iteration left less than the one before, rates of signals change by less than REACH residuals times 2/h
- * from there on (`reach` of ../elements/element.h), in Systems whose iterations are dear. With an eighth of it wild steps
- * went round in circles; after MOST_SETTLING iterations sliders have their secants again. */
+/* If the last iteration left less than the one before, rates of signals change by less than REACH residuals times 2/h
+ * from there on (`reach` of ../elements/element.h), in Systems whose iterations are dear. With an eighth of it wild
+ * steps went round in circles; after MOST_SETTLING iterations sliders have their secants again. */
 static const double REACH = 4.0;
 enum { MOST_SETTLING = 12 };
 static inline bool ali3_settles(const ali3_system *S, int32_t iterations) {

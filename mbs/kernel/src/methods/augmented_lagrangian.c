@@ -33,7 +33,7 @@
 #include "projection.h"
 #include "steps.h"
 
-/* What forces of the present iterate are asked for with. */
+/* Arguments for the forces of the present iterate. */
 static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
   ali3_vectors *to = &in->next;
   return (ali3_force_call){.q = to->q,
@@ -68,7 +68,7 @@ ALI3_INLINED void evaluate(ali3_instance *in, double h, bool tangent) {
   ALI3_EACH(0, nq, ALI3_AT(r) -= c * ALI3_AT(Q))
 }
 
-/* Judges the residual with the multipliers. */
+/* Reports the size of the residual with the multipliers; false if it is not finite. */
 ALI3_INLINED bool judge(ali3_instance *in) {
   const double c = in->rule.c, *r = in->step.r;
   double *x = in->step.x;
@@ -99,7 +99,7 @@ static void assemble_generated(ali3_instance *in, double alpha) {
   S->generated.tangent(&parts, in->tangent.F);
 }
 
-/* The tangent goes to the fronts. */
+/* Writes the tangent (23) to the fronts. */
 static void assemble(ali3_instance *in, double alpha) {
   if (in->system->generated.tangent != NULL && in->settings.geometric) {
     assemble_generated(in, alpha);
@@ -111,7 +111,7 @@ static void assemble(ali3_instance *in, double alpha) {
   ali3_forces_tangent(in, in->tangent.F);
 }
 
-/* That tangent, factorised. */
+/* Assembles and factorises the tangent. */
 static ali3_status tangent(ali3_instance *in, double alpha) {
   const ali3_system *S = in->system;
   assemble(in, alpha);
@@ -127,8 +127,8 @@ static ali3_status tangent(ali3_instance *in, double alpha) {
 }
 
 /* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->step.x then
- * has the judged residual. `mixes`: the correction before it tells of it. The Phi_q that the penalty multiplies is
- * always that of the tangent: the penalty would amplify what a later one has outside its range. */
+ * has the judged residual. `mixes`: this correction is accelerated with the one before it. The Phi_q that the penalty
+ * multiplies is always that of the tangent: the penalty would amplify what a later one has outside its range. */
 ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept, bool mixes) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
@@ -154,7 +154,7 @@ ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int3
   return ALI3_OK;
 }
 
-/* The last iterate is as good as the limit lets it be; one that is far from the rows is none. */
+/* Takes the last iterate at the limit of iterations, unless it is far from the rows. */
 static ali3_status capped(ali3_instance *in) {
   const double left = fmax(in->report.residual, in->report.violation);
   if (left > ALI3_LOST * in->system->fine) return ALI3_NOT_CONVERGED;
@@ -222,7 +222,7 @@ ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(d0) = h * ALI3_AT(qd) + rule.c * ALI3_AT(qdd); ALI3_AT(hat) = -ALI3_AT(qd))
 }
 
-/* Also of generalised-alpha. */
+/* One step of ALi3-P, or of generalised-alpha. */
 ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_request *request) {
   const double h = request->h;
   const ali3_system *S = in->system;

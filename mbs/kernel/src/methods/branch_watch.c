@@ -181,10 +181,10 @@ static void left_modes(ali3_instance *in, double t) {
   }
 }
 
-/* How far the controlled step turns a ring that is nearly in line where one of its triads changes its sign on the way:
- * the largest change of a sine of it, 0 where none does. Folded arms change their sign by interpolation alone, or turn
- * little while the other joint of the ring passes to the other branch. *look: the eighth of the step in which the sign
- * changes, from 1 on. */
+/* Turn of a ring that is nearly in line where one of its triads changes its sign during the controlled step: the
+ * largest change of a sine of the ring, 0 where none does. Folded arms change their sign by interpolation alone, or
+ * turn little while the other joint of the ring passes to the other branch. *look: the eighth of the step in which the
+ * sign changes, from 1 on. */
 static double passed(ali3_instance *in, double h, int *look) {
   const ali3_system *S = in->system;
   const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);

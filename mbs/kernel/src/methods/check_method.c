@@ -1,4 +1,4 @@
-/* What methods ask of a System that they take. */
+/* Conditions of methods on the Systems that they take. */
 #include "check_method.h"
 #include "../elements/element.h"
 #include "../instance.h"

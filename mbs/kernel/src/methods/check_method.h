@@ -1,9 +1,9 @@
-/* What methods ask of a System that they take. */
+/* Conditions of methods on the Systems that they take. */
 #ifndef ALI3_CHECK_METHOD_H
 #define ALI3_CHECK_METHOD_H
 #include "../instance.h"
 
-/* What ali3_needs_no_states refuses, in words for users. */
+/* The parts of a System that ali3_needs_no_states refuses, in words for users. */
 #define ALI3_STATES_IN_WORDS "element states or filtered guides"
 ali3_status ali3_needs_no_states(const ali3_instance *in);
 bool ali3_conservative(const ali3_instance *in);

@@ -110,8 +110,8 @@ ALI3_BY_PROCESSOR(in->system, real, projection_work,
                   (ali3_instance * in, real *kinetic, real *end, real *open, real *guides),
                   (in, kinetic, end, open, guides))
 
-/* What an error of the energy is judged beside: the kinetic energy, what the forces in in->step.Q can give in a step
- * and what the tolerance of the residual leaves open. */
+/* Reference for errors of the energy: the kinetic energy, the energy that the forces in in->step.Q can give in a step,
+ * and that which the tolerance of the residual leaves open. */
 ALI3_INLINED real energy_size(const ali3_instance *in, double h, real kinetic) {
   const double left = 2.0 * in->system->fine * in->settings.tolerance_r / h;
   const double rest = left * left, square = h * h;

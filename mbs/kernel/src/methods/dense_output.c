@@ -19,7 +19,7 @@
 #include "error_control.h"
 
 enum { NODES = 3, DATA = 3 * NODES };
-/* Of the step from start to end, x = -1 to 1: what q, dq/dx, d2q/dx2 at x = -1, 0, 1 add to the coefficient of x^k. */
+/* Hermite basis of a step, x = -1 to 1: parts of q, dq/dx, d2q/dx2 at x = -1, 0, 1 in the coefficient of x^k. */
 static const double basis[DATA][DATA] = {
     {0.0, 0.0, 0.0, -35.0 / 16, 3.0, 21.0 / 8, -4.0, -15.0 / 16, 1.5},
     {0.0, 0.0, 0.0, -11.0 / 16, 13.0 / 16, 9.0 / 8, -11.0 / 8, -7.0 / 16, 9.0 / 16},
@@ -88,8 +88,8 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
          measure->control->tolerance;
 }
 
-/* Where there are element states or filtered guides, just behind the start: its forces and states with the motion of
- * the polynomial. */
+/* Forces and states just behind the start with the motion of the polynomial; needed with element states or filtered
+ * guides. */
 static void beside_start(ali3_instance *in, double t, double h, double when) {
   ali3_vectors_copy(in, &in->next, &in->kept.origin);
   ali3_interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);

@@ -31,7 +31,7 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
   r->energy = energy;
 }
 
-/* Of in->now, J. */
+/* Kinetic energy of in->now, J. */
 double ali3_kinetic_energy(ali3_instance *in) {
   ali3_bodies_prepare(in, in->now.q);
   return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->step.w);
@@ -117,13 +117,13 @@ void ali3_balance_change(ali3_instance *in, double h, const double *v0, const do
   ali3_balance_motion(in, square[0], square[1], square[2]);
 }
 
-/* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */
+/* After a step from the state that is now in in->next, by velocities and accelerations of the states. */
 void ali3_balance_step(ali3_instance *in, double h) {
   ali3_balance_change(in, h, in->next.qd, in->next.qdd, in->now.qd);
 }
 
-/* The same of a method whose steps are longer than impacts: what the accelerations of either end miss, whichever is more.
- * Those at the start alone miss little of a step that begins deep in a contact, or of one that grazes it. */
+/* After a step that may be longer than impacts: by the accelerations of the end that misses more. Those at the start
+ * alone miss little of a step that begins deep in a contact, or of one that grazes it. */
 void ali3_balance_long_step(ali3_instance *in, double h) {
   double square[3], back[3];
   balance_squares(in, h, in->next.qd, in->next.qdd, in->now.qd, square);

@@ -196,8 +196,8 @@ static double change_of(const ali3_instance *in) {
   return size > 0.0 ? sqrt(change / size) : 0.0;
 }
 
-/* What may be left of a sub-step of order four, as `change_of`: a part of what the method errs by, the fourth power of
- * the change of the accelerations from one to the next. A tolerance in metres spoils the order at small steps. */
+/* Limit of change_of for a sub-step of order four: a part of the error of the method, the fourth power of the change of
+ * the accelerations from one sub-step to the next. A tolerance in metres spoils the order at small steps. */
 static double need_of(const ali3_instance *in, double h) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq;
@@ -348,7 +348,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ali3_energy_momentum(in, request->t, request->h, 0.5, request->reading != ALI3_READ_NOTHING);
 }
 
-/* Of the carried velocities, after steps from `from`. */
+/* Energy balance of the carried velocities after steps from `from`. */
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
   const bool past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
                     from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;

@@ -1,4 +1,4 @@
-/* What the energy-momentum methods share with reports and compositions. */
+/* Functions of the energy-momentum methods for reports and compositions. */
 #ifndef ALI3_ENERGY_MOMENTUM_H
 #define ALI3_ENERGY_MOMENTUM_H
 #include "../instance.h"

@@ -1,5 +1,5 @@
-/* What is reported of an energy-momentum state: velocities on the constraints with the kinetic energy of the carried
- * ones, accelerations, multipliers, outputs. */
+/* Report of an energy-momentum state: velocities on the constraints with the kinetic energy of the carried ones,
+ * accelerations, multipliers, outputs. */
 #include <math.h>
 #include <string.h>
 
@@ -33,8 +33,8 @@ static void scale(ali3_instance *in, const ali3_vectors *v) {
   for (int32_t i = 0; i < nq; i++) v->qd[i] *= factor;
 }
 
-/* What a System with flexible bodies carries: v->own goes to the rows with the tangent of the step, which is
- * unsymmetric and spreads what is taken away by A. Needs Phi_q in in->tangent.J. */
+/* Carried velocities of a System with flexible bodies: projects v->own onto the rows with the tangent of the step,
+ * which is unsymmetric and spreads the part that A removes. Needs Phi_q in in->tangent.J. */
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;

@@ -23,8 +23,8 @@ static const double AIM = 0.4; /* of what a step may err */
 static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
 static const double AGAIN = 1.5; /* after a step that stays without a share of its own */
 static const double SHRINK = 0.15, GROW = 4.0, MOST_OF_REJECTED = 0.9, AFTER_FAILURE = 0.25;
-/* Of the time scale of the motion: shorter steps are not made for the sake of the error, since round-off of index three
- * grows there, and not for that of convergence. */
+/* Shortest steps, in parts of the time scale of the motion: shorter ones are not made for the sake of the error, since
+ * round-off of index three grows there, and not for that of convergence. */
 static const double SHORTEST[] = {
     [ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_COLLOCATION] = 1e-6, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
 static const double SHORTEST_TRIED[] = {
@@ -50,7 +50,7 @@ static void set_time(ali3_instance *in, double t) {
   in->clock.now = t;
 }
 
-/* Where inputs or guides jump: accelerations and multipliers of what comes after, without a past. */
+/* Restarts where inputs or guides jump: accelerations and multipliers behind the jump, without a past. */
 ali3_status ali3_refresh(ali3_instance *in) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
@@ -84,7 +84,7 @@ static double power(double x, double k) {
   return ali3_exp(k * (2.0 * z * sum + 0.6931471805599453 * exponent));
 }
 
-/* Of the next step over this one; parts are errors over what they might be, last = 0: not known or of no use. */
+/* Ratio of the next step to this one; `part`, `last`: errors over their limits; last = 0: unknown or of no use. */
 static double factor(double part, double last, int32_t order) {
   const double k = 1.0 / (order + 1), e = fmax(part, LEAST_ERROR) / AIM;
   const double f = last > 0.0 ? power(e, -INTEGRAL * k) * power(last / AIM, PROPORTIONAL * k) : power(e, -k);
@@ -96,7 +96,7 @@ static double shortest(const ali3_instance *in, const ali3_measure *measure, dou
               ROUND_OFF * fabs(t));
 }
 
-/* What the tries of one step have shown so far. */
+/* Record of the tries of one step. */
 typedef struct {
   double first, h, error; /* the first one that erred too much, and the last with its error; 0: none */
   int32_t kicks;
@@ -206,7 +206,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
   }
 }
 
-/* Takes the report back to what the state in in->now says of itself: it was not read while steps were made. */
+/* Sets the report to the state in in->now, which was not read while steps were made. */
 static void finish(ali3_instance *in) {
   const ali3_method *method = ali3_method_of(in);
   if (method->after_sampled != NULL && in->now.history[ALI3_HISTORY_OWNER] == (double)method->owner)

@@ -1,4 +1,4 @@
-/* What the files of the error control share. */
+/* Functions common to the files of the error control. */
 #ifndef ALI3_ERROR_CONTROL_H
 #define ALI3_ERROR_CONTROL_H
 #include "../instance.h"

@@ -7,9 +7,9 @@
 #include "history.h"
 
 enum { DAMPED_STEPS = 6 };
-/* What damped steps leave of the velocity, in h (qdd - own) of the last one, for smooth accelerations of rate j: the
- * first is off by h^2 j / 2 as it has one acceleration, and its `own` by h j, which halves in each step: its share of the
- * velocity is off by h^2 j (1/4 + 1/8 + ... + 1/64), and qdd - own is h j (1 - 1/16). */
+/* Error of the velocity after damped steps, in h (qdd - own) of the last one, for smooth accelerations of rate j: the
+ * first is off by h^2 j / 2 as it has one acceleration, and its `own` by h j, which halves in each step: its share of
+ * the velocity is off by h^2 j (1/4 + 1/8 + ... + 1/64), and qdd - own is h j (1 - 1/16). */
 static const double LEFT_BEHIND = (0.5 + 31.0 / 64.0) / (15.0 / 16.0);
 static const double UNRESOLVED = 2.0; /* step times frequency of a mode, rad */
 

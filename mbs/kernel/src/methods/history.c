@@ -1,4 +1,4 @@
-/* What the methods carry from step to step beside q, qd, qdd, and the start value that it gives: mean accelerations
+/* History of the methods beside q, qd, qdd, and the start values that it gives: mean accelerations
  * and multipliers of past steps, extrapolated by the polynomial through their middles. */
 #include <math.h>
 #include <string.h>
@@ -26,9 +26,8 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
-/* How many of `most` past steps to extrapolate from: as many as would have predicted the last one best, and all of them
- * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones
- * mislead. */
+/* Number of past steps, at most `most`, to extrapolate from: as many as would have predicted the last one best; all if
+ * all before it would have, or well enough. Where an oscillation turns within a few steps, old ones mislead. */
 int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, n = past(v, most);
@@ -82,7 +81,7 @@ void ali3_history_shift(ali3_instance *in, double h) {
   memcpy(to->past_lam + nc, from->past_lam, (ALI3_PAST - 1) * nc * sizeof(double));
 }
 
-/* The same with mean acceleration a and multipliers in->next.lam. */
+/* Shifts the history and appends the mean acceleration a and the multipliers in->next.lam. */
 void ali3_history_append(ali3_instance *in, double h, const double *a) {
   ali3_history_shift(in, h);
   memcpy(in->next.past_a, a, (size_t)in->system->size.nq * sizeof *a);

@@ -1,4 +1,4 @@
-/* What Newton's iterations of all methods share: the penalty, and how far an iterate is from balance. */
+/* Functions common to Newton's iterations of all methods: the penalty, and the residual of an iterate. */
 #include <math.h>
 
 #include "../instance.h"

@@ -1,4 +1,4 @@
-/* What Newton's iterations share. */
+/* Functions common to Newton's iterations. */
 #ifndef ALI3_NEWTON_H
 #define ALI3_NEWTON_H
 #include "../algebra/real.h"

@@ -56,7 +56,7 @@ static double *power_of(const ali3_instance *in, int i) { return in->watch.stage
 static double *of_entries(const ali3_instance *in, double *v, int i) { return v + i * in->system->size.nnz_rows; }
 
 /* Position, velocity, guides and inputs of stage i. */
-static void place(ali3_instance *in, double t, double h, int i) {
+static void set_stage(ali3_instance *in, double t, double h, int i) {
   const ali3_vectors *from = &in->now;
   ali3_vectors *to = &in->next;
   const double *restrict a0 = acceleration(in, 0), *restrict a1 = acceleration(in, 1),
@@ -91,7 +91,7 @@ static bool evaluate(ali3_instance *in, double t, double h) {
   double largest = 0.0, open = 0.0;
   for (int i = 0; i < STAGES; i++) { /* ascending: the number behind a stage, which it may write, is of the next one */
     double *Phi = of_rows(in, in->radau.Phi, i), *J = of_entries(in, in->radau.J, i), *r = residual(in, i);
-    place(in, t, h, i);
+    set_stage(in, t, h, i);
     ali3_constraints(in, in->next.q, in->next.s, Phi, J);
     forces(in, 0.0, 0.0);
     if (S->n_work > 0) memcpy(power_of(in, i), in->watch.now, (size_t)S->n_work * sizeof(double));
@@ -146,7 +146,7 @@ static ali3_status factorise(ali3_instance *in, double t, double h, double alpha
   const bool flexible = S->n_flexible > 0;
   memcpy(in->radau.J_made, in->radau.J, STAGES * (size_t)S->size.nnz_rows * sizeof(double));
   for (int i = 0; i < STAGES; i++) {
-    place(in, t, h, i);
+    set_stage(in, t, h, i);
     ali3_mass_to_fronts(in, in->tangent.F);
     memset(in->radau.F_C, 0, size);
     memset(in->radau.F_K, 0, size);
@@ -325,13 +325,14 @@ static ali3_status inputs(ali3_instance *in) {
   return status;
 }
 
-/* Of driven rows, the force of each stage along its own velocity, which need not be on the rows. Ends with the last one. */
+/* Work of driven rows: the force of each stage along its own velocity, which need not be on the rows. Leaves the last
+ * stage in place. */
 static double work_of_drives(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   double work = 0.0;
   for (int i = 0; i < STAGES; i++) {
     const double *lam = of_rows(in, in->radau.lam, i);
-    place(in, t, h, i);
+    set_stage(in, t, h, i);
     ali3_rows_times(S, of_entries(in, in->radau.J, i), in->next.qd, in->step.mu);
     for (int32_t k = 0; k < S->n_driven; k++)
       work -= h * first[LAST][i] * lam[S->driven_row[k]] * in->step.mu[S->driven_row[k]];

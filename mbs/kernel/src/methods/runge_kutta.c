@@ -39,8 +39,8 @@ static double power(ali3_instance *in, const ali3_vectors *v) {
   return sum;
 }
 
-/* Where stage `stage` is evaluated: positions and velocities from the accelerations of the stages before it. `row` are
- * its weights, `second` those of the double integral. */
+/* State of a stage: positions and velocities from the accelerations of the `stages` before it. `row` are its weights,
+ * `second` those of the double integral. */
 static void combine(ali3_instance *in, double h, double time, const double *row, int stages) {
   const int32_t nq = in->system->size.nq;
   double second[STAGES] = {0.0};
@@ -86,8 +86,8 @@ static ali3_status close(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Where inputs jump at the start of the step its first stage is not the last one of the step before: accelerations and
- * multipliers of in->next, a copy of in->now, become those behind the jump. */
+/* Sets accelerations and multipliers of in->next, a copy of in->now, to those behind a jump of inputs at the start of
+ * the step: its first stage then is not the last one of the step before. */
 static ali3_status after_jump(ali3_instance *in) {
   if (!ali3_inputs_jump(in)) return ALI3_OK;
   const ali3_status status = ali3_inputs_at(in, 0.0);

@@ -1,4 +1,4 @@
-/* Why an explicit method refused a step: the fastest rate of change of the motion beside the step. */
+/* Cause for which an explicit method refused a step: the fastest rate of change of the motion beside the step. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* The beginning and the end of a step as it is asked for, whatever makes it in between. */
+/* Beginning and end of a requested step, common to all methods. */
 #include "whole_step.h"
 
 #include <math.h>
@@ -46,7 +46,7 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
   return ALI3_OK;
 }
 
-/* `status` says whether the step was made. */
+/* `status`: of the step. */
 ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_status status) {
   if (status == ALI3_OK) status = ali3_branch_after(in, &step->asked);
   in->report.last_status = (int32_t)status;

@@ -1,4 +1,4 @@
-/* A step as it is asked for: what comes before the method and after it. */
+/* Beginning and end of a requested step, before and after the method. */
 #ifndef ALI3_WHOLE_STEP_H
 #define ALI3_WHOLE_STEP_H
 #include "../instance.h"

@@ -115,7 +115,7 @@ ALI3_INLINED double limited_patch(const ali3_grid *g, const ali3_cell *cell, con
   return z;
 }
 
-/* The same of the patch of any cell that is held. */
+/* Height and slope on the patch of any cell that is held. */
 ALI3_INLINED double patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
   double wx[4], dx[4], wy[4], dy[4], z = 0.0;
   if (cell->limited) return limited_patch(g, cell, s, slope);

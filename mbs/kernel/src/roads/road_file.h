@@ -41,7 +41,7 @@ uint32_t ali3_road_file_identity(const ali3_road_file *file); /* another content
 
 /* Height and friction of a point of the grid. Where its tile cannot be read both are 0 and the file counts as lost. */
 double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j);
-/* Where the heights from point (i, j) on lie, rows apart by `stride`; `size`, of rows and columns, is cut to what lies there.
+/* Heights from point (i, j) on, rows apart by `stride`; `size`, of rows and columns, is cut to those in memory there.
  * NULL: lost. */
 const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride);
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j);

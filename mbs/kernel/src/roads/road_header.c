@@ -1,4 +1,4 @@
-/* What the header of a road's file may say. */
+/* Checks of the header of a road file. */
 #include "road_header.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
-/* The first row has the y of the columns behind a cell that is no number, the first column the x of the rows; another
- * row that begins with no number begins the frictions. Cells are parted by semicolons, tabs or commas, the first of these
- * that the first row has; unless it is a comma, the decimal mark may be one. Lines that begin with # are left out.
- * Independent of the locale. */
+/* Reads a table of heights. The first row has the y of the columns behind a cell that is no number, the first column
+ * the x of the rows; another row that begins with no number begins the frictions. Cells are parted by semicolons, tabs
+ * or commas, the first of these that the first row has; unless it is a comma, the decimal mark may be one. Lines that
+ * begin with # are left out. Independent of the locale. */
 #include "road_table.h"
 
 #include <math.h>
@@ -170,7 +170,7 @@ static int regular(const reader *r, const double *v, int64_t n, char name, doubl
   return 1;
 }
 
-/* Both tables; x and y have room for the coordinates. The second one must have those of the first. */
+/* Reads both tables; x and y have room for the coordinates. The second one must have those of the first. */
 static int fill(reader *r, ali3_road_table *t, double *x, double *y) {
   const char *line, *line_end;
   double first;

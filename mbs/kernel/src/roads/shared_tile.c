@@ -1,5 +1,5 @@
-/* What is read is checked before it is used: the entry by its checksum, which the number of the tile is part of, the
- * record by the one in its entry, its sizes by what they must add up to. */
+/* Shared tiles of a road file, read and checked before use: the entry by its checksum, which the number of the tile is
+ * part of, the record by the one in its entry, its sizes by what they must add up to. */
 #include "shared_tile.h"
 
 #include <string.h>

@@ -25,7 +25,7 @@ ALI3_INLINED void put(int32_t kind, double ss, double cc, double lengths, double
   *cosine = scale * (kind & TURNED ? -ss : cc);
 }
 
-/* Of the angle from arm a to arm b seen along n. */
+/* Signed squares of sine and cosine of the angle from arm a to arm b seen along n. */
 ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t, double *sine, double *cosine) {
   if (t[KIND] & PLANAR) {
     const double ax = ali3_signal_at(S, t[3], q, false), ay = ali3_signal_at(S, t[4], q, false);
@@ -43,7 +43,7 @@ ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t,
   put(t[KIND], nn * det * fabs(det), c * fabs(c), nn * nn * dot(a, a) * dot(b, b), sine, cosine);
 }
 
-/* Of all triads, signed squares of sines in in->branch.sine and of cosines in in->branch.cosine. */
+/* Signed squares of the sines of all triads in in->branch.sine and of the cosines in in->branch.cosine. */
 ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
   const int32_t *t = in->system->mode_triad, *end = t + in->system->n_mode_triad;
   for (double *sine = in->branch.sine, *cosine = in->branch.cosine; t < end; t += ITEMS)
@@ -57,7 +57,7 @@ static uint32_t bit(double v, int k, uint32_t *definite) {
   return v > 0.0 ? (uint32_t)1 << k : 0;
 }
 
-/* Of a loop that has none of its modes, the first misfit to the one that fits best. */
+/* First triad of a loop in none of its modes that differs from the mode that fits best. */
 static int32_t misfit(const ali3_system *S, int64_t loop, uint32_t signs, uint32_t definite) {
   uint32_t best = 0;
   int fewest = 2 * ALI3_MOST_TRIADS + 1;

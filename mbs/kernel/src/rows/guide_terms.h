@@ -29,7 +29,7 @@ static inline real guide_second_rate(const ali3_guide_term *g, const ali3_vector
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-/* What a term adds to gamma, with w and its two rates. */
+/* Part of a term in gamma, with w and its two rates. */
 static inline real guide_bend(real qa, real qb, real va, real vb, real w, real wd, real wdd) {
   return wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
 }

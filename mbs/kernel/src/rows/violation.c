@@ -1,4 +1,4 @@
-/* How far rows are open, in metres. */
+/* Violation of the rows, in metres. */
 #include <float.h>
 #include <math.h>
 
@@ -22,7 +22,7 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   return ali3_worst_size(Phi, S->row_measure, S->size.nc, worst);
 }
 
-/* By how much the worst row is open beyond its round-off, m; of finite rows. */
+/* Largest violation of a row beyond its round-off, m; of finite rows. */
 double ali3_opening(const ali3_system *S, const double *Phi) {
   double largest = 0.0;
   for (int32_t k = 0; k < S->size.nc; k++) {
@@ -47,8 +47,8 @@ double ali3_row_sum(const ali3_system *S, int32_t k, const double *q) {
   return sum;
 }
 
-/* As ali3_closed, where rows may be open by what the squares of the present coordinates cannot resolve, which may be far
- * from where they were drawn. */
+/* ali3_closed with the round-off of the squares of the present coordinates, which may be far from where they were
+ * drawn. */
 bool ali3_closed_here(const ali3_system *S, const double *Phi, const double *q, double tolerance) {
   for (int32_t k = 0; k < S->size.nc; k++) {
     const double open = fabs(Phi[k]) * S->row_measure[k] - tolerance;

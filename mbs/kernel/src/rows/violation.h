@@ -1,4 +1,4 @@
-/* How far rows are open, in metres. */
+/* Violation of the rows, in metres. */
 #ifndef ALI3_VIOLATION_H
 #define ALI3_VIOLATION_H
 #include "../system.h"

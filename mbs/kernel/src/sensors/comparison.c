@@ -1,5 +1,5 @@
-/* Two motions of a System, compared at samples by what they show: ranges, differences, and what a difference is held
- * against. What is compared of a System is said by mbs/results/comparison.py. */
+/* Comparison of two motions of a System at samples: ranges, differences, and references of the differences.
+ * mbs/results/comparison.py selects the compared values. */
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>

@@ -106,7 +106,7 @@ static double change_quaternion(const ali3_instance *in, const int32_t *v, const
   return wanted == 0 ? -0.5 * dot(w, p + 1) : 0.5 * (p[0] * w[wanted - 1] + one[wanted - 1]);
 }
 
-/* What the positions change in the energies of flexible bodies: they are quadratic in q, for which differences of any
+/* Changes of the energies of flexible bodies with the positions: they are quadratic in q, for which differences of any
  * width are exact. */
 static void flexible_energy(const ali3_instance *in, double *kinetic, double *gravity, double *elastic) {
   const int32_t nq = in->system->size.nq;

@@ -1,5 +1,5 @@
-/* What a rigid body carries at its ports while the same model runs without them: motion, accelerations and multipliers are
- * those of the model without ports, and the forces at the ports balance what M qdd + Phi_q' lam = Q then leaves open. */
+/* Forces at the ports of rigid bodies from the motion of the same model without ports: positions, velocities,
+ * accelerations and multipliers are those of that model; the forces balance the residual of M qdd + Phi_q' lam = Q. */
 #include <string.h>
 
 #include "../algebra/finite.h"
@@ -14,7 +14,7 @@ static void copy(double *to, const double *from, int64_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
-/* Whether `ported` tells its coordinates by those of `without`, and all else that a state has is the same. */
+/* Whether the coordinates of `ported` follow from those of `without`, and the rest of both states has equal sizes. */
 static bool same_model(const ali3_system *ported, const ali3_system *without) {
   const ali3_sizes *a = &ported->size, *b = &without->size;
   return ported->n_ported_ptr == (int64_t)b->nq + 1 && ported->n_ported_lam_ptr == (int64_t)b->nc + 1 &&
@@ -29,19 +29,19 @@ static void add_columns(int64_t n, const int32_t *ptr, const int32_t *row, const
     for (int32_t k = ptr[j]; k < ptr[j + 1]; k++) to[row[k]] += val[k] * from[j];
 }
 
-/* to = T from + offset; offset may be NULL: of rates. */
-static void follow(const ali3_system *S, const double *from, const double *offset, double *to) {
+/* to = T from + offset; offset is NULL for rates. */
+static void map_coordinates(const ali3_system *S, const double *from, const double *offset, double *to) {
   for (int32_t i = 0; i < S->size.nq; i++) to[i] = offset != NULL ? offset[i] : 0.0;
   add_columns(S->n_ported_ptr - 1, S->ported_ptr, S->ported_row, S->ported_val, from, to);
 }
 
-/* Multipliers of the rows that are no ports; those of ports are 0. */
-static void follow_rows(const ali3_system *S, const double *from, double *to) {
+/* Multipliers of the rows from those of the model without ports; those of ports become 0. */
+static void map_multipliers(const ali3_system *S, const double *from, double *to) {
   memset(to, 0, (size_t)S->size.nc * sizeof(double));
   add_columns(S->n_ported_lam_ptr - 1, S->ported_lam_ptr, S->ported_lam_row, S->ported_lam_val, from, to);
 }
 
-/* The state of the model without ports, but for the multipliers of ports. */
+/* Takes the state of the model without ports; the multipliers of ports are left to `balance`. */
 static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   const ali3_system *S = in->system;
   const ali3_sizes *z = &S->size;
@@ -50,10 +50,10 @@ static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   if (z->np > 0 && memcmp(in->parameters.value, without->parameters.value, (size_t)z->np * sizeof(double)) != 0 &&
       !ali3_parameters_take(in, without->parameters.value))
     return ALI3_BAD_ARGUMENT;
-  follow(S, from->q, S->ported_const, v->q);
-  follow(S, from->qd, NULL, v->qd);
-  follow(S, from->qdd, NULL, v->qdd);
-  follow_rows(S, from->lam, v->lam);
+  map_coordinates(S, from->q, S->ported_const, v->q);
+  map_coordinates(S, from->qd, NULL, v->qd);
+  map_coordinates(S, from->qdd, NULL, v->qdd);
+  map_multipliers(S, from->lam, v->lam);
   copy(v->y, from->y, z->ny);
   copy(v->y_last, from->y_last, z->ny);
   copy(v->s, from->s, z->ng);
@@ -82,7 +82,7 @@ static void forces(ali3_instance *in) {
   ali3_forces(in, &call);
 }
 
-/* The multipliers of ports, of what is open without them. */
+/* Multipliers of the ports from the residual without them. */
 static void balance(ali3_instance *in) {
   const ali3_system *S = in->system;
   double *open = in->step.r;

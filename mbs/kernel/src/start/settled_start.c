@@ -1,8 +1,8 @@
-/* A start in motion, held until what nobody sets has settled: roll and pitch, springs, tyres, steering, the speed of
- * wheels under brakes. The scene makes steps; after each it is put back as a whole to the start: place along the
- * ground and horizontal velocity of its heaviest point, heading and yaw rate of its heaviest direction. On a slope it
- * comes back along the slope: what touches the road stays as deep as it was. Only a motion as one rigid body is taken
- * away, so that every part feels the accelerations that the forces give it. */
+/* A start in motion, held until the states that nobody sets have settled: roll and pitch, springs, tyres, steering, the
+ * speed of wheels under brakes. The scene makes steps; after each it is put back as a whole to the start: place along
+ * the ground and horizontal velocity of its heaviest point, heading and yaw rate of its heaviest direction. On a slope
+ * it comes back along the slope: what touches the road stays as deep as it was. Only a motion as one rigid body is
+ * taken away, so that every part feels the accelerations that the forces give it. */
 #include "settled_start.h"
 
 #include <math.h>
@@ -83,8 +83,9 @@ double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *star
   return start->direction[0] * now.direction[1] - start->direction[1] * now.direction[0];
 }
 
-/* What stands slides until the deflections of its tyres hold it: with no velocity left after a step that would take
- * 2 m / (k h), with this damping 2 / SLIDING, mass m and stiffness k being those of cars. Then it is held. */
+/* Share of the velocity that a scene at rest keeps: it slides until the deflections of its tyres hold it, and is held
+ * from then on. With no velocity left after a step that would take 2 m / (k h), with this damping 2 / SLIDING, m and k
+ * being mass and stiffness of cars. */
 double ali3_kept_velocity(const ali3_held_motion *held, double h, double done) {
   const bool stands = held->velocity[0] == 0.0 && held->velocity[1] == 0.0 && held->rate == 0.0;
   return stands && done < HELD_FROM ? 1.0 / (1.0 + SLIDING * h) : 0.0;

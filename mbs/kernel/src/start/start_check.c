@@ -1,4 +1,4 @@
-/* Starts that an element refuses, and how much higher the scene must begin. */
+/* Checks of a start by the elements, and how much higher the scene must begin. */
 #include <stdio.h>
 
 #include "../elements/road.h"

@@ -44,8 +44,8 @@ static void exchange_roads(ali3_instance *in) {
   in->roads.own = road;
 }
 
-/* Puts in what the search needs: roads of the System, its own values of parameters, start values of inputs. The values of
- * the instance wait in parameters.work and inputs.work. */
+/* Sets roads of the System, its own values of parameters and start values of inputs for the search. The values of the
+ * instance are kept in parameters.work and inputs.work. */
 static ali3_status prepare(ali3_instance *in) {
   const ali3_system *S = in->system;
   memcpy(in->parameters.work, in->parameters.value, (size_t)S->size.np * sizeof(double));
@@ -62,7 +62,8 @@ static ali3_status prepare(ali3_instance *in) {
   return status;
 }
 
-static void put_back(ali3_instance *in) {
+/* Restores the values of the instance after the search. */
+static void restore(ali3_instance *in) {
   const ali3_system *S = in->system;
   memcpy(in->parameters.value, in->parameters.work, (size_t)S->size.np * sizeof(double));
   memcpy(in->inputs.set, in->inputs.work, (size_t)S->size.nu * sizeof(double));
@@ -101,7 +102,7 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
     const ali3_report before = in->report;
     ali3_status status = prepare(in);
     if (status == ALI3_OK) status = search(in, t);
-    put_back(in);
+    restore(in);
     if (status != ALI3_OK) return status;
     in->report = before; /* the search is no part of the run */
     double most = 0.0;

@@ -11,7 +11,7 @@
 #include "road_files.h"
 
 static const double NEAR = 1e-9; /* of a step: a part that ends so near to its end ends there */
-/* Of a value that is reached and set again, or of a table at one of its times, from either side. */
+/* Relative round-off of a value that is reached and set again, or of a table at one of its times, from either side. */
 static const double ROUND_OFF = 1e-13;
 
 /* Whether inputs (nu) give all roads at ports their normals. */

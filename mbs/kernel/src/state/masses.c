@@ -86,7 +86,7 @@ static void moments(const double *real, const double *origin, double out[4][4]) 
   }
 }
 
-/* What the inertia of body k changes, nothing where it is that of the System. */
+/* Changes the mass matrix by the inertia of body k; nothing if it is that of the System. */
 static void weigh(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
   const double *old = S->inertia_real + k * ALI3_INERTIA_REALS,
@@ -107,7 +107,7 @@ static void weigh(ali3_instance *in, int64_t k) {
     }
 }
 
-/* What the ratio of an armature changes, nothing where it is that of the System. */
+/* Changes the mass matrix by the ratio of an armature; nothing if it is that of the System. */
 static void turn(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
   const int32_t row = S->armature_col[k], start = S->mass_ptr[row];
@@ -116,7 +116,7 @@ static void turn(ali3_instance *in, int64_t k) {
   *mass = fmax(*mass + S->armature_inertia[k] * (now * now - old * old), 0.0);
 }
 
-/* What the axis of wheel k changes on its carrier, where that is no table, nothing where it is that of the System. */
+/* Changes the mass matrix by the axis of wheel k on its carrier, unless that is tabled; nothing if it is as drawn. */
 static void tilt(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->base;
   const int32_t *frame = S->axis_frame + k * ALI3_AXIS_SIGNALS;
@@ -128,7 +128,7 @@ static void tilt(ali3_instance *in, int64_t k) {
       for (int x = 0; x < 3; x++) couple(in, frame[3 * i + x], frame[3 * j + x], change[i][j]);
 }
 
-/* The same of the tree: what each joint carries. */
+/* Mass that each joint of the tree carries, with the payloads. */
 static void carry(ali3_instance *in) {
   const ali3_tree *T = in->system->tree;
   double *carried = in->tree->composite;

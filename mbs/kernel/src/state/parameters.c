@@ -13,7 +13,7 @@
 
 ALI3_BRANCHES_AS_WRITTEN
 
-/* What a parameter of a value writes to its target k. */
+/* Number that a parameter of a value writes to its target k. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
   const bool inverse = S->n_par_inverse > 0 && S->par_inverse[k];
   const double product = inverse ? S->par_scale[k] / value : S->par_scale[k] * value;

@@ -1,4 +1,4 @@
-/* What an instance is set to: parameters, settings, the start. */
+/* Parameters, settings and start of an instance. */
 #ifndef ALI3_PARAMETERS_H
 #define ALI3_PARAMETERS_H
 #include "../instance.h"

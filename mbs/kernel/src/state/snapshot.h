@@ -1,4 +1,4 @@
-/* What a snapshot begins with; then come the vectors, inputs and parameters. */
+/* Head of a snapshot; the vectors, inputs and parameters follow. */
 #ifndef ALI3_SNAPSHOT_H
 #define ALI3_SNAPSHOT_H
 #include "../instance.h"

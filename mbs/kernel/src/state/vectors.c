@@ -50,8 +50,8 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
   memcpy(to->q, from->q, in->kept.n * sizeof(double));
 }
 
-/* What a method that fills the state does not write: all but positions, velocities, accelerations and multipliers and
- * the past of both, where there is one that steps do not write. */
+/* Copies the part of the state that a method which fills it does not write: all but positions, velocities,
+ * accelerations and multipliers, and the past of the last two if there is one that steps do not write. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
   const double *end = from->q + in->kept.n, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
   const bool past = in->system->n_flexible > 0 && from->history[ALI3_HISTORY_COUNT] > 0.0;
@@ -66,7 +66,7 @@ void ali3_back_up(ali3_instance *in) {
   in->kept.backed_up = true;
 }
 
-/* Of the past, what a step added: the rest of it was in a state before. */
+/* Whether a state is finite; of the past only what the step added, since the rest was checked in a state before. */
 ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v) {
   const int64_t nq = in->system->size.nq, nc = in->system->size.nc;
   const double *behind = v->past_lam + ALI3_PAST * nc;

@@ -1,4 +1,4 @@
-/* What an instance needs of memory: one function places it, walked once to count and once to place. */
+/* Memory of an instance: one function places its arrays, called once to count and once to place. */
 #include "workspace.h"
 
 #include "../elements/road.h"
@@ -109,7 +109,7 @@ static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->tangent.local = ali3_pool_array(p, ALI3_LOCAL * (size_t)s->max_front);
 }
 
-/* Of radau.c, where stages inside a step need nothing but q, qd and the time. */
+/* Arrays of radau.c; only for Systems whose stages need nothing but q, qd and the time. */
 static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_states_are_coordinates(s) ? ALI3_RADAU : 0;
@@ -123,7 +123,7 @@ static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) 
   in->radau.F_K = ali3_pool_array(p, stages > 0 ? (size_t)z->front_size : 0);
 }
 
-/* Flexible bodies and elements. */
+/* Arrays of flexible bodies and elements. */
 static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   in->flexible.prepared =
@@ -141,7 +141,7 @@ static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->element.potential = ali3_pool_array(p, (size_t)z->ne);
 }
 
-/* Of branch_watch.c. */
+/* Arrays of branch_watch.c. */
 static void place_modes(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t triads = (size_t)ali3_triad_count(s), loops = (size_t)ali3_loop_count(s);
   in->branch.sine = ali3_pool_array(p, triads);
@@ -153,7 +153,7 @@ static void place_modes(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   if (triads > 0) place_state(s, &in->kept.near_branch, p);
 }
 
-/* Of start_equilibrium.c and work.c. */
+/* Arrays of start_equilibrium.c and work.c. */
 static void place_start_and_work(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nq = (size_t)s->size.nq;
   in->start.q = ali3_pool_array(p, nq);

@@ -1,4 +1,4 @@
-/* What all checks of a System share. */
+/* Functions common to the checks of a System. */
 #include "check.h"
 
 #include "message.h"

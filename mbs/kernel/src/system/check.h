@@ -1,4 +1,4 @@
-/* What all checks of a System share: the first thing found wrong ends them. */
+/* Functions common to the checks of a System, which end at the first fault. */
 #ifndef ALI3_CHECK_H
 #define ALI3_CHECK_H
 #include "../system.h"

@@ -1,4 +1,4 @@
-/* Force elements of a System. */
+/* Checks the force elements of a System. */
 #include "../elements/element.h"
 #include "../system.h"
 #include "check.h"

@@ -1,4 +1,4 @@
-/* Flexible bodies of a System: places in the fronts, symmetry. */
+/* Checks the flexible bodies of a System: places in the fronts, symmetry. */
 #include <math.h>
 
 #include "../system.h"

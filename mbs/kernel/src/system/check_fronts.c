@@ -1,4 +1,4 @@
-/* Fronts and rows of a System: every local index must name the coordinate it stands for. */
+/* Checks fronts and rows of a System: every local index must name its coordinate. */
 #include "../system.h"
 #include "check.h"
 #include "loading.h"

@@ -1,4 +1,4 @@
-/* Assembly modes of a System: triads and modes of its loops. */
+/* Checks the assembly modes of a System: triads and modes of its loops. */
 #include "../rows/assembly_mode.h"
 #include "../system.h"
 #include "check.h"

@@ -1,5 +1,5 @@
-/* Payloads of a System, point masses at signals, which the mass matrix has room for, its armatures, and bodies whose inertia
- * parameters write. */
+/* Checks the payloads of a System, point masses at signals for which the mass matrix must have room, its armatures, and
+ * bodies whose inertia parameters write. */
 #include "../system.h"
 #include "check.h"
 #include "loading.h"

@@ -1,4 +1,4 @@
-/* Of a System with ports: its coordinates by those of the same model without them. */
+/* Checks the map of a System with ports from the coordinates of the same model without them. */
 #include "../system.h"
 #include "check.h"
 #include "loading.h"

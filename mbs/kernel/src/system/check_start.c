@@ -1,4 +1,4 @@
-/* What the start of a System says: values for the search of the equilibrium, partners of its pose. */
+/* Checks the start of a System: values for the search of the equilibrium, partners of its pose. */
 #include <stdlib.h>
 
 #include "../system.h"

@@ -1,4 +1,4 @@
-/* Tabled bodies and numbers of a System: their sizes before all else, as signals name them; the rest with the fronts. */
+/* Checks tabled bodies and numbers of a System: their sizes first, as signals name them; the rest with the fronts. */
 #include "../tabled/tabled.h"
 #include "check.h"
 #include "loading.h"
@@ -39,7 +39,7 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* What reads coordinates themselves has no dependents. */
+/* Refuses a signal of dependent coordinates where the coordinates themselves are read. */
 ali3_status ali3_check_independent(const ali3_system *s, int32_t signal, const char *what, ali3_message m) {
   for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++)
     if (s->sig_col[k] >= s->size.nq) return ali3_bad(m, "%s is on a lookup-table body", what);

@@ -1,4 +1,4 @@
-/* Tree of a System: parents before children, cut joints, and that nothing else moves the bodies. */
+/* Checks the tree of a System: parents before children, cut joints, and that nothing else moves the bodies. */
 #include "../instance.h"
 #include "../tree/tree.h"
 #include "check.h"
@@ -39,7 +39,7 @@ static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* As many components of points and vectors, and angles, as there are coordinates. */
+/* Whether components of points and vectors and angles are as many as the coordinates. */
 static ali3_status check_coordinates(const ali3_system *s, ali3_message m) {
   const int64_t parts = s->n_tree_out_body;
   int64_t named = s->n_tree_angle_col;

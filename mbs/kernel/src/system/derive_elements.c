@@ -1,4 +1,4 @@
-/* Entries of the tangents of elements, and the elements that contacts and works look at, when a System is loaded. */
+/* Derives, when a System is loaded, the entries of the tangents of elements, and the elements of contacts and works. */
 #include "derive_elements.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Rows when a System is loaded: terms with their places, in the order in which loops go through them. */
+/* Derives, when a System is loaded, the terms of its rows with their places, in the order of the loops. */
 #include "derive_rows.h"
 
 #include <float.h>
@@ -125,8 +125,8 @@ static double largest_of_row(const ali3_system *s, int32_t k) {
   return largest;
 }
 
-/* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away, or of a
- * large scene. */
+/* Round-off of the sum of a row's terms, below which no step converges: that of squares of coordinates far away, or of
+ * a large scene. */
 static void derive_round(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++) {
     const double largest = largest_of_row(s, k);
@@ -276,7 +276,7 @@ static void derive_stretch_terms(ali3_system *s, int32_t k) {
   }
 }
 
-/* Where the terms of the entries before the stretch of row k begin to lie side by side. */
+/* First terms of the entries before the stretch of row k from which on terms lie side by side. */
 static void derive_runs(ali3_system *s, int32_t k) {
   const bool any = s->row_stretch[k] < s->row_ptr[k + 1];
   for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {

@@ -1,4 +1,4 @@
-/* The control of floating point is set and restored. */
+/* Sets and restores the control of floating point. */
 #include "../../include/ali3.h"
 
 #if defined(__x86_64__)

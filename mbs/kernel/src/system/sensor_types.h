@@ -90,7 +90,7 @@ enum {
  * or where its first or second integer, an order or a kind, is below 2. */
 enum { ALI3_RATE_NEVER = 0, ALI3_RATE_ALWAYS, ALI3_RATE_BY_FIRST, ALI3_RATE_BY_SECOND };
 
-/* What a value comes from: positions and velocities; what is given from outside; forces or accelerations; the counts of
+/* Quantities from which a value is computed: positions and velocities; inputs; forces or accelerations; the counts of
  * the solver; multipliers, which are forces too. */
 enum { ALI3_READS_MOTION = 0, ALI3_READS_INPUTS, ALI3_READS_FORCES, ALI3_READS_SOLVER, ALI3_READS_ROWS };
 

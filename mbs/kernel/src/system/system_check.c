@@ -1,4 +1,5 @@
-/* Content of a System: mass, signals, inputs, guides, roads, parameters. Nothing is indexed before it is checked. */
+/* Checks the content of a System: mass, signals, inputs, guides, roads, parameters. Nothing is indexed before its
+ * check. */
 #include <math.h>
 
 #include "../elements/element.h"
@@ -152,7 +153,7 @@ bool ali3_inertia_possible(const double *real) {
          x * z - xz * xz >= least * half && y * z - yz * yz >= least * half && det >= least * half * half;
 }
 
-/* Of its moments one is set after the other: what they are together is checked at a start. */
+/* Checks each number of an inertia alone, as they are set one after the other; together they are checked at a start. */
 static const char *check_inertia(const double *real) {
   for (int i = 0; i < ALI3_INERTIA_REALS; i++)
     if (!(real[i] - real[i] == 0.0)) return "the inertia of a body must be numbers";

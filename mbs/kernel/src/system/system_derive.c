@@ -1,4 +1,4 @@
-/* What the loops want and the file need not say: the mass matrix in front storage, and what other files derive. */
+/* Derives from a System file the arrays of the loops: the mass matrix in front storage, and those of other files. */
 #include <math.h>
 #include <string.h>
 

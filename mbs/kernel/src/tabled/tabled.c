@@ -47,7 +47,7 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
                          in->tabled.parameter[p].turned + 3 * v);
 }
 
-/* What rates a, b of the parameters move in functions i to i + n: first (by B qd) and, of rates themselves, second. */
+/* First derivatives of functions i to i + n by rates a, b of the parameters, for B qd, and second ones. */
 static void rates(const ali3_tabled *c, const ali3_tabled_work *w, real a, real b, int32_t i, int32_t n, real *first,
                   real *second) {
   for (int32_t k = 0; k < n; k++, i++) {

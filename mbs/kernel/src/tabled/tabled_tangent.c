@@ -31,7 +31,7 @@ ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double
   }
 }
 
-/* Of one item: wM M between its parameters, -wK f d2X/dq2 with the force of elements and the weight. */
+/* Tangent of one item: wM M between its parameters, -wK f d2X/dq2 with the force of elements and the weight. */
 static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
   const ali3_tabled *c = S->tabled + i;

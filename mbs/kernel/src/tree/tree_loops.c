@@ -33,7 +33,8 @@ static cut cut_of(const ali3_system *S, const ali3_tree_work *w, int32_t c) {
   return k;
 }
 
-/* What the joints on the path of a body do to the rows from `row` on: a point of it, and the turning about `arm`. */
+/* Derivatives of the rows from `row` on by the joints on the path of a body: of a point of it, and of turning about
+ * `arm`. */
 static void path(const ali3_tree *T, ali3_tree_work *w, const cut *k, int32_t body, const double *point, double sign,
                  const double (*arm)[3], int32_t row) {
   for (int32_t j = body; j > 0; j = T->parent[j]) {

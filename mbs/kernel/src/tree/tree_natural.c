@@ -9,7 +9,7 @@ typedef struct {
   double origin[3], axis[3][3], velocity[3], spin[3];
 } frame;
 
-/* Of body b, 0 for the ground; the angular velocity is half the sum of axes times their rates. */
+/* Frame of body b, 0 for the ground; the angular velocity is half the sum of axes times their rates. */
 static frame frame_of(const ali3_system *S, int32_t b, const double *q, const double *qd) {
   frame f = {{0.0}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {0.0}, {0.0}};
   if (b == 0) return f;

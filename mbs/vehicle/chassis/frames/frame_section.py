@@ -45,7 +45,7 @@ class DampingSection(Section):
 
 
 class FrameSection(Section):
-    """What every flexible frame has; the suspension hangs on those of its joints that lie at the hard points."""
+    """Numbers common to flexible frames; the suspension is attached to the joints of a frame at the hard points."""
 
     damping: DampingSection
     """Damping of the frame."""

@@ -26,7 +26,7 @@ class NodePair(Section):
     """Young's modulus: the stress is it times the strain."""
 
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
-        """What it reports. Raises `ModelError`: there is no such node, or both ends are at one place."""
+        """Stress that the gauge reports. Raises `ModelError`: there is no such node, or both ends are at one place."""
         a, b = self.nodes
         row, text = self._strain(model, "nodes"), f"E times the strain from node {a} to node {b} at gauge {name}"
         if self.opposite is not None:

@@ -44,8 +44,8 @@ class RecoveryRows(Section):
             if line["gauge"] != name:
                 continue
             if line["quantity"] not in QUANTITIES:
-                known = ", ".join(QUANTITIES)
-                raise ModelError(f"{line.where}: quantity is {line['quantity']!r}; it must be one of {known}.")
+                available = ", ".join(QUANTITIES)
+                raise ModelError(f"{line.where}: quantity is {line['quantity']!r}; it must be one of {available}.")
             row = rows.setdefault(line["quantity"], np.zeros(model.n_dof))
             row[_freedom(line, model)] += line.number("factor", -MOST, MOST, "per m or rad")
         if not rows:

@@ -48,7 +48,7 @@ class TubeGauge(Section):
     right-handed about the tube from its first to its last joint."""
 
     def faults(self) -> Iterator[str]:
-        """A bridge around the whole tube has no fibre."""
+        """Fault of a bridge around the whole tube that names a fibre."""
         if self.bridge in ("axial", "torsion") and "fibre" in self.model_fields_set:
             yield f"{self.key('fibre')} is {self.fibre!r}; a bridge of kind '{self.bridge}' has no fibre, leave it out."
 
