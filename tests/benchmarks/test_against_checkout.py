@@ -10,7 +10,7 @@ from benchmarks.car.scene_instructions import SCENES
 from tests.unoptimised import unoptimised
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 @unoptimised()
 def test_a_checkout_against_itself() -> None:
     scenes = [scene for scene in SCENES if scene.name in ("double four-bar", "slalom")]

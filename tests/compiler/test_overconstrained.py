@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from mbs import Model, ModelError, SimulationError, compile, simulate
 from mbs.settings.settings import METHODS
 from tests.compiler import overconstrained_loops as drawn
+from tests.quick import quick
 
 overconstrained = importlib.import_module("mbs.compiler.overconstrained")
 
@@ -268,10 +269,11 @@ GUIDED = {
         for blocks in (False, True)
     },
 }
+GUIDED_FEW = ("lift of 1, line", "lift of 3, column", "Scott Russell, blocks True")
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", GUIDED)
+@pytest.mark.parametrize("name", quick(GUIDED_FEW, GUIDED, "proof"))
 def test_a_redundant_guide_is_corrected_or_refused_and_never_stands_in_silence(name):
     """Joints that coincide but for the error of the drawing are no short link."""
     build, form = GUIDED[name]

@@ -15,6 +15,7 @@ from mbs.vehicle.read_car import car_names
 from tests.fmu.calls import DISCARD, OK, HostMaker
 from tests.in_process import build_fmu
 from tests.processor import DEFAULT, FLAGS, ODD, control, flags, mathematics, set_control, set_flags
+from tests.quick import quick
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or platform.machine() != "x86_64", reason="the test sets the register of x86-64 Linux"
@@ -140,7 +141,7 @@ def test_a_flag_is_seen() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("car", car_names())
+@pytest.mark.parametrize("car", quick(("prototype", "hatchback", "commonroad_320i"), car_names(), "proof"))
 def test_a_drive_of_a_car_raises_no_flag(tmp_path: Path, host: HostMaker, car: str) -> None:
     """A start, full lock, braking to a stop, and what stands, all by jumps, at 2 ms."""
     fmu, steps = build_fmu(tmp_path, "--car", car), 1500

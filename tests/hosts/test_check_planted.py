@@ -2,6 +2,7 @@
 
 import json
 import sys
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from hosts.check.all_checks import CHECKS
 from hosts.check.command import main
 from tests.hosts.odd_fmus import planted_fmu
 from tests.in_process import run
+from tests.quick import quick
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="what Linux tells of a process")]
 
@@ -82,11 +84,8 @@ ALSO = {"FORMAT": "a message has %n: 'the mass is 100 %s %n'; double each %"}
 FIRST = {check: plant for plant, (check, _, _) in reversed(PLANTS.items())}
 """The first fault by the check that finds it: in FMI 3.0 too, the others there by -m proof."""
 
-FAULTS = [
-    pytest.param(plant, three, marks=pytest.mark.proof if three and plant not in FIRST.values() else ())
-    for plant in (*PLANTS, *ALSO)
-    for three in (False, True)
-]
+FAULTS = list(product((*PLANTS, *ALSO), (False, True)))
+FEW = [(plant, three) for plant, three in FAULTS if not three or plant in FIRST.values()]
 
 
 def found(fmu: Path) -> tuple[int, dict[str, tuple[str, str]]]:
@@ -105,7 +104,7 @@ def test_without_a_fault_nothing_is_bad(tmp_path: Path, three: bool) -> None:
     assert lines["derivatives"][0] == "note"  # over a step, without a word
 
 
-@pytest.mark.parametrize(("plant", "three"), FAULTS)
+@pytest.mark.parametrize(("plant", "three"), quick(FEW, FAULTS, "proof"))
 def test_each_fault_is_found(tmp_path: Path, plant: str, three: bool) -> None:
     check, verdict, message = PLANTS.get(plant) or ("messages", "note" if three else "BAD", ALSO[plant])
     _, lines = found(planted_fmu(tmp_path, plant, three))

@@ -22,6 +22,7 @@ from mbs.vehicle.read_car import car_names
 from tests.hosts.odd_fmus import odd_fmu
 from tests.hosts.test_foreign_fmus import CRASH, driven
 from tests.in_process import build_fmu, run
+from tests.quick import quick
 
 pytestmark = pytest.mark.slow
 _ALL = 63.0  # what `reaching.c` reaches of a host
@@ -122,7 +123,9 @@ def _built(folder: Path, car: str) -> None:
     build_fmu(folder, "--car", car)
 
 
-@pytest.mark.parametrize("car", [*car_names(), "faults", "long_steps"])
+@pytest.mark.parametrize(
+    "car", [*quick(("prototype", "commonroad_320i"), car_names(), "proof"), "faults", "long_steps"]
+)
 def test_the_same_bits_come_out(
     car: str, made_once: Callable[[str, Callable[[Path], None]], Path], tmp_path: Path
 ) -> None:

@@ -12,6 +12,7 @@ from mbs.kernel.binding.instance import Instance
 from mbs.results.simulation_error import SimulationError
 from mbs.scenes import double_four_bar
 from mbs.vehicle import car_names, load
+from tests.quick import quick
 
 H = 0.005  # s
 G = 9.81  # m/s2
@@ -110,7 +111,7 @@ def in_balance(name, road, duration, brake=0.0, **pose):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", car_names())
+@pytest.mark.parametrize("name", quick(("prototype", "saloon", "commonroad_320i"), car_names(), "proof"))
 def test_on_a_slope_it_begins_in_balance(name):
     """Parked along and across slopes the loads stay for a second; let go or driven it begins without a jump of them;
     in all of these the wheels carry the part of the weight across the road."""
