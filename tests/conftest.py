@@ -47,6 +47,18 @@ def _kernel_library() -> None:
 
 
 @pytest.fixture(scope="session", autouse=True)
+def _no_bar_by_time() -> Iterator[None]:
+    """A bar appears after two seconds: on a slow machine it would stand among the messages that tests compare."""
+    from ali3 import bars
+    from mbs.common import progress
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bars, "_DELAY", 1e9)
+        patch.setattr(progress, "DELAY", 1e9)
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
 def _temporary_files(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """What tests and their programs leave among temporary files goes with them: fmpy unpacks each FMU there."""
     tmp_path_factory.getbasetemp()  # before: pytest keeps its own folders of the last three runs

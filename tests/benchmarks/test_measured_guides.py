@@ -58,7 +58,7 @@ def test_moments_that_come_later_are_found_so() -> None:
     assert guides.shifted(wave, np.roll(wave, -5, axis=0))[0] == -5
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_the_kerb_test_runs_on_measured_guides_and_takes_more_iterations() -> None:
     """With the signs of the signals: the car gets where it was, and the moments are those of the smooth test."""
     true = guides.smooth()

@@ -9,7 +9,7 @@ from benchmarks.methods.study_pages import study_blocks
 from benchmarks.shared.figures import rows_of
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_small_sizes_and_their_tables(tmp_path: Path) -> None:
     fmu = studies.spring_fmu(tmp_path)
     runs = studies.study_runs("spring", fmu, 40, 1, 0.2, tmp_path / "runs")

@@ -46,7 +46,7 @@ def test_a_drive_that_gives_nothing_is_a_drive():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.proof)])
-@pytest.mark.parametrize("name", CAR_NAMES)
+@pytest.mark.parametrize("name", quick(("prototype", "commonroad_320i"), CAR_NAMES, "proof"))
 @pytest.mark.parametrize("factor", [1000.0, 0.001])
 def test_each_number_in_a_unit_wrong_by_1000_is_reported(name, factor, every):
     """Each number of each car, or each in the first car that has it: its range is that of its name."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL.Image import open as open_picture
 
+from tests.quick import quick
 from tests.viewer.hand_scenes import floats, octets
 from tests.viewer.hand_world import LANES, NAMES, height, scenery, terrain
 from tests.viewer.test_drawing import at, ball, red, scene
@@ -79,7 +80,7 @@ def test_each_surface_has_its_colour_and_wet_ones_mirror_the_sky(drawn, quality)
     assert blue["wet"] > blue["asphalt"] + 0.1
 
 
-@pytest.mark.parametrize("quality", ["draft", "medium", pytest.param("high", marks=pytest.mark.proof)])
+@pytest.mark.parametrize("quality", quick(("medium",), ("draft", "medium", "high"), "proof"))
 def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
     grid = {"kind": "grid", "origin": [-30, -30], "spacing": [30, 30], "shape": [3, 3], "heights": floats(np.zeros(9))}
     kerb = {"kind": "profile", "stations": [0, 0.001], "heights": [0, -0.08], "origin": [1e6, 0, 0]}

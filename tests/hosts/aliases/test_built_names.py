@@ -24,6 +24,7 @@ from hosts.view.result_tables import read_table
 from hosts.view.view_sources import ViewRunOptions, recordings_of
 from tests.hosts.plant.conftest import Made
 from tests.in_process import build_fmu
+from tests.quick import quick
 
 NAMES = (
     *("chassis.x", "chassis.yaw", "chassis.roll", "chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "sideslip"),
@@ -86,7 +87,7 @@ def ported(fmu: Path, names: str | None) -> Result:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("names", ["carmaker", "chrono"])
+@pytest.mark.parametrize("names", quick(("carmaker",), ("carmaker", "chrono"), "proof"))
 def test_all_outputs_of_a_car_with_ports_are_the_same_under_other_names(names: str, made_once: Made) -> None:
     one, theirs = ported(ported_fmu(made_once, None), None), ported_fmu(made_once, names)
     two = ported(theirs, names)

@@ -213,7 +213,7 @@ def test_invalid_wires_are_refused(partners: dict[str, Path], wires: dict[str, s
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", quick(("drive", "tyre"), CASES, "proof"))
 def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str) -> None:
     """At 2 ms: wheel loads within 1 %, the path within 0.2 %; repeated steps halve the error or better."""
     load, path, messages = coupled(name, 0.002)
