@@ -1,6 +1,7 @@
 """The outcomes of a study in its folder, as a table of a `ResultStore`: rows wait in memory, then become parts."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -19,6 +20,19 @@ _MOST_ROWS = 50_000  # of a part
 _MOST_BYTES = 200e6  # of signals that are kept before they are written
 
 
+@dataclass
+class _Part:
+    """Rows that wait to be written as a part."""
+
+    number: int
+    rows: dict[str, list[Any]]
+    """Columns by name."""
+    samples: list[tuple[int, NDArray[np.float64]]] = field(default_factory=list)
+    """Signals of runs, each with the number of its run."""
+    bytes: int = 0
+    """Of the signals."""
+
+
 class OutcomeTable:
     """Where a `ResultStore` writes rows; the name of one is the number of its run.
 
@@ -30,16 +44,16 @@ class OutcomeTable:
         self._folder, self._record = folder, record
         self._schema = table_schema(record)
         self._labels = [m["name"] for m in record["manoeuvres"]]
-        self._rows: dict[str, list[Any]] = {name: [] for name in self._schema.names}
         self._signals = signal_schema(record) if record["signals"] else None
-        self._samples: list[tuple[int, NDArray[np.float64]]] = []
-        self._bytes = 0
         files = part_files(folder)
-        self._next = int(files[-1].stem.rpartition("-")[2]) + 1 if files else 1
+        self._part = self._empty_part(int(files[-1].stem.rpartition("-")[2]) + 1 if files else 1)
+
+    def _empty_part(self, number: int) -> _Part:
+        return _Part(number, {name: [] for name in self._schema.names})
 
     @property
     def is_full(self) -> bool:
-        return len(self._rows["index"]) >= _MOST_ROWS or self._bytes > _MOST_BYTES
+        return len(self._part.rows["index"]) >= _MOST_ROWS or self._part.bytes > _MOST_BYTES
 
     def lacks(self, name: str) -> bool:
         return name.isdecimal() and int(name) < len(self.done) and not self.done[int(name)]
@@ -62,28 +76,26 @@ class OutcomeTable:
             value, is_text = run.values[name], self._schema.field(name).type == pa.string()
             cells[name] = str(value) if is_text else value
         for name, value in cells.items():
-            self._rows[name].append(value)
+            self._part.rows[name].append(value)
         if self._signals is not None and outcome.signals is not None:
-            self._samples.append((run.index, outcome.signals))
-            self._bytes += outcome.signals.nbytes
+            self._part.samples.append((run.index, outcome.signals))
+            self._part.bytes += outcome.signals.nbytes
 
     def write(self) -> None:
         """Write a part, after the signals of its runs, so that each row that is there has its own; see `Table`."""
-        if not self._rows["index"]:
+        part = self._part
+        if not part.rows["index"]:
             return
-        file = self._folder / RUNS / _NAME.format(self._next)
+        file = self._folder / RUNS / _NAME.format(part.number)
         if self._signals is not None:
-            index = pa.array([index for index, _ in self._samples], pa.int64())
-            columns = [_lists([x[:, k] for _, x in self._samples]) for k in range(len(self._signals) - 1)]
+            index = pa.array([index for index, _ in part.samples], pa.int64())
+            columns = [_lists([x[:, k] for _, x in part.samples]) for k in range(len(self._signals) - 1)]
             write_part(pa.Table.from_arrays([index, *columns], schema=self._signals), signals_beside(file))
-        arrays = [pa.array(self._rows[field.name], field.type, from_pandas=False) for field in self._schema]
+        arrays = [pa.array(part.rows[field.name], field.type, from_pandas=False) for field in self._schema]
         write_part(pa.Table.from_arrays(arrays, schema=self._schema), file)
-        self._next += 1
-        self.done[self._rows["index"]] = True
-        self._samples.clear()
-        self._bytes = 0
-        for column in self._rows.values():
-            column.clear()
+        self.done[part.rows["index"]] = True
+        # one assignment: a signal before it has the same file written again, one behind it nothing
+        self._part = self._empty_part(part.number + 1)
 
     def forget(self, goes: Callable[[Any], NDArray[np.bool_]]) -> int:
         """Take rows out of the parts, so that their runs are made again; how many. `goes`: of a part, which of them."""
