@@ -83,12 +83,14 @@ class Accuracy:
         return "; ".join(sentences)
 
 
-def doubt(report: Report) -> str:
+def doubt(report: Report, method: str) -> str:
     """How a run is to be checked: empty, not at all; `COARSER` by one of twice the step, `FINER` by one of half.
 
-    An open balance, and a loop that left its mode, are signs of coarse steps already.
+    An open balance, and a loop that left its mode, are signs of coarse steps already; so is an energy that alone makes
+    places wrong by a method of high order, past a singular position, where longer steps may gain as much by chance.
     """
-    if report.balance != Balance.KEPT or report.branch_changes > 0:
+    drifts = METHOD_TABLE[method].order > 2 and drift(report) > WRONG_ERROR
+    if report.balance != Balance.KEPT or report.branch_changes > 0 or drifts:
         return FINER
     # what an abrupt force does is missed, or hidden in parts of steps
     whole = report.halvings == report.divisions == report.abrupt_steps == 0

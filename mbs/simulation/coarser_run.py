@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, WRONG_ERROR
+from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, missed_share
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
@@ -68,12 +68,10 @@ class CoarserRuns:
         assert report is not None
         compared, states = refined.compared, len(refined.system.arrays["y0"]) > 0
         iterations = int(one_iteration(settings, compared, states))
-        # past a singular position long steps of high order may be right and these not, or both gain energy by chance
-        high_order = METHOD_TABLE[settings.method].order > 2
-        if high_order and accuracy.drift(report) > WRONG_ERROR:
-            return None
+        # past a singular position long steps of high order may be right and these not
+        by_order = refined.nothing_abrupt and METHOD_TABLE[settings.method].order <= 2
         for times in coarser_steps(settings, compared, states, refined.unresolved, report):
-            most = CLEAR if high_order or not refined.nothing_abrupt else CLEAR * (times - 1)
+            most = CLEAR * (times - 1) if by_order else CLEAR
             screened = self.run(times, iterations, most)
             if screened is not None and difference_from(screened, settings.method, refined.h) <= most:
                 return screened
@@ -116,7 +114,7 @@ class CoarserRuns:
         assert report is not None
         for samples, at in self.refined.path:
             rest = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
-            if not accuracy.doubt(rest):
+            if not accuracy.doubt(rest, self.refined.method):
                 return samples
         return math.inf
 

@@ -126,7 +126,8 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
     report, known = run[0].report, run[0].accuracy
     if report is None or known is None or run[0].settings is None:
         return known
-    method, balance, doubt = run[0].settings.method, accuracy.balance_text(report), accuracy.doubt(report)
+    method, balance = run[0].settings.method, accuracy.balance_text(report)
+    doubt = accuracy.doubt(report, method)
     if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
     if not always and refined.before is None and doubt == accuracy.COARSER:

@@ -155,7 +155,7 @@ class _Run:
         """By the refined runs of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
         messages = list(self.told_at_start)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
-        if accuracy.doubt(report):
+        if accuracy.doubt(report, self.simulation.settings.method):
             alone = fixed_step_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
                 warned=messages,
