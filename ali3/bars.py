@@ -8,7 +8,7 @@ from typing import Any
 
 from tqdm import tqdm
 
-_DELAY = 2.0  # s before a bar appears
+DELAY = 2.0  # s before a bar appears
 _LATER = 1.5  # ratio of an interval between lines to the one before
 _LONGEST = 60.0  # s: longest interval
 
@@ -18,7 +18,7 @@ class _Lines:
 
     bar: tqdm[Any] | None = None
     # The interval grows here: tqdm counts some items twice if its own interval changes during an iteration.
-    _apart, _next = _DELAY, 0.0
+    _apart, _next = DELAY, 0.0
 
     def write(self, text: str) -> None:
         if (line := text.strip()) and (time.monotonic() >= self._next or (self.bar is not None and self.bar.disable)):
@@ -31,9 +31,9 @@ class _Lines:
 
 def bar(*things: Any, **options: Any) -> tqdm[Any]:
     """A bar on the standard error stream, silent for two seconds. `things`, `options`: of `tqdm.tqdm`."""
-    options = {"delay": _DELAY} | options
+    options = {"delay": DELAY} | options
     if sys.stderr.isatty():
         return tqdm(*things, **options)
     lines = _Lines()
-    lines.bar = tqdm(*things, file=lines, ascii=True, mininterval=_DELAY, maxinterval=_LONGEST, **options)
+    lines.bar = tqdm(*things, file=lines, ascii=True, mininterval=DELAY, maxinterval=_LONGEST, **options)
     return lines.bar

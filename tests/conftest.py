@@ -50,11 +50,9 @@ def _kernel_library() -> None:
 def _no_bar_by_time() -> Iterator[None]:
     """A bar appears after two seconds: on a slow machine it would stand among the messages that tests compare."""
     from ali3 import bars
-    from mbs.common import progress
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bars, "_DELAY", 1e9)
-        patch.setattr(progress, "DELAY", 1e9)
+        patch.setattr(bars, "DELAY", 1e6)
         yield
 
 

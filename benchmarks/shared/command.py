@@ -10,13 +10,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ali3 import bars
 from ali3.command_run import run_command
 from ali3.files import write_text
 from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.pages import DOCS, Row, machine, replace
 from benchmarks.shared.tables import plain_table, write_json
-from mbs.common.progress import DELAY, progress_for
+from mbs.common.progress import progress_for
 
 T = TypeVar("T")
 
@@ -161,7 +162,7 @@ def watched(items: Sequence[T]) -> Iterator[T]:
     done = 0
     with progress_for(None) as bar:
         # the bar shows itself when it is told: also while the first item takes all the time
-        first = threading.Timer(DELAY + 0.1, lambda: bar.update(done / len(items)))
+        first = threading.Timer(bars.DELAY + 0.1, lambda: bar.update(done / len(items)))
         first.daemon = True
         first.start()
         try:

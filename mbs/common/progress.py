@@ -8,9 +8,8 @@ from collections.abc import Callable
 
 from tqdm import tqdm
 
-from ali3.bars import bar
+from ali3 import bars
 
-DELAY = 2.0  # s of wall time before a bar appears by itself
 _FORM = "{percentage:3.0f} % {bar:40} {remaining} left"
 
 
@@ -43,7 +42,7 @@ class Progress:
             if self._everywhere:
                 self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
             else:
-                self._bar = bar(total=1.0, initial=share, bar_format=_FORM, delay=0.0)
+                self._bar = bars.bar(total=1.0, initial=share, bar_format=_FORM, delay=0.0)
         self._bar.update(share - self._bar.n)
 
 
@@ -66,5 +65,5 @@ def progress_for(choice: bool | Callable[[float], None] | None) -> Progress:
     if callable(choice):
         return Callback(choice)
     if choice is None:
-        return Progress(DELAY, everywhere=False)
+        return Progress(bars.DELAY, everywhere=False)
     return Progress(0.0 if choice else math.inf)

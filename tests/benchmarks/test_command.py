@@ -134,8 +134,7 @@ def test_inputs_have_their_first_values_before_the_start():
 
 
 def test_the_bar_shows_itself_during_a_first_item_that_takes_long(capsys, monkeypatch):
-    monkeypatch.setattr("benchmarks.shared.command.DELAY", 0.05)
-    monkeypatch.setattr("mbs.common.progress.DELAY", 0.05)
+    monkeypatch.setattr("ali3.bars.DELAY", 0.05)
     for k in watched(range(2)):
         if k == 0:
             time.sleep(0.4)

@@ -6,7 +6,8 @@ import sys
 
 import pytest
 
-from mbs.common.progress import DELAY, Progress, progress_for
+from ali3.bars import DELAY
+from mbs.common.progress import Progress, progress_for
 
 
 @pytest.fixture

@@ -44,7 +44,7 @@ def tenths(task: float, tell: Callable[[Any], None]) -> float:
 
 def test_parts_that_are_rounded_are_no_more_than_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     """The bar warns of more, which is an error here."""
-    monkeypatch.setattr("ali3.bars._DELAY", 0.0)
+    monkeypatch.setattr("ali3.bars.DELAY", 0.0)
     experiment: Experiment[float, float] = Experiment("tenths", tenths, float, str, size=lambda task: 60.3)
     with closing(experiment.results(9 * [0.0], experiment.pool())) as results:
         assert len(list(results)) == 9

@@ -120,7 +120,7 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
 
 def test_a_recording_of_many_parts_is_joined_with_a_bar(fmus, capsys, tmp_path, monkeypatch):
     """A bar is shown after two seconds; here at once, and each part is one."""
-    monkeypatch.setattr(bars, "_DELAY", 0.0)
+    monkeypatch.setattr(bars, "DELAY", 0.0)
     monkeypatch.setattr(bars._Lines, "_apart", 0.0)
     monkeypatch.setattr("hosts.recordings.recording._MOST_ROWS", 5)
     arguments = ("--headless", "--stop-time", 0.5, "--step", 0.005, "--record", tmp_path / "r")
