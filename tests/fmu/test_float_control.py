@@ -166,7 +166,10 @@ def test_a_drive_of_a_car_raises_no_flag(tmp_path: Path, host: HostMaker, car: s
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("car", "fidelities"), [("prototype", (0, 3)), ("ferrari_250_lm", (0,))])
+@pytest.mark.parametrize(
+    ("car", "fidelities"),
+    [("prototype", (0, 3)), pytest.param("prototype", (1, 2), marks=pytest.mark.proof), ("ferrari_250_lm", (0,))],
+)
 def test_no_car_depends_on_the_host(tmp_path: Path, host: HostMaker, car: str, fidelities: tuple[int, ...]) -> None:
     drive = {"throttle": 0.4, "steering": 0.3, "selector": 1.0}
     for kind in ("native", "fmi3_scalar"):

@@ -81,11 +81,10 @@ PLANTS: dict[str, tuple[str, str, str]] = {
 }
 """Check, verdict and words by the fault."""
 ALSO = {"FORMAT": "a message has %n: 'the mass is 100 %s %n'; double each %"}
-FIRST = {check: plant for plant, (check, _, _) in reversed(PLANTS.items())}
-"""The first fault by the check that finds it: in FMI 3.0 too, the others there by -m proof."""
-
 FAULTS = list(product((*PLANTS, *ALSO), (False, True)))
+FIRST = {check: plant for plant, (check, _, _) in reversed(PLANTS.items())}
 FEW = [(plant, three) for plant, three in FAULTS if not three or plant in FIRST.values()]
+"""Each fault in FMI 2.0, and in FMI 3.0 the first that a check finds."""
 
 
 def found(fmu: Path) -> tuple[int, dict[str, tuple[str, str]]]:
