@@ -25,8 +25,8 @@ def steering_as_set(constants: Mapping[str, float], table: Variables, start: Map
 
 def steering_rows(table: Variables, start: Mapping[str, Value]) -> list[tuple[str, str]]:
     """What a summary says of these constants: the FMU does not know that they have changed."""
-    known_names = {n: float(table[n].start or math.nan) for n in _BY_RATIO if n in table.names}
+    of_file = {n: float(table[n].start or math.nan) for n in _BY_RATIO if n in table.names}
     return [
-        (name, f"constant {known_names[name]:.6g} of the FMU is that of the car file; as set it is {value:.6g}")
-        for name, value in steering_as_set(known_names, table, start).items()
+        (name, f"constant {of_file[name]:.6g} of the FMU is that of the car file; as set it is {value:.6g}")
+        for name, value in steering_as_set(of_file, table, start).items()
     ]

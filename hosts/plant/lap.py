@@ -137,9 +137,9 @@ class LapDriver:
         constants = environment.car.fmu.constants()
         if missing := [name for name in CONSTANTS.values() if name not in constants]:
             raise HostError(f"The driver needs constants that the car does not provide: {', '.join(missing)}.")
-        known_names = {name: constants[constant] for name, constant in CONSTANTS.items()}
+        dimensions = {name: constants[constant] for name, constant in CONSTANTS.items()}
         self.environment, driver_speed = environment, positive(speed, "The speed of the driver", "m/s")
-        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=driver_speed, **known_names))
+        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=driver_speed, **dimensions))
 
     def act(self, seen: Floats) -> Floats:
         """The action for an observation."""

@@ -86,10 +86,14 @@ def _is_flat(runs: TargetRuns, search: SearchResult) -> bool:
     return len(ys) > 1 and not np.ptp(without_round_off(ys, runs.unit))
 
 
+def _good_runs(search: SearchResult) -> list[Run]:
+    """Runs with a value, by that of the parameter."""
+    return sorted((run for run in search.runs if not run.reason), key=lambda run: run.x)
+
+
 def _around(runs: TargetRuns, search: SearchResult) -> tuple[Run, Run]:
     """The nearest two runs on different sides of what is wanted."""
-    known_names = sorted((run for run in search.runs if not run.reason), key=lambda run: run.x)
-    sides = [(a, b) for a, b in pairwise(known_names) if (a.y - runs.wanted) * (b.y - runs.wanted) <= 0.0]
+    sides = [(a, b) for a, b in pairwise(_good_runs(search)) if (a.y - runs.wanted) * (b.y - runs.wanted) <= 0.0]
     return min(sides, key=lambda pair: pair[1].x - pair[0].x)
 
 
@@ -122,12 +126,12 @@ def write_record(runs: TargetRuns, search: SearchResult, lines: list[str], file:
 def search_figure(runs: TargetRuns, search: SearchResult) -> Figure:
     """The measure over the parameter in all runs."""
     factor, unit = runs.shown.factor, runs.shown.unit
-    known_names = sorted((run for run in search.runs if not run.reason), key=lambda run: run.x)
+    good_runs = _good_runs(search)
     with plt.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(8.0, 4.5), layout="constrained")
         axes.plot(
-            [r.x for r in known_names],
-            [factor * r.y for r in known_names],
+            [r.x for r in good_runs],
+            [factor * r.y for r in good_runs],
             "o-",
             color=BLUE,
             label="runs",
