@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import platform
-import sys
 import tempfile
 import traceback
 import warnings
@@ -21,7 +19,7 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2Ca
 
 from fmu_src.build.build import FmuBuilder
 from fmu_src.build.scene_registry import load_fidelities
-from fmu_src.native.platforms import able_platforms
+from fmu_src.native.platforms import PYTHON_PLATFORMS, able_platforms, this_platform
 from hosts.fmu.fmu import unpack
 from tests import kinds
 from tests.fmu.calls import OK
@@ -66,10 +64,9 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
 @pytest.fixture(scope="session")
 def need() -> Callable[[str], None]:
     """Skips a test where a kind of FMU cannot run."""
-    pythonfmu_runs = sys.platform in ("linux", "win32") and platform.machine().lower() in ("x86_64", "amd64")
 
     def check(kind: str) -> None:
-        if kind == "python" and not pythonfmu_runs:
+        if kind == "python" and this_platform() not in PYTHON_PLATFORMS:
             pytest.skip("PythonFMU ships libraries for x86-64 Linux and Windows only")
 
     return check

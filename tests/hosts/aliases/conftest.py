@@ -1,13 +1,13 @@
 """FMUs of one car in the names, units, signs and frames of other programs."""
 
-import platform
 import shutil
-import sys
 import zipfile
 from pathlib import Path
 
 import pytest
 from lxml import etree
+
+from fmu_src.native.platforms import PYTHON_PLATFORMS, this_platform
 
 SOURCE = Path(__file__).with_name("foreign_car.py")
 _BASE = {
@@ -25,7 +25,7 @@ _BASE = {
 @pytest.fixture(scope="session")
 def foreign_fmu(tmp_path_factory):
     """Builds the FMU of a style once, a Python slave."""
-    if sys.platform not in ("linux", "win32") or platform.machine().lower() not in ("x86_64", "amd64"):
+    if this_platform() not in PYTHON_PLATFORMS:
         pytest.skip("PythonFMU has no binary for this platform")
     from pythonfmu.builder import FmuBuilder
 
