@@ -43,6 +43,13 @@ SELDOM = """{
   window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 80);
 }"""
 """For `add_init_script`: a page that draws twelve times a second at most, as the processor does."""
+WITHOUT_WEBGL = """{
+  const get = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+    return /webgl/.test(kind) ? null : get.call(this, kind, ...more);
+  };
+}"""
+"""For `add_init_script`."""
 AXE = Path(os.environ.get("ALI3_AXE", PAGE / "node_modules" / "axe-core" / "axe.min.js"))
 with_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm --prefix viewer/page ci")
 _FINDINGS = """async () => (await axe.run(document, { resultTypes: ['violations'] })).violations

@@ -1,9 +1,6 @@
 """A sledge under the names of a car, so that the host's car page is drawn without a car."""
 
 import mbs
-from mbs.flexible import Beam, Frame, Interface, Material, craig_bampton
-from mbs.flexible.recovery import fibre_stresses
-from mbs.flexible.section import tube
 
 WHEELS = ("FL", "FR", "RL", "RR")
 
@@ -74,20 +71,4 @@ def switched() -> mbs.Model:
     m.force("pull", bob, inputs=(pull, None))
     m.sense_input("gear_used", gear)
     m.sense_position("bob.x", bob, component="x")
-    return m
-
-
-def bar() -> mbs.Model:
-    """A steel tube that is held at one end and pulled at the other: its stress is the pull over its area."""
-    steel, section = Material(E=210e9, nu=0.3, rho=7850.0), tube(outer_diameter=0.1, wall=0.01)
-    frame = Frame([[x, 0.0, 0.0] for x in (0.0, 0.5, 1.0)], [Beam(k, k + 1, section, steel) for k in (0, 1)])
-    ends = [Interface(2, rotations=True)]
-    reduced = craig_bampton(frame.finite_element_model(), reference=0, interfaces=ends, dynamic_modes=0)
-    m = mbs.Model("bar", gravity=(0.0, 0.0, 0.0))
-    flexible = m.flexible_body("bar", reduced)
-    m.weld("root", m.ground, flexible.interface(0))
-    pull = m.input("pull", min=-1e6, max=1e6, unit="N")
-    m.force("pull", flexible, (1.0, 0.0, 0.0), inputs=(pull, None, None))
-    fibre = reduced.recovery(fibre_stresses(frame, 1, 0.0))[0]
-    m.sense_coordinate("bar.stress", flexible.combination(fibre), unit="Pa")
     return m

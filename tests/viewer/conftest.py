@@ -91,14 +91,43 @@ def drawn(_page: Any) -> Iterator[DrawnPage]:
 
 
 @pytest.fixture(scope="session")
+def lane_change(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Recording:
+    """A double lane change of the prototype."""
+    from benchmarks.car import manoeuvres
+
+    run = lambda: manoeuvres.run("double_lane_change", 0.002, car=manoeuvres.PROTOTYPE, every=5)  # noqa: E731
+    return _kept(made_once, "double_lane_change", lambda: run().recording())
+
+
+@pytest.fixture(scope="session")
+def live_car(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
+    """The FMU of the rigid prototype for this platform and for pages."""
+    from fmpy import platform
+
+    import mbs
+    from fmu_src.build.build import build_fmu
+    from mbs.scenes import prototype_car
+
+    def fill(folder: Path) -> None:
+        build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, [platform, "wasm32"])
+
+    return next(made_once("live_car", fill).glob("*.fmu"))
+
+
+@pytest.fixture(scope="session")
 def recorded(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[[str], Recording]:
     """The run of a film, driven once for all tests that look at it."""
     from benchmarks.pictures.animations import ANIMATIONS  # takes a second, which other pages do not need
 
-    def get(name: str) -> Recording:
-        def fill(folder: Path) -> None:
-            (folder / "run").write_bytes(pickle.dumps(ANIMATIONS[name].record()))
+    return lambda name: _kept(made_once, name, ANIMATIONS[name].record)
 
-        return pickle.loads((made_once(f"recording_{name}", fill) / "run").read_bytes())
 
-    return get
+def _kept(
+    made_once: Callable[[str, Callable[[Path], None]], Path], name: str, record: Callable[[], Recording]
+) -> Recording:
+    """A recording that is made once for all processes."""
+
+    def fill(folder: Path) -> None:
+        (folder / "run").write_bytes(pickle.dumps(record()))
+
+    return pickle.loads((made_once(f"recording_{name}", fill) / "run").read_bytes())

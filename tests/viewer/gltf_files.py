@@ -4,6 +4,7 @@ import base64
 import json
 import struct
 import subprocess
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -49,9 +50,15 @@ def accessor(path, index):
     return np.frombuffer(raw, kind, result["count"] * width, start).reshape(-1, width).astype(float)
 
 
+@cache
+def _read(path, times):
+    """What three.js has of a file at times."""
+    return run_node("read_gltf.mjs", path, *times)[0]
+
+
 def world(path, times, name):
-    """Earth matrices of the node of a name as three.js has them at times, (n, 4, 4)."""
-    answer = run_node("read_gltf.mjs", path, *times)[0]
+    """Earth matrices of the node of a name as three.js has them at times, (n, 4, 4); a path is read once."""
+    answer = _read(path, tuple(times))
     index = [str(k) for k, node in enumerate(content(path)[0]["nodes"]) if node["name"] == name]
     assert len(index) == 1
     values = np.array([row[index[0]]["matrix"] for row in answer]).reshape(-1, 4, 4).transpose(0, 2, 1)

@@ -134,17 +134,6 @@ class Program:
         bytes_ = _HEADER.pack(0x31463341, self.epoch, flags, len(row), *fields.values())
         self.sockets[-1].send(bytes_ + np.asarray(row, "<f8").tobytes())
 
-    def drive(self, begin: float, end: float, every: float = 0.02, **header: float) -> None:
-        """Frames in real time."""
-        clock = "performance.now() / 1000"
-        start = self.page.evaluate(clock)
-        time = begin
-        while time <= end:
-            self.send(time, **header)
-            time += every
-            wait = start + (time - begin) - self.page.evaluate(clock)
-            self.page.wait_for_timeout(max(1.0, 1000.0 * wait))
-
     def ask(self, expression: str) -> Any:
         """What an expression in the page is worth."""
         return self.page.evaluate(expression)

@@ -76,8 +76,8 @@ def test_it_is_built_on_first_use_kept_and_built_again_when_a_source_changes(pag
     assert "#123456" in bundle.bundle(page, out).read_text(encoding="utf-8")
 
 
-def test_a_script_in_a_page_carries_its_licences_and_ends_no_element(page, tmp_path):
-    script = bundle.bundle(page, tmp_path / "bundle")
+def test_a_script_in_a_page_carries_its_licences_and_ends_no_element(modules):
+    script = bundle.bundle()
     text = script.read_text(encoding="utf-8")
     licences = script.with_name(bundle.LICENCES).read_text(encoding="utf-8")
     assert text.isascii()

@@ -7,7 +7,6 @@ import struct
 import numpy as np
 import pytest
 import trimesh
-from scipy.spatial.transform import Rotation
 
 from ali3.errors import FileError
 from ali3.scene.errors import ViewerError
@@ -48,16 +47,6 @@ def everything():
     return Recording(scene, t, columns)
 
 
-RECORDINGS = {
-    "corner": lambda: moving_car.recording(T),
-    "planar": lambda: hand_scenes.crank(T),
-    "still": still,
-    "gaps and steps": with_gaps_and_steps,
-    "everything": everything,
-    "coarse": lambda: moving_car.recording(np.linspace(0.0, 2.0, 11)),
-}
-
-
 @pytest.fixture(scope="module")
 def corner(tmp_path_factory):
     path = tmp_path_factory.mktemp("gltf") / "corner.glb"
@@ -66,43 +55,34 @@ def corner(tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("error")
-def test_the_validator_finds_nothing(tmp_path):
-    files = []
-    for number, make in enumerate(RECORDINGS.values()):
-        for suffix in (".glb", ".gltf"):
-            files.append(tmp_path / f"{number}{suffix}")
-            write_gltf(files[-1], make())
-    reports = run_node("validate_gltf.mjs", *files)
-    assert len(reports) == len(files)
-    for report in reports:
-        assert report["issues"]["messages"] == []
-        assert report["info"]["drawCallCount"] > 2
-    assert [report["info"]["animationCount"] for report in reports] == [1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1]
-
-
-def test_the_validator_finds_faults(corner, tmp_path):
+def test_the_validator_finds_nothing_but_a_fault(corner, tmp_path):
+    files = [corner]
+    for make in (still, with_gaps_and_steps, everything):
+        files.append(tmp_path / f"{make.__name__}.glb")
+        write_gltf(files[-1], make())
     data = bytearray(corner.read_bytes())
     length = struct.unpack_from("<I", data, 12)[0]
     data[20 : 20 + length] = data[20 : 20 + length].replace(b'"VEC4"', b'"VEC5"')
     (tmp_path / "wrong.glb").write_bytes(data)
-    assert run_node("validate_gltf.mjs", tmp_path / "wrong.glb")[0]["issues"]["numErrors"] > 0
+    *reports, wrong = run_node("validate_gltf.mjs", *files, tmp_path / "wrong.glb")
+    assert wrong["issues"]["numErrors"] > 0
+    assert [report["issues"]["messages"] for report in reports] == [[]] * len(files)
+    assert [report["info"]["animationCount"] for report in reports] == [1, 0, 1, 1]
 
 
-@pytest.mark.parametrize("name", ["chassis", "carrier", "arm", "wheel"])
-def test_another_reader_finds_the_poses_of_the_recording(corner, name):
+def test_another_reader_finds_the_poses_of_the_recording(corner):
     times = T[::8]
-    result = world(corner, times, name)
-    position, rotation = moving_car.pose(name, times)
-    assert np.abs(result[:, :3, 3] - position).max() < 1e-5
-    assert np.abs(result[:, :3, :3] - rotation.as_matrix()).max() < 1e-5 if name != "wheel" else 1e-4
+    for name in ("chassis", "carrier", "arm", "wheel"):
+        result = world(corner, times, name)
+        position, rotation = moving_car.pose(name, times)
+        assert np.abs(result[:, :3, 3] - position).max() < 1e-5, name
+        assert np.abs(result[:, :3, :3] - rotation.as_matrix()).max() < (1e-4 if name == "wheel" else 1e-5), name
 
 
-def test_places_far_from_the_origin_are_relative_to_one_that_is_reported(tmp_path):
+def test_places_far_from_the_origin_are_relative_to_one_that_is_reported(corner, tmp_path):
     """At UTM coordinates single precision is 0.5 m; every node and every mesh on the ground is moved alike."""
     far, times = np.array([500_123.456, 5_400_123.4, 112.3]), T[::8]
-    result, near = moving_car.recording(T), tmp_path / "near.glb"
-    write_gltf(near, result, rate=240.0)
+    result = moving_car.recording(T)
     for name in ("chassis", "carrier"):
         for axis, by in zip("xyz", far, strict=True):
             result.columns[f"{name}.{axis}"] = result.columns[f"{name}.{axis}"] + by
@@ -117,12 +97,12 @@ def test_places_far_from_the_origin_are_relative_to_one_that_is_reported(tmp_pat
         place = world(written.path, times, name)[:, :3, 3] + origin
         assert np.abs(place - far - moving_car.pose(name, times)[0]).max() < 1e-3
     begin = world(written.path, times, "spring")[:, :3, 3] + origin - far
-    assert np.abs(begin - world(near, times, "spring")[:, :3, 3]).max() < 1e-3
-    bands = [part.mesh for path in (near, written.path) for part in parts_of(path) if part.node == "path"]
+    assert np.abs(begin - world(corner, times, "spring")[:, :3, 3]).max() < 1e-3
+    bands = [part.mesh for path in (corner, written.path) for part in parts_of(path) if part.node == "path"]
     assert np.abs((bands[1].vertices + origin - far - bands[0].vertices)[:, :2]).max() < 1e-3
     assert np.ptp(bands[1].vertices[:, 2] + origin[2]) < 1e-3  # on the road, which is level there
     assert written.position_error < 1.0
-    assert "extras" not in content(near)[0]["scenes"][0]
+    assert "extras" not in content(corner)[0]["scenes"][0]
 
 
 def test_a_wheel_that_turns_fast_turns_the_right_way_between_the_times(corner):
@@ -144,15 +124,15 @@ def rotation_sampler(path, name):
     raise AssertionError(name)
 
 
-@pytest.mark.parametrize("name", ["chassis", "carrier", "arm", "wheel"])
-def test_quaternions_are_unit_and_of_continuous_sign(corner, name):
-    q = accessor(corner, rotation_sampler(corner, name)["output"])
-    assert np.abs(np.linalg.norm(q, axis=1) - 1.0).max() < 2e-7
-    assert np.einsum("ni,ni->n", q[1:], q[:-1]).min() > 0.0
+def test_quaternions_are_unit_and_of_continuous_sign(corner):
+    for name in ("chassis", "carrier", "arm", "wheel"):
+        q = accessor(corner, rotation_sampler(corner, name)["output"])
+        assert np.abs(np.linalg.norm(q, axis=1) - 1.0).max() < 2e-7, name
+        assert np.einsum("ni,ni->n", q[1:], q[:-1]).min() > 0.0, name
 
 
 def test_a_spring_reaches_from_anchor_to_anchor(corner):
-    times = T[::20]
+    times = T[::8]
     result = world(corner, times, "spring")
     length = np.linalg.norm(
         moving_car.place("chassis", moving_car.TOP, T) - moving_car.place("carrier", moving_car.HUB, T), axis=1
@@ -165,27 +145,14 @@ def test_a_spring_reaches_from_anchor_to_anchor(corner):
     assert np.abs(across - 1.0).max() < 1e-5  # only its length changes
 
 
-def test_a_coil_begins_at_its_seat_on_the_way_to_the_other_end(tmp_path):
-    result = moving_car.recording(T)
-    spring = next(shape for shape in result.scene["shapes"] if shape["kind"] == "spring")
-    spring["seat"] = 0.1
-    write_gltf(tmp_path / "seat.glb", result)
-    times = T[::20]
-    top, hub = moving_car.place("chassis", moving_car.TOP, times), moving_car.place("carrier", moving_car.HUB, times)
-    axis = hub - top
-    begin = world(tmp_path / "seat.glb", times, "spring")[:, :3, 3]
-    assert np.abs(begin - top - 0.1 * axis / np.linalg.norm(axis, axis=1)[:, None]).max() < 1e-5
-
-
 def flexible_points(path, times):
     answer = run_node("read_gltf.mjs", path, *times)[0]
     index = next(str(k) for k, node in enumerate(content(path)[0]["nodes"]) if node["name"] == "frame")
     return np.array([row[index]["points"] for row in answer])
 
 
-@pytest.mark.parametrize("deformation", [1.0, 10.0])
-def test_a_flexible_part_bends_by_its_modes(tmp_path, deformation):
-    path = tmp_path / "frame.glb"
+def test_a_flexible_part_bends_by_its_modes_as_many_times_as_asked(tmp_path):
+    path, deformation = tmp_path / "frame.glb", 10.0
     written = write_gltf(path, moving_car.recording(T), rate=240.0, deformation=deformation)
     times = np.array([0.0, 0.31, 1.2, 2.0])
     points = flexible_points(path, times)
@@ -235,24 +202,15 @@ def viridis(share):
 def test_the_error_of_thinning_is_reported(tmp_path):
     """A point at radius r that turns by a between two times is off by r (1 - cos(a/2)) between them."""
     t = np.arange(2001) / 1000.0
-    turn = {
-        "qw": np.ones_like(t),
-        "qx": 0 * t,
-        "qy": 0 * t,
-        "qz": 0 * t,
-        "x": np.cos(9 * t),
-        "y": np.sin(9 * t),
-        "z": 0 * t,
-    }
+    turn = dict.fromkeys(("qx", "qy", "qz", "z"), 0 * t) | {"qw": 0 * t + 1.0, "x": np.cos(9 * t), "y": np.sin(9 * t)}
     scene = hand_scenes.everything() | {"frames": {"p": hand_scenes.moving("p")}, "focus": "p", "meshes": {}}
     scene |= {"flexible": [], "arrows": [], "roads": [], "missing": []}
     scene["shapes"] = [{"kind": "sphere", "frame": "p", "radius": 0.1}]
     recording = Recording(scene, t, {f"p.{name}": values for name, values in turn.items()})
-    for rate in (10.0, 50.0):
-        written = write_gltf(tmp_path / "p.glb", recording, rate=rate)
-        assert written.times == 2 * rate + 1
-        assert written.position_error == pytest.approx(1000.0 * (1.0 - np.cos(4.5 / rate)), rel=0.05)
-        assert written.angle_error < 1e-6
+    written = write_gltf(tmp_path / "p.glb", recording, rate=10.0)
+    assert written.times == 21
+    assert written.position_error == pytest.approx(1000.0 * (1.0 - np.cos(0.45)), rel=0.05)
+    assert written.angle_error < 1e-6
 
 
 def test_slow_motion(tmp_path):
@@ -269,13 +227,6 @@ def test_slow_motion(tmp_path):
     assert np.arctan2(actual[1, 0], actual[0, 0]) == pytest.approx(40.0 * 0.025, abs=1e-5)
 
 
-def test_a_million_times_are_thinned(tmp_path):
-    t = np.linspace(0.0, 100.0, 1_000_001)
-    written = write_gltf(tmp_path / "long.glb", hand_scenes.crank(t))
-    assert written.times == 6001
-    assert written.size < 1_000_000
-
-
 def test_up_is_y_and_trimesh_reads_the_shapes(corner):
     scene = trimesh.load_scene(corner)
     assert len(scene.geometry) > 10
@@ -284,20 +235,16 @@ def test_up_is_y_and_trimesh_reads_the_shapes(corner):
     assert 1.4 < high[1] < 1.7
 
 
-@pytest.mark.parametrize("up", [[0.0, 0, 1], [0, 1, 0]])
-@pytest.mark.parametrize("kind", ["flat", "plane", "profile", "grid"])
+@pytest.mark.parametrize(
+    ("kind", "up"), [("flat", [0, 1, 0]), ("plane", [0, 0, 1]), ("profile", [0, 0, 1]), ("grid", [0, 1, 0])]
+)
 def test_roads_face_up_and_have_their_heights(tmp_path, up, kind):
-    up = np.array(up)
+    up = np.array(up, float)
     roads = {
         "flat": {"height": 0.2},
         "plane": {"point": (0.2 * up).tolist(), "normal": (up + np.array([0.1, 0.0, 0.0])).tolist()},
         "profile": {"stations": [1.0, 2.0, 2.0001], "heights": [0.2, 0.5, 0.3]},
-        "grid": {
-            "origin": [-1, -1],
-            "spacing": [0.5, 0.25],
-            "shape": [5, 9],
-            "heights": hand_scenes.floats([0.2] * 45),
-        },
+        "grid": {"origin": [-1, -1], "spacing": [0.5, 0.25], "shape": [5, 9], "heights": floats([0.2] * 45)},
     }
     surfaces = road_of(tmp_path, roads[kind] | {"kind": kind}, up)
     heights, at = (
@@ -318,15 +265,8 @@ def test_roads_face_up_and_have_their_heights(tmp_path, up, kind):
 
 def road_of(folder, road, up=(0.0, 0.0, 1.0)):
     """Surfaces of a road that a body stands on, in earth axes."""
-    scene = {
-        "format": "ALi3 scene",
-        "version": 1,
-        "name": "run",
-        "up": [float(x) for x in up],
-        "planar": False,
-        "extent": 10.0,
-    }
-    scene |= {"focus": "", "frames": {"body": hand_scenes.moving("body")}, "roads": [road]}
+    scene = {"format": "ALi3 scene", "version": 1, "name": "run", "planar": False, "extent": 10.0}
+    scene |= {"up": [float(x) for x in up], "frames": {"body": hand_scenes.moving("body")}, "roads": [road]}
     scene["shapes"] = [{"kind": "sphere", "frame": "body", "radius": 0.1}]
     columns = {f"body.{name}": np.full(3, name == "qw") for name in ("x", "y", "z", "qw", "qx", "qy", "qz")}
     written = write_gltf(folder / "road.glb", Recording(scene, np.arange(3.0), columns))
@@ -346,31 +286,19 @@ def test_frictions_of_a_grid_are_asphalt_wet_and_ice(tmp_path):
     assert ends["ice"][1] >= {4.0, 5.0}
     assert not ends["ice"][1] & {0.0, 1.0, 2.0}
     assert {long for long, _ in ends.values()} == {64.0}  # its border goes on
-    del road["frictions"]
-    for same, kind in (({}, "asphalt"), ({"friction": 0.6}, "wet"), ({"friction": 0.6, "friction_factor": 0.5}, "ice")):
-        assert list(road_of(tmp_path, road | same)) == [kind]
 
 
 def test_a_mesh_that_is_inside_out_is_turned(tmp_path):
     block = trimesh.creation.box((1.0, 2.0, 3.0))
-    for sense in (1, -1):
-        scene = hand_scenes.crank(T).scene
-        mesh = {"positions": floats(block.vertices), "triangles": indices(block.faces[:, ::sense])}
-        shapes = [{"kind": "mesh", "frame": "crank", "mesh": "block"}]
-        recording = hand_scenes.crank(T)
-        recording.scene = scene | {"meshes": {"block": mesh}, "shapes": shapes}
-        write_gltf(tmp_path / "block.glb", recording)
-        result = trimesh.load_scene(tmp_path / "block.glb").to_mesh()
-        assert result.volume == pytest.approx(6.0)
+    recording = hand_scenes.crank(T)
+    mesh = {"positions": floats(block.vertices), "triangles": indices(block.faces[:, ::-1])}
+    shapes = [{"kind": "mesh", "frame": "crank", "mesh": "block"}]
+    recording.scene = recording.scene | {"meshes": {"block": mesh}, "shapes": shapes}
+    write_gltf(tmp_path / "block.glb", recording)
+    assert trimesh.load_scene(tmp_path / "block.glb").to_mesh().volume == pytest.approx(6.0)
 
 
-def test_a_second_writing_gives_the_same_bytes(tmp_path):
-    for name in ("a.glb", "b.glb"):
-        write_gltf(tmp_path / name, moving_car.recording(T))
-    assert (tmp_path / "a.glb").read_bytes() == (tmp_path / "b.glb").read_bytes()
-
-
-def test_a_text_file_is_the_binary_one_with_its_numbers_in_the_text(corner, tmp_path):
+def test_a_second_writing_as_text_gives_the_same_with_its_numbers_in_the_text(corner, tmp_path):
     write_gltf(tmp_path / "corner.gltf", moving_car.recording(T), rate=240.0)
     (text, numbers), (binary, padded) = content(tmp_path / "corner.gltf"), content(corner)
     del text["buffers"][0]["uri"]
@@ -415,7 +343,3 @@ def test_parts_that_are_not_drawn_are_reported(tmp_path):
     assert "arrows" in notes
     assert "The road of a file is not drawn." in notes
     assert "Time 0 of the file is 5 s" in notes
-
-
-def test_rotation_of_the_world():
-    assert np.abs(Rotation.from_matrix(TO_EARTH).apply([0.0, 1.0, 0.0]) - [0, 0, 1]).max() < 1e-15

@@ -79,7 +79,7 @@ def too_near(surfaces: list[tuple[str, NDArray[np.float64]]], radius: float) -> 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", quick(("prototype", "hatchback", "commonroad_320i"), car_names(), "proof"))
+@pytest.mark.parametrize("name", quick(("prototype", "hatchback"), car_names(), "proof"))
 def test_no_surfaces_of_a_hub_flicker(tmp_path: Path, name: str) -> None:
     scene = mbs.compile(load(name).model()).scene
     wheels = [shape for shape in scene["shapes"] if shape["kind"] == "wheel"]

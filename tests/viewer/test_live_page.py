@@ -4,8 +4,6 @@ import base64
 import csv
 import json
 import re
-import subprocess
-import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -14,15 +12,13 @@ import fmpy
 import numpy as np
 import pytest
 
-import mbs
 from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_fidelities, load_scene
+from fmu_src.build.scene_registry import load_scene
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
 from hosts.run.command import main as run
 from hosts.view import page_parts
 from hosts.view.command import main as view
-from mbs.scenes import prototype_car
 from tests.in_browser import SELDOM, wait_text, wait_until
 
 SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
@@ -44,12 +40,6 @@ def _roads_once() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(page_parts, "scene_of", once)
         yield
-
-
-@pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("car")
-    return build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, PLATFORMS)
 
 
 @pytest.fixture(scope="module")
@@ -122,9 +112,9 @@ def assert_same_bits(fmu: Path, table: str, folder: Path) -> None:
 
 @pytest.mark.slow
 def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_the_same_bits(
-    car: Path, chromium: Any, tmp_path: Path
+    live_car: Path, chromium: Any, tmp_path: Path
 ) -> None:
-    opened = Page(chromium, written([car], tmp_path, "--title", "A <car> & its page"))
+    opened = Page(chromium, written([live_car], tmp_path, "--title", "A <car> & its page"))
     assert opened.page.title() == "A <car> & its page"
     assert opened.ask("player.session.threaded") is True
     keyboard = opened.page.keyboard
@@ -150,16 +140,16 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
     table = opened.ask("player.csv()")
     rates = np.abs(np.diff(columns(table)["throttle"])) / STEP
     assert 0.0 < rates.max() < 5.0 + 1e-6  # pedals move, they do not jump
-    assert_same_bits(car, table, tmp_path)
+    assert_same_bits(live_car, table, tmp_path)
     assert opened.wrong == []
     opened.close()
 
 
 @pytest.mark.slow
 def test_parameters_start_values_and_going_back_give_the_bits_of_a_native_run(
-    car: Path, chromium: Any, tmp_path: Path
+    live_car: Path, chromium: Any, tmp_path: Path
 ) -> None:
-    opened = Page(chromium, written([car], tmp_path, "--set", "initial.yaw=0.1", "--paused"))
+    opened = Page(chromium, written([live_car], tmp_path, "--set", "initial.yaw=0.1", "--paused"))
     assert opened.ask("player.running") is False
     opened.ask("player.set('initial.speed', 12)")
     assert opened.ask("player.time") == 0.0
@@ -180,7 +170,7 @@ def test_parameters_start_values_and_going_back_give_the_bits_of_a_native_run(
     assert "# start: initial.yaw=0.1, initial.speed=12" in table
     assert {"road.friction"} == set(columns(table)) & {"road.friction", "front.spring.stiffness"}
     assert set(columns(table)["road.friction"]) > {0.5}
-    assert_same_bits(car, table, tmp_path)
+    assert_same_bits(live_car, table, tmp_path)
     opened.ask("player.reset()")
     assert opened.ask("player.time") == 0.0
     assert opened.get("speed") == pytest.approx([12.0])
@@ -197,8 +187,8 @@ navigator.getGamepads = () => window.pads;
 
 
 @pytest.mark.slow
-def test_a_gamepad_is_plugged_in_and_drives(car: Path, chromium: Any, tmp_path: Path) -> None:
-    opened = Page(chromium, written([car], tmp_path), PAD)
+def test_a_gamepad_is_plugged_in_and_drives(live_car: Path, chromium: Any, tmp_path: Path) -> None:
+    opened = Page(chromium, written([live_car], tmp_path), PAD)
     opened.page.locator('[data-a3="section Gamepad"] summary').click()
     assert "No gamepad" in opened.text("section Gamepad")
     opened.ask("(pads.push(pad), 1)")
@@ -264,23 +254,6 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     opened.close()
 
 
-@pytest.mark.proof  # two views are in the page with a table below, and `live.test.js` has one that stops
-def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
-    car: Path, reach: Path, chromium: Any, tmp_path: Path
-) -> None:
-    file = written([reach, car], tmp_path, "--paused", "--step", "0.01", "--name", "cable", "--name", "car")
-    opened = Page(chromium, file)
-    assert opened.page.locator(".a3-view canvas").count() == 2
-    opened.ask("player.set('pull', 5)")
-    opened.ask("player.set('throttle', 1)")
-    opened.ask("player.advance(100)")
-    assert opened.ask("player.time") == 1.0
-    assert opened.text("flag stopped 0").startswith("cable: Stopped at")
-    assert opened.ask("player.get('speed', 1)") > 1.0
-    assert opened.wrong == []
-    opened.close()
-
-
 @pytest.mark.slow
 def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(reach: Path, chromium: Any, tmp_path: Path) -> None:
     """One starts outside of the reach of its cable, the binary of the other is none."""
@@ -296,36 +269,6 @@ def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(reach: Path, chrom
         assert opened.page.locator('[data-a3="flag problem"]').get_attribute("role") == "alert"
         assert opened.page.locator("canvas").count() > 0, "it is drawn as it was built"
         opened.close()
-
-
-@pytest.mark.proof  # as `live.test.js` has it
-def test_a_browser_that_lacks_a_feature_is_reported(reach: Path, chromium: Any, tmp_path: Path) -> None:
-    file = written([reach], tmp_path)
-    for missing, script in (
-        ("WebAssembly", "delete window.WebAssembly;"),
-        ("DecompressionStream", "delete window.DecompressionStream;"),
-    ):
-        opened = Page(chromium, file, script)
-        assert opened.text("problem").startswith(f"This browser has no {missing}")
-        assert opened.wrong == []
-        opened.close()
-    no_picture = "HTMLCanvasElement.prototype.getContext = () => null;"
-    opened = Page(chromium, file, no_picture)
-    opened.until("player.time > 0.1")  # it runs all the same
-    assert "WebGL" in opened.text("not drawn")
-    opened.close()
-
-
-@pytest.mark.slow
-def test_the_command_as_a_program(reach: Path, tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "ali3", "view", "--live", "--no-open", reach, "--out", tmp_path],
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
-    assert "SprungReach_live.html: " in done.stdout
-    assert " MB; it opens from disk" in done.stdout
 
 
 @pytest.mark.slow
@@ -359,27 +302,9 @@ def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
     opened.close()
 
 
-@pytest.mark.proof
-def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chromium: Any, tmp_path: Path) -> None:
-    opened = Page(chromium, written([car], tmp_path, "--paused"))
-    opened.page.locator('select[data-a3="speed"]').select_option("0.1")
-    opened.page.locator('[data-a3="toggle"]').click()
-    opened.until("player.factor !== null && player.time > 0.05")
-    assert 0.05 < opened.ask("player.factor") < 0.15
-    wait_text(opened.page, "pace", "slow motion × 0.1")
-    assert not opened.page.locator('[data-a3="flag behind"]').is_visible()
-    opened.ask("player.run(2000)")  # more than any machine does
-    opened.until("document.querySelector('[data-a3=\"flag behind\"]')?.textContent.includes('does not keep up')")
-    opened.until("player.factor !== null && player.factor < 1900")
-    opened.ask("player.run(1)")
-    for rate in (0.25, 1.0):
-        opened.page.keyboard.press("L")  # as with caps lock
-        opened.until(f"player.session.speed === {rate}")
-        opened.until(f"Number(document.querySelector('select[data-a3=speed]').value) === {rate}")
-    for key in "fF":
-        before = opened.page.locator('[data-a3="show arrows"]').is_checked()
-        opened.page.keyboard.press(key)
-        assert opened.page.locator('[data-a3="show arrows"]').is_checked() is not before
+@pytest.mark.slow
+def test_levers_drive_and_a_hidden_page_stands(live_car: Path, chromium: Any, tmp_path: Path) -> None:
+    opened = Page(chromium, written([live_car], tmp_path))
     opened.page.locator('[data-a3="levers"]').click()
     levers = [f'[data-a3="lever {name}"]' for name in ("steering", "brake", "throttle")]
     for width, height in ((390, 844), (844, 390), (800, 600)):
@@ -408,59 +333,14 @@ def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chro
     opened.close()
 
 
-@pytest.fixture(scope="module")
-def mechanisms(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    results = {}
-    for scene in ("double_four_bar", "puma"):
-        name, systems, default = load_fidelities(scene)
-        results[scene] = build_fmu(systems[default], name, tmp_path_factory.mktemp(scene), PLATFORMS)
-    return results
-
-
-@pytest.mark.proof  # the car and `reach` have the same pages
-def test_the_double_four_bar_is_drawn_where_its_outputs_are(
-    mechanisms: dict[str, Path], chromium: Any, tmp_path: Path
-) -> None:
-    fmu = mechanisms["double_four_bar"]
-    opened = Page(chromium, written([fmu], tmp_path, "--paused"))
-    assert "This FMU has no inputs." in opened.text("section Inputs")
-    for steps in (95, 405):  # past a singular position, and past five of them
-        opened.ask(f"player.advance({steps})")
-        tip = opened.ask("player.view.parts.frames.point('crank 0', [0, 0.5, 0]).slice(0, 2)")
-        assert tip == pytest.approx(opened.get("B0.position.x", "B0.position.y"), abs=1e-9)
-    assert opened.ask("player.time") == 5.0
-    assert_same_bits(fmu, opened.ask("player.csv()"), tmp_path)
-    place, size = opened.ask("[player.view.project([0, 0, 0]), player.view.size]")
-    assert 0 < place[0] < size[0]
-    assert 0 < place[1] < size[1]
-    assert opened.wrong == []
-    opened.close()
-
-
-@pytest.mark.proof  # the car and `reach` have the same pages
-def test_the_puma_is_moved_by_its_torques(mechanisms: dict[str, Path], chromium: Any, tmp_path: Path) -> None:
-    fmu = mechanisms["puma"]
-    opened = Page(chromium, written([fmu], tmp_path, "--paused", "--set", "step_size=0.002", "--step", "0.002"))
-    field = opened.page.locator('[data-a3="control torque_2"] [data-a3="number"]')
-    assert float(field.input_value()) == pytest.approx(44.0155)  # holds the arm
-    (before,) = opened.get("angle_2")
-    field.fill("60")
-    opened.page.keyboard.press("Tab")
-    opened.ask("player.advance(100)")
-    assert opened.get("angle_2")[0] > before + 0.01
-    assert_same_bits(fmu, opened.ask("player.csv()"), tmp_path)
-    assert opened.wrong == []
-    opened.close()
-
-
 @pytest.mark.slow
-def test_a_road_of_the_user_is_in_the_page_and_under_the_car(car: Path, chromium: Any, tmp_path: Path) -> None:
+def test_a_road_of_the_user_is_in_the_page_and_under_the_car(live_car: Path, chromium: Any, tmp_path: Path) -> None:
     bumps = tmp_path / "bumps.toml"
     bumps.write_text(
         'kind = "washboard"\nstart = 5.0\nlength = 40.0\nwidth = 6.0\namplitude = 0.02\nwavelength = 1.0\n'
     )
     more = ["--paused", "--road", str(bumps), "--set", "initial.speed=10"]
-    opened = Page(chromium, written([car], tmp_path / "page", *more))
+    opened = Page(chromium, written([live_car], tmp_path / "page", *more))
     assert opened.ask("player.session.start['road.file']") == "bumps.road"
     assert opened.ask("player.view.scene.roads.map((road) => road.kind)") == ["grid"]
     opened.ask("player.advance(500)")
@@ -473,7 +353,7 @@ def test_a_road_of_the_user_is_in_the_page_and_under_the_car(car: Path, chromium
     opened.ask("player.set('road.kerb_height', 0.2)")
     opened.ask("player.advance(1)")
     assert opened.ask("player.view.scene.roads[0].heights") == [0.0, -0.2]
-    drawn = scene_of(car, {"road.kerb_height": 0.2})
+    drawn = scene_of(live_car, {"road.kerb_height": 0.2})
     assert drawn is not None
     assert drawn["roads"][0]["heights"] == [0.0, -0.2]  # the car stands on the upper level, at 0
     assert opened.wrong == []

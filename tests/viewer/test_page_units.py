@@ -10,14 +10,14 @@ from viewer import page_build
 PAGE = Path(page_build.__file__).parent / "page"
 
 
-@pytest.mark.parametrize("file", sorted((PAGE / "test").glob("*.test.js")), ids=lambda path: path.name)
-def test_units_of_the_page(file):
+def test_units_of_the_page():
+    """In one process: each file of its own would start Node again."""
     try:
         page_build.packages(PAGE)
     except RuntimeError as error:
         pytest.skip(str(error))
     result = subprocess.run(
-        [page_build.node()[0], "--test", str(file)],
+        [page_build.node()[0], "--test", "--test-isolation=none", *map(str, (PAGE / "test").glob("*.test.js"))],
         cwd=PAGE,
         capture_output=True,
         text=True,

@@ -1,7 +1,6 @@
 """Paths of a run on the ground, and fixed cameras: pixels against known positions."""
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -62,8 +61,7 @@ def straight(speed: float) -> Recording:
 @pytest.fixture(scope="module")
 def seen(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
     file = tmp_path_factory.mktemp("paths") / "run.html"
-    cones = [{"kind": "cone", "at": [position(1.9)[0], position(1.9)[1] - 0.6, 0.0]}]
-    write_page(file, [run("one", scenery=cones)], options={"camera": "top"})
+    write_page(file, [run("one")], options={"camera": "top"})
     opened = Opened(chromium, file)
     yield opened
     opened.page.close()
@@ -92,51 +90,16 @@ def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> Non
     assert abs(np.mean(rows) - y) <= 1.0  # its middle
 
 
-def test_nothing_is_drawn_from_one_epoch_to_the_next(opened: Callable[..., Opened]) -> None:
-    """Along the circle for 2 s, then a reset to 3 m beside its beginning: no line where nobody drove."""
-    t, after = T, T > 2.0
-    result = run("reset")
-    result.epoch = after.astype(float)
-    since = np.where(after, t - 2.0, t)
-    angle = SPEED * since / BEND
-    aside = np.where(after, -3.0, 0.0)
-    result.columns |= {"body.x": BEND * np.sin(angle), "body.y": BEND * (1.0 - np.cos(angle)) + aside}
-    result.columns |= {"body.qw": np.cos(0.5 * angle), "body.qz": np.sin(0.5 * angle)}
-    page = opened(result, camera="top")
-    page.seek(2.0)
-    assert yellow(page, position(1.87))
-    origins = [page("() => window.player.view.origin")]
-    page.seek(2.007)  # it stands until the reset, which is at 2.01 s
-    origins.append(page("() => window.player.view.origin"))
-    assert np.allclose(*origins, atol=1e-9)
-    page.seek(2.5)
-    assert yellow(page, np.add(position(0.35), [0.0, -3.0, 0.0]).tolist())
-    triangles = """() => window.player.drawnRuns[0].traces.paths.map(({ geometry, start }) => {
-      const { position } = geometry.attributes;
-      const corner = (k) => [0, 1, 2].map((axis) => position.array[3 * geometry.index.array[k] + axis] + start[axis]);
-      return Array.from({ length: geometry.index.count / 3 }, (_, k) => [0, 1, 2].map((j) => corner(3 * k + j)));
-    })"""
-    for path in page(triangles):
-        corners = np.array(path)
-        longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-        assert longest.max() < 0.3  # a step is 0.1 m; the jump is 18 m
-        assert np.sum(longest > 0.0) == 2 * (len(t) - 2)
-
-
-FAR_KERB = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, -0.08], "origin": [1e6, 0.0, 0.0]}
-
-
-@pytest.mark.parametrize("road", [{"kind": "flat"}, pytest.param(FAR_KERB, marks=pytest.mark.proof)])
-def test_the_path_is_seen_at_any_instant(opened: Callable[..., Opened], road: dict[str, Any]) -> None:
+def test_the_path_is_seen_at_any_instant(opened: Callable[..., Opened]) -> None:
     """Near the eye, where the depth of large triangles is off by more than the path lies above them."""
-    result = run("straight", roads=[road], extent=3.8)
+    result = run("straight", extent=3.8)
     yaw = 0.03 * np.sin(5.0 * T)  # another camera at each instant
     values = {"x": 20.0 * T, "y": 0.0 * T, "z": 0.5 + 0.03 * np.sin(11.0 * T)}
     values |= {"qw": np.cos(0.5 * yaw), "qz": np.sin(0.5 * yaw)}
     result.columns |= {f"body.{name}": column for name, column in values.items()}
     page = opened(result, camera="chase")
     recorded = []
-    for t in np.arange(1.0, 3.0, 2.0 / 15.0):
+    for t in np.arange(1.0, 3.0, 2.0 / 7.0):
         page.seek(float(t))
         recorded.append(yellow(page, [20.0 * t - 0.9, 0.0, 0.0]))
     assert all(recorded), recorded
@@ -161,31 +124,13 @@ def test_the_path_goes_and_comes_with_its_key(seen: Opened) -> None:
     assert yellow(seen, position(1.87))
 
 
-def test_a_cone_of_the_scene_stands_beside_the_path(seen: Opened) -> None:
-    seen.seek(2.0)
-    x, y = seen.place([position(1.9)[0], position(1.9)[1] - 0.6, 0.05])
-    red, _, blue = np.moveaxis(seen.picture()[y - 12 : y + 13, x - 12 : x + 13], 2, 0)
-    assert ((red > 120) & (red > 2.0 * blue)).sum() > 20
-
-
-def test_the_fixed_camera_sees_the_whole_of_a_short_way_and_does_not_move(opened: Callable[..., Opened]) -> None:
-    short = run("short", T / 5.0)
-    page = opened(short, camera="fixed")
-    places = []
-    for t in (0.1, 0.7):
-        page.seek(t)
-        places.append([page.place(position(s)) for s in (0.0, 0.4, 0.8)])
-    assert np.abs(np.subtract(*places)).max() <= 1
-    assert all(0 <= x < 640 and 0 <= y < 360 for x, y in places[0])
-
-
 def test_the_fixed_camera_stays_where_it_is_and_shows_the_body_on_a_tenth_of_the_width(
     opened: Callable[..., Opened],
 ) -> None:
     """300 m along x: shown whole, the box of 1 m would be 2 pixels of 640; beside the wheel the size is 2 m."""
     page = opened(straight(75.0), camera="fixed")
     eyes = []
-    for t in (0.5, 2.0, 3.9):
+    for t in (0.5, 3.9):
         page.seek(t)
         tail, head = (page.place([75.0 * t + side, 0.0, 0.5]) for side in (-1.0, 1.0))
         assert 64 * 0.8 <= head[0] - tail[0] <= 128, (t, tail, head)  # seen aslant it is narrower
@@ -194,11 +139,14 @@ def test_the_fixed_camera_stays_where_it_is_and_shows_the_body_on_a_tenth_of_the
     assert np.allclose(eyes[0], eyes[1:], atol=1e-6)
 
 
-def test_a_way_that_no_place_sees_has_cameras_beside_it_only(opened: Callable[..., Opened]) -> None:
-    """From where it saw all of 3 km, nothing of what is followed was drawn."""
+def test_where_there_are_a_path_a_fixed_camera_and_one_beside_the_track(opened: Callable[..., Opened]) -> None:
+    """From where it saw all of 3 km, nothing of what is followed was drawn. What stays has no path either."""
     cameras = opened(straight(750.0))("() => window.player.cameras")
     assert "trackside" in cameras
     assert "fixed" not in cameras
+    still = opened(run("still", 1e-3 * T))
+    assert not still("() => window.player.has.path")
+    assert "trackside" not in still("() => window.player.cameras")
 
 
 def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opened]) -> None:
@@ -236,21 +184,13 @@ def test_the_camera_beside_the_track_follows_passing_bodies(seen: Opened) -> Non
     seen("() => window.player.camera('top')")
 
 
-def test_what_stays_where_it_is_has_no_path_and_no_camera_beside_it(opened: Callable[..., Opened]) -> None:
-    page = opened(run("still", 1e-3 * T))
-    actual = page("() => { const { has, cameras } = window.player; return [has.path, cameras.includes('trackside')]; }")
-    assert actual == [False, False]
-
-
 def test_a_ghost_is_distinguished_by_its_colour_even_where_both_ran(opened: Callable[..., Opened]) -> None:
     """The blue box has a ghost at its own place for 3 s; its path is the rim of the first one's."""
     ghost = run("two")
     ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
     page = opened(run("one"), ghost, camera="top")
-    assert page("() => [...document.querySelectorAll('.a3-head > div')].map(name => name.textContent)") == [
-        "one",
-        "two (ghost)",
-    ]
+    names = page("() => [...document.querySelectorAll('.a3-head > div')].map(name => name.textContent)")
+    assert names == ["one", "two (ghost)"]
     swatches = page("""() => [...document.querySelectorAll('.a3-head .a3-swatch')]
       .map(part => getComputedStyle(part).backgroundColor.match(/[0-9]+/g).map(Number))""")
     assert is_yellow(*swatches[0])
@@ -264,24 +204,10 @@ def test_a_ghost_is_distinguished_by_its_colour_even_where_both_ran(opened: Call
     page.seek(3.5)
     x, y = page.place(np.add(position(3.5, 0.6), [0.0, 1.5, 0.0]).tolist())
     assert is_magenta(*page.picture()[y, x])
-
-
-def test_a_ghost_where_the_run_is_leaves_its_picture_as_it_is(opened: Callable[..., Opened]) -> None:
-    """The body's pixels are those of a run without a ghost, until the ghost is elsewhere."""
-    ghost = run("two")
-    ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
-    alone, both = opened(run("one"), camera="top"), opened(run("one"), ghost, camera="top")
-    recorded = []
-    for page in (alone, both):
-        page.seek(2.0)
-        x, y = page.place(position(2.0, 0.6))
-        recorded.append(page.picture()[y - 4 : y + 5, x - 4 : x + 5].astype(int))
-        page.seek(3.5)
-    assert abs(recorded[0] - recorded[1]).max() <= 2
     shown = "() => player.view.ghosts.map(ghost => [...ghost.carriers.values()].map(part => part.visible))"
-    assert both(shown) == [[True, True]]
-    both.seek(2.0)
-    assert both(shown) == [[False, False]]
+    assert page(shown) == [[True, True]]
+    page.seek(2.0)
+    assert page(shown) == [[False, False]], "where the run is, its own picture is seen"
 
 
 def beam(amplitude: np.ndarray) -> Recording:
@@ -346,14 +272,6 @@ def test_the_floor_lies_below_short_peaks_and_below_ghosts(opened: Callable[...,
     runs = [Recording(scene, t, still | {"body.z": np.where(t == t[k], -d, 0.0)}) for k, d in ((333, 3.0), (111, 5.0))]
     assert -3.3 < opened(runs[0])("() => window.player.view.floor") < -3.1
     assert -5.3 < opened(*runs)("() => window.player.view.floor") < -5.1
-
-
-@pytest.mark.proof  # as a peak, which lasts for one row
-def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], tmp_path: Path) -> None:
-    falling = run("falls", T, roads=[])
-    falling.columns["body.z"] = 0.5 - 4.9 * T**2
-    page = opened(falling)
-    assert page("() => window.player.view.floor") < -77.0
 
 
 def test_the_path_of_a_flattened_tyre_lies_on_the_ground(opened: Callable[..., Opened]) -> None:

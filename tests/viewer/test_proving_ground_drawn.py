@@ -39,20 +39,15 @@ def test_it_is_drawn_with_few_calls_and_triangles_from_everywhere(drawn, proving
     roads, scenery = proving_ground["roads"], proving_ground["scenery"]
     drawn.show(scene(focus="body", shapes=[ball(radius=0.02)], roads=roads, scenery=scenery, extent=4.0), at(0, 0, 1))
     assert drawn.ask("view.messages") == []
-    drawn.ask("view.parts.group.visible = false")
+    drawn.ask("view.camera('chase'), view.parts.group.visible = false")
     calls, triangles = [], []
     for place in proving_ground["places"]:
         half = 0.5 * place["yaw"]
         pose = at(place["x"], place["y"], 1.0, (np.cos(half), 0, 0, np.sin(half)))
-        for camera in ("chase", "top"):
-            drawn.ask("name => view.camera(name)", camera)
-            drawn.update(pose)
-            cost = drawn.ask("[view.renderer.info.render.calls, view.renderer.info.render.triangles]")
-            calls.append(cost[0])
-            triangles.append(cost[1])
-        picture = drawn.picture()
-        assert picture.std() > 3, place["name"]
-    print(f"at most {max(calls)} calls and {max(triangles)} triangles")
+        drawn.update(pose)
+        cost = drawn.ask("[view.renderer.info.render.calls, view.renderer.info.render.triangles]")
+        calls.append(cost[0])
+        triangles.append(cost[1])
     assert 10 < max(calls) < MOST_CALLS
     assert 10_000 < max(triangles) < MOST_TRIANGLES
 
@@ -70,6 +65,5 @@ def test_its_draft_has_below_fifty_thousand_triangles_with_all_of_it_before_the_
         drawn.ask("view.world.traverse((part) => (part.frustumCulled = false)), view.render()")
         costs.append(drawn.ask("[view.renderer.info.render.calls, view.renderer.info.render.triangles]"))
     calls, triangles = np.max(costs, axis=0)
-    print(f"at most {calls} calls and {triangles} triangles")
     assert calls < 60
     assert 25_000 < triangles < 50_000

@@ -35,8 +35,6 @@ OPEN = """() => {
 }"""
 INK = """bar => getComputedStyle(document.querySelector(bar + ' button')).color
   .match(/[0-9]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0)"""
-NAMES = f"""() => ({SEEN})().map((part) =>
-  (part.labels?.[0] ?? part).textContent.trim() || part.title || part.ariaLabel)"""
 BOXES = """() => ['.a3-bar', '.a3-left', '.a3-cluster', '.a3-inset'].map((part) => document.querySelector(part))
   .filter((part) => part?.checkVisibility()).map((part) => part.getBoundingClientRect().toJSON())"""
 ROLES = ("button", "slider", "combobox", "checkbox", "searchbox", "spinbutton", "image", "DisclosureTriangle", "link")
@@ -131,17 +129,6 @@ def findings(page: Any) -> list[str]:
     return axe_findings(page)
 
 
-@with_axe
-@pytest.mark.slow
-def test_axe_would_find_a_control_without_a_name(chromium: Any, tmp_path: Path) -> None:
-    file = written(tmp_path, "recorded")
-    text = file.read_text(encoding="utf-8").replace('<main id="view">', "<input><main id=view>")
-    file.write_text(text, encoding="utf-8")
-    with dark_page(chromium) as page:
-        open_file(page, file)
-        assert any(message.startswith("label: 1") for message in findings(page))
-
-
 @pytest.mark.slow
 def test_pages_are_dark_where_everything_is(shown: Any) -> None:
     """Words and what is behind them change their places between light and dark, also while the page is open."""
@@ -224,13 +211,11 @@ def test_axe_finds_nothing(shown: Any, colours: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_tabulator_reaches_every_control_and_all_have_names(shown: Any) -> None:
+def test_the_tabulator_reaches_every_control(shown: Any) -> None:
     shown.evaluate(OPEN)
-    names = shown.evaluate(NAMES)
-    assert len(names) > 5
-    assert all(names), names
-    shown.evaluate(f"() => {{ window.left = new Set(({SEEN})()); }}")
-    for _ in range(3 * len(names) + 20):
+    count = shown.evaluate(f"() => {{ window.left = new Set(({SEEN})()); return left.size; }}")
+    assert count > 5
+    for _ in range(3 * count + 20):
         shown.keyboard.press("Tab")
         if shown.evaluate("() => (left.delete(document.activeElement), left.size)") == 0:
             break

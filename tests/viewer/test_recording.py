@@ -99,15 +99,6 @@ def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_reported() 
     ]
 
 
-def test_columns_with_the_same_gaps_are_reported_in_one_sentence() -> None:
-    gaps, others = (np.where(end < TIMES, np.nan, 1.0) for end in (0.5, 1.0))
-    notes = full(**{"body.x": gaps, "body.y": gaps, "body.z": others}).notes
-    assert [note.partition(" values")[0] for note in notes] == [
-        "The columns 'body.x', 'body.y' have each 15 of 21",
-        "The column 'body.z' has 10 of 21",
-    ]
-
-
 def test_numbers_that_no_picture_holds_are_reported_and_not_drawn() -> None:
     recording = full(**{"body.x": np.where(TIMES > 1.0, 1e300, 1.0), "body.y": np.where(TIMES > 1.5, np.inf, 1.0)})
     assert np.array_equal(np.isfinite(recording.columns["body.x"]), TIMES <= 1.0)
@@ -216,7 +207,3 @@ def test_a_part_of_the_time() -> None:
     np.testing.assert_allclose(part.columns["angle"], 2.0 * part.t)
     with pytest.raises(ViewerError, match="no time from 3 s to 4 s in 'crank'; it was recorded from 0 s to 2 s"):
         crank(TIMES).between(3.0, 4.0)
-
-
-def test_one_time_is_a_recording() -> None:
-    assert len(crank(np.zeros(1)).thinned().t) == 1

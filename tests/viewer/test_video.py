@@ -51,7 +51,7 @@ def slider(picture):
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("_drawn")
-@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".webp", marks=pytest.mark.proof), ".gif"])
+@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
 def test_a_film_shows_the_motion_of_the_recording(tmp_path, suffix):
     path = tmp_path / f"crank{suffix}"
     progress = []

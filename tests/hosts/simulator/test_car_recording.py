@@ -14,7 +14,6 @@ import pytest
 
 import hosts.simulator.car as car_module
 from ali3.errors import FileError
-from hosts.common.errors import HostError
 from hosts.recordings.last_drive import last_drive
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.recording import Recorder
@@ -189,11 +188,3 @@ def test_a_disk_that_is_full_ends_the_recording_and_not_the_drive(
         texts = [e.text for e in car.events() if e.kind == "recording"]
         assert len(texts) == 1
         assert texts[0].startswith("The recording ends here: the disk is full ")
-
-
-@pytest.mark.slow
-def test_a_folder_with_a_recording_is_refused(fmu: Callable[[str], Path], tmp_path: Path) -> None:
-    with Car(settings(fmu("sledge"), tmp_path / "drive")):
-        pass
-    with pytest.raises(HostError, match="holds a recording already"):
-        Car(settings(fmu("sledge"), tmp_path / "drive"))

@@ -13,6 +13,7 @@ import time
 import zipfile
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -34,6 +35,7 @@ from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.command import main
 from hosts.simulator.headless_driving import headless_driver, run_headless
 from hosts.simulator.preparation import DriveRequest, prepare
+from tests.hosts.simulator.pages import until
 
 TESTS = Path(__file__).parents[2]
 TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
@@ -61,15 +63,8 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
         fmus["sledge"], "--headless", "--stop-time", 0.5, "--step", 0.005, "--json", tmp_path / "r.json"
     )
     assert code == 0
-    for message in (
-        "100 steps of 5 ms: 0.500 s simulated in ",
-        "median",
-        "p99.9",
-        "largest",
-        "missed deadlines: ",
-        "<= ",
-    ):
-        assert message in out
+    assert "100 steps of 5 ms: 0.500 s simulated in " in out
+    assert "missed deadlines: " in out
     report = json.loads((tmp_path / "r.json").read_text())
     assert report["steps"]["steps"] == 100
     assert report["steps"]["simulated"] == pytest.approx(0.5)
@@ -80,8 +75,7 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without asking it")
-@pytest.mark.parametrize("name", ["SIGTERM", pytest.param("SIGHUP", marks=pytest.mark.slow)])
-def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp_path):
+def test_a_run_without_a_page_that_is_ended_ends_with_its_report(fmus, tmp_path):
     command = [sys.executable, "-m", "ali3", "simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
     command += ["--step", "0.005", "--record", str(tmp_path / "drive")]
     pipe = subprocess.PIPE
@@ -89,7 +83,7 @@ def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp
     with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True, env=quiet) as program:
         assert any(line.startswith("Ready") for line in program.stdout)
         time.sleep(0.5)
-        os.killpg(program.pid, getattr(signal, name))  # as a terminal and `timeout` do
+        os.killpg(program.pid, signal.SIGTERM)  # as a terminal and `timeout` do
         output, error = program.communicate(timeout=30)
     assert (program.returncode, error) == (0, "")
     assert "Ended by Ctrl-C or a signal." in output
@@ -118,36 +112,13 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
     assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) > 20
 
 
-def test_a_recording_of_many_parts_is_joined_with_a_bar(fmus, capsys, tmp_path, monkeypatch):
-    """A bar is shown after two seconds; here at once, and each part is one."""
-    monkeypatch.setattr(bars, "DELAY", 0.0)
-    monkeypatch.setattr(bars._Lines, "_apart", 0.0)
-    monkeypatch.setattr("hosts.recordings.recording._MOST_ROWS", 5)
-    arguments = ("--headless", "--stop-time", 0.5, "--step", 0.005, "--record", tmp_path / "r")
-    assert main([str(a) for a in (fmus["sledge"], *arguments)]) == 0
-    shares = [int(share) for share in re.findall(r"recording: +(\d+) %", capsys.readouterr().err)]
-    assert shares == sorted(shares)
-    assert shares[-1] == 100
-    assert len(shares) > 2
-
-
 def test_a_recording_that_cannot_be_finished_is_reported_in_the_report(fmus, told, tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(ParquetTable, "close", full)
-    arguments = (
-        "--headless",
-        "--stop-time",
-        0.1,
-        "--step",
-        0.005,
-        "--record",
-        tmp_path / "r",
-        "--json",
-        tmp_path / "j",
-    )
-    code, out, _ = told(fmus["sledge"], *arguments)
+    files = ("--record", tmp_path / "r", "--json", tmp_path / "j")
+    code, out, _ = told(fmus["sledge"], "--headless", "--stop-time", 0.1, "--step", 0.005, *files)
     assert code == 1
     assert out.count("The recording could not be finished: ") == 1
     assert "make room, or record into another folder" in out
@@ -165,10 +136,16 @@ def value(car, name):
     return float(car.latest().values[car.names.index(name)])
 
 
-def test_a_manoeuvre_moves_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
+def test_a_driver_at_random_and_a_manoeuvre_move_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
     (tmp_path / "turn.csv").write_text(TURN)
     manoeuvre = load_manoeuvre(str(tmp_path / "turn.csv"))
+    expected = RandomDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
+    assert any(expected.values())
     with started(fmus["sledge"]) as car:
+        assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None)
+        assert {name: value(car, name) for name in expected} == expected
+        car.command("reset")
+        until(lambda: car.latest().epoch == 1)
         assert run_headless(car, headless_driver(car, manoeuvre, None), 0.8, lambda *_: None)
         moment = car.latest()
         assert (moment.count, moment.running) == (160, False)
@@ -177,19 +154,12 @@ def test_a_manoeuvre_moves_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
         assert value(car, "steering") == 0.0
 
 
-def test_a_driver_without_sense_moves_them_too(fmus):
-    expected = RandomDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
-    assert any(expected.values())
-    with started(fmus["sledge"]) as car:
-        assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None)
-        assert {name: value(car, name) for name in expected} == expected
-
-
-def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
+def test_a_manoeuvre_that_needs_more_than_the_car_has(tmp_path):
     (tmp_path / "sail.csv").write_text('"time","sail"\n0,0\n1,1\n')
-    with started(fmus["sledge"]) as car, pytest.raises(HostError, match="a column 'sail', which is not an input"):
+    car = SimpleNamespace(inputs=("pull",), names=("pull", "bob.x"), constants={})
+    with pytest.raises(HostError, match="a column 'sail', which is not an input"):
         headless_driver(car, load_manoeuvre(str(tmp_path / "sail.csv")), None)
-    with started(fmus["reach"]) as car, pytest.raises(HostError, match="does not have: steering, throttle, brake"):
+    with pytest.raises(HostError, match="does not have: steering, throttle, brake"):
         headless_driver(car, load_manoeuvre("double_lane_change"), None)
 
 
@@ -236,13 +206,10 @@ def renamed(fmus, tmp_path):
 def test_an_fmu_with_other_names_runs_and_missing_variables_are_reported(renamed, told):
     code, out, _ = told(renamed, "--headless", "--stop-time", 0.1)
     assert code == 0
-    message = (
-        "foreign.fmu has no input steering, throttle, brake and no output chassis.x, chassis.z, chassis.yaw, which"
-    )
-    assert message in out
+    missing = "no input steering, throttle, brake and no output chassis.x, chassis.z, chassis.yaw, which"
+    assert f"foreign.fmu has {missing}" in out
     assert "(--aliases FILE). Its inputs are StrAng, Acc_ped, Brk; its outputs X," in out
     assert "is not drawn" in out
-    assert "20 steps" in told(renamed, "--headless", "--stop-time", 0.1, "--step", 0.005)[1]
 
 
 @pytest.mark.slow
@@ -316,9 +283,13 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_run(fmus, told, t
         assert "simulated" not in out
 
 
-def test_a_recording_is_not_written_over_another(fmus, told, tmp_path):
+def test_a_recording_is_joined_with_a_bar_and_not_written_over_another(fmus, told, tmp_path, monkeypatch):
+    """A bar is shown after two seconds; here at once."""
+    monkeypatch.setattr(bars, "DELAY", 0.0)
     run = (fmus["sledge"], "--headless", "--stop-time", 0.1, "--seed", 7, "--record", tmp_path / "rec")
-    assert told(*run)[0] == 0
+    code, _, bar = told(*run)
+    assert code == 0
+    assert re.search(r"recording: +100 %", bar)
     assert json.loads((tmp_path / "rec" / "recording.json").read_text())["seed"] == 7
     code, out, error = told(*run)
     assert (code, out) == (2, "")

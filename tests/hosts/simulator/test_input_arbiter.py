@@ -58,12 +58,6 @@ def test_a_slow_drift_is_a_move_once_it_adds_up(arbiter, inputs):
     assert inputs["steering"][0] == 0.33
 
 
-def test_the_owner_moves_by_as_little_as_it_likes(arbiter, inputs):
-    for value in (0.5, 0.501, 0.502):
-        arbiter.want("wheel", {"throttle": (value, math.inf)})
-        assert inputs["throttle"][0] == value
-
-
 def test_a_source_that_rests_where_the_input_is_does_not_take_it(arbiter, inputs):
     arbiter.want("pedals", {"throttle": (0.0, math.inf), "brake": (0.0, math.inf)})
     assert inputs == {}

@@ -127,15 +127,6 @@ def test_long_waits_come_back_so_that_commands_are_heard(clock: Any) -> None:
     assert clock.time == pytest.approx(begin + 1.0)
 
 
-def test_a_restart_discards_missed_steps(drive: Drive) -> None:
-    drive.step(SHORT, 5)
-    drive.clock.work(60.0)
-    drive.pace.restart()
-    drive.step(SHORT, 5)
-    assert drive.times["missed"] == 0.0
-    assert drive.pace.lateness == 0.0
-
-
 def test_without_pace_nothing_is_late(clock: Any) -> None:
     drive = Drive(clock, paced=False)
     drive.step(0.5, 10)

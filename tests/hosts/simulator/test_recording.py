@@ -33,9 +33,8 @@ def test_a_recording_is_repeated_bit_for_bit(fmus: dict[str, Path], tmp_path: Pa
 
 
 @pytest.mark.slow
-@TABLES
-def test_one_bit_of_an_input_is_found(fmus: dict[str, Path], tmp_path: Path, table: str) -> None:
-    drive = Drive(fmus["sledge"], tmp_path / "drive", table, {})
+def test_one_bit_of_an_input_is_found(fmus: dict[str, Path], tmp_path: Path) -> None:
+    drive = Drive(fmus["sledge"], tmp_path / "drive", None, {})
     drive.steps(50)
     real = drive.recorder.row
 
@@ -94,13 +93,12 @@ def test_a_recording_that_begins_with_a_state(fmus: dict[str, Path], tmp_path: P
     assert replay(read_recording(tmp_path / "second")).different > 0
 
 
-@pytest.mark.parametrize("table", ["parquet", "csv"])
-def test_outputs_are_recorded_seldom_and_states_between(fmus: dict[str, Path], tmp_path: Path, table: str) -> None:
+def test_outputs_are_recorded_seldom_and_states_between(fmus: dict[str, Path], tmp_path: Path) -> None:
     """What is there is repeated bit for bit, what is wrong is found, and a part is found from the last state."""
-    whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all", table))
+    whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all"))
     outputs = whole.names[3:]
     every = dict.fromkeys(whole.inputs, 1) | dict.fromkeys(outputs[:2], 4) | dict.fromkeys(outputs[2:], 12)
-    folder = whole_drive(fmus["sledge"], tmp_path / "drive", table, every)
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive", None, every)
     drive = read_recording(folder)
     assert drive.names == whole.names
     assert (replayed := replay(drive)).different == 0
@@ -166,10 +164,9 @@ def as_recorded(result: Result, drive: RecordedDrive) -> NDArray[np.float64]:
 
 
 @pytest.mark.slow
-@TABLES
-def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Path, table: str) -> None:
+def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Path) -> None:
     """Since the last start, without what was rewound; from the folder, from a file, and a part with its state."""
-    folder = whole_drive(fmus["sledge"], tmp_path / "drive", table)
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     drive, out = read_recording(folder), tmp_path / "last.csv"
     assert to_manoeuvre(drive, out) == [out]
     for source in (out, folder):

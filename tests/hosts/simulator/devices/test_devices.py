@@ -11,11 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hosts.common.errors import HostError
-from hosts.simulator.devices import configuration_folder
 from hosts.simulator.devices.mapping import read_settings
-from hosts.simulator.input_arbiter import LET_GO, InputArbiter
 from hosts.simulator.protocol import DEVICE_MESSAGES
-from tests.hosts.simulator.devices.virtual import ANGLE_MAX, GAMEPAD, INPUTS, OTHER, sdl2, until
+from tests.hosts.simulator.devices.virtual import ANGLE_MAX, GAMEPAD, OTHER, sdl2, until
 
 WHEEL = "device Wheel"
 PEDALS = "device Pedals"
@@ -160,40 +158,6 @@ def test_a_press_moves_the_selector_once(attach, start):
     wheel.axis(2, 0.0)
     until(lambda: run.arbiter.value(WHEEL, "throttle"))
     assert moved == [-1.0]
-
-
-def test_through_real_hands_a_device_shares_the_car_with_keys_and_lets_go(attach, start):
-    requested = {}
-    wheel = rested(attach())
-    run = start()
-    arbiter = InputArbiter(requested.update, INPUTS)
-    run.devices._reader._arbiter = arbiter
-    wheel.axis(2, -1.0)
-    until(lambda: requested.get("throttle") == (1.0, math.inf))
-    arbiter.want("page 1 keys", {"throttle": (0.4, 2.5)})
-    assert requested["throttle"] == (0.4, 2.5)
-    wheel.axis(3, -1.0)
-    until(lambda: requested.get("brake") == (1.0, math.inf))
-    assert requested["throttle"] == (0.4, 2.5), "the pedal was not moved again"
-    wheel.pull_out()
-    until(lambda: run.said("Wheel was pulled out; brake let go."))
-    assert requested["brake"] == (0.0, LET_GO["brake"])
-
-
-def test_an_input_is_assigned_by_moving_it(attach, start):
-    wheel = rested(attach())
-    run = start()
-    id = run.only()["id"]
-    run.devices.message({"type": "assign by moving", "device": id, "input": "brake", "on": True})
-    assert run.only()["assigning"] == "brake"
-    wheel.axis(1, 0.7)
-    wheel.axis(1, -0.2)
-    until(lambda: run.only()["assigning"] is None)
-    mapping = run.only()["mapping"]["brake"]
-    assert (mapping["source"], mapping["inverted"], mapping["low"], mapping["high"]) == ("axis 1", True, -1.0, 1.0)
-    run.devices.assign_by_moving(id, "hand_brake")
-    wheel.button(7, True)
-    until(lambda: run.only()["mapping"].get("hand_brake", {}).get("source") == "button 7")
 
 
 def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(attach, start):
@@ -373,10 +337,3 @@ def test_an_error_in_the_thread_releases_inputs_and_is_reported(attach, start):
     wheel.axis(2, -1.0)
     until(lambda: run.said("Devices are no longer read; the keyboard drives. OSError: the car is gone."))
     until(lambda: run.arbiter.left == [WHEEL])
-
-
-def test_the_folder_of_mappings(monkeypatch, tmp_path):
-    monkeypatch.setenv("ALI3_CONFIG", str(tmp_path))
-    assert configuration_folder() == tmp_path / "devices"
-    monkeypatch.delenv("ALI3_CONFIG")
-    assert configuration_folder().name == "devices"
