@@ -100,18 +100,33 @@ def lane_change(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Rec
 
 
 @pytest.fixture(scope="session")
-def live_car(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
-    """The FMU of the rigid prototype for this platform and for pages."""
+def live_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[[str], Path]:
+    """The FMU of a scene for this platform and for pages, built once for all processes."""
     from fmpy import platform
 
-    import mbs
     from fmu_src.build.build import build_fmu
-    from mbs.scenes import prototype_car
+    from fmu_src.build.scene_registry import load_scene
 
-    def fill(folder: Path) -> None:
-        build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, [platform, "wasm32"])
+    def make(scene: str) -> Path:
+        def fill(folder: Path) -> None:
+            name, system = load_scene(scene)
+            build_fmu(system, name, folder, [platform, "wasm32"])
 
-    return next(made_once("live_car", fill).glob("*.fmu"))
+        return next(made_once(f"live_{scene.rpartition(':')[2]}", fill).glob("*.fmu"))
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def live_car(live_fmu: Callable[[str], Path]) -> Path:
+    """The rigid prototype."""
+    return live_fmu("prototype_car")
+
+
+@pytest.fixture(scope="session")
+def live_reach(live_fmu: Callable[[str], Path]) -> Path:
+    """A mass on a rod and a cable that a winch pulls beyond its reach, if it is told to."""
+    return live_fmu(f"{Path(__file__).parents[1] / 'fmu' / 'scenes.py'}:sprung_reach")
 
 
 @pytest.fixture(scope="session")

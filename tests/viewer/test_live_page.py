@@ -8,12 +8,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
 from hosts.run.command import main as run
@@ -21,8 +18,6 @@ from hosts.view import page_parts
 from hosts.view.command import main as view
 from tests.in_browser import SELDOM, wait_text, wait_until
 
-SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
-PLATFORMS = [fmpy.platform, "wasm32"]
 STEP = 0.002
 
 
@@ -40,13 +35,6 @@ def _roads_once() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(page_parts, "scene_of", once)
         yield
-
-
-@pytest.fixture(scope="module")
-def reach(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A mass on a rod and a cable that a winch pulls beyond its reach, if it is told to."""
-    name, system = load_scene(f"{SCENES}:sprung_reach")
-    return build_fmu(system, name, tmp_path_factory.mktemp("reach"), PLATFORMS)
 
 
 class Page:
@@ -207,8 +195,8 @@ def test_a_gamepad_is_plugged_in_and_drives(live_car: Path, chromium: Any, tmp_p
 
 
 @pytest.mark.slow
-def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium: Any, tmp_path: Path) -> None:
-    opened = Page(chromium, written([reach], tmp_path, "--paused", "--step", "0.01", "--plot", "bob.x"))
+def test_sliders_of_a_mechanism_and_a_step_that_is_refused(live_reach: Path, chromium: Any, tmp_path: Path) -> None:
+    opened = Page(chromium, written([live_reach], tmp_path, "--paused", "--step", "0.01", "--plot", "bob.x"))
     assert opened.page.locator(".a3-chart canvas").count() == 1
     opened.page.locator('[data-a3="control pull"] [data-a3="number"]').fill("0.2")
     opened.page.keyboard.press("Tab")
@@ -225,7 +213,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     opened.ask("player.advance(30)")
     table = opened.ask("player.csv()")
     assert columns(table)["spring.stiffness"].tolist() == [5.0] * 30 + [20.0] * 31
-    assert_same_bits(reach, table, tmp_path)
+    assert_same_bits(live_reach, table, tmp_path)
     field = opened.page.locator('[data-a3="control spring.free_length"] [data-a3="number"]')
     field.fill("0.3")
     opened.page.keyboard.press("Tab")
@@ -233,7 +221,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     wait_text(opened.page, "events", "began again with spring.free_length = 0.3")
     opened.ask("player.advance(20)")
     assert "spring.free_length=0.3" in opened.ask("player.csv()")
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
+    assert_same_bits(live_reach, opened.ask("player.csv()"), tmp_path)
 
     opened.ask("player.set('pull', 5)")
     opened.ask("player.advance(300)")
@@ -242,7 +230,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     assert "refused" in message
     assert "step_size" in message
     at = opened.ask("player.time")
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
+    assert_same_bits(live_reach, opened.ask("player.csv()"), tmp_path)
     opened.page.locator('[data-a3="go back"]').click()
     opened.until("player.time === 0")
     assert at > 0.2
@@ -255,10 +243,10 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
 
 
 @pytest.mark.slow
-def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(reach: Path, chromium: Any, tmp_path: Path) -> None:
+def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(live_reach: Path, chromium: Any, tmp_path: Path) -> None:
     """One starts outside of the reach of its cable, the binary of the other is none."""
-    far = written([reach], tmp_path / "far", "--set", "pull=9")
-    text = written([reach], tmp_path / "binary").read_text(encoding="utf-8")
+    far = written([live_reach], tmp_path / "far", "--set", "pull=9")
+    text = written([live_reach], tmp_path / "binary").read_text(encoding="utf-8")
     spoilt = tmp_path / "spoilt.html"
     binary = base64.b64encode(b"no module").decode()
     spoilt.write_text(re.sub(r'"wasm":"[^"]*"', f'"wasm":"{binary}"', text), encoding="utf-8")
@@ -273,28 +261,28 @@ def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(reach: Path, chrom
 
 @pytest.mark.slow
 def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
-    reach: Path, chromium: Any, tmp_path: Path
+    live_reach: Path, chromium: Any, tmp_path: Path
 ) -> None:
     table = tmp_path / "pulled.csv"
     table.write_text('"time","pull"\n0,0.1\n0.5,0.3\n0.5,0.2\n1,0.2\n# start: spring.free_length=0.25\n')
-    assert run([str(reach), "--input", str(table), "--step", "0.01", "--out", str(tmp_path)]) == 0
+    assert run([str(live_reach), "--input", str(table), "--step", "0.01", "--out", str(tmp_path)]) == 0
     more = ["--paused", "--step", "0.01", "--manoeuvre", str(table)]
     result = next(tmp_path.glob("*_pulled.csv"))
-    opened = Page(chromium, written([reach, result], tmp_path / "page", *more))
+    opened = Page(chromium, written([live_reach, result], tmp_path / "page", *more))
     assert "follow a table of 1 s" in opened.text("section Inputs")
     assert opened.page.locator(".a3-view canvas").count() == 2
     opened.ask("player.advance(60)")
     beside = opened.ask("player.stage.parts[1].sample(player.time)('bob.x')")
     # A page holds the value of its table over each step, half a step late; the command follows the line.
     assert opened.get("bob.x")[0] == pytest.approx(beside, abs=5e-4)
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
+    assert_same_bits(live_reach, opened.ask("player.csv()"), tmp_path)
     assert columns(opened.ask("player.csv()"))["pull"][[0, 25, 50]].tolist() == [0.1, 0.2, 0.2]
     opened.ask("player.set('pull', 0.4)")
     opened.ask("player.advance(60)")
     assert opened.get("pull_used") == [0.4]
     ended = opened.page.locator('[data-a3^="flag end"]')
     assert ended.inner_text().endswith("(recorded): The recording ends at 1 s.")
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
+    assert_same_bits(live_reach, opened.ask("player.csv()"), tmp_path)
     opened.ask("player.reset()")
     assert opened.get("pull") == [0.1]
     assert not ended.is_visible()

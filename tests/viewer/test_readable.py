@@ -14,8 +14,6 @@ import numpy as np
 import pytest
 
 from ali3.scene.recording import Recording
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.view.command import main as view
 from tests.in_browser import axe_findings, wait_until, with_axe
 from tests.viewer.bars import check_bar
@@ -23,7 +21,6 @@ from tests.viewer.hand_scenes import crank
 from tests.viewer.simulator_program import REPORT, Program
 from viewer.page_file import write_page
 
-ROOT = Path(__file__).parents[2]
 CONTROLS = "button, select, input, summary, a[href]"
 SEEN = f"""() => [...document.querySelectorAll('{CONTROLS}')]
   .filter((part) => part.checkVisibility({{ visibilityProperty: true }}) && !part.disabled)"""
@@ -60,11 +57,9 @@ BAR = ".a3-bar"
 
 
 @pytest.fixture(scope="module")
-def live(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene(f"{ROOT / 'tests' / 'fmu' / 'scenes.py'}:sprung_reach")
+def live(live_reach: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("live")
-    fmu = build_fmu(system, name, folder, ["wasm32"])
-    assert view([str(fmu), "--live", "--paused", "--no-open", "--out", str(folder)]) == 0
+    assert view([str(live_reach), "--live", "--paused", "--no-open", "--out", str(folder)]) == 0
     return next(folder.glob("*_live.html"))
 
 

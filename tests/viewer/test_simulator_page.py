@@ -186,17 +186,20 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_cha
 
 
 @pytest.mark.slow
-def test_everything_fits_on_the_screen_and_nothing_lies_on_another(chromium: Any, lane_change: Recording) -> None:
-    """A telephone, which is turned, and a large one, all with levers to touch."""
-    sizes, levers = ((390, 844), (844, 390), (1280, 720)), ("lever steering", "lever brake", "lever throttle")
-    context = chromium.new_context(viewport={"width": sizes[0][0], "height": sizes[0][1]}, has_touch=True)
+@pytest.mark.parametrize("sizes", [[(1280, 720)], [(390, 844), (844, 390)]], ids=["screen", "telephone"])
+def test_everything_fits_on_the_screen_and_nothing_lies_on_another(
+    chromium: Any, lane_change: Recording, sizes: list[tuple[int, int]]
+) -> None:
+    """A telephone has levers to touch, and is turned."""
+    levers = [f"lever {name}" for name in ("steering", "brake", "throttle")]
+    context = chromium.new_context(viewport={"width": sizes[0][0], "height": sizes[0][1]}, has_touch=len(sizes) > 1)
     program = Program(context.new_page(), lane_change, world=WORLD)
     program.open()
     for turned, (width, height) in enumerate(sizes):
         program.page.set_viewport_size({"width": width, "height": height})
         shown(program, 2.0 + turned)
         boxes = program.page.evaluate(_BOXES, [*PARTS, *levers])
-        assert set(boxes) == {*PARTS, *levers}
+        assert set(boxes) == {*PARTS, *(levers if len(sizes) > 1 else ())}
         for name, (left, top, right, bottom) in boxes.items():
             assert min(left, top) >= 0, name
             assert right <= width + 0.5, name
@@ -242,7 +245,7 @@ def _open_page(chromium: Any, lane_change: Recording) -> Iterator[Program]:
 
 
 @pytest.fixture
-def shared(_open_page: Program) -> Iterator[Program]:
+def reused(_open_page: Program) -> Iterator[Program]:
     _open_page.heard.clear()
     _open_page.values = {}
     _open_page.epoch += 1
@@ -254,44 +257,44 @@ def shared(_open_page: Program) -> Iterator[Program]:
 class TestOnePage:
     """Tests that leave the page as it was share one, each with an epoch of its own; it is closed before others open."""
 
-    def test_instruments_show_the_numbers_of_the_frame(self, shared: Program, lane_change: Recording) -> None:
-        shared.values = {"used.throttle": 0.25, "used.brake": 0.5, "used.selector": 1.0}
-        assert not shared.page.locator('[data-a3="step time"]').is_visible()
-        shared.page.keyboard.press("k")
-        shown(shared, 5.0, RUNNING, cost=1e-3, worst=1.5e-3, missed=7)
-        assert int(shared.text("speed")) == round(3.6 * at(lane_change, "speed", 5.0))
-        assert shared.text("gear") == f"gear {at(lane_change, 'gear', 5.0):.0f}"
+    def test_instruments_show_the_numbers_of_the_frame(self, reused: Program, lane_change: Recording) -> None:
+        reused.values = {"used.throttle": 0.25, "used.brake": 0.5, "used.selector": 1.0}
+        assert not reused.page.locator('[data-a3="step time"]').is_visible()
+        reused.page.keyboard.press("k")
+        shown(reused, 5.0, RUNNING, cost=1e-3, worst=1.5e-3, missed=7)
+        assert int(reused.text("speed")) == round(3.6 * at(lane_change, "speed", 5.0))
+        assert reused.text("gear") == f"gear {at(lane_change, 'gear', 5.0):.0f}"
         rpm = 30 / np.pi * at(lane_change, "engine_speed", 5.0)
-        assert shared.text("revolutions") == f"{rpm:.0f} rpm"
+        assert reused.text("revolutions") == f"{rpm:.0f} rpm"
         value = "name => player.cockpit.instruments.cluster._pedals.find(p => p.column === `used.${name}`).gauge.value"
-        assert shared.page.evaluate(value, "throttle") == 0.25
-        assert shared.page.evaluate(value, "brake") == 0.5
-        assert shared.ask("player.cockpit.timing._bar.value") == pytest.approx(0.5)
-        assert "missed 7" in shared.text("missed")
-        assert "1.00 ms of 2.00 ms" in shared.text("step time")
+        assert reused.page.evaluate(value, "throttle") == 0.25
+        assert reused.page.evaluate(value, "brake") == 0.5
+        assert reused.ask("player.cockpit.timing._bar.value") == pytest.approx(0.5)
+        assert "missed 7" in reused.text("missed")
+        assert "1.00 ms of 2.00 ms" in reused.text("step time")
         wheels = ["FL", "FR", "RL", "RR"]
         forces = {w: [at(lane_change, f"wheel_{w}.{c}", 5.0) for c in ("Fx", "Fy", "Fz")] for w in wheels}
-        uses = shared.ask("player.cockpit.instruments.tyres.uses")
+        uses = reused.ask("player.cockpit.instruments.tyres.uses")
         for w, (fx, fy, fz) in forces.items():
             assert uses[f"wheel_{w}"] == pytest.approx(np.hypot(fx, fy) / fz, rel=0.02)
         radii = [
             float(r)
-            for r in shared.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
+            for r in reused.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
         ]
         loads = np.array([forces[w][2] for w in wheels])
-        message = shared.ask("[...document.querySelectorAll('.a3-tyres text')].map(t => t.textContent)")
+        message = reused.ask("[...document.querySelectorAll('.a3-tyres text')].map(t => t.textContent)")
         assert message[::2] == [f"{forces[w][2] / 1e3:.1f} kN" for w in wheels]
         slips = [100 * at(lane_change, f"wheel_{w}.slip", 5.0) for w in wheels]
         assert [float(word.split()[0]) for word in message[1::2]] == pytest.approx(slips, abs=0.51)
         assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
 
-    def test_an_arrow_of_a_tyre_points_where_the_force_does(self, shared: Program) -> None:
+    def test_an_arrow_of_a_tyre_points_where_the_force_does(self, reused: Program) -> None:
         names = ("Fx", "Fy", "steer")
-        shared.values = {f"wheel_{w}.{c}": 0.0 for w in ("FL", "FR", "RL", "RR") for c in names}
-        shared.values |= {f"wheel_{w}.Fz": 2000.0 for w in ("FL", "FR", "RL", "RR")}
-        shared.values |= {"wheel_FL.Fy": 1500.0, "wheel_RR.Fx": -1500.0}  # to the left; braked
-        shown(shared, 1.0)
-        paths = shared.ask("[...document.querySelectorAll('.a3-tyres path:last-of-type')].length && "
+        reused.values = {f"wheel_{w}.{c}": 0.0 for w in ("FL", "FR", "RL", "RR") for c in names}
+        reused.values |= {f"wheel_{w}.Fz": 2000.0 for w in ("FL", "FR", "RL", "RR")}
+        reused.values |= {"wheel_FL.Fy": 1500.0, "wheel_RR.Fx": -1500.0}  # to the left; braked
+        shown(reused, 1.0)
+        paths = reused.ask("[...document.querySelectorAll('.a3-tyres path:last-of-type')].length && "
                             "player.cockpit.instruments.tyres._items.map(i => i.arrow.getAttribute('d'))")  # fmt: skip
         assert paths[1] == paths[2] == ""
         ends = {k: [float(x) for x in paths[k].split("L")[1].split("M")[0].split()] for k in (0, 3)}
@@ -301,52 +304,52 @@ class TestOnePage:
         assert ends[3][1] > begins[3][1] + 8  # down is backwards
         assert ends[3][0] == pytest.approx(begins[3][0], abs=0.11)
 
-    def test_keys_and_buttons_are_commands(self, shared: Program) -> None:
-        shown(shared, 3.0, RUNNING, saved=12.5)
-        keyboard = shared.page.keyboard
+    def test_keys_and_buttons_are_commands(self, reused: Program) -> None:
+        shown(reused, 3.0, RUNNING, saved=12.5)
+        keyboard = reused.page.keyboard
         for key in ("p", ".", "Backspace", "Shift+Backspace", "u", "Home", "l"):
             keyboard.press(key)
-        click = lambda what: shared.page.locator(f'[data-a3="{what}"]').first.click()  # noqa: E731
+        click = lambda what: reused.page.locator(f'[data-a3="{what}"]').first.click()  # noqa: E731
         click("rewind")
-        shared.page.locator('[data-a3="timeline"]').evaluate(
+        reused.page.locator('[data-a3="timeline"]').evaluate(
             "slider => { slider.value = slider.max - 7.5;"
             " for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
         )
-        shared.page.locator('[data-a3="place"]').select_option("hill_20")
-        shared.until_heard({"type": "place", "name": "hill_20"})
+        reused.page.locator('[data-a3="place"]').select_option("hill_20")
+        reused.until_heard({"type": "place", "name": "hill_20"})
         names = ["pause", "step", "rewind", "rewind", "upright", "reset", "speed", "rewind", "rewind"]
         values = [0, 1, 2, 10, 0, 0, 0.25, 2, 7.5]
-        assert shared.commands() == list(zip(names, values, strict=True))
-        assert shared.ask("['max', 'min'].map(end => Number(document.querySelector('.a3-slide')[end]))") == [3, -9.5]
+        assert reused.commands() == list(zip(names, values, strict=True))
+        assert reused.ask("['max', 'min'].map(end => Number(document.querySelector('.a3-slide')[end]))") == [3, -9.5]
         keyboard.press("h")
-        assert shared.page.locator('[data-a3="help list"]').is_visible()
+        assert reused.page.locator('[data-a3="help list"]').is_visible()
         keyboard.press("h")
-        assert not shared.page.locator('[data-a3="help list"]').is_visible()
+        assert not reused.page.locator('[data-a3="help list"]').is_visible()
 
-    def test_the_map_shows_the_car_its_trail_and_places(self, shared: Program, lane_change: Recording) -> None:
+    def test_the_map_shows_the_car_its_trail_and_places(self, reused: Program, lane_change: Recording) -> None:
         for time in np.arange(0.0, 3.0, 0.2):  # each drawn: frames in real time pass a page that has no processor
-            shown(shared, time)
-        shared.page.keyboard.press("5")
-        shown(shared, 3.0)
-        pixels = picture_of_simulator(shared.page)
+            shown(reused, time)
+        reused.page.keyboard.press("5")
+        shown(reused, 3.0)
+        pixels = picture_of_simulator(reused.page)
         where = [at(lane_change, f"chassis.{c}", 3.0) for c in "xy"]
-        x, y = shared.page.evaluate("point => player.cockpit.map.pixel(point)", where)
+        x, y = reused.page.evaluate("point => player.cockpit.map.pixel(point)", where)
         assert np.allclose(pixels[int(y), int(x)], [229, 53, 43], atol=30)  # the car
         assert x > 320  # it went along x, which is to the right
         past = [at(lane_change, f"chassis.{c}", 0.8) for c in "xy"]
-        x, y = shared.page.evaluate("point => player.cockpit.map.pixel(point)", past)
+        x, y = reused.page.evaluate("point => player.cockpit.map.pixel(point)", past)
         near = pixels[int(y) - 2 : int(y) + 3, int(x) - 2 : int(x) + 3].reshape(-1, 3)
         assert (np.abs(near - [255, 210, 63]).sum(axis=1) < 90).any()  # its trail
-        x, y = shared.page.evaluate("() => player.cockpit.map.pixel([120, 80])")
+        x, y = reused.page.evaluate("() => player.cockpit.map.pixel([120, 80])")
         assert np.allclose(pixels[int(y), int(x)], 255, atol=8)  # a place
-        shared.page.mouse.click(x, y)
-        shared.until_heard({"type": "place", "name": "hill_20"})
-        shared.page.keyboard.press("1")
+        reused.page.mouse.click(x, y)
+        reused.until_heard({"type": "place", "name": "hill_20"})
+        reused.page.keyboard.press("1")
 
-    def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, shared: Program) -> None:
+    def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, reused: Program) -> None:
         """Pictures of the small map while the car goes 127 m, against those whose ground is drawn for each."""
-        shown(shared, 3.0)  # the small map is there
-        result, apart = shared.ask("""(() => {
+        shown(reused, 3.0)  # the small map is there
+        result, apart = reused.ask("""(() => {
           const map = player.cockpit.instruments.inset;
           const { plan } = map;
           const { scenery } = plan;
@@ -376,22 +379,22 @@ class TestOnePage:
         assert apart < 0.01
 
     @pytest.mark.slow
-    def test_a_report_is_drawn(self, shared: Program) -> None:
-        shown(shared, 1.0)
-        shared.page.keyboard.press("g")
-        shared.until_heard({"type": "report"})
-        shared.until_heard({"type": "watch devices", "on": True})
+    def test_a_report_is_drawn(self, reused: Program) -> None:
+        shown(reused, 1.0)
+        reused.page.keyboard.press("g")
+        reused.until_heard({"type": "report"})
+        reused.until_heard({"type": "watch devices", "on": True})
         bins = REPORT["cost"]["bins"]
-        shared.say(REPORT)
-        shared.page.wait_for_selector('[data-a3="histogram"] rect')
-        bars = shared.ask(
+        reused.say(REPORT)
+        reused.page.wait_for_selector('[data-a3="histogram"] rect')
+        bars = reused.ask(
             "[...document.querySelectorAll('[data-a3=\"histogram\"] rect')].map(r => r.getAttribute('fill'))"
         )
         assert len(bars) == len(bins)
         assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
-        assert "0.06 · 0.2 · 0.9 · 4 ms" in shared.text("report")
-        assert "the step ran 1 · other programs ran 0 · the processor stood still 1" in shared.text("report")
-        message, tops = shared.ask("""() => {
+        assert "0.06 · 0.2 · 0.9 · 4 ms" in reused.text("report")
+        assert "the step ran 1 · other programs ran 0 · the processor stood still 1" in reused.text("report")
+        message, tops = reused.ask("""() => {
           const all = name => [...document.querySelectorAll(`[data-a3="histogram"] ${name}`)];
           const number = (part, name) => Number(part.getAttribute(name));
           const texts = all("text").map(t => [t.textContent, number(t, "x"), number(t, "y")]);
@@ -402,4 +405,4 @@ class TestOnePage:
         for (_, count), top in zip(bins, tops, strict=True):  # both axes by powers of ten
             assert top == pytest.approx(marks["1"] + np.log10(count) / 3 * (marks["1k"] - marks["1"]), abs=0.01)
         assert {"100 µs", "1 ms", "cost of a step; the step of 2 ms is dashed"} <= {text for text, *_ in message}
-        shared.page.keyboard.press("g")
+        reused.page.keyboard.press("g")

@@ -5,13 +5,14 @@ import struct
 import time
 
 HEADER = "<4I10d"
+PATIENCE = 60.0  # s, of a machine that does much else
 
 
 def frames(page, count):
     """The next frames, each acknowledged."""
     results = []
     while len(results) < count:
-        data = page.recv(timeout=10)
+        data = page.recv(timeout=PATIENCE)
         if isinstance(data, bytes):
             results.append(data)
             page.send(json.dumps({"type": "seen", "count": struct.unpack_from(HEADER, data)[4]}))
@@ -20,9 +21,9 @@ def frames(page, count):
 
 def texts(page, kind):
     """The next text of a kind; frames are acknowledged."""
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline:
-        data = page.recv(timeout=10)
+        data = page.recv(timeout=PATIENCE)
         if isinstance(data, bytes):
             page.send(json.dumps({"type": "seen", "count": struct.unpack_from(HEADER, data)[4]}))
         elif (message := json.loads(data))["type"] == kind:
@@ -31,7 +32,7 @@ def texts(page, kind):
 
 
 def until(condition):
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + PATIENCE
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.01)
@@ -39,4 +40,4 @@ def until(condition):
 
 def read_to_the_end(page):
     while True:
-        page.recv(timeout=10)
+        page.recv(timeout=PATIENCE)

@@ -31,6 +31,7 @@ class FakeCar:
 
     def __init__(self, count: int = 5) -> None:
         self.wanted: dict[str, tuple[float, float]] = {}
+        self.wishes: list[dict[str, tuple[float, float]]] = []
         self.orders: list[Any] = []
         self.told: list[Any] = []
         self.running = True
@@ -39,6 +40,7 @@ class FakeCar:
 
     def want(self, values: Any) -> None:
         self.wanted.update(values)
+        self.wishes.append(dict(values))
 
     def command(self, name: str, value: float = 0.0) -> None:
         if name == "speed" and not 0.05 <= value <= 1.0:

@@ -1,10 +1,8 @@
 """The rows of a car reach its recording, whatever the writing thread does."""
 
 import json
-import math
 import shutil
 import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -19,26 +17,11 @@ from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.recording import Recorder
 from hosts.recordings.replay import Repeater, replay
 from hosts.simulator.car import Car, CarSettings
-
-PATIENCE = 60.0
-AT_ONCE = math.inf
+from tests.hosts.simulator.test_car import AT_ONCE, PATIENCE, steps, until
 
 
 def settings(fmu: Path, folder: Path, **others: Any) -> CarSettings:
     return CarSettings(fmu, {"initial.speed": 10.0}, record=folder, **({"paced": False, "priority": False} | others))
-
-
-def until(reached: Callable[[], bool]) -> None:
-    end = time.perf_counter() + PATIENCE
-    while not reached():
-        assert time.perf_counter() < end
-        time.sleep(0.002)
-
-
-def steps(car: Car, count: int) -> None:
-    goal = car.latest().count + count
-    car.command("step", count)
-    until(lambda: car.latest().count >= goal)
 
 
 def counts(folder: Path) -> list[tuple[int, int]]:
@@ -164,7 +147,7 @@ def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
     with Car(settings(fmu("sledge"), tmp_path / "drive", paced=True)) as car:
         steps(car, 200)
         stall.set()
-        until(lambda: car._mail is not None and car._shared.rows.has_room())
+        until(car, lambda _: car._mail is not None and car._shared.rows.has_room())
         lost = [e for e in car.events() if e.kind == "overflow"]
     lost += [e for e in car.events() if e.kind == "overflow"]
     number = int(lost[-1].text.split()[0])

@@ -148,7 +148,7 @@ def test_a_driver_at_random_and_a_manoeuvre_move_the_inputs_by_the_clock_of_the_
         until(lambda: car.latest().epoch == 1)
         assert run_headless(car, headless_driver(car, manoeuvre, None), 0.8, lambda *_: None)
         moment = car.latest()
-        assert (moment.count, moment.running) == (160, False)
+        assert (moment.count, moment.running) == (20 + 160, False)
         assert value(car, "throttle") == pytest.approx(0.8, abs=0.1)  # it is read some milliseconds before its step
         assert value(car, "speed") > 0.0
         assert value(car, "steering") == 0.0

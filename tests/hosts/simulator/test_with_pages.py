@@ -23,7 +23,8 @@ from viewer import bundle
 
 ROOT = Path(__file__).parents[3]
 STEP = 0.005
-HOSTILE_SECONDS = 3.0
+HOSTILE_STEPS = 300
+PATIENCE = 60.0  # s, of a machine that does much else
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C of another process is sent by a signal")
 
 
@@ -58,7 +59,7 @@ class Program:
         """Ctrl-C; the exit code."""
         self.process.send_signal(signal.SIGINT)
         self.lines.extend(self.process.stdout)  # communicate() would pass over lines that are read ahead
-        return self.process.wait(timeout=30)
+        return self.process.wait(timeout=PATIENCE)
 
     @property
     def said(self):
@@ -82,13 +83,13 @@ class Page:
 
     def __init__(self, connection):
         self.connection = connection
-        self.hello = json.loads(connection.recv(timeout=10))
+        self.hello = json.loads(connection.recv(timeout=PATIENCE))
         self.texts = []
         self.next()
 
     def next(self):
         """Read until the next frame."""
-        while isinstance(data := self.connection.recv(timeout=10), str):
+        while isinstance(data := self.connection.recv(timeout=PATIENCE), str):
             self.texts.append(json.loads(data))
         head = struct.unpack_from("<4I10d", data)
         self.epoch, self.flags, self.count, self.time = head[1], head[2], head[4], head[5]
@@ -100,7 +101,7 @@ class Page:
         self.connection.send(json.dumps({"type": kind, **content}))
 
     def until(self, condition):
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + PATIENCE
         while not condition(self):
             assert time.monotonic() < deadline
             self.next()
@@ -144,7 +145,7 @@ def test_a_drive_from_a_page_and_the_report_at_ctrl_c(sledge, tmp_path):
     assert set(report["seconds since the start"]) == {"prepared", "ready", "first frame"}
 
 
-def hostile(port, url, until, faults):
+def hostile(port, url, enough, faults):
     """Everything at once, again and again."""
     rng = np.random.default_rng(1)
     with ExitStack() as opened:
@@ -152,7 +153,7 @@ def hostile(port, url, until, faults):
             opened.enter_context(RawClient.silent(port))
         deaf = opened.enter_context(RawClient(port, f"/drive?{url.partition('?')[2]}"))  # reads nothing
         deaf.send(json.dumps({"type": "want", "source": "keys", "values": {"brake": [1.0, None]}}))
-        while time.monotonic() < until:
+        while not enough.is_set():
             with suppress(WebSocketException, EOFError, OSError), connect(url, close_timeout=1) as one:
                 attack(one, rng, int(rng.integers(5)))
             with suppress(OSError):
@@ -181,21 +182,19 @@ def attack(page, rng, kind):
 def test_hostile_clients_do_not_stop_the_car(sledge):
     with program(sledge, "--port", 0, "--step", STEP) as running:
         with connect(running.url) as connection:
-            page, faults = Page(connection), []
+            page, enough, faults = Page(connection), threading.Event(), []
             page.until(lambda p: p.count > 20)
-            first, begin = page.count, time.monotonic()
-            until = begin + HOSTILE_SECONDS
-            attackers = [
-                threading.Thread(target=hostile, args=(running.port, running.url, until, faults)) for _ in range(2)
-            ]
+            first, rest = page.count, (running.port, running.url, enough, faults)
+            attackers = [threading.Thread(target=hostile, args=rest) for _ in range(2)]
             for attacker in attackers:
                 attacker.start()
-            page.until(lambda p: time.monotonic() > until)
-            steps = page.count - first
-            for attacker in attackers:
-                attacker.join(30)
+            try:
+                page.until(lambda p: p.count > first + HOSTILE_STEPS and len(faults) > 20)
+            finally:
+                enough.set()
+                for attacker in attackers:
+                    attacker.join(PATIENCE)
             page.until(lambda p: p.flags & 1)
-            assert steps > 0.5 * HOSTILE_SECONDS / STEP
             assert set(faults) == {403}
             page.say("want", source="keys", values={"throttle": [1.0, None], "brake": [0.0, None]})
             page.until(lambda p: p.values["throttle"] == 1.0)
@@ -213,7 +212,7 @@ def test_a_car_that_dies_ends_the_command_with_a_sentence_and_the_report(sledge)
         below = psutil.Process(running.process.pid).children(recursive=True)
         car = [process for process in below if "ali3.worker" in " ".join(process.cmdline())][-1]  # below its guard
         car.kill()
-        out = running.process.communicate(timeout=30)[0]
+        out = running.process.communicate(timeout=PATIENCE)[0]
     assert running.process.returncode == 1
     assert re.search(r"error: The car.s process was killed \(SIGKILL\)[^,]*, by a user", out)
     assert "simulated in " in out

@@ -79,7 +79,7 @@ class Haptics:
 
     def on_UpdateEffect(self, number: int, effect: Any) -> int:
         if self.hang is not None:
-            self.hang.wait(10.0)
+            self.hang.wait(60.0)
         copy = self._copy(effect)
         assert copy["type"] == self.effects[number]["type"]
         self.effects[number] = copy

