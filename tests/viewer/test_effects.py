@@ -189,12 +189,6 @@ def test_an_engine_is_heard_at_its_firings(drawn):
     assert 0.01 < np.abs(samples).max() < 0.99
 
 
-def test_a_motor_whines_at_eight_waves_a_revolution(drawn):
-    numbers = {"motor_speed": 200.0, "motor_torque": 150.0}
-    samples = heard(drawn, numbers, ["motor_speed", "motor_torque"], **{"drive.max_torque": 210.0})
-    assert peak(samples) == pytest.approx(8.0 * 200.0 / (2.0 * np.pi), abs=2.0)
-
-
 def test_a_jump_of_the_throttle_makes_no_click(drawn):
     """No sample differs from the one before by more than the loudest steady tone makes it."""
     low, high = ({"engine_speed": 300.0, "speed": 0.0, "used.throttle": value} for value in (0.0, 1.0))

@@ -227,14 +227,6 @@ def test_slow_motion(tmp_path):
     assert np.arctan2(actual[1, 0], actual[0, 0]) == pytest.approx(40.0 * 0.025, abs=1e-5)
 
 
-def test_up_is_y_and_trimesh_reads_the_shapes(corner):
-    scene = trimesh.load_scene(corner)
-    assert len(scene.geometry) > 10
-    low, high = scene.bounds
-    assert low[1] == pytest.approx(0.0, abs=0.1)
-    assert 1.4 < high[1] < 1.7
-
-
 @pytest.mark.parametrize(
     ("kind", "up"), [("flat", [0, 1, 0]), ("plane", [0, 0, 1]), ("profile", [0, 0, 1]), ("grid", [0, 1, 0])]
 )

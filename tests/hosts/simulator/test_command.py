@@ -75,6 +75,7 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without asking it")
+@pytest.mark.slow
 def test_a_run_without_a_page_that_is_ended_ends_with_its_report(fmus, tmp_path):
     command = [sys.executable, "-m", "ali3", "simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
     command += ["--step", "0.005", "--record", str(tmp_path / "drive")]
@@ -313,6 +314,7 @@ def test_files_that_are_no_fmu_and_an_fmu_of_fmi_3(told, scene_fmu, tmp_path):
 def test_without_an_fmu_one_is_built_and_kept(fmus, told, tmp_path, monkeypatch):
     """The build itself is tested elsewhere; here it takes an FMU that is there."""
     monkeypatch.setattr(built_fmu, "cache_folder", lambda *parts: tmp_path.joinpath("cache", *parts))
+    monkeypatch.setattr("hosts.simulator.preparation.DEFAULT_WORLD", "plane")
     monkeypatch.chdir(tmp_path)
     built = []
 

@@ -12,6 +12,8 @@ from tests.hosts.simulator.devices.virtual import until
 from tests.in_browser import bundle_or_skip, headless_chromium
 from viewer import bundle
 
+pytestmark = pytest.mark.slow  # a browser
+
 WHEEL = "device Wheel"
 _MAKE = """() => {
   window.panel = new ALi3Viewer.CalibrationPanel({ send: (message) => window.toHost(message) });
@@ -162,7 +164,6 @@ def test_a_calibration_is_guided_by_texts_and_stored(panel, start, wheel):
     assert panel.mapping("brake")["low"] == pytest.approx(-0.47, abs=1e-3)
 
 
-@pytest.mark.slow
 def test_the_force_is_set_and_tested(panel, start, wheel, monkeypatch):
     haptics = Haptics().install(monkeypatch)
     panel.run = start(lambda: None)
@@ -181,7 +182,6 @@ def test_the_force_is_set_and_tested(panel, start, wheel, monkeypatch):
     panel.until(lambda: panel.run.only()["settings"]["force_inverted"])
 
 
-@pytest.mark.slow
 def test_a_field_that_is_typed_into_is_left_alone(panel, start, wheel):
     panel.run = start()
     panel.show()
