@@ -189,6 +189,20 @@ def test_an_engine_is_heard_at_its_firings(drawn):
     assert 0.01 < np.abs(samples).max() < 0.99
 
 
+def test_a_motor_and_the_squeal_of_tyres_are_heard(drawn):
+    """Eight waves a revolution; a band that is louder where a tyre slips."""
+    numbers = {"motor_speed": 200.0, "motor_torque": 150.0}
+    samples = heard(drawn, numbers, ["motor_speed", "motor_torque"], **{"drive.max_torque": 210.0})
+    assert peak(samples) == pytest.approx(8.0 * 200.0 / (2.0 * np.pi), abs=2.0)
+    columns, levels = ["speed", "wheel.slip", "wheel.slip_angle", "wheel.Fz"], []
+    for slip in (0.15, 0.5):
+        numbers = {"speed": 15.0, "wheel.slip": slip, "wheel.slip_angle": 0.0, "wheel.Fz": 2500.0}
+        samples = heard(drawn, numbers, columns, 0.6)[RATE // 4 :]
+        frequency = np.fft.rfftfreq(len(samples), 1 / RATE)
+        levels.append(np.abs(np.fft.rfft(samples))[(frequency > 700) & (frequency < 1200)].mean())
+    assert levels[1] > 1.44 * levels[0]
+
+
 def test_a_jump_of_the_throttle_makes_no_click(drawn):
     """No sample differs from the one before by more than the loudest steady tone makes it."""
     low, high = ({"engine_speed": 300.0, "speed": 0.0, "used.throttle": value} for value in (0.0, 1.0))
