@@ -62,6 +62,11 @@ class DrawnPage:
     def project(self, point: Any) -> tuple[float, float]:
         return tuple(self._page.evaluate("point => view.project(point)", [float(x) for x in point]))
 
+    def project_all(self, points: Any) -> list[list[float]]:
+        """Pixels of many points, asked for at once."""
+        listed = [[float(x) for x in point] for point in points]
+        return list(self._page.evaluate("points => points.map(point => view.project(point))", listed))
+
 
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:

@@ -163,7 +163,7 @@ def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opene
     }""")
     page.seek(4.0)
     picture = page.picture().astype(float)
-    for k in range(5, len(T) - 5, 3):
+    for k in range(5, len(T) - 5, 6):
         x, y = page.place([float(far.columns[f"body.{axis}"][k]) for axis in "xy"] + [0.0])
         red, _, blue = np.moveaxis(picture[y - 1 : y + 2, x - 1 : x + 2], 2, 0)
         assert (red - blue).max() > 60, (k, x, y)

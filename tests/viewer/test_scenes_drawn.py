@@ -67,7 +67,7 @@ def test_bodies_are_drawn_where_they_are(drawn, recorded, name):
     for k in (0, INSTANTS // 3, INSTANTS - 1):
         drawn.update(rows[k])
         seen = magenta(drawn.picture())
-        places = np.array([drawn.project(point[k]) for point in points])
+        places = np.array(drawn.project_all(point[k] for point in points))
         assert (places >= 0).all()
         assert (places < [320, 180]).all()
         for x, y in places.astype(int):
