@@ -138,7 +138,8 @@ def test_a_thin_beam_that_bends_is_drawn_without_gaps_in_a_draft(drawn):
     _is_a_line(drawn, np.abs(with_it - drawn.picture()).max(axis=2) > 12, ends)
 
 
-def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car):
+@pytest.mark.parametrize("quality", ["draft", "medium"])
+def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car, quality):
     def darkness(lift, away=0.0):
         numbers = {}
         for frame in car["frames"].values():
@@ -154,9 +155,10 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
         under, beside = (np.round(drawn.project([x - away, y + a, 0.0])).astype(int) for a in (-0.35, -2.5))
         return 1.0 - picture[under[1], under[0]] / picture[beside[1], beside[0]]
 
-    drawn.show(car, camera="top", quality="draft")
+    drawn.show(car, camera="top", quality=quality)
     drawn.ask("view.parts.group.visible = false")
-    drawn.ask("view.world.children.find((part) => part.isBatchedMesh).material.visible = false")
+    if quality == "draft":
+        drawn.ask("view.world.children.find((part) => part.isBatchedMesh).material.visible = false")
     standing, flying = darkness(0.0), darkness(2.5)
     assert 0.15 < standing < 0.8
     assert flying < 0.5 * standing

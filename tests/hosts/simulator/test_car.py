@@ -165,11 +165,7 @@ def test_jumps_raise_the_epoch_and_are_reported(make: Made) -> None:
     car.restart({"initial.x": 25.0})
     assert until(car, lambda m: m.epoch == 4).values[car.names.index("chassis.x")] == 25.0
     assert "initial.x = 25" in said(car, "reset").text
-
-
-def test_what_is_wanted_before_a_reset_is_forgotten_and_after_it_is_not(make: Made) -> None:
-    car = make()
-    car.want({"throttle": (1.0, AT_ONCE)})
+    car.want({"throttle": (1.0, AT_ONCE)})  # before a reset: forgotten by it
     car.command("reset")
     car.want({"brake": (0.5, AT_ONCE)})
     assert steps(car, 1).values[:3].tolist() == [0.0, 0.0, 0.5]

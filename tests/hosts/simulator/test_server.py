@@ -17,7 +17,7 @@ from websockets.sync.client import connect
 from hosts.common.errors import HostError
 from hosts.simulator import connected_page, web
 from tests.hosts.simulator.pages import HEADER, frames, read_to_the_end, texts, until
-from tests.hosts.simulator.raw_client import RawClient, request
+from tests.hosts.simulator.raw_client import request
 from tests.hosts.simulator.served import PLACES, WORLD, serving
 
 
@@ -36,18 +36,6 @@ def test_a_page_gets_its_description_first_and_then_frames_of_all_numbers(served
     assert numbers == [0.5, 12.5, 1e-4, 2e-4, 3e-4, 2.0, 0.004, 30.0]
     assert len(data) == 96 + 8 * n
     assert np.frombuffer(data, "<f8", offset=96).tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
-
-
-def test_the_same_by_a_client_of_raw_bytes(served):
-    with RawClient(served.port, f"/drive{served.key}") as page:
-        assert json.loads(page.receive())["type"] == "hello"
-        first = page.receive()
-        assert struct.unpack_from("<I", first) == (0x31463341,)
-        page.send(json.dumps({"type": "want", "source": "keys", "values": {"throttle": [0.7, 2.5]}}))
-        page.send(json.dumps({"type": "report"}))
-        while not isinstance(answer := page.receive(), str):
-            pass
-        assert json.loads(answer) == {"type": "report", "steps": 11, "median": 1e-4}
 
 
 def test_a_page_that_acknowledges_nothing_gets_two_frames_and_the_newest_when_it_wakes(served):
