@@ -84,7 +84,7 @@ def bundle_or_skip() -> Path:
         pytest.skip(str(error))
 
 
-def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 30.0) -> Any:
+def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 120.0) -> Any:
     """The value of an expression, or of a function of `arg`, once it is true.
 
     Parameters
@@ -100,7 +100,7 @@ def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 30.
     return wait_for(page, lambda: _evaluated(page, expression, arg), expression, timeout)
 
 
-def wait_for(page: Any, holds: Callable[[], Any], what: object, timeout: float = 30.0) -> Any:
+def wait_for(page: Any, holds: Callable[[], Any], what: object, timeout: float = 120.0) -> Any:
     """What a function gives, once it is true; `what` it waits for is said where that is not within `timeout` s."""
     end = time.monotonic() + timeout
     while not (value := holds()):

@@ -115,7 +115,6 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
     keyboard.down("Space")
     opened.until("player.get('used.hand_brake') === 1 && player.get('used.steering') === 0")
     keyboard.up("Space")
-    assert opened.get("chassis.yaw")[0] > 0.0  # to the left
     wait_text(opened.page, "cluster", "km/h")
     wait_text(opened.page, "pace", "real time (×")
     keyboard.press("k")
@@ -126,6 +125,7 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
     opened.ask("player.advance(10)")
     assert opened.get("selector", "used.selector") == [-1.0, -1.0]
     table = opened.ask("player.csv()")
+    assert np.unwrap(columns(table)["chassis.yaw"])[-1] > 0.0  # to the left, however long it took
     rates = np.abs(np.diff(columns(table)["throttle"])) / STEP
     assert 0.0 < rates.max() < 5.0 + 1e-6  # pedals move, they do not jump
     assert_same_bits(live_car, table, tmp_path)
