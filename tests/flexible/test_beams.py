@@ -218,11 +218,3 @@ def test_energies_of_rigid_motions_and_constant_strains_are_exact() -> None:
     force = uneven.finite_element_model().K @ u
     np.testing.assert_allclose(force[[0, 24]], STEEL.E * TUBE.area * 1e-4 * np.array([-1, 1]), rtol=ROUND_OFF)
     assert np.abs(np.delete(force, [0, 24])).max() < 1e-9 * abs(force[0])
-
-
-def test_mass_normalised_modes_are_orthogonal() -> None:
-    model = portal().finite_element_model()
-    hertz, V = natural_modes(model, 16)
-    M, K = model.mass_matrix(), model.K
-    np.testing.assert_allclose(V[:, 6:].T @ (M @ V[:, 6:]), np.eye(10), atol=1e-8)
-    np.testing.assert_allclose(V[:, 6:].T @ (K @ V[:, 6:]) / (2 * np.pi * hertz[6:]) ** 2, np.eye(10), atol=1e-7)

@@ -7,17 +7,9 @@ from mbs import Affine, LinearisationWarning, Model, Simulation, compile, linear
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.road import PlaneRoad
 from mbs.elements.tyre import Tyre, TyreCurve
-from tests.simulation.scenes import GRAVITY, LENGTH, MASS, pendulum, two_masses
+from tests.simulation.scenes import GRAVITY, LENGTH, MASS, two_masses
 
 RELATIVE = 1e-6
-
-
-def test_a_hanging_pendulum_swings_at_the_root_of_g_over_l():
-    model = linearise(Simulation(pendulum(hanging=True)))
-    assert model.degrees_of_freedom == 1
-    (mode,) = model.oscillating_modes()
-    assert mode.frequency_hz == pytest.approx(np.sqrt(GRAVITY / LENGTH) / (2 * np.pi), rel=RELATIVE)
-    assert mode.damping_ratio == pytest.approx(0.0, abs=RELATIVE)
 
 
 def test_an_upright_pendulum_falls_at_the_same_rate():
@@ -79,9 +71,9 @@ def conical_pendulum(angle):
     return Simulation(compile(m)), rate
 
 
-@pytest.mark.parametrize("angle", [0.2, 0.7, 1.3])
-def test_a_conical_pendulum_swings_about_its_steady_rotation(angle):
+def test_a_conical_pendulum_swings_about_its_steady_rotation():
     """W sqrt(1 + 3 cos^2), seen in the plane that turns with it."""
+    angle = 0.7
     simulation, rate = conical_pendulum(angle)
     model = linearise(simulation)
     (mode,) = model.oscillating_modes()

@@ -60,15 +60,6 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     assert run.accuracy.error == pytest.approx(gaps.max(), rel=0.1)
 
 
-def test_a_fourth_refined_run_decides_what_three_leave_open() -> None:
-    """By a third one, with an eighth of the step, this car is 4.8 % off, and it is 5.1 %."""
-    with pytest.warns(mbs.AccuracyWarning):
-        run = random_cars.drive(_stream(31, 27)).run(h=0.02)
-    assert run.accuracy is not None
-    assert run.accuracy.compared_step == 0.02 / 16
-    assert run.accuracy.error == pytest.approx(0.0508, rel=0.06)
-
-
 def _stream(seed: int, number: int) -> np.random.Generator:
     """Of a car of `benchmarks.honesty random`, after the number that makes it a car."""
     rng = np.random.default_rng([seed, number])

@@ -7,8 +7,8 @@ import pytest
 
 import mbs
 from mbs.results import poses as poses_module
-from mbs.scenes import bicycle, flyball, pendulum, prototype_car, puma, spatial_chain
-from mbs.system.drawing import matrices, twist
+from mbs.scenes import bicycle, pendulum, spatial_chain
+from mbs.system.drawing import matrices
 
 
 def swinging(dimension: int = 3) -> mbs.Model:
@@ -67,17 +67,6 @@ def test_a_particle_has_a_place_only():
     np.testing.assert_array_equal(run.poses.quaternion("bob"), np.tile([1.0, 0.0, 0.0, 0.0], (len(run.t), 1)))
 
 
-def test_the_hand_of_the_puma():
-    model = puma.build()
-    run = mbs.Simulation(mbs.compile(model)).run(0.5, 0.005)
-    R, p = puma.frames(puma.START_DEG)[-1]
-    hand, last = p + R @ puma.HAND_POINT, model.bodies[-1]
-    poses = run.poses
-    actual = poses.position(last.name) + matrices(poses.quaternion(last.name)) @ (hand - last.com)
-    expected = np.column_stack([run[f"hand.position.{c}"] for c in "xyz"])
-    np.testing.assert_allclose(actual, expected, atol=1e-9)
-
-
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive_4", "radau_5"])
 def test_every_method_records_where_the_bodies_are(method):
     system = mbs.compile(spatial_chain.build(3))
@@ -110,13 +99,6 @@ def test_the_turning_of_the_carrier_is_taken_off_the_angle_of_a_wheel():
     m.initial_rate(wheel, 5.0)
     run = mbs.simulate(mbs.compile(m), 4.0, 0.002)
     np.testing.assert_allclose(run.poses["wheel.angle"], (5.0 - 2.0) * run.t, atol=2e-5)
-
-
-def test_twist_of_a_body_that_turns_about_a_fixed_axis():
-    axis, angle = np.array([0.6, 0.0, 0.8]), np.linspace(0.0, 25.0, 200)
-    quaternions = np.column_stack([np.cos(0.5 * angle), np.outer(np.sin(0.5 * angle), axis)])
-    np.testing.assert_allclose(twist(quaternions, axis), angle, atol=1e-12)
-    np.testing.assert_allclose(twist(quaternions, [0.0, 1.0, 0.0]), 0.0, atol=1e-12)
 
 
 def test_runs_with_a_tolerance_and_at_given_times():
@@ -170,25 +152,6 @@ def test_a_failed_run_has_poses_until_it_failed():
     assert 100 < len(run.t) < 1000
     np.testing.assert_array_equal(run.poses.t, run.t)
     assert np.isfinite(run.poses["rod.x"]).all()
-
-
-def test_a_continued_run_begins_where_the_first_ended():
-    simulation = mbs.Simulation(mbs.compile(flyball.build()))
-    first, second = simulation.run(0.05, 0.001), simulation.run(0.1, 0.001)
-    for name in first.poses:
-        assert first.poses[name][-1] == pytest.approx(second.poses[name][0], abs=1e-12)
-
-
-@pytest.mark.slow
-def test_a_system_from_a_file_has_poses_and_scene(tmp_path):
-    system = mbs.compile(prototype_car.build())
-    system.save(tmp_path / "car.ali3")
-    loaded = mbs.System.load(tmp_path / "car.ali3")
-    assert loaded.scene == system.scene
-    runs = [mbs.Simulation(s).run(0.1, 0.005) for s in (system, loaded)]
-    assert list(runs[0].poses) == list(runs[1].poses)
-    for name in runs[0].poses:
-        np.testing.assert_array_equal(runs[0].poses[name], runs[1].poses[name])
 
 
 def test_a_system_without_a_drawing_is_refused():
