@@ -93,9 +93,9 @@ def _road(road: Road) -> tuple[int, int, ctypes.Array[ctypes.c_double]]:
     return road.type, *_ROADS[id(road)][1:]
 
 
-def _ints(values: ArrayLike) -> ctypes.Array[ctypes.c_int32]:
-    flat = [int(v) for v in np.ravel(np.asarray(values, int))]
-    return (ctypes.c_int32 * max(1, len(flat)))(*flat)
+@lru_cache(maxsize=64)
+def _ints(values: tuple[int, ...]) -> ctypes.Array[ctypes.c_int32]:
+    return (ctypes.c_int32 * max(1, len(values)))(*values)
 
 
 def signals(n: int) -> tuple[Affine, ...]:
@@ -132,7 +132,7 @@ class Element:
         e = self.element
         counts = (len(e.signals), len(e.real), len(e.integer), len(e.states), len(e.outputs))
         self.sizes = _ints(counts)
-        assert library().harness_sizes_match(int(e.type), self.sizes, _ints(e.integer)), (
+        assert library().harness_sizes_match(int(e.type), self.sizes, _ints(tuple(e.integer))), (
             f"sizes {counts} of {e.type} are not those of the kernel"
         )
         assert self.check() is None, self.check()
@@ -141,7 +141,7 @@ class Element:
         """The kernel's sentence about the data, None if they are good."""
         e = self.element
         n = self.n_inputs if n_inputs is None else n_inputs
-        text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(e.integer), n, n_roads)
+        text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(tuple(e.integer)), n, n_roads)
         return None if text is None else text.decode()
 
     def with_reals(self, change: Mapping[int | str, float]) -> Element:
@@ -156,7 +156,7 @@ class Element:
     def conservative(self) -> bool:
         """Whether the kernel says that forces of this element take no energy."""
         e = self.element
-        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real), _ints(e.integer)))
+        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real), _ints(tuple(e.integer))))
 
     @property
     def has_discrete(self) -> bool:
@@ -166,7 +166,7 @@ class Element:
     def start(self, u: ArrayLike, raised: float = 0.0) -> tuple[float, float] | None:
         """Excess and rise of the element's verdict on a start; None: it has none."""
         e, out = self.element, (ctypes.c_double * 2)()
-        numbers = (_doubles(u), ctypes.c_double(raised), _doubles(e.real), _ints(e.integer))
+        numbers = (_doubles(u), ctypes.c_double(raised), _doubles(e.real), _ints(tuple(e.integer)))
         has = library().harness_start(int(e.type), self.sizes, *numbers, *_road(self.road), out)
         return (out[0], out[1]) if has else None
 
@@ -201,7 +201,7 @@ class Element:
             _in_c(y_new),
             *(ctypes.c_double(v) for v in (h, wC, wK, reach)),
             _constants(tuple(e.real)),
-            _ints(e.integer),
+            _ints(tuple(e.integer)),
             _in_c(input_values),
             *_road(self.road),
             *(_in_c(part) for part in (f, S, out)),
