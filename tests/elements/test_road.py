@@ -30,7 +30,7 @@ def test_plane_contact_is_the_lowest_point_of_the_disc_on_the_plane() -> None:
     assert c["point"][2] == pytest.approx(0.1 + 0.08 * c["point"][0] - 0.05 * c["point"][1], abs=ROUND_OFF)
     assert (c["point"] - centre) @ axis == pytest.approx(0.0, abs=ROUND_OFF)
     assert np.allclose(c["normal"], n, atol=ROUND_OFF)
-    lowest = min(rim(centre, axis, RADIUS - c["penetration"]), key=lambda p: float(n @ p))
+    lowest = min(rim(centre, axis, RADIUS - c["penetration"], 60001), key=lambda p: float(n @ p))
     assert np.allclose(lowest, c["point"], atol=1e-5)
     assert c["friction"] == 0.7
 

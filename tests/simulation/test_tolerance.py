@@ -337,14 +337,6 @@ def test_runs_of_the_longest_steps_only_still_tell_an_error(method: str) -> None
     assert 0.0 < error <= 10.0 * run.control.error
 
 
-def test_a_model_at_rest_has_no_error_to_report() -> None:
-    m = mbs.Model("rest", dimension=2, gravity=(0.0, 0.0))
-    m.sense_position("x", m.body("block", mass=1.0, com=(0.0, 0.0), inertia=0.1), (0.0, 0.0), "x")
-    run = mbs.simulate(mbs.compile(m), 1.0, tolerance=1e-3)
-    assert run.control is not None
-    assert run.control.error < 1e-12
-
-
 @pytest.mark.parametrize(
     ("method", "reason"), [("radau_5", "no element states"), ("semi_recursive", "needs a System of")]
 )
