@@ -40,7 +40,7 @@ def at_depths(element: Element, lean: float, speed: float, aside: float, spin: f
     radius = element.element.real[0]
     axis = np.array([0.0, np.cos(lean), np.sin(lean)])
     height = abs(np.cos(lean)) if abs(np.cos(lean)) > 0.5 else 0.25 * (1.0 + 4.0 * np.cos(lean) ** 2)
-    depths = np.linspace(0.01, 2.0, 25) * radius
+    depths = np.linspace(0.01, 2.0, 15) * radius
     rows = []
     for depth in depths:
         u, y = np.r_[0.0, 0.0, (radius - depth) * height, axis, 0.0], None

@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from mbs.flexible.beam_interpolation import bending_functions, section_motion
+from mbs.flexible.beam_interpolation import bending_functions
 from mbs.flexible.beam_mass import beam_mass_points
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
@@ -122,18 +122,6 @@ def test_interpolation_solves_the_unloaded_beam() -> None:
         v, rotation = bending_functions(xi, L, phi)
         assert v @ pure == pytest.approx((xi * L) ** 2 / 2, rel=ROUND_OFF)
         assert rotation @ pure == pytest.approx(xi * L, rel=ROUND_OFF)
-
-
-def test_interpolation_carries_rigid_motions() -> None:
-    L = 0.7
-    for xi in (0.0, 0.3, 1.0):
-        N = section_motion(xi, L, 0.5, 0.2)
-        for axis in range(3):
-            spin = np.eye(3)[axis]
-            ends = np.concatenate([np.zeros(3), spin, np.cross(spin, [L, 0, 0]), spin])
-            np.testing.assert_allclose(N @ ends, np.concatenate([np.cross(spin, [xi * L, 0, 0]), spin]), atol=1e-14)
-            ends = np.tile(np.concatenate([spin, np.zeros(3)]), 2)
-            np.testing.assert_allclose(N @ ends, np.concatenate([spin, np.zeros(3)]), atol=1e-14)
 
 
 def test_gauss_points_give_the_consistent_mass_matrix_of_the_textbook() -> None:

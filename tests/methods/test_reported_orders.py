@@ -36,6 +36,11 @@ def case(name):
     return mechanism, compile(mechanism.model)
 
 
+@cache
+def car():
+    return compile(prototype_car.build())
+
+
 def sensed(run, names):
     return np.column_stack([run[n] for n in names])
 
@@ -83,7 +88,7 @@ def test_forces_do_not_depend_on_who_looked_when(method):
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
 def test_newtons_law_closes_on_the_car_at_4_ms(method):
     """M qdd + Phi_q' lam = Q at the reported state, in newtons; with extrapolated values it was open by 660."""
-    system = compile(prototype_car.build())
+    system = car()
     simulation = Simulation(system, settings=Settings(method=method), inputs={"throttle": 0.5})
     ptr, col = system.arrays["row_ptr"], system.arrays["row_col"]
     for k in range(61):

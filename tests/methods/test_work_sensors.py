@@ -64,14 +64,6 @@ def motor_model():
     return compile(m)
 
 
-@pytest.mark.parametrize("method", ["ali3p_no_projection", "energy_momentum_4", "runge_kutta_8", "semi_recursive"])
-def test_a_motor_of_constant_torque_gives_torque_times_angle(method):
-    run = simulate(motor_model(), 1.0, 0.01, {"torque": 4.0}, method=method, **QUIET)
-    assert run["angle"][-1] == pytest.approx(4.0, rel=2e-3)  # 4 N m on 0.5 kg m2 for a second
-    assert run["work"] == pytest.approx(4.0 * run["angle"], rel=1e-9, abs=1e-12)
-    assert run["energy"] - run["energy"][0] == pytest.approx(run["work"], rel=4e-3, abs=4e-3)
-
-
 def test_another_method_continues_with_the_last_force():
     """The torque is 8 N m from the start of the first step of the trapezoidal rule."""
     simulation = Simulation(motor_model(), settings=Settings(method="radau_5"))

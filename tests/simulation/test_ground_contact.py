@@ -175,12 +175,6 @@ def test_energy_only_falls_in_a_tumble():
     assert r["energy"][-1] < r["energy"][0] - 300.0
 
 
-def test_methods_without_states_refuse():
-    for method in ("radau_5", "runge_kutta_8", "energy_momentum_4"):
-        with pytest.raises(mbs.SimulationError, match="takes no element states"):
-            run(block(PlaneRoad()), 0.1, 0.001, method=method)
-
-
 def test_vocabulary_refuses_by_name():
     m = mbs.Model("plane", dimension=2)
     body = m.body("b", mass=1.0, com=(0.0, 0.0), inertia=1.0)

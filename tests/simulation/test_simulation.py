@@ -141,12 +141,6 @@ class TestInputs:
         # the trapezoidal rule weighs start and end of each step alike, so a linear force gives the exact velocity
         np.testing.assert_allclose(run["v"], 5.0 * run.t**2 / MASS, rtol=0.0, atol=ROUND_OFF)
 
-    def test_a_jump_starts_with_the_step_after_it(self):
-        run = simulate(free_mass(), 1.0, 0.1, {"push x": ([0.0, 0.5, 0.5, 1.0], [0.0, 0.0, 1.0, 1.0])})
-        assert run["push"].tolist() == [0.0] * 6 + [1.0] * 5
-        assert run["v"][5] == 0.0
-        assert run["v"][6] > 0.0
-
     def test_inputs_without_a_signal_stay_as_set_also_after_a_restore(self):
         simulation = Simulation(free_mass(), inputs={"push x": 4.0})
         state = simulation.save()
