@@ -67,9 +67,13 @@ def library() -> ctypes.CDLL:
     return compiled(KERNEL / "elements" / "road.c")
 
 
+def _in_c(array: Array) -> ctypes.Array[ctypes.c_double]:
+    """The memory of an array of doubles that is not empty."""
+    return (ctypes.c_double * array.size).from_buffer(array)
+
+
 def _doubles(values: ArrayLike) -> ctypes.Array[ctypes.c_double]:
-    flat = np.ravel(np.asarray(values, float))
-    return (ctypes.c_double * max(1, len(flat)))(*flat)
+    return _in_c(np.array(values, float) if np.size(values) else np.zeros(1))
 
 
 @lru_cache(maxsize=64)
@@ -78,9 +82,20 @@ def _constants(values: tuple[float, ...]) -> ctypes.Array[ctypes.c_double]:
     return _doubles(values)
 
 
-def _ints(values: ArrayLike) -> ctypes.Array[ctypes.c_int32]:
-    flat = [int(v) for v in np.ravel(np.asarray(values, int))]
-    return (ctypes.c_int32 * max(1, len(flat)))(*flat)
+_ROADS: dict[int, tuple[Road, int, ctypes.Array[ctypes.c_double]]] = {}
+
+
+def _road(road: Road) -> tuple[int, int, ctypes.Array[ctypes.c_double]]:
+    """Type, count and numbers of a road, which is kept so that no other one has its identity."""
+    if id(road) not in _ROADS:
+        real = road.real
+        _ROADS[id(road)] = road, len(real), _doubles(real)
+    return road.type, *_ROADS[id(road)][1:]
+
+
+@lru_cache(maxsize=64)
+def _ints(values: tuple[int, ...]) -> ctypes.Array[ctypes.c_int32]:
+    return (ctypes.c_int32 * max(1, len(values)))(*values)
 
 
 def signals(n: int) -> tuple[Affine, ...]:
@@ -117,7 +132,7 @@ class Element:
         e = self.element
         counts = (len(e.signals), len(e.real), len(e.integer), len(e.states), len(e.outputs))
         self.sizes = _ints(counts)
-        assert library().harness_sizes_match(int(e.type), self.sizes, _ints(e.integer)), (
+        assert library().harness_sizes_match(int(e.type), self.sizes, _ints(tuple(e.integer))), (
             f"sizes {counts} of {e.type} are not those of the kernel"
         )
         assert self.check() is None, self.check()
@@ -126,7 +141,7 @@ class Element:
         """The kernel's sentence about the data, None if they are good."""
         e = self.element
         n = self.n_inputs if n_inputs is None else n_inputs
-        text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(e.integer), n, n_roads)
+        text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(tuple(e.integer)), n, n_roads)
         return None if text is None else text.decode()
 
     def with_reals(self, change: Mapping[int | str, float]) -> Element:
@@ -141,7 +156,7 @@ class Element:
     def conservative(self) -> bool:
         """Whether the kernel says that forces of this element take no energy."""
         e = self.element
-        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real), _ints(e.integer)))
+        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real), _ints(tuple(e.integer))))
 
     @property
     def has_discrete(self) -> bool:
@@ -150,9 +165,9 @@ class Element:
 
     def start(self, u: ArrayLike, raised: float = 0.0) -> tuple[float, float] | None:
         """Excess and rise of the element's verdict on a start; None: it has none."""
-        e, out, road = self.element, (ctypes.c_double * 2)(), self.road.real
-        numbers = (_doubles(u), ctypes.c_double(raised), _doubles(e.real), _ints(e.integer))
-        has = library().harness_start(int(e.type), self.sizes, *numbers, self.road.type, len(road), _doubles(road), out)
+        e, out = self.element, (ctypes.c_double * 2)()
+        numbers = (_doubles(u), ctypes.c_double(raised), _doubles(e.real), _ints(tuple(e.integer)))
+        has = library().harness_start(int(e.type), self.sizes, *numbers, *_road(self.road), out)
         return (out[0], out[1]) if has else None
 
     def __call__(
@@ -173,8 +188,8 @@ class Element:
         assert np.size(u) == n == np.size(ud)
         input_values = np.zeros(self.n_inputs)
         input_values[: np.size(inputs)] = inputs
-        y_new, f, S, out = (_doubles(np.full(max(1, k), np.nan)) for k in (len(e.states), n, n * n, len(e.outputs)))
-        real = self.road.real
+        made = [np.full(max(1, k), np.nan) for k in (len(e.states), n, n * n, len(e.outputs))]
+        y_new, f, S, out = made
         potential = library().harness_evaluate(
             int(e.type),
             int(accept),
@@ -183,25 +198,17 @@ class Element:
             _doubles(u),
             _doubles(ud),
             _doubles(e.states if y is None else y),
-            y_new,
+            _in_c(y_new),
             *(ctypes.c_double(v) for v in (h, wC, wK, reach)),
             _constants(tuple(e.real)),
-            _ints(e.integer),
-            _doubles(input_values),
-            self.road.type,
-            len(real),
-            _constants(tuple(real)),
-            f,
-            S,
-            out,
+            _ints(tuple(e.integer)),
+            _in_c(input_values),
+            *_road(self.road),
+            *(_in_c(part) for part in (f, S, out)),
         )
         names = [o.name for o in e.outputs]
         return Result(
-            np.array(f),
-            np.array(S).reshape(n, n),
-            np.array(y_new)[: len(e.states)],
-            dict(zip(names, out, strict=False)),
-            potential,
+            f, S.reshape(n, n), y_new[: len(e.states)], dict(zip(names, out.tolist(), strict=False)), potential
         )
 
 
@@ -231,12 +238,10 @@ def tangent_by_differences(
 
 def contacts(road: Road, centre: ArrayLike, axis: ArrayLike, radius: float) -> list[dict[str, Array]]:
     """Contacts of a disc with a road."""
-    out = (ctypes.c_double * 24)()
-    real = road.real
-    count = library().harness_contacts(
-        road.type, len(real), _doubles(real), _doubles(centre), _doubles(axis), ctypes.c_double(radius), out
-    )
-    values = np.array(out).reshape(2, 12)[:count]
+    out = np.zeros(24)
+    disc = _doubles(centre), _doubles(axis), ctypes.c_double(radius)
+    count = library().harness_contacts(*_road(road), *disc, _in_c(out))
+    values = out.reshape(2, 12)[:count]
     return [
         {"penetration": v[0], "point": v[1:4], "normal": v[4:7], "down": v[7:10], "cosine": v[10], "friction": v[11]}
         for v in values

@@ -83,14 +83,13 @@ def test_power_at_the_wheels_is_never_more_than_the_engine_gives() -> None:
             assert out["engine_torque"] * out["engine_speed"] <= 50e3 + 1e-6
 
 
-@pytest.mark.slow
 def test_torque_falls_with_speed_and_the_tangent_is_its_derivative() -> None:
     h = 0.01
     for throttle in (0.0, 0.3, 1.0):
         for gear in (1, 3):
             element = drive_element(gear=gear)
             last = None
-            for W in np.linspace(-5.0, 70.0, 76) + 0.013:
+            for W in np.linspace(-5.0, 70.0, 26) + 0.013:
                 u, ud = drive_signals(W, W + 1.0)
                 r = element(u, ud, None, h, 0.5 * h, 0.0, [throttle])
                 assert last is None or r.out["wheel_torque"] <= last + 1e-9
@@ -125,20 +124,13 @@ def test_gears_go_up_and_down_once_each_and_the_torque_has_no_jump() -> None:
     assert sorted(set(down)) == [1.0, 2.0, 3.0]
 
 
-def test_shift_is_continuous_in_time() -> None:
-    fine, torques = course(drive_element(), lambda t: 52.0, 1.0, 1.0, 0.0005)
-    assert set(fine) == {1.0, 2.0}
-    assert np.max(np.abs(np.diff(torques))) < 0.01 * np.max(torques)
-
-
-@pytest.mark.slow
 def test_gears_do_not_hunt() -> None:
     element = drive_element()
-    for throttle in (0.0, 0.5, 1.0):
-        for W in np.linspace(5.0, 140.0, 28):
-            gears, _ = course(element, lambda t, W=W: W + 0.2 * np.sin(20.0 * t), throttle, 6.0, 0.05)
+    for throttle in (0.0, 1.0):
+        for W in np.linspace(5.0, 140.0, 10):
+            gears, _ = course(element, lambda t, W=W: W + 0.2 * np.sin(20.0 * t), throttle, 4.0, 0.05)
             assert len(np.flatnonzero(np.diff(gears))) <= 2  # from first to third at most
-    gears, _ = course(element, lambda t: 40.0 + 30.0 * np.sign(np.sin(30.0 * t)), 0.0, 5.0)
+    gears, _ = course(element, lambda t: 40.0 + 30.0 * np.sign(np.sin(30.0 * t)), 0.0, 3.0)
     changes = np.flatnonzero(np.diff(gears)) * 0.01
     assert len(changes) > 2
     assert np.min(np.diff(changes)) >= DRIVE.dwell - 0.011  # even then not faster than the dwell time
@@ -191,12 +183,6 @@ def test_bad_drives_are_refused_with_a_sentence(change: dict[str, object], sente
         replace(DRIVE, **change).record("D", left[0], right[0], f, g, 0)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="gear of the drive 'D' is 4"):
         DRIVE.record("D", left[0], right[0], f, g, 0, gear=4)
-
-
-def test_kernel_checks_the_drive() -> None:
-    element = drive_element()
-    element.element = replace(element.element, integer=(0, 4))
-    assert "sizes do not fit" in (element.check() or "")
 
 
 def selected(selector: float, speed: float, throttle: float, drive: AutomaticDrive = DRIVE) -> Element:
@@ -283,24 +269,6 @@ def test_drive_engages_in_the_gear_that_fits_not_in_that_of_the_past() -> None:
     assert np.array_equal(y[[0, 1, 4]], [1.0, 1.0, 1.0])
 
 
-def test_moving_to_reverse_at_walking_speed_fades_through_zero() -> None:
-    element, h = selected(1.0, 3.0, 0.2), 0.01
-    y, torques = np.array(element.element.states), []
-    for _ in range(100):
-        r = element(*drive_signals(3.0, 3.0), y, h, inputs=[0.2, -1.0], accept=True)
-        y = r.y
-        torques.append(r.out["wheel_torque"])
-    assert torques[0] > 0.0 > torques[-1]
-    assert np.all(np.diff(torques) <= 0.0)
-    assert r.out["gear"] == -1.0
-
-
-def test_bad_selectors_are_refused() -> None:
-    left, right, f, g = vectors(1, 1, 3, 3)
-    with pytest.raises(ValueError, match="selector of the drive 'D' is -2"):
-        DRIVE.record("D", left[0], right[0], f, g, 0, selector=-2)
-
-
 def asked(gear: float, W: float, h: float, steps: int, y: np.ndarray) -> tuple[np.ndarray, list[float], Result]:
     left, right, f, g = vectors(1, 1, 3, 3)
     element = Element(DRIVE.record("drive", left[0], right[0], f, g, 0, 1, 1, 2), n_inputs=3)
@@ -316,7 +284,7 @@ def test_a_requested_gear_is_engaged_after_the_shift_time_for_any_step() -> None
     begin, W = np.array([1.0, 1.0, 1e3, 0.0, 1.0, 1.0]), 12.0
     third = drive_element(gear=3)(*drive_signals(W, W), inputs=[0.6]).out["wheel_torque"]
     middle = []
-    for h in (0.02, 0.001):
+    for h in (0.02, 0.005):
         y, torques, r = asked(3.0, W, h, round(0.4 / h), begin)
         assert r.out["gear"] == 3.0
         assert torques[-1] == pytest.approx(third, rel=1e-12)
@@ -359,16 +327,6 @@ def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None
     assert slipped > 40
     with pytest.raises(ValueError, match="has a clutch and no selector"):
         DRIVE.record("D", left[0], right[0], f, g, 0, clutch=1)
-
-
-def test_powers_on_the_wheels_are_torque_times_relative_speed() -> None:
-    rng = np.random.default_rng(3)
-    R, omega = frame(rng), rng.normal(size=3)
-    r = drive_element()(*(signals := drive_signals(20.0, 35.0, omega, R)), inputs=[0.7])
-    turned, torque = omega @ R[:, 2], r.out["wheel_torque"]
-    assert r.out["left_power"] == pytest.approx(torque * (20.0 - turned), rel=1e-12)
-    assert r.out["right_power"] == pytest.approx(torque * (35.0 - turned), rel=1e-12)
-    assert r.out["left_power"] + r.out["right_power"] == pytest.approx(r.f @ signals[1], rel=1e-12)
 
 
 def test_a_request_needs_a_selector_and_an_input() -> None:

@@ -1,16 +1,14 @@
 """Wheels deep in the road: loads grow with the depth, no force changes its sign, the deflection is reported."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
-from mbs.vehicle import load
-from mbs.vehicle.read_car import car_names
 from tests.elements.harness import Element
-from tests.elements.test_magic_tyre import FILES, element_of, tyre_file
+from tests.elements.test_magic_tyre import FILES, OWN, element_of, tyre_file
+from tests.elements.tyre_data import tyre_element
 
 FLAT = np.zeros((9, 9))
 ROADS = {
@@ -31,15 +29,10 @@ def softening(element: Element) -> Element:
 
 @cache
 def tyres() -> dict[str, Element]:
-    results = {}
-    for name in car_names():
-        for e in load(name).model().elements:
-            if e.name in ("tyre FL", "tyre RL"):
-                results[f"{name}, {e.name}"] = Element(replace(e, integer=(0, *e.integer[1:])))
-    for file in FILES:
+    results = {"TMeasy": tyre_element()}
+    for file in (OWN[0], OWN[1], FILES[-1]):
         results[file.name] = element_of(tyre_file(file).tyre())
-        results[f"{file.name}, softening"] = softening(element_of(tyre_file(file).tyre()))
-    return results
+    return results | {f"{OWN[0].name}, softening": softening(element_of(tyre_file(OWN[0]).tyre()))}
 
 
 def at_depths(element: Element, lean: float, speed: float, aside: float, spin: float):
@@ -47,7 +40,7 @@ def at_depths(element: Element, lean: float, speed: float, aside: float, spin: f
     radius = element.element.real[0]
     axis = np.array([0.0, np.cos(lean), np.sin(lean)])
     height = abs(np.cos(lean)) if abs(np.cos(lean)) > 0.5 else 0.25 * (1.0 + 4.0 * np.cos(lean) ** 2)
-    depths = np.linspace(0.01, 2.0, 25) * radius
+    depths = np.linspace(0.01, 2.0, 15) * radius
     rows = []
     for depth in depths:
         u, y = np.r_[0.0, 0.0, (radius - depth) * height, axis, 0.0], None
@@ -58,9 +51,8 @@ def at_depths(element: Element, lean: float, speed: float, aside: float, spin: f
     return depths, {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    ("road", "lean"), [("plane", lean) for lean in (0.0, 0.5, 1.3, np.pi / 2.0)] + [(road, 0.5) for road in ROADS][1:]
+    ("road", "lean"), [("plane", lean) for lean in (0.0, 1.3, np.pi / 2.0)] + [(road, 0.5) for road in ROADS][1:]
 )
 def test_load_grows_and_forces_keep_their_sign(road: str, lean: float) -> None:
     count = 0
@@ -76,4 +68,4 @@ def test_load_grows_and_forces_keep_their_sign(road: str, lean: float) -> None:
                 signs = np.sign(out[force][np.abs(out[force]) > STILL * load])
                 assert np.ptp(signs) == 0.0 if len(signs) else True, (name, force, speed, spin)
                 count += len(signs) > 0
-    assert count > 30
+    assert count > 12

@@ -75,8 +75,9 @@ def test_a_smooth_road_converges_by_the_third_power_of_the_spacing() -> None:
     assert np.all((orders > 2.8) & (orders < 3.3))
 
 
-@pytest.mark.parametrize("camber", [0.0, 0.1])
-@pytest.mark.parametrize(("height", "spacing"), [(0.12, 0.02), (0.12, 0.1), (0.12, 0.2), (0.05, 0.05), (-0.1, 0.05)])
+@pytest.mark.parametrize(
+    ("height", "spacing", "camber"), [(0.12, 0.02, 0.1), (0.12, 0.2, 0.1), (0.05, 0.05, 0.0), (-0.1, 0.05, 0.1)]
+)
 def test_the_depth_is_that_of_a_dense_search(height: float, spacing: float, camber: float) -> None:
     """To 0.25 mm, by which the smooth maximum of two equal depths is larger."""
     road, rng = face(height, spacing), np.random.default_rng(1)
@@ -114,9 +115,7 @@ def peak(x: Array, profile: Array, begin: float, end: float) -> float:
     return most
 
 
-@pytest.mark.parametrize(
-    ("height", "spacing"), [(0.05, 0.02), (0.05, 0.05), (0.05, 0.1), (0.03, 0.2), (0.02, 0.05), (0.02, 0.25)]
-)
+@pytest.mark.parametrize(("height", "spacing"), [(0.05, 0.02), (0.03, 0.2), (0.02, 0.05)])
 def test_peak_loads_are_those_of_a_dense_search(height: float, spacing: float) -> None:
     run = mbs.simulate(quarter_car(face(height, spacing)), (FOOT + 1.5) / SPEED, 0.0005, progress=False)
     x = np.arange(FOOT - 1.0, FOOT + 2.0, 1e-3)

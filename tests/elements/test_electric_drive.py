@@ -85,29 +85,19 @@ def test_every_power_is_that_of_the_one_before_times_an_efficiency(w: float, thr
         assert out["electric_power"] == pytest.approx(shaft * DRIVE.efficiency, rel=1e-12)
 
 
-def test_gears_and_motor_never_give_power() -> None:
-    for w in np.linspace(-8.0, 8.0, 161):
-        for throttle in (0.0, 0.3, 1.0):
-            out = at(w, throttle)
-            shaft, wheels = out["motor_torque"] * w, 2.0 * out["wheel_torque"] * w / DRIVE.ratio
-            assert wheels <= shaft + 1e-12
-            assert shaft <= out["electric_power"] + 1e-12
-
-
 def settled(element: Element, W: float, throttle: float, selector: float) -> Array:
     """States after a start with the selector there."""
     return element(*drive_signals(W, W), inputs=[throttle, selector], accept=True).y
 
 
-@pytest.mark.parametrize("selector", [None, 1.0, -1.0])
-@pytest.mark.parametrize("throttle", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize(("selector", "throttle"), [(None, 0.0), (None, 1.0), (1.0, 0.3), (-1.0, 1.0)])
 def test_the_tangent_is_the_derivative_where_torque_falls(selector: float | None, throttle: float) -> None:
     element = drive_element(selector=selector is not None)
     inputs = [throttle, selector or 0.0]
     y = None if selector is None else settled(element, 0.0, throttle, selector)
     fell = 0
-    near = np.add.outer(np.concatenate([EDGES, -EDGES]) / DRIVE.ratio, np.linspace(-1.5, 1.5, 7)).ravel()
-    for W in np.concatenate([np.linspace(-125.0, 125.0, 71), near]) + 0.0131:
+    near = np.add.outer(np.concatenate([EDGES, -EDGES]) / DRIVE.ratio, np.linspace(-1.5, 1.5, 4)).ravel()
+    for W in np.concatenate([np.linspace(-125.0, 125.0, 21), near]) + 0.0131:
         u, ud = drive_signals(W, W + 0.2)
         r = element(u, ud, y, H, 0.5 * H, 0.0, inputs)
         expected = tangent_by_differences(element, u, ud, y, H, 0.5 * H, 0.0, inputs)
@@ -116,7 +106,7 @@ def test_the_tangent_is_the_derivative_where_torque_falls(selector: float | None
             fell += 1
         else:
             assert not r.S.any()
-    assert fell > 5
+    assert fell > 3
 
 
 def course(element: Element, speed: float, selector: list[float], throttle: float = 1.0, h: float = H) -> list[Result]:
@@ -144,14 +134,6 @@ def test_reverse_is_forwards_seen_from_behind_with_its_own_limits() -> None:
     assert course(half, -1.06 * DRIVE.reverse_speed / DRIVE.ratio, [-1.0])[0].out["motor_torque"] == 0.0
 
 
-def test_neutral_gives_no_torque() -> None:
-    for speed in (-30.0, 0.0, 30.0):
-        for throttle in (0.0, 1.0):
-            r = course(drive_element(selector=True), speed, [0.0], throttle)[0]
-            assert not r.f.any()
-            assert r.out["gear"] == 0.0
-
-
 @pytest.mark.parametrize("selector", [-1.0, 0.0, 1.0])
 def test_a_start_is_in_the_selected_direction_at_once_unless_the_car_rolls_against_it(selector: float) -> None:
     for speed in (-30.0, -7.9, 0.0, 7.9, 30.0):
@@ -162,7 +144,7 @@ def test_a_start_is_in_the_selected_direction_at_once_unless_the_car_rolls_again
 
 def test_torque_goes_through_zero_between_directions_without_a_jump_and_at_any_step() -> None:
     switched = []
-    for h in (0.02, 0.01, 0.001):
+    for h in (0.02, 0.01, 0.002):
         n = round(1.0 / h)
         results = course(drive_element(selector=True), 3.0, [1.0] * (n // 10) + [-1.0] * n, h=h)
         torques = np.array([DRIVE.max_torque] + [r.out["motor_torque"] for r in results])

@@ -1,13 +1,10 @@
 """Declarations of elements (element.h, ElementRecord) agree with their behaviour."""
 
-import importlib
-
 import numpy as np
 import pytest
 
 from mbs.elements import Drag, EndStops, KerbRoad, PlaneRoad, ScalarSpringDamper, SpringDamper
-from mbs.kernel.header.enumerations import ElementType
-from tests.elements.harness import KERNEL, Element, signals, vectors
+from tests.elements.harness import Element, signals, vectors
 from tests.elements.test_generic import elements
 from tests.elements.tyre_data import TYRE, tyre_element, upright
 
@@ -77,20 +74,6 @@ def test_an_element_without_a_tangent_declares_it(name: str) -> None:
     assert (most > 0.0) is element.element.tangent
 
 
-def test_springs_are_elastic() -> None:
-    assert springs()["spring"][0].element.elastic
-    assert springs()["scalar spring"][0].element.elastic
-    assert not springs()["drag"][0].element.elastic
-
-
-@pytest.mark.parametrize("kind", ElementType)
-def test_every_type_has_a_file_in_c_and_a_class_in_python(kind: ElementType) -> None:
-    name = kind.name.lower()
-    assert (KERNEL / "elements" / f"{name}.c").is_file()
-    module = importlib.import_module(f"mbs.elements.{name}")
-    assert hasattr(module, name.title().replace("_", ""))
-
-
 def test_the_verdict_of_a_tyre_on_a_start() -> None:
     tyre, radius = tyre_element(), TYRE.radius
     assert tyre.start(upright(2.0 * radius)) == (-radius, 0.0)  # in the air
@@ -112,9 +95,3 @@ def test_the_rise_on_a_slope_and_before_a_kerb_clears_the_road_bit_by_bit() -> N
         assert rise == 0.0
         assert excess == pytest.approx(-TYRE.radius, abs=2e-6)
         assert tyre.start(upright(-0.5, x=0.9), raised - 0.01)[1] > 0.0
-
-
-@pytest.mark.parametrize("name", elements())
-def test_elements_without_a_road_have_no_verdict_on_starts(name: str) -> None:
-    element = elements()[name]
-    assert element.start(np.zeros(len(element.element.signals))) is None

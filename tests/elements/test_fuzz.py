@@ -1,4 +1,4 @@
-"""Any finite input gives finite output, and the same input the same bits."""
+"""Any finite input gives finite output."""
 
 import numpy as np
 import pytest
@@ -65,7 +65,7 @@ def awkward(rng: np.random.Generator, n: int | tuple[int, int]) -> np.ndarray:
 def test_finite_in_finite_out(name: str) -> None:
     element, rng = laws()[name], np.random.default_rng(18)
     n, states = len(element.element.signals), len(element.element.states)
-    touched, count = 0, 1500
+    touched, count = 0, 500
     drawn = [awkward(rng, (count, k)) for k in (n, n, states, 4)]
     for i, (u, ud, y, inputs) in enumerate(zip(*drawn, strict=True)):
         if name.startswith("tyre") and i % 2:  # half of them near the road
@@ -85,24 +85,13 @@ def test_finite_in_finite_out(name: str) -> None:
     if name == "spin angle":
         assert touched == 0
     else:
-        assert touched > (150 if "selector" in name else 300)  # half of the positions are neutral
-
-
-@pytest.mark.parametrize("name", list(laws()))
-def test_same_input_same_bits(name: str) -> None:
-    element, rng = laws()[name], np.random.default_rng(19)
-    n, states = len(element.element.signals), len(element.element.states)
-    u, ud, y = rng.normal(size=n), rng.normal(size=n), 0.01 * rng.normal(size=states)
-    a, b = (element(u, ud, y, 0.01, 0.005, 0.000025, [0.5, 0.6]) for _ in range(2))
-    assert np.array_equal(a.f, b.f)
-    assert np.array_equal(a.S, b.S)
-    assert np.array_equal(a.y, b.y)
+        assert touched > (50 if "selector" in name else 100)  # half of the positions are neutral
 
 
 @pytest.mark.parametrize("name", list(ROADS))
 def test_roads_give_unit_normals_everywhere(name: str) -> None:
     rng = np.random.default_rng(20)
-    for _ in range(2000):
+    for _ in range(500):
         axis = rng.choice([rng.normal(), 0.0, 1.0], size=3)
         if not np.any(axis):
             continue

@@ -72,7 +72,7 @@ def test_a_lane_has_the_bits_of_the_element_alone(name: str) -> None:
     rng, element = np.random.default_rng(7), ELEMENTS[name]
     e, differing = element.element, 0
     n, slots = len(e.signals), len(e.states)
-    for draw in range(450):
+    for draw in range(180):
         lanes = [near(rng, element) if draw % 3 else (awkward(rng, n), awkward(rng, n)) for _ in range(WIDTH)]
         u, ud = np.array([lane[0] for lane in lanes]), np.array([lane[1] for lane in lanes])
         y = 1e-2 * rng.choice([0.0, 1.0, 30.0], size=(WIDTH, slots)) * rng.normal(size=(WIDTH, slots))
@@ -86,7 +86,7 @@ def test_a_lane_has_the_bits_of_the_element_alone(name: str) -> None:
             for got, alone_part in zip(result, expected, strict=True):
                 assert got[k, : alone_part.size].tobytes() == alone_part.tobytes(), (draw, k, u[k], ud[k])
         differing += not np.array_equal(*np.hstack([result[0], result[3]]))
-    assert differing > 200
+    assert differing > 80
 
 
 def test_laws_are_those_of_the_list() -> None:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
-from math import atan, cos, hypot, sin, sqrt, tan
+from math import atan, cos, sin, sqrt, tan
 from pathlib import Path
 
 import numpy as np
@@ -96,7 +96,7 @@ def test_forces_are_those_of_the_published_equations(file: Path) -> None:
     """Over slip, slip angle, camber, load up to four times the nominal one, pressure, friction and speed."""
     rng = np.random.default_rng(7)
     f, worst, rows = tyre_file(file), 0.0, []
-    for k in range(250):
+    for k in range(80):
         more = {"pressure": f.nominal_pressure * rng.uniform(0.8, 1.3)} if f.nominal_pressure > 0.0 else {}
         t = f.tyre(**more)
         mu = float(rng.choice([0.4, 1.0, 1.2]))
@@ -124,9 +124,8 @@ def test_forces_are_those_of_the_published_equations(file: Path) -> None:
 
 
 @pytest.mark.parametrize("file", FILES, ids=ids)
-@pytest.mark.parametrize("alpha", [-0.03, 0.04])
-def test_a_tyre_on_the_other_side_is_its_mirror_image(file: Path, alpha: float) -> None:
-    f = tyre_file(file)
+def test_a_tyre_on_the_other_side_is_its_mirror_image(file: Path) -> None:
+    f, alpha = tyre_file(file), 0.04
     own, other = element_of(f.tyre(f.side)), element_of(f.tyre({"left": "right", "right": "left"}[f.side]))
     load, kappa, gamma = f.tyre().nominal_load, 0.02, 0.05
     a, b = (kernel(e, *pose(f.tyre(), load, kappa, s * alpha, s * gamma, 20.0))[0] for e, s in ((own, 1), (other, -1)))
@@ -207,8 +206,7 @@ def pushes(rng: np.random.Generator, t: MagicTyre) -> tuple[np.ndarray, np.ndarr
     ]
 
 
-@pytest.mark.parametrize("file", FILES, ids=ids)
-@pytest.mark.parametrize("h", [0.002, 0.1])
+@pytest.mark.parametrize(("file", "h"), [(OWN[0], 0.002), (OWN[1], 0.1), (FILES[-1], 0.1)])
 def test_sliding_only_takes_energy_where_there_are_no_shifts(file: Path, h: float) -> None:
     """Force times slip velocity plus deflection rate, by directions, limited or not, at rest and at speed."""
     t = tyre_file(file).tyre()
@@ -264,9 +262,8 @@ def test_tangent_at_rest_is_that_of_the_carcass() -> None:
     assert np.max(np.abs(r.S - expected)[:2, :2]) < 2e-3 * np.max(np.abs(expected[:2, :2]))
 
 
-@pytest.mark.parametrize("file", FILES, ids=ids)
-def test_in_the_air_it_has_no_force_and_its_deflection_dies_out(file: Path) -> None:
-    t = tyre_file(file).tyre()
+def test_in_the_air_it_has_no_force_and_its_deflection_dies_out() -> None:
+    t = tyre_file(OWN[0]).tyre()
     element, y = element_of(t), np.r_[0.01, -0.02, 0.0, 0.0]
     u, ud = np.r_[0.0, 0.0, 1.5 * t.radius, 0.0, 1.0, 0.0, 0.0], np.r_[30.0, 1.0, np.zeros(4), 50.0]
     for _ in range(60):
@@ -281,7 +278,7 @@ def test_a_standing_tyre_is_a_spring_that_slides_at_its_friction() -> None:
     element = element_of(t, 0.7)
     u, y, h = np.r_[0.0, 0.0, t.radius - pressed(t, t.nominal_load, 0.0), 0.0, 1.0, 0.0, 0.0], np.zeros(4), 0.005
     forces = []
-    for _ in range(4000):  # 2 cm/s sideways
+    for _ in range(2000):  # 2 cm/s sideways
         r = element(u, np.r_[0.0, 0.02, np.zeros(5)], y, h)
         y = r.y
         forces.append(r.out["lateral_force"])
@@ -302,7 +299,7 @@ def test_forces_do_not_jump_where_the_wheel_stops_or_turns_back() -> None:
     element = element_of(t)
     height = t.radius - pressed(t, t.nominal_load, 0.0)
     last = None
-    for v in np.linspace(0.3, -0.3, 2001):
+    for v in np.linspace(0.1, -0.1, 667):
         ud = np.r_[v, 0.001, np.zeros(4), v / t.radius]
         r = element(np.r_[0.0, 0.0, height, 0.0, 1.0, 0.0, 0.0], ud, np.r_[1e-4, 1e-4, 0.0, 0.0], 0.005)
         assert np.all(np.isfinite(r.f))
@@ -337,16 +334,6 @@ def test_bad_data_are_refused_with_a_sentence() -> None:
     ):
         with pytest.raises(ValueError, match=word):
             element_of(replace(t, **change))  # type: ignore[arg-type]
-
-
-def test_equal_use_of_both_slips_is_less_than_each_alone() -> None:
-    """Combined slip takes side force away, by the weights as by the ellipse."""
-    for file in FILES:
-        t = tyre_file(file).tyre()
-        element = element_of(t)
-        alone, both = (kernel(element, *pose(t, t.nominal_load, k, 0.05, 0.0, 20.0))[0].Fy for k in (1e-9, -0.15))
-        assert abs(both) < 0.95 * abs(alone), file.stem
-        assert hypot(both, 0.0) > 0.0
 
 
 @pytest.mark.parametrize("gamma", [0.0, 0.1])

@@ -9,7 +9,7 @@ import pytest
 
 from mbs import ModelError
 from mbs.common.checks import not_negative, positive
-from mbs.elements import EndStops, KerbRoad, PlaneRoad, SpringDamper, fields_in_c
+from mbs.elements import EndStops, SpringDamper, fields_in_c
 from mbs.elements.element import Element
 from mbs.elements.integers import Of
 from mbs.elements.reals import NotNegative, Pair, Real, declared, each_real, reals_of
@@ -83,14 +83,6 @@ def test_numbers_of_stops_are_those_of_the_spring_that_has_them():
     record = SpringDamper(1.0, stops=stops).record("s", vectors(3)[0])
     actual = dict(zip(record.real_names, record.real, strict=True))
     assert {key: actual[key] for key in declared(EndStops)} == {key: getattr(stops, key) for key in declared(EndStops)}
-
-
-def test_names_of_roads_are_those_of_the_kernel():
-    assert PlaneRoad.real_names == ("height", "grade_x", "grade_y", "friction", "friction_factor")
-    assert PlaneRoad().real == (0.0, 0.0, 0.0, 0.9, 1.0)
-    kerb = KerbRoad(1.0, 0.1, upper="after")
-    assert kerb.real_names == ("position", "lower_height", "step", "side", "friction", "friction_factor")
-    assert kerb.real == (1.0, 0.0, 0.1, -1.0, 0.9, 1.0)
 
 
 def declaring() -> list[type[Element]]:

@@ -88,7 +88,7 @@ def test_turning_dissipates_energy_and_stored_energy_is_returned(name: str) -> N
     y, angle, worst, taken = np.zeros(6), 0.0, 0.0, 0.0
     stored = element(turned(element, 0.0), np.zeros(7), y).potential
     moment = 0.0
-    for k in range(3000):
+    for k in range(1500):
         rate = 0.6 * sin(2.0 * np.pi * k * h)
         angle += rate * h
         ud = np.zeros(7)
@@ -98,7 +98,7 @@ def test_turning_dissipates_energy_and_stored_energy_is_returned(name: str) -> N
         lost = -work - (r.potential - stored)
         worst, taken = min(worst, lost), taken + lost
         moment, stored, y = r.out["aligning_moment"], r.potential, r.y
-    assert taken > 10.0
+    assert taken > 5.0
     assert worst > -2e-3 * taken
 
 
@@ -129,15 +129,6 @@ def test_force_and_moment_share_friction(name: str) -> None:
     assert abs(sticking) > 150.0
     assert forces[-1] < 0.1 * abs(sticking)
     assert all(later <= before * (1.0 + 1e-9) for before, later in pairwise(forces))
-
-
-def test_a_tyre_without_it_has_its_states_and_bits() -> None:
-    plain, bored = tyre_element(TYRE), tyre_element(tmeasy())
-    assert (len(plain.element.states), len(bored.element.states)) == (4, 6)
-    u, ud = upright(0.25), np.array([8.0, 0.4, 0.0, 0.0, 0.0, 0.0, 30.0])
-    for _ in range(20):
-        one, two = plain(u, ud, np.zeros(4), 0.002), bored(u, ud, np.zeros(6), 0.002)
-    assert two.out["lateral_force"] == one.out["lateral_force"]
 
 
 @pytest.mark.parametrize("gamma", [0.0, 0.04, -0.04])

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbs.elements import Brake, GridRoad, InputForce, KerbRoad, PlaneRoad, Road
+from mbs.elements import Brake, InputForce, KerbRoad, Road
 from tests.elements import tmeasy
 from tests.elements.harness import Array, Element, signals, vectors
 from tests.elements.stepper import Part, Stepper
@@ -16,7 +16,7 @@ MASS = 130.0  # kg
 INERTIA = 0.55  # kg m2
 G = 9.81  # m/s2
 R = TYRE.radius
-CREEP = 1e-4  # m in 100 s on a ten per cent slope
+CREEP = 2e-5  # m in 20 s on a ten per cent slope
 
 
 def rolling_rate(speed: float, load: float = MASS * G) -> float:
@@ -105,7 +105,7 @@ def test_rolling_wheel_converges_with_order_two() -> None:
     def course(h: float) -> Array:
         corner = Corner(10.0, push=lambda t: (800.0 * np.sin(6.0 * t) ** 2, 100.0 * np.sin(9.0 * t) ** 2))
         s, rows = corner.motion, []
-        for _ in range(20):
+        for _ in range(10):
             s.run(s.t + 0.02, h)
             rows.append(np.r_[s.q[:2], s.qd[[0, 1, 3]], s.y[0][:2]])
         return np.array(rows)
@@ -119,9 +119,9 @@ def test_rolling_wheel_converges_with_order_two() -> None:
     assert np.all(orders < 2.3)
 
 
-@pytest.mark.parametrize("h", [0.01, 0.003])
-def test_standing_tyre_gives_no_energy_in_closed_cycles(h: float) -> None:
+def test_standing_tyre_gives_no_energy_in_closed_cycles() -> None:
     """Wheel centre and spin are led around loops; what goes in must not be negative."""
+    h = 0.01
     element = tyre_element(replace(TYRE, trail=(0.0, 0.0)))
     rng = np.random.default_rng(11)
     rows = []
@@ -149,7 +149,7 @@ def test_standing_tyre_gives_no_energy_in_closed_cycles(h: float) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("h", [0.01, 0.002])
+@pytest.mark.parametrize("h", [0.01])
 def test_braked_wheel_stops_on_a_slope_and_stays(h: float) -> None:
     corner = Corner(8.0, grade=(0.1, 0.03), pedal=lambda t: min(1.0, max(0.0, (t - 0.2) / 0.2)))
     s = corner.motion
@@ -159,7 +159,7 @@ def test_braked_wheel_stops_on_a_slope_and_stays(h: float) -> None:
         energies.append(s.energy)
     assert np.max(np.diff(energies)) < 1e-6 * energies[0]  # never gains
     rest = s.q.copy()
-    s.run(s.t + (100.0 if h == 0.01 else 1.0), 2.0 * h)
+    s.run(s.t + 20.0, 2.0 * h)
     assert np.max(np.abs(s.q - rest)[:3]) < CREEP
     assert np.max(np.abs(s.qd)) < 1e-6
     assert corner.brake["sticking"] == 1.0
@@ -172,7 +172,7 @@ def test_friction_bound_holds_in_violent_transients() -> None:
     rng = np.random.default_rng(12)
     element = tyre_element()
     worst, limited = 0.0, 0
-    for _ in range(60):
+    for _ in range(40):
         h = rng.choice([0.001, 0.005, 0.02])
         y = np.r_[0.02 * rng.normal(size=2), rng.normal(size=2)]
         for _ in range(30):
@@ -193,7 +193,7 @@ def test_friction_bound_holds_in_violent_transients() -> None:
     assert limited > 20
 
 
-@pytest.mark.parametrize("h", [0.01, 0.1, 1.0])
+@pytest.mark.parametrize("h", [0.01, 1.0])
 def test_sliding_only_takes_energy(h: float) -> None:
     """Power of the force on slip velocity plus deflection rate is never positive, limited or not, for any step."""
     element = tyre_element()
@@ -248,37 +248,11 @@ def test_evaluation_without_a_step_repeats_the_end_of_the_step() -> None:
     assert np.allclose(again.y, s.y[0], rtol=1e-8)  # rates are those that follow from deflections and slip
 
 
-@pytest.mark.parametrize("h", [0.01, 0.002])
-def test_drop_lands_and_bounces_less(h: float) -> None:
-    corner = Corner(5.0, height=R + 0.5)
-    s = corner.motion
-    flight, energies = 0, [s.energy]
-    for _ in range(round(1.5 / h)):
-        s.step(h)
-        flight += corner.out["vertical_force"] == 0.0
-        energies.append(s.energy)
-    assert flight * h > 0.4
-    assert max(s.iterations) < 15
-    assert energies[-1] < energies[0]
-
-
-@pytest.mark.parametrize("h", [0.01, 0.005])
-def test_kerb_drop_needs_few_iterations(h: float) -> None:
+def test_kerb_drop_needs_few_iterations() -> None:
     corner = Corner(5.0, height=0.08 + R - MASS * G / TYRE.stiffness, road=KerbRoad(0.5, 0.08, friction=0.8))
     s = corner.motion
-    s.run(0.6, h)
+    s.run(0.6, 0.01)
     assert s.q[0] > 2.5
     assert abs(s.q[2] - R) < 0.2
     assert max(s.iterations) < 15
     assert np.mean(s.iterations) < 4.5
-
-
-def test_grid_road_carries_like_a_plane() -> None:
-    plane, grid = Corner(5.0), Corner(5.0, road=GridRoad((-1.0, -1.0), (1.0, 1.0), np.zeros((6, 3)), 0.8))
-    for corner in (plane, grid):
-        corner.motion.run(0.3, 0.01)
-    assert np.allclose(plane.motion.q, grid.motion.q, atol=1e-12)
-    ice = Corner(5.0, road=PlaneRoad(friction=0.0), pedal=lambda t: 1.0)
-    ice.motion.run(1.0, 0.01)
-    assert ice.motion.qd[0] == pytest.approx(5.0, abs=1e-3)
-    assert abs(ice.motion.qd[3]) < 1e-6

@@ -45,48 +45,30 @@ def steady(load: float, sx: float, sy: float, element: Element | None = None, sp
     return r
 
 
-LOADS = (200.0, 1267.3, 1661.0, 3000.0, 5000.0)
+LOADS = (200.0, 1661.0, 5000.0)
+SPEEDS = (1.5, 10.0, 30.0)  # m/s
 FRICTIONS = (0.5, 1.0, 1.4)  # of that at which the curves hold
 SLIPS = (-1.5, -0.4, -0.16, -0.08, -0.02, -0.001, 0.0, 0.001, 0.05, 0.12, 0.2, 0.7)
 PAIRS = list(itertools.product(SLIPS, SLIPS))
 
 
-@pytest.mark.parametrize(
-    "every", [5, pytest.param(1, marks=pytest.mark.proof)]
-)  # 5: all pairs by the 45 cases together
-@pytest.mark.parametrize("speed", [1.5, 10.0, 30.0])
 @pytest.mark.parametrize("ratio", FRICTIONS)
 @pytest.mark.parametrize("load", LOADS)
-def test_steady_forces_and_moment_are_those_of_the_publication(
-    load: float, ratio: float, speed: float, every: int
-) -> None:
+def test_steady_forces_and_moment_are_those_of_the_publication(load: float, ratio: float) -> None:
+    """All pairs of slips by the cases together."""
+    case = 3 * LOADS.index(load) + FRICTIONS.index(ratio)
+    speed = SPEEDS[(case + case // 3) % 3]
     friction = ratio * TYRE.reference_friction
     element = tyre_element(road=PlaneRoad(friction=friction))
     moving = speed / (speed + 1e-5)  # TMeasy's fictitious speed in the denominator of the slips
     scale = np.array([load, load, 0.05 * load])
-    for sx, sy in PAIRS[LOADS.index(load) % every :: every]:
+    for sx, sy in PAIRS[case // 2 :: 5]:
         r = steady(load, sx, sy, element, speed).out
         Fx, Fy = tmeasy.forces(TYRE, load, friction, -sx * moving, -sy * moving)
         expected = np.array([Fx, Fy, tmeasy.aligning_moment(TYRE, load, friction, -sx * moving, -sy * moving)])
         got = np.array([r["longitudinal_force"], r["lateral_force"], r["aligning_moment"]])
         assert r["vertical_force"] == pytest.approx(load, rel=1e-12)
         assert np.max(np.abs(got - expected) / scale) < STEADY, (sx, sy, got, expected)
-
-
-def test_pure_longitudinal_force_has_no_offset_of_slip() -> None:
-    """A free wheel that rolls at the effective radius makes no force, at any speed above 1 m/s."""
-    for speed in (1.0, 2.0, 10.0, 40.0):
-        assert abs(steady(1500.0, 0.0, 0.0, speed=speed).out["longitudinal_force"]) < 1e-6
-        x = steady(1500.0, 0.01, 0.0, speed=speed).out["longitudinal_force"]
-        expected = tmeasy.forces(TYRE, 1500.0, TYRE.reference_friction, -0.01 * speed / (speed + 1e-5), 0.0)[0]
-        assert x == pytest.approx(expected, rel=1e-7)
-
-
-@pytest.mark.parametrize(("load", "lateral", "longitudinal"), [(1267.3, 20870.0, 23070.0), (1661.0, 25990.0, 30710.0)])
-def test_initial_slopes_at_the_static_loads_of_the_car(load: float, lateral: float, longitudinal: float) -> None:
-    s = 1e-4
-    assert -steady(load, 0.0, s).out["lateral_force"] / s == pytest.approx(lateral, rel=2e-3)
-    assert -steady(load, s, 0.0).out["longitudinal_force"] / s == pytest.approx(longitudinal, rel=2e-3)
 
 
 def test_friction_scales_forces_and_slips_but_not_the_initial_slope() -> None:
@@ -100,50 +82,14 @@ def test_friction_scales_forces_and_slips_but_not_the_initial_slope() -> None:
     assert abs(ice["lateral_force"]) < 1e-2
 
 
-def test_combined_slip_stays_below_the_largest_force_of_its_direction_and_opposes_the_slip() -> None:
-    load, reached = 1500.0, 0.0
-    mu = TYRE.reference_friction
-    x_alone, y_alone = (tmeasy.direction(TYRE, name, load, mu) for name in ("longitudinal", "lateral"))
-    for angle in np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False):
-        for s in (0.02, 0.1, 0.15, 0.3, 1.0):
-            r = steady(load, s * np.cos(angle), s * np.sin(angle)).out
-            x, y = r["longitudinal_force"], r["lateral_force"]
-            use = np.hypot(x, y) / tmeasy.largest(x_alone, y_alone, np.arctan2(y, x))
-            reached = max(reached, use)
-            assert use < 1.0 + 1e-9
-            assert x * np.cos(angle) + y * np.sin(angle) < 0.0
-    assert reached > 0.98
-    braked = steady(load, 0.12, 0.05).out["lateral_force"]
-    assert abs(braked) < 0.8 * abs(steady(load, 0.0, 0.05).out["lateral_force"])  # braking takes side force away
-
-
 def test_locked_wheel_slides_with_the_sliding_force_at_any_speed() -> None:
     element = tyre_element()
-    for speed in (0.05, 1.0, 30.0):
+    for speed in (0.05, 30.0):
         y = np.zeros(4)
-        for _ in range(3000):
-            r = element(upright(height(1500.0)), [speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], y, 0.01)
+        for _ in range(300):
+            r = element(upright(height(1500.0)), [speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], y, 0.1)
             y = r.y
         assert r.out["longitudinal_force"] == pytest.approx(-1202.0, rel=1e-4)
-
-
-def test_aligning_moment_turns_towards_the_direction_of_travel_and_fades_with_slip() -> None:
-    contact_length = 2.0 * np.sqrt(R * 1500.0 / TYRE.stiffness)
-
-    def trail(slip: float, friction: float = TYRE.reference_friction) -> float:
-        out = steady(1500.0, 0.0, slip, tyre_element(road=PlaneRoad(friction=friction))).out
-        return -out["aligning_moment"] / out["lateral_force"] / contact_length
-
-    assert trail(1e-4) == pytest.approx(0.178, rel=1e-3)
-    small = steady(1500.0, 0.0, 0.01).out
-    assert small["aligning_moment"] * small["slip_angle"] > 0.0
-    for r in (0.5, 1.0):  # the slips of the trail grow with friction
-        friction = r * TYRE.reference_friction
-        assert trail(0.16337 * r - 1e-4, friction) > 0.0 > trail(0.16337 * r + 1e-4, friction)
-        assert trail(0.3 * r, friction) < -1e-3
-        assert abs(trail(0.9653 * r, friction)) < 1e-9
-    values = [trail(s) for s in (0.16337 - 1e-5, 0.16337, 0.16337 + 1e-5)]
-    assert values[0] - values[1] == pytest.approx(values[1] - values[2], rel=1e-3)  # both parts meet with one slope
 
 
 def brush(half: float, speed: float, sideways: float) -> tuple[float, float]:
@@ -202,9 +148,7 @@ def test_outputs_describe_the_contact() -> None:
     assert locked["slip"] == pytest.approx(-1.0, abs=1e-4)
 
 
-@pytest.mark.parametrize("grade", [0.0, 0.1])
-@pytest.mark.parametrize("lean", [-0.2, 0.0, 0.15])
-@pytest.mark.parametrize("yaw", [0.0, 0.7])
+@pytest.mark.parametrize(("yaw", "lean", "grade"), [(0.0, -0.2, 0.0), (0.7, 0.15, 0.1)])
 def test_inclination_is_measured_from_the_normal_of_the_road(lean: float, grade: float, yaw: float) -> None:
     """ISO 8855: a right-handed turn about the wheel's forward axis, so positive with the top to the right."""
     road = PlaneRoad(grade_x=grade * -np.sin(yaw), grade_y=grade * np.cos(yaw), friction=0.8)  # rises to the left
@@ -214,12 +158,12 @@ def test_inclination_is_measured_from_the_normal_of_the_road(lean: float, grade:
     assert out["inclination"] == pytest.approx(lean - np.arctan(grade), abs=1e-12)
 
 
-@pytest.mark.parametrize("friction", [0.1, 0.3, 0.9, 1.2705])
+@pytest.mark.parametrize("friction", [0.3, 1.2705])
 def test_friction_of_the_road_is_the_coefficient_the_tyre_reaches(friction: float) -> None:
     """At the nominal load; more below it and less above it by the curves' dependence on load."""
     element = tyre_element(replace(TYRE, rolling_resistance=0.0), PlaneRoad(friction=friction))
     for load, share in ((1500.0, 1.0), (500.0, 1.0235), (3000.0, 0.9649)):
-        slips = np.linspace(0.5, 1.5, 41) * 0.13913 * friction / TYRE.reference_friction
+        slips = np.linspace(0.5, 1.5, 11) * 0.13913 * friction / TYRE.reference_friction
         reached = max(-steady(load, s, 0.0, element).out["longitudinal_force"] for s in slips) / load
         assert reached == pytest.approx(share * friction, rel=1e-4)
 
@@ -315,9 +259,7 @@ def test_tangent_is_near_the_derivative_and_positive_semidefinite(speed: float, 
 
 
 @pytest.mark.parametrize("ratio", [0.4, 1.0])
-@pytest.mark.parametrize(
-    ("sx", "sy"), [(0.03, 0.02), (-0.05, 0.04), (0.08, 0.09), (0.01, -0.06), (0.2, 0.1), (0.25, -0.3), (1.5, 0.5)]
-)
+@pytest.mark.parametrize(("sx", "sy"), [(-0.05, 0.04), (0.01, -0.06), (0.2, 0.1), (1.5, 0.5)])
 def test_slip_tangent_is_the_derivative_made_symmetric_and_safe(sx: float, sy: float, ratio: float) -> None:
     """By the velocities of the wheel centre only the slip changes. The tangent is the symmetric part of the derivative,
     no eigenvalue of what it exceeds the safe share of the secant by being negative."""
@@ -362,7 +304,7 @@ def test_forces_do_not_jump_over_a_kerb() -> None:
     road = KerbRoad(0.0, 0.08, friction=0.8)
     element = tyre_element(road=road)
     last, both = None, 0
-    for x in np.linspace(-0.1, 0.3, 4001):
+    for x in np.linspace(0.05, 0.25, 2001):
         z = 0.08 + R - 0.02 - 0.09 * np.clip(x / 0.2, 0.0, 1.0)  # a path that presses on edge and lower level
         r = element(
             np.array([x, 0.0, z, 0.0, 1.0, 0.0, 0.0]),
@@ -407,8 +349,7 @@ def test_kernel_checks_tyre_data(change: dict[str, float], word: str) -> None:
     assert word in (tyre_element().with_reals(change).check() or "")
 
 
-@pytest.mark.parametrize("sine", [0.0, 0.1, 0.3, 0.49, 0.51, 0.8])
-@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize(("sine", "side"), [(0.0, 1.0), (0.3, -1.0), (0.49, 1.0), (0.51, -1.0), (0.8, 1.0)])
 def test_a_wheel_on_its_side_or_upside_down_is_pushed_off_the_road(sine, side):
     """The radial force is the gradient of its energy at every lean, and never pulls; a flat wheel has a width."""
     element, cosine = tyre_element(), np.sqrt(1.0 - sine**2)

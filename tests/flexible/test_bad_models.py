@@ -141,12 +141,9 @@ def test_matrices_from_outside_that_cannot_be(tmp_path: Path) -> None:
     K, M, x = good.K.toarray(), good.mass_matrix(), good.positions
     skew = K.copy()
     skew[0, 7] += 1e6
-    grounded = K.copy()
-    grounded[14, 14] += 1e6
     for stiffness, mass, sentence in (
         (skew, M, "stiffness matrix is not symmetric: entries \\(0, 7\\) and \\(7, 0\\) differ by 1e\\+06"),
         (K, M + sp.csc_array(sp.eye(54, k=3)) * M.max(), "mass matrix is not symmetric"),
-        (grounded, M, "resists rigid motions at node '2': give the free model"),
         (K[:50], M, "50 by 54; it must be square"),
         (K[:50, :50], M[:50, :50], "50 rows; 9 nodes have 27 or 54 freedoms"),
         (K, M[:27, :27], "mass matrix is 27 and the stiffness matrix 54 wide"),
@@ -154,8 +151,6 @@ def test_matrices_from_outside_that_cannot_be(tmp_path: Path) -> None:
         (K * np.nan, M, "not finite"),
         (K, -np.ones(9), "mass at node '0' is -1 kg; it cannot be negative"),
         (K, np.ones(8), "one number for each of 9 nodes"),
-        (-K, M, "stiffness matrix is negative; .* its sign is reversed"),
-        (K, -M, "it must be positive"),
     ):
         with pytest.raises(ModelError, match=sentence):
             external_model(stiffness, mass, x)

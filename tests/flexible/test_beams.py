@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from mbs.flexible.beam_interpolation import bending_functions, section_motion
+from mbs.flexible.beam_interpolation import bending_functions
 from mbs.flexible.beam_mass import beam_mass_points
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
@@ -124,18 +124,6 @@ def test_interpolation_solves_the_unloaded_beam() -> None:
         assert rotation @ pure == pytest.approx(xi * L, rel=ROUND_OFF)
 
 
-def test_interpolation_carries_rigid_motions() -> None:
-    L = 0.7
-    for xi in (0.0, 0.3, 1.0):
-        N = section_motion(xi, L, 0.5, 0.2)
-        for axis in range(3):
-            spin = np.eye(3)[axis]
-            ends = np.concatenate([np.zeros(3), spin, np.cross(spin, [L, 0, 0]), spin])
-            np.testing.assert_allclose(N @ ends, np.concatenate([np.cross(spin, [xi * L, 0, 0]), spin]), atol=1e-14)
-            ends = np.tile(np.concatenate([spin, np.zeros(3)]), 2)
-            np.testing.assert_allclose(N @ ends, np.concatenate([spin, np.zeros(3)]), atol=1e-14)
-
-
 def test_gauss_points_give_the_consistent_mass_matrix_of_the_textbook() -> None:
     L = 0.7
     _, masses, shapes = beam_mass_points(TUBE, STEEL, L, (0.0, 0.0), "consistent", rotary=False)
@@ -218,11 +206,3 @@ def test_energies_of_rigid_motions_and_constant_strains_are_exact() -> None:
     force = uneven.finite_element_model().K @ u
     np.testing.assert_allclose(force[[0, 24]], STEEL.E * TUBE.area * 1e-4 * np.array([-1, 1]), rtol=ROUND_OFF)
     assert np.abs(np.delete(force, [0, 24])).max() < 1e-9 * abs(force[0])
-
-
-def test_mass_normalised_modes_are_orthogonal() -> None:
-    model = portal().finite_element_model()
-    hertz, V = natural_modes(model, 16)
-    M, K = model.mass_matrix(), model.K
-    np.testing.assert_allclose(V[:, 6:].T @ (M @ V[:, 6:]), np.eye(10), atol=1e-8)
-    np.testing.assert_allclose(V[:, 6:].T @ (K @ V[:, 6:]) / (2 * np.pi * hertz[6:]) ** 2, np.eye(10), atol=1e-7)

@@ -19,7 +19,6 @@ from mbs.flexible.body_plausibility import FlexibleWarning
 from mbs.flexible.calculix import calculix_matrices
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
-from mbs.vehicle import load
 from tests.flexible.structures import portal, straight
 
 DATA = Path(__file__).parent.parent / "data" / "external"
@@ -38,12 +37,6 @@ def of_bar() -> Matrices:
     return calculix_matrices(DATA / "bar.inp")[:3]
 
 
-def of_car() -> Matrices:
-    """The frame of the prototype."""
-    model = load("prototype").flexible_frame.structure.model
-    return model.K, model.mass_matrix(), model.positions
-
-
 def in_units(K: Any, M: Any, length: float, mass: float, stiffness: float) -> tuple[Any, Any]:
     """Matrices of models with six freedoms a node, or three, in units of so many m, kg and N/m."""
     if K.shape[0] % 6 or K.shape[0] == 48:  # the bar has 16 nodes of three freedoms
@@ -54,7 +47,7 @@ def in_units(K: Any, M: Any, length: float, mass: float, stiffness: float) -> tu
     return D @ K @ D / stiffness, D @ M @ D / mass
 
 
-BODIES = {"frame": of_portal, "bar": of_bar, "frame of a car": of_car}
+BODIES = {"frame": of_portal, "bar": of_bar}
 UNITS = {
     "g in place of kg in the mass": (1.0, 1e-3, 1.0),
     "t in place of kg in the mass": (1.0, 1e3, 1.0),

@@ -19,7 +19,6 @@ from mbs.flexible.recovery import section_forces
 from mbs.flexible.reduced_body import ReducedBody
 from tests.flexible.structures import portal, straight
 
-ROUND_OFF = 1e-9
 REFERENCE = "N0"
 INTERFACES = ("N2", "N4", "N7")
 

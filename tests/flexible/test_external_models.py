@@ -91,9 +91,16 @@ def test_freedoms_may_come_in_any_order() -> None:
         external_model(model.K, np.ones(9), frame.positions, dof=np.zeros((4, 6)))
 
 
-@pytest.mark.parametrize("binary", [False, True])
-@pytest.mark.parametrize("sparse", ["dense", "bigmat", "nonbigmat"])
-@pytest.mark.parametrize("endian", ["<", ">"])
+@pytest.mark.parametrize(
+    ("binary", "sparse", "endian"),
+    [
+        (False, "dense", "<"),
+        (True, "dense", ">"),
+        (True, "bigmat", "<"),
+        (True, "nonbigmat", ">"),
+        (False, "nonbigmat", "<"),
+    ],
+)
 def test_a_nastran_model_is_read(tmp_path: Path, binary: bool, sparse: str, endian: str) -> None:
     """Files of pyYeti, which has a reader and a writer of its own."""
     op4 = pytest.importorskip("pyyeti.nastran.op4")

@@ -143,18 +143,6 @@ def test_relief_from_forces_and_motion_is_relief_from_balanced_forces() -> None:
     np.testing.assert_allclose(other.balanced @ forces, relief.balanced @ forces, atol=1e-6)
 
 
-def test_a_spinning_free_rod_is_pulled_by_its_own_mass() -> None:
-    """Closed form: N = rho A w2 (L2/4 - x2)/2 from the middle; the pull is linear in W = [w x][w x]."""
-    L, n, w = 1.0, 40, 50.0
-    frame = straight(n, L)
-    model = frame.finite_element_model()
-    middle = section_forces(frame, n // 2 - 1, 1.0)[[0]]
-    relief = inertia_relief(model, n // 2, [0], middle)
-    spin = np.array([[0.0, -w, 0.0], [w, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    pull = relief.outputs(np.zeros(3), np.zeros(3), spin @ spin)
-    assert pull[0] == pytest.approx(STEEL.rho * TUBE.area * w**2 * L**2 / 8, rel=2e-3)
-
-
 def test_a_beam_that_stands_upright_has_its_z_forward() -> None:
     frame = Frame([(0, 0, 0), (0, 0, 1.0)], [Beam(0, 1, TUBE, STEEL)])
     R = frame.element_axes(0)[1]

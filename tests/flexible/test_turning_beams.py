@@ -35,10 +35,10 @@ def test_the_damped_first_steps_lose_energy_of_fourth_order(reduced: ReducedBody
     assert abs(lost[1]) < 0.1 * 0.1**2
 
 
-@pytest.mark.parametrize("place", [5e5, 1e7, 1e8])
-def test_two_beams_on_a_hinge_far_from_the_origin(reduced: ReducedBody, place: float) -> None:
+def test_two_beams_on_a_hinge_far_from_the_origin(reduced: ReducedBody) -> None:
     """Their rows have positions of both, which a place far away resolves to 1e-8 m: then steps end without halvings,
     which were needed, and without iterations up to the limit."""
+    place = 1e8  # m
     m = mbs.Model("two beams")
     m.floating = True
     one, other = (m.flexible_body(name, reduced) for name in ("one", "other"))

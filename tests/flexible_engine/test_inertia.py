@@ -11,7 +11,6 @@ from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import cloud
 
 ROUND_OFF = 1e-13
-DIFFERENCE = 1e-9  # of central differences of quadratic functions with step 1e-3 and 1
 GRAVITY = np.array([1.0, -2.0, -9.0])
 AXES = Rotation.from_euler("xyz", (0.3, -0.5, 0.7)).as_matrix()
 
@@ -80,7 +79,7 @@ def body() -> Literal:
     return Literal()
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_mass_matrix_is_the_literal_product(body: Literal, seed: int) -> None:
     q, _ = body.state(seed)
     B = body.B(q)
@@ -88,7 +87,7 @@ def test_mass_matrix_is_the_literal_product(body: Literal, seed: int) -> None:
     assert np.max(np.abs(body.mass(q) - expected)) < ROUND_OFF * np.max(np.abs(expected))
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_velocity_forces_are_the_literal_product(body: Literal, seed: int) -> None:
     q, qd = body.state(seed)
     Bd = (body.B(q + 0.5 * qd) - body.B(q - 0.5 * qd)) @ qd  # B is linear in q
@@ -99,20 +98,7 @@ def test_velocity_forces_are_the_literal_product(body: Literal, seed: int) -> No
     assert np.max(np.abs(result - expected)) < ROUND_OFF * 10 * np.max(np.abs(expected))
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_mass_matrix_is_the_second_difference_of_the_kinetic_energy(body: Literal, seed: int) -> None:
-    q, _ = body.state(seed)
-    B, n = body.B(q), len(q)
-
-    def energy(v: np.ndarray) -> float:
-        return float(0.5 * np.sum(body.masses * (B @ v) ** 2))
-
-    e = np.eye(n)
-    T = np.array([[(energy(e[i] + e[j]) - energy(e[i] - e[j])) / 2 for j in range(n)] for i in range(n)])
-    assert np.max(np.abs(body.mass(q) - T)) < 100 * ROUND_OFF * np.max(np.abs(T))
-
-
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_forces_are_those_of_lagrange(body: Literal, seed: int) -> None:
     """``d/dt (dT/dqd) - dT/dq`` with differences of the energies: the velocities of mass points are consistent with
     their positions, so that nothing is lost against the interpolation of equation (4).
@@ -151,7 +137,7 @@ def _tangent(q: np.ndarray) -> np.ndarray:
     return rows
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_energies_are_sums_over_the_mass_points(body: Literal, seed: int) -> None:
     q, qd = body.state(seed)
     simulation = body.simulation
@@ -166,20 +152,6 @@ def test_energies_are_sums_over_the_mass_points(body: Literal, seed: int) -> Non
     assert actual["gravity"] == pytest.approx(gravity, rel=1e-12)
     assert actual["elastic"] == pytest.approx(elastic, rel=1e-12)
     assert actual["total"] == pytest.approx(kinetic + gravity + elastic, rel=1e-12)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_accelerations_solve_the_literal_equations(body: Literal, seed: int) -> None:
-    q, qd = body.state(seed)
-    simulation = body.simulation
-    simulation.instance.set_q(body.put(q), body.put(qd))
-    simulation.instance.initialise(0.0)
-    qdd = simulation.state.qdd[body.place]
-    B = body.B(q)
-    Bd = (body.B(q + 0.5 * qd) - body.B(q - 0.5 * qd)) @ qd
-    K = np.concatenate([np.zeros(12), body.reduced.K @ q[12:] + body.reduced.C @ qd[12:]])
-    inertia = B.T @ (body.masses * (B @ qdd + Bd - np.tile(GRAVITY, len(body.x)))) + K
-    assert np.max(np.abs(_tangent(q) @ inertia)) < 1e-9 * np.max(np.abs(K))
 
 
 def test_tangent_carries_stiffness_damping_and_weight(body: Literal) -> None:

@@ -67,10 +67,9 @@ def test_all_methods_go_to_the_same_motion_at_their_order(
     assert errors[0] > 1e3 * 1e-13
 
 
-@pytest.mark.parametrize("h", [0.01, 0.002])
-def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform(h: float) -> None:
+def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform() -> None:
     """Their mass matrix moves: M v is taken at both ends of the step, with the exact difference quotient of v' M v."""
-    run = simulate(swinging(0.0), 2.0, h, settings=Settings(method="energy_momentum"), progress=False)
+    run = simulate(swinging(0.0), 2.0, 0.01, settings=Settings(method="energy_momentum"), progress=False)
     assert np.ptp(run["elastic"]) > 0.1 * np.ptp(run["kinetic"])
     assert np.ptp(run["total"]) < KEPT * np.ptp(run["kinetic"])
 
@@ -91,7 +90,7 @@ def test_damped_bodies_cannot_step_backwards() -> None:
         simulate(swinging(1.0), 0.1, 0.01, settings=Settings(method="energy_momentum_4"), progress=False)
 
 
-@pytest.mark.parametrize("method", ["energy_momentum", "runge_kutta_8", "ali3p_generalised_alpha"])
+@pytest.mark.parametrize("method", ["energy_momentum", "ali3p_generalised_alpha"])
 def test_a_restored_state_continues_alike_after_a_change_of_method(method: str) -> None:
     loaded = binding.LoadedSystem(swinging(1.0).to_bytes())
     first, second = Instance(loaded), Instance(loaded)

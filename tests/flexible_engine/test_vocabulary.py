@@ -38,14 +38,6 @@ def test_coordinates_and_rows() -> None:
     assert system.report["rank"] == 15
 
 
-def test_a_shared_point_needs_no_coordinates_of_its_own() -> None:
-    m = Model("shared")
-    beam = _beam(m)
-    rod = m.body("rod", mass=1.0, com=(1.5, 0, 0), inertia=(1e-3, 0.1, 0.1))
-    m.spherical("ball", beam, rod, point=(1, 0, 0))
-    assert compile(m).nq == (12 + 8) + 12
-
-
 def with_interface() -> ReducedBody:
     """Random shapes but for those of node 3, whose three coordinates are amplitudes."""
     reduced = cloud()

@@ -118,15 +118,6 @@ def test_an_angle_counts_its_turns_through_save_and_restore():
     assert other.sensors["angle.angle"] == pytest.approx(0.7 - 400.0 * 30.0, abs=1e-7)
 
 
-def test_reading_between_steps_changes_nothing():
-    system = compile(planar_arm(0.3))
-    quiet = Simulation(system, settings=Settings(method=SEMI[0]))
-    read = Simulation(system, settings=Settings(method=SEMI[0]))
-    quiet.run(0.5, 0.005, every=100)
-    read.run(0.5, 0.005)
-    assert quiet.sensors == read.sensors
-
-
 def test_what_an_angle_still_keeps_out_of_the_tree_is_named():
     m = Model("cross", dimension=3)
     first = m.body("first", mass=1.0, com=(0.5, 0.0, 0.0), inertia=(0.1, 0.1, 0.1))

@@ -26,10 +26,9 @@ def load_error(h: float, settings: mbs.Settings | None = None) -> tuple[float, m
     return errors.load_error(run, trajectories.read(NAME, CAR)[1]), run.report
 
 
-@pytest.mark.parametrize("h", [0.005, 0.01])
-def test_loads_behind_an_edge_are_right_where_whole_steps_are_not(h: float) -> None:
-    whole, undivided = load_error(h, NEVER)
-    result, divided = load_error(h)
+def test_loads_behind_an_edge_are_right_where_whole_steps_are_not() -> None:
+    whole, undivided = load_error(STEP, NEVER)
+    result, divided = load_error(STEP)
     assert whole > 2.0 * accuracy.LOAD_BOUND
     assert result < accuracy.LOAD_BOUND
     assert (undivided.divisions, divided.halvings) == (0, 0)

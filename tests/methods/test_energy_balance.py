@@ -21,7 +21,7 @@ H = 1e-4
 UNCHECKED = {"progress": False, "estimate_error": False}
 
 
-@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "runge_kutta_8"])
+@pytest.mark.parametrize("method", ["ali3p", "runge_kutta_8"])
 def test_work_is_that_of_the_motor(method):
     run = simulate(printed_model(), 0.5, H, {"torque": 4.0}, method=method, **UNCHECKED)
     assert run.report.work == pytest.approx(4.0 * run["crank.angle"][-1], rel=0.01)
@@ -43,7 +43,7 @@ def test_dampers_work():
     assert run.report.work == pytest.approx(lost, rel=0.02)
 
 
-@pytest.mark.parametrize("method", [m for m in METHODS if m not in ("energy_momentum_4", "ali3p_no_projection")])
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "radau_5", "runge_kutta_8", "semi_recursive"])
 def test_predictors_miss_by_half_as_much_at_half_the_step(method):
     system = system_of("spatial_chain")
     paths = [simulate(system, 1.0, h, method=method, **UNCHECKED).report for h in (0.002, 0.001)]

@@ -5,7 +5,6 @@ import pytest
 from scipy.sparse import csr_array
 
 from mbs import Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.header.steps import MethodNumber
 from mbs.scenes import bricard, double_four_bar, spatial_chain
 from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
 
@@ -47,8 +46,7 @@ def loop():
     return compile(bricard.build())
 
 
-@pytest.mark.parametrize("h", [0.1, 0.05, 0.03, 0.01, 0.003, 0.001])
-@pytest.mark.parametrize("scene", ["four_bar", "loop"])
+@pytest.mark.parametrize(("scene", "h"), [("four_bar", 0.05), ("four_bar", 0.003), ("loop", 0.1), ("loop", 0.01)])
 def test_energy_stays_through_singular_positions_and_with_a_redundant_row(scene, h, request):
     run = simulate(request.getfixturevalue(scene), END, h, settings=EM, estimate_error=False)
     assert spread(run) < EXACT_J
@@ -56,14 +54,13 @@ def test_energy_stays_through_singular_positions_and_with_a_redundant_row(scene,
     assert np.ptp(run[next(iter(run))]) > 0.1  # it moves
 
 
-@pytest.mark.parametrize("h", [0.05, 0.01])
-def test_the_velocity_that_is_reported_lies_on_the_constraints_and_has_the_energy(four_bar, h):
+def test_the_velocity_that_is_reported_lies_on_the_constraints_and_has_the_energy(four_bar):
     simulation = Simulation(four_bar, settings=EM)
     start = simulation.sensors["energy.total"]
     a = four_bar.arrays
     row = np.repeat(np.arange(four_bar.nc), np.diff(a["row_ptr"]))
     for _ in range(40):
-        simulation.step(h)
+        simulation.step(0.05)
         state = simulation.state
         J = np.array(simulation.instance.evaluate(state.q, state.qd)["jacobian"], float)
         rate = np.bincount(row, J * state.qd[a["row_col"]], minlength=four_bar.nc)
@@ -71,14 +68,8 @@ def test_the_velocity_that_is_reported_lies_on_the_constraints_and_has_the_energ
         assert abs(simulation.sensors["energy.total"] - start) < EXACT_J
 
 
-def test_it_loses_no_energy_where_ali3p_does(four_bar):
-    lost = spread(simulate(four_bar, END, 0.03, estimate_error=False))
-    assert lost > 0.5
-    assert spread(simulate(four_bar, END, 0.03, settings=EM, estimate_error=False)) < 1e-7 * lost
-
-
-@pytest.mark.parametrize("h", [0.02, 0.005])
-def test_a_free_system_of_springs_keeps_both_momenta_and_its_energy(h):
+def test_a_free_system_of_springs_keeps_both_momenta_and_its_energy():
+    h = 0.02
     run = simulate(compile(triangle()), 5.0, h, settings=EM, estimate_error=False)
     assert spread(run, "energy") < ROUND_OFF
     assert np.ptp(np.hypot(run["a.x"] - run["c.x"], run["a.y"] - run["c.y"])) > 0.05
@@ -95,10 +86,9 @@ def test_a_free_system_of_springs_keeps_both_momenta_and_its_energy(h):
     assert np.abs(momentum - momentum[0]).max() < 1e4 * h**4  # it is scaled to the energy
 
 
-@pytest.mark.parametrize("h", [0.02, 0.004])
-@pytest.mark.parametrize("damping", [0.0, 3.0, 80.0])
-@pytest.mark.parametrize("stops", [False, True])
-def test_the_energy_lost_is_exactly_the_work_of_the_damper(h, damping, stops):
+@pytest.mark.parametrize(("damping", "stops"), [(0.0, True), (3.0, True), (3.0, False), (80.0, False)])
+def test_the_energy_lost_is_exactly_the_work_of_the_damper(damping, stops):
+    h = 0.02
     run = simulate(compile(swing(damping, stops)), 3.0, h, settings=EM, estimate_error=False)
     length = run["length"]
     taken = np.concatenate([[0.0], np.cumsum(damping * np.diff(length) ** 2 / h)])
@@ -108,9 +98,8 @@ def test_the_energy_lost_is_exactly_the_work_of_the_damper(h, damping, stops):
         assert length.min() < 1.1 or length.max() > 1.6
 
 
-@pytest.mark.parametrize("damping", [0.0, 0.2])
-def test_an_angle_row_does_no_work_over_several_turns(damping):
-    h = 0.01
+def test_an_angle_row_does_no_work_over_several_turns():
+    damping, h = 0.2, 0.01
     run = simulate(compile(hinge(damping)), 4.0, h, settings=EM)
     taken = np.concatenate([[0.0], np.cumsum(damping * np.diff(run["angle"]) ** 2 / h)])
     np.testing.assert_allclose(run["energy"] + taken, run["energy"][0], atol=EXACT_J)
@@ -153,19 +142,7 @@ def test_a_run_that_fails_unseen_leaves_the_last_good_state_complete(four_bar):
     assert np.abs(a.qdd - b.qdd).max() < 0.2 * np.abs(b.qdd).max()
 
 
-def test_the_method_may_change_on_the_way(four_bar):
-    simulation = Simulation(four_bar)
-    simulation.run(1.0, 0.01)
-    middle = simulation.sensors["energy.total"]
-    simulation.instance.set_settings(method=MethodNumber.ENERGY_MOMENTUM)
-    run = simulation.run(3.0, 0.01, estimate_error=False)
-    assert spread(run) < EXACT_J
-    assert run["energy.total"][0] == middle
-
-
-@pytest.mark.parametrize(
-    ("method", "h"), [("energy_momentum", 0.00025), ("energy_momentum_4", 0.002), ("energy_momentum_4", 0.001)]
-)
+@pytest.mark.parametrize(("method", "h"), [("energy_momentum", 0.00025), ("energy_momentum_4", 0.002)])
 def test_small_steps_cross_singular_positions_of_many_loops(method, h):
     """Forty rows lose their levers at once; the step that straddles the position has them with either sign."""
     run = simulate(

@@ -10,7 +10,7 @@ from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references import motions as references
 from benchmarks.references.cases import CASES, system_of
 from mbs import AccuracyWarning, Model, Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.binding import Status, open_row
+from mbs.kernel.binding import Status
 from mbs.scenes import cart_pole
 
 BALANCE = 0.02  # of the change of energy: the balance takes the next step to be like the present one
@@ -19,7 +19,7 @@ FALL = cart_pole.BOB * cart_pole.GRAVITY * cart_pole.LENGTH  # J
 USUAL = {"squeezer": 1e-4}  # s, where not 0.01
 
 
-@pytest.mark.parametrize("scene", ["pendulum", "double_four_bar", "bricard", "slider_crank", "spatial_chain"])
+@pytest.mark.parametrize("scene", ["pendulum", "double_four_bar", "bricard"])
 def test_the_energy_balance_of_a_conservative_scene_is_its_loss_of_energy(scene):
     t = simulate(system_of(scene), 2.0, 0.005, progress=False)
     lost = t["energy.total"][-1] - t["energy.total"][0]
@@ -29,26 +29,20 @@ def test_the_energy_balance_of_a_conservative_scene_is_its_loss_of_energy(scene)
 
 def test_a_motor_and_a_spring_are_no_error():
     """Work of forces and drives is not in the balance: it falls with the step like the error of the method."""
-    errors = [
-        abs(simulate(system_of("squeezer"), 0.04, h, progress=False).report.energy_error) for h in (1e-4, 5e-5, 2.5e-5)
-    ]
+    errors = [abs(simulate(system_of("squeezer"), 0.04, h, progress=False).report.energy_error) for h in (1e-4, 5e-5)]
     assert errors[0] > 3.0 * errors[1]
-    assert errors[1] > 3.0 * errors[2]
 
 
 @pytest.mark.parametrize(
     "scene", [name for name in CASES if name not in ("cart_pole", "pendulum_1000s", "four_bar_200")]
 )
-@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha"])
-def test_no_other_scene_is_halved_at_its_usual_step(scene, method):
+def test_no_other_scene_is_halved_at_its_usual_step(scene):
     h = USUAL.get(scene, 0.01)
-    run = simulate(system_of(scene), 200 * h, h, method=method, progress=False, estimate_error=False)
+    run = simulate(system_of(scene), 200 * h, h, progress=False, estimate_error=False)
     assert run.report.halvings == 0
 
 
-@pytest.mark.parametrize(
-    ("method", "h"), [("ali3p", 1e-4), ("ali3p", 1e-5), ("ali3p_generalised_alpha", 1e-5), ("runge_kutta_8", 1e-5)]
-)
+@pytest.mark.parametrize(("method", "h"), [("ali3p", 1e-4), ("ali3p_generalised_alpha", 1e-5), ("runge_kutta_8", 1e-5)])
 def test_the_spike_of_the_light_cart_is_refused_where_the_step_does_not_resolve_it(method, h):
     simulation = Simulation(system_of("cart_pole"), settings=Settings(method=method, max_halvings=4))
     with pytest.raises(SimulationError, match="the energy balance is violated") as refused:
@@ -62,8 +56,9 @@ def test_the_spike_of_the_light_cart_is_refused_where_the_step_does_not_resolve_
     assert abs(simulation.report.energy_error) < 0.02 * FALL  # nothing of the refused step
 
 
-@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "runge_kutta_8"])
-@pytest.mark.parametrize("h", [1e-3, 3e-4, 1e-4, 3e-5])
+@pytest.mark.parametrize(
+    ("method", "h"), [("ali3p", 1e-3), ("ali3p", 1e-4), ("ali3p_generalised_alpha", 3e-4), ("runge_kutta_8", 1e-3)]
+)
 def test_halves_of_the_step_resolve_the_spike_of_the_light_cart(method, h):
     t = simulate(
         system_of("cart_pole"), 0.6, h, settings=Settings(method=method, max_halvings=16), every=10, progress=False
@@ -95,23 +90,18 @@ def test_an_infinite_motion_is_reported_with_a_message():
     assert "inf" not in message
 
 
-def crank_slider(h, max_halvings=8):
-    simulation = Simulation(printed_model(), inputs={"torque": 4.0}, settings=Settings(max_halvings=max_halvings))
+def crank_slider(h):
+    simulation = Simulation(printed_model(), inputs={"torque": 4.0}, settings=Settings(max_halvings=8))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)  # it is wrong on purpose
         simulation.step(h, round(1.0 / h))
     return simulation
 
 
-@pytest.mark.parametrize("h", [0.02, 0.01, 0.005, 0.002])
+@pytest.mark.parametrize("h", [0.02, 0.005])
 def test_a_long_step_passes_where_short_ones_pass(h):
     """Ten of 1 ms passed where one of 10 ms was refused at 0.53 s for ever."""
     assert crank_slider(h).time == pytest.approx(1.0)
-
-
-def test_a_part_that_cannot_be_halved_is_judged_as_a_step_that_was_asked_for():
-    simulation = crank_slider(0.01, max_halvings=4)
-    assert simulation.time == 0.0 or simulation.report.steps == 100
 
 
 def test_the_energy_balance_holds_through_changed_steps():
@@ -120,20 +110,13 @@ def test_the_energy_balance_holds_through_changed_steps():
     The motion is chaotic: of 60 steps from 5 to 12 ms a few are off by more than 3 %.
     """
     off = []
-    for h in (0.012, 0.011, 0.01, 0.009, 0.008, 0.006, 0.005, 0.002, 0.001):
+    for h in (0.012, 0.01, 0.008, 0.006, 0.001):
         simulation = crank_slider(h)
         report = simulation.report
         assert report.halvings > (0 if h == 0.001 else 100)
         gained = report.energy - 4.0 * simulation.sensors["crank.angle"]
         off.append(abs(report.energy_error - gained) / (report.kinetic_peak + report.work))
     assert np.median(off) < 0.02
-
-
-@pytest.mark.parametrize("gap", [float("nan"), float("inf"), -float("inf")])
-def test_a_gap_without_a_finite_figure_is_not_reported(gap):
-    assert open_row({"worst_row": 0, "violation": gap}, ["hinge"]) == ""
-    assert open_row({"worst_row": 1, "violation": 1.0}, ["hinge"]) == ""
-    assert open_row({"worst_row": 0, "violation": 0.5}, ["hinge"]) == "'hinge', open by 0.5 m"
 
 
 def rotor() -> Model:
@@ -168,27 +151,6 @@ def watched_rotor():
     return compile(m)
 
 
-def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
-    """A wheel that nothing else moves. The input jumps every 8 ms and the acceleration of the guide with it: the forces
-    that steps end with, which know nothing of the next jump, leave an error of the first order, and a force that is
-    straight between them 1e-3 of the work.
-    """
-    system, residuals = watched_rotor(), []
-    for parts in (4, 8):
-        simulation = Simulation(system)
-        start = simulation.sensors
-        for k in range(100):
-            simulation.set_input("target", 0.5 * np.sin(9.0 * 8e-3 * k))
-            simulation.step(8e-3 / parts, parts)
-        end = simulation.sensors
-        change = end["energy"] - start["energy"]
-        residuals.append(change - end["guides"])
-        assert residuals[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
-    assert change > 0.3
-    assert abs(residuals[0]) < 1e-3 * change
-    assert abs(residuals[0]) > 3.5 * abs(residuals[1])
-
-
 SQUARE = ((0.0, 0.1, 0.1, 0.3, 0.3, 0.5, 0.5, 0.8), (0.0, 0.0, 0.5, 0.5, -0.5, -0.5, 0.5, 0.5))
 
 
@@ -201,18 +163,6 @@ def test_the_work_of_a_guide_under_a_square_wave_is_the_energy_of_its_wheel(meth
     run = simulate(watched_rotor(), 0.8, 2e-3, {"target": SQUARE}, method=method, progress=False, estimate_error=False)
     assert np.ptp(run["energy"]) > 10.0
     assert np.abs(run["energy"] - run["energy"][0] - run["guides"]).max() < bound * np.ptp(run["energy"])
-
-
-@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum"])
-def test_each_method_sums_up_the_work_of_a_guide(method):
-    residuals = []
-    for h in (4e-3, 2e-3):
-        requested = {"target": lambda t: 0.5 * np.sin(9.0 * t)}
-        run = simulate(watched_rotor(), 0.8, h, requested, method=method, progress=False, estimate_error=False)
-        residuals.append(np.ptp(run["energy"] - run["guides"]))
-        assert np.ptp(run["guides"]) > 1.0
-    assert residuals[0] < 0.03 * np.ptp(run["guides"])
-    assert residuals[0] > 3.0 * residuals[1]
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
@@ -243,10 +193,10 @@ def pendulum(amplitude, step, mass=1.0):
     return simulate(compile(m), 4000 * step, step, progress=False, estimate_error=False), mean
 
 
-@pytest.mark.parametrize(("step", "within"), [(0.0167, 0.01), (0.0335, 0.02)])
-def test_the_energy_loss_of_a_pendulum_is_that_of_the_theory(step, within):
+def test_the_energy_loss_of_a_pendulum_is_that_of_the_theory():
+    step = 0.0167
     run, mean = pendulum(0.5, step)
-    assert run.report.energy_growth / 4000 == pytest.approx(-3.0 / 8.0 * 1.1 * mean * step**4, rel=within)
+    assert run.report.energy_growth / 4000 == pytest.approx(-3.0 / 8.0 * 1.1 * mean * step**4, rel=0.01)
 
 
 def test_the_energy_loss_of_a_free_body_is_that_of_the_theory():
@@ -264,7 +214,7 @@ def test_the_energy_loss_of_a_free_body_is_that_of_the_theory():
     def cross(w):
         return np.cross(np.eye(3), w)
 
-    exact = solve_ivp(lambda t, w: turn(w), (0.0, 40.0), spin, rtol=1e-10, t_eval=np.linspace(0.0, 40.0, 40001))
+    exact = solve_ivp(lambda t, w: turn(w), (0.0, 40.0), spin, rtol=1e-10, t_eval=np.linspace(0.0, 40.0, 4001))
     lam = np.array([(cross(-w) @ cross(-w) + cross(-turn(w))) @ G for w in exact.y.T])
     rates = np.gradient(lam, exact.t, axis=0)
     mean = np.mean(np.einsum("tij,j,tji->t", rates, 1.0 / np.diag(G), rates))

@@ -53,8 +53,14 @@ def exact(motion: PPoly, t: Array) -> Array:
     return 1.0 + results
 
 
-@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "ali3p_generalised_alpha"])
-@pytest.mark.parametrize("jump", JUMPS)
+@pytest.mark.parametrize(
+    ("jump", "method"),
+    [
+        *((jump, "ali3p") for jump in JUMPS),
+        (next(iter(JUMPS)), "energy_momentum"),
+        (next(iter(JUMPS)), "ali3p_generalised_alpha"),
+    ],
+)
 def test_order_two_is_kept_through_a_jump(jump: str, method: str) -> None:
     system, errors = carried(JUMPS[jump]), []
     for h in STEPS:

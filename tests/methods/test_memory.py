@@ -63,21 +63,12 @@ def test_a_state_s_bytes_depend_on_no_earlier_step_of_another_method(after: str)
 
 
 def test_saved_states_do_not_depend_on_element_states_two_steps_ago() -> None:
-    instance = started(prototype_car.build(), "energy_momentum", 7)
-    other = twin(prototype_car.build(), instance.save())
+    system = loaded(prototype_car.build())
+    instance = started(system, "energy_momentum", 7)
+    other = twin(system, instance.save())
     instance.step(H)
     other.step(H)
     assert other.save() == instance.save()
-
-
-@pytest.mark.parametrize("method", [m for m in METHODS if not m.startswith("semi")])
-def test_a_run_that_fails_at_once_changes_no_bit_of_the_state(method: str) -> None:
-    instance = started(double_four_bar.build(), method)
-    before = [bytes(part) for part in instance.get_state()]
-    instance.set_settings(**IMPOSSIBLE)
-    with pytest.raises(KernelError):
-        instance.run(50.0, 3)
-    assert [bytes(part) for part in instance.get_state()] == before
 
 
 def test_a_run_that_fails_later_shows_the_outputs_of_the_inputs_it_went_with() -> None:
@@ -93,8 +84,15 @@ def test_a_run_that_fails_later_shows_the_outputs_of_the_inputs_it_went_with() -
         assert bytes(a) == bytes(b)
 
 
-@pytest.mark.parametrize("first", ["energy_momentum", "radau_5"])
-@pytest.mark.parametrize("second", ["ali3p", "ali3p_generalised_alpha", "energy_momentum", "radau_5"])
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("energy_momentum", "ali3p"),
+        ("radau_5", "ali3p_generalised_alpha"),
+        ("radau_5", "energy_momentum"),
+        ("energy_momentum", "radau_5"),
+    ],
+)
 def test_a_failed_attempt_with_another_method_leaves_the_memory_of_the_last(first: str, second: str) -> None:
     instance = started(double_four_bar.build(), first)
     before = numbers_of(instance)
@@ -111,8 +109,8 @@ def numbers_of(instance: Instance) -> bytes:
     return instance.save()[-8 * (past + 3 * z.nq + z.nc) :]
 
 
-@pytest.mark.parametrize("every", [1, 4])
-def test_the_violation_that_a_run_records_is_the_one_a_step_reports(every: int) -> None:
+def test_the_violation_that_a_run_records_is_the_one_a_step_reports() -> None:
+    every = 4
     model = spatial_chain.build()
     model.sense_solver("violation", "violation")
     instance, other = (started(model, "semi_recursive", 0) for _ in range(2))
@@ -144,16 +142,15 @@ def test_a_counter_that_would_overflow_is_refused(count: int) -> None:
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("build", [bricard.build, double_four_bar.build], ids=["Bricard", "double four-bar"])
-def test_a_memory_of_any_content_gives_no_infinite_state(build: Callable[[], Model], method: str) -> None:
-    instance = started(build(), method)
+def test_a_memory_of_any_content_gives_no_infinite_state(method: str) -> None:
+    instance = started(double_four_bar.build(), method)
     z = instance.system.sizes
     state = instance.save()
     carried = OWNER_AND_TIMES + (1 + PAST) * z.nq + PAST * z.nc
     start = len(state) - 8 * (carried + z.nu + z.np)
     assert struct.unpack_from("<d", state, start)[0] in range(len(METHODS))
     rng = np.random.default_rng(SEED)
-    for _ in range(60):
+    for _ in range(40):
         altered = bytearray(state)
         for _ in range(rng.integers(1, 5)):
             place = rng.integers(OWNER_AND_TIMES if rng.random() < 0.5 else carried)
@@ -203,7 +200,7 @@ def test_after_any_calls_three_instances_go_on_alike(build: Callable[[], Model])
     system = LoadedSystem(compile(build()).to_bytes())
     rng = np.random.default_rng(SEED)
     refused = 0
-    for _ in range(40):
+    for _ in range(20):
         three = [Instance(system) for _ in range(3)]
         for instance in three:
             instance.initialise()
@@ -219,4 +216,4 @@ def test_after_any_calls_three_instances_go_on_alike(build: Callable[[], Model])
             assert len(statuses) == 1
             assert len({instance.save() for instance in three}) == 1
             refused += statuses != {0}
-    assert 5 < refused < 150
+    assert 2 < refused < 75

@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from mbs import Model, Settings, Simulation, compile, simulate
-from mbs.scenes import bricard, double_four_bar, flyball
-from tests.methods.models import end, hinge, sliding_mass, swing
+from mbs.scenes import bricard, flyball
+from tests.methods.models import end, hinge, sliding_mass
 
 NAME = "radau_5"
 TIGHT = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13)
@@ -50,19 +50,6 @@ def test_velocities_without_projection_are_of_order_three():
     assert 2.7 < result < 3.3
 
 
-def test_a_damped_oscillator_has_the_motion_and_the_energy_of_the_closed_form():
-    damping, stiffness, t_end = 1.2, 40.0, 2.0
-    system, decay = sliding_mass(stiffness, damping, 1.0, 0.0), 0.5 * damping
-    rate = np.sqrt(stiffness - decay**2)
-    x = np.exp(-decay * t_end) * (np.cos(rate * t_end) + decay / rate * np.sin(rate * t_end))
-    v = -np.exp(-decay * t_end) * stiffness / rate * np.sin(rate * t_end)
-    expected = np.array([x, v, 0.5 * v**2 + 0.5 * stiffness * x**2])
-    steps = (0.1, 0.05, 0.04, 0.025)
-    errors = np.array([np.abs(end(system, ["x", "v", "energy"], t_end, h, TIGHT) - expected) for h in steps])
-    for component in errors.T:
-        assert np.polyfit(np.log(steps), np.log(component), 1)[0] > 4.5
-
-
 def test_the_work_of_a_damper_is_the_energy_lost():
     """On the angle theta of a hinge: E0 - E1 is the integral of c theta'^2 along the motion of an ODE solver."""
     damping, system = 0.3, compile(hinge(0.3))
@@ -79,27 +66,13 @@ def test_the_work_of_a_damper_is_the_energy_lost():
     assert exact[2] > 10.0
 
 
-@pytest.mark.parametrize("rate", [1e3, 1e6])
-def test_a_stiff_damper_stops_within_a_step_without_swinging(rate):
+def test_a_stiff_damper_stops_within_a_step_without_swinging():
+    rate = 1e6
     run = simulate(sliding_mass(0.0, rate, 0.0, 1.0), 0.1, 0.01, settings=TIGHT, estimate_error=False)
     speed = np.abs(run["v"])
     assert speed[1] < 10.0 / (rate * 0.01)
     assert speed[2] < 10.0 / (rate * 0.01) ** 2
     assert run["x"][-1] == pytest.approx(1.0 / rate, rel=1e-2)
-
-
-def test_a_stiff_spring_is_damped_and_the_slow_motion_stays():
-    """Frequency times step 100: the energy of the fast motion is gone at once."""
-    run = simulate(sliding_mass(1e8, 0.0, 1.0, 0.0), 0.1, 0.01, settings=Settings(method=NAME))
-    assert run["energy"][2] < 1e-6 * run["energy"][0]
-
-
-@pytest.mark.parametrize("h", [0.05, 0.02, 0.01])
-def test_singular_positions_are_passed(h):
-    run = simulate(compile(double_four_bar.build()), 10.0, h, method=NAME)
-    energy = run["energy.total"]
-    assert np.abs(energy - energy[0]).max() < 20.0 * (h / 0.05) ** 4.5 * 1e-3
-    assert run.report.violation < 1e-10
 
 
 def test_a_redundant_row_costs_no_more_than_others():
@@ -116,16 +89,3 @@ def test_inputs_go_straight_between_the_ends_of_a_step():
     run = simulate(system, 1.0, 0.02, inputs, TIGHT)
     expected = simulate(system, 1.0, 0.02, inputs, method="runge_kutta_8")
     np.testing.assert_allclose(run["angle"], expected["angle"], atol=1e-7)
-
-
-def test_accelerations_and_joint_forces_are_those_of_the_state():
-    """M qdd + Phi_q' lam = Q and Phi_q qdd = -gamma at the end of a step."""
-    system = compile(swing(6.0))
-    simulation = Simulation(system, settings=TIGHT)
-    for _ in range(20):
-        simulation.step(0.01)
-    fine = Simulation(system, settings=Settings(method="runge_kutta_8", tolerance_phi=1e-14))
-    for _ in range(20):
-        fine.step(0.01)
-    np.testing.assert_allclose(simulation.state.qdd, fine.state.qdd, atol=2e-3)
-    np.testing.assert_allclose(simulation.state.lam, fine.state.lam, atol=2e-2)

@@ -82,19 +82,14 @@ def test_a_step_refused_in_its_second_half_leaves_the_state_where_it_was():
     assert second > 0
 
 
-@pytest.mark.parametrize(
-    "pose", [Pose(x=1e300), Pose(y=-2.0 * FARTHEST), Pose(z=1e20), Pose(speed=1e300), Pose(yaw=-1e7)]
-)
-def test_a_start_beyond_the_digits_is_refused_as_that(pose):
-    with pytest.raises(SimulationError, match="too far away or too fast") as refused:
-        Simulation(compile(prototype_car.build()), pose=pose)
-    assert refused.value.status == Status.TOO_FAR
-    assert "wishbone" not in str(refused.value)
-    assert repr(pose) in str(refused.value)
-
-
-def test_a_start_just_within_them_is_not():
-    Simulation(compile(prototype_car.build()), pose=Pose(x=0.9 * FARTHEST))
+def test_a_start_beyond_the_digits_is_refused_as_that():
+    car = compile(prototype_car.build())
+    for pose in (Pose(x=1e300), Pose(y=-2.0 * FARTHEST), Pose(z=1e20), Pose(speed=1e300), Pose(yaw=-1e7)):
+        with pytest.raises(SimulationError, match="too far away or too fast") as refused:
+            Simulation(car, pose=pose)
+        assert refused.value.status == Status.TOO_FAR
+        assert "wishbone" not in str(refused.value)
+        assert repr(pose) in str(refused.value)
 
 
 def test_of_many_rows_the_one_that_is_open_most_is_reported():
@@ -111,7 +106,9 @@ def test_of_many_rows_the_one_that_is_open_most_is_reported():
 
 
 def test_a_closed_row_is_not_the_reason():
-    assert open_row({"worst_row": 0, "violation": 7e-15}, ["lower wishbone"]) == ""
+    for gap in (7e-15, float("nan"), float("inf")):
+        assert open_row({"worst_row": 0, "violation": gap}, ["lower wishbone"]) == ""
+    assert open_row({"worst_row": 1, "violation": 1.0}, ["lower wishbone"]) == ""
     assert open_row({"worst_row": 0, "violation": 1e-3}, ["lower wishbone"]) == "'lower wishbone', open by 0.001 m"
 
 
@@ -153,8 +150,6 @@ def driven_four_bar(rate: float, turn: float = 3.0) -> Model:
     [
         {"h": 0.01},
         {"h": 0.01, "method": "radau_5"},
-        {"h": 0.01, "method": "runge_kutta_8"},
-        {"tolerance": 1e-3, "method": "ali3p"},
         {"tolerance": 1e-3, "method": "runge_kutta_8"},
     ],
 )
@@ -177,7 +172,7 @@ def test_a_drive_is_not_to_blame_where_positions_close(rate):
     assert "two ways" not in str(refused.value)
 
 
-@pytest.mark.parametrize(("unit", "shown"), [("1", "is 2 at"), ("", "is 2 at"), ("N.m", "is 2 N.m at")])
+@pytest.mark.parametrize(("unit", "shown"), [("1", "is 2 at"), ("N.m", "is 2 N.m at")])
 def test_a_pure_number_has_no_unit(unit, shown):
     m = Model("one input", dimension=2)
     bar = m.body("bar", mass=1.0, com=(1.0, 0.0), inertia=0.1)

@@ -1,19 +1,12 @@
-"""The explicit method of order eight: its accuracy, and models that it refuses."""
+"""The explicit method of order eight: its rows and its cost."""
 
 import numpy as np
 
 from mbs import Settings, compile, simulate
 from mbs.scenes import bricard
-from tests.methods.models import driven, end
 
 TIGHT = Settings(method="runge_kutta_8", tolerance_phi=1e-14)
 TWELVE = 12  # evaluations a step
-
-
-def test_it_agrees_with_the_implicit_steps_also_where_a_guide_drives():
-    system, names = compile(driven()), ["bob.x", "bob.y"]
-    expected = end(system, names, 2.0, 0.0005, Settings())
-    np.testing.assert_allclose(end(system, names, 2.0, 0.02, TIGHT), expected, atol=2e-5)
 
 
 def test_the_rows_and_their_rates_hold_and_a_step_costs_twelve_evaluations():

@@ -119,16 +119,6 @@ def robot():
     return compile(puma.build())
 
 
-def test_the_robot_has_six_degrees_of_freedom_and_starts_where_the_table_does(robot):
-    assert robot.report["degrees_of_freedom"] == 6
-    simulation = Simulation(robot)
-    np.testing.assert_allclose(
-        [simulation.sensors[f"hand.position.{c}"] for c in "xyz"],
-        (8.0821057028e-01, -6.3988340610e-01, 6.6956068762e-01),
-        atol=1e-9,
-    )
-
-
 @pytest.mark.parametrize(("h", "bound_m"), [(0.01, 1e-3), (0.05, 0.03), (0.1, 0.2)])
 def test_the_robot_comes_back_also_where_the_paper_does_not_converge(robot, h, bound_m):
     """Paper, Table 2, of its own manoeuvre: 0.53 mm, 3.4 mm, no convergence."""

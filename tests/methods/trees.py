@@ -75,22 +75,6 @@ def measured(scene: str) -> Model:
     return m
 
 
-def carriage() -> Model:
-    """A carriage on a horizontal rail that carries a spatial double pendulum: nothing acts along the rail."""
-    m = Model("carriage", dimension=3)
-    cart = m.body("cart", mass=1.5, com=(0.0, 0.0, 0.0), inertia=INERTIA)
-    first = m.body("first", mass=1.0, com=(0.0, 0.3, -0.2), inertia=INERTIA)
-    second = m.body("second", mass=0.8, com=(0.3, 0.5, -0.5), inertia=0.6 * INERTIA)
-    m.prismatic("rail", cart, m.ground, axis=(1.0, 0.0, 0.0))
-    m.revolute("upper", cart, first, point=(0.0, 0.0, 0.0), axis=(1.0, 1.0, 0.0))
-    m.revolute("lower", first, second, point=(0.1, 0.4, -0.4), axis=(0.0, 1.0, 1.0))
-    m.initial_velocity(cart, linear=(0.7, 0.0, 0.0))
-    for body in (cart, first, second):
-        m.sense_position(f"{body.name}.vx", body, None, "x", order=1)
-    m.sense_energy("energy")
-    return m
-
-
 def pendulum(length: float, mass: float, spin_inertia: float, angle: float) -> Model:
     """A rigid body on a horizontal pin, turned by `angle` from hanging."""
     m = Model("pendulum", dimension=3, gravity=(0.0, 0.0, -GRAVITY))
@@ -100,19 +84,6 @@ def pendulum(length: float, mass: float, spin_inertia: float, angle: float) -> M
     for c in "xz":
         m.sense_position(f"body.{c}", body, None, c)
     m.sense_joint("pin.z", "pin", "z")
-    return m
-
-
-def double_pendulum(angles: tuple[float, float]) -> Model:
-    """Two equal uniform rods of 1 m and 1 kg in a plane, turned from hanging."""
-    m = Model("double", dimension=2, gravity=(0.0, -GRAVITY))
-    down = [np.array([np.sin(a), -np.cos(a)]) for a in angles]
-    first = m.body("first", mass=1.0, com=0.5 * down[0], inertia=1.0 / 12.0)
-    second = m.body("second", mass=1.0, com=down[0] + 0.5 * down[1], inertia=1.0 / 12.0)
-    m.revolute("pivot", m.ground, first, point=(0.0, 0.0))
-    m.revolute("knee", first, second, point=down[0])
-    m.sense_position("knee.x", first, down[0], "x")
-    m.sense_position("tip.x", second, down[0] + down[1], "x")
     return m
 
 

@@ -1,17 +1,16 @@
 """The error estimate of a run: warnings with numbers, refined runs of suspects only, and none at rest."""
 
 import re
-import warnings
 
 import numpy as np
 import pytest
 
 import mbs
-from benchmarks.methods.honesty_scenes import CRANK_ANGLE, SCENES, printed_model
+from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs import AccuracyWarning, Model, Pose, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.header.limits import WRONG_ERROR
-from mbs.results.accuracy import Accuracy, divisor
+from mbs.results.accuracy import divisor
 from mbs.results.comparison import compared_sensors
 from mbs.scenes import prototype_car
 from mbs.simulation import fixed_steps
@@ -62,24 +61,6 @@ class TestThePrintedModel:
         assert "energy balance open by" in repr(run)
         assert "halvings a step" in str(run)
 
-    @pytest.mark.parametrize("h", [2e-3, 2.5e-4])
-    def test_all_steps_that_end_wrong_warn(self, h):
-        with pytest.warns(AccuracyWarning):
-            simulate(printed_model(), 2.0, h, TORQUE, every=100, **QUIET)
-
-    def test_the_method_that_the_warning_names_is_right_and_quiet(self):
-        run = simulate(printed_model(), 2.0, 2.5e-4, TORQUE, method="runge_kutta_8", **QUIET)
-        assert run["crank.angle"][-1] == pytest.approx(CRANK_ANGLE, abs=1e-3)
-        assert run.accuracy.message == ""
-
-    def test_the_error_estimated_is_the_error(self):
-        with pytest.warns(AccuracyWarning, match=r"'piston.x' by 0\.\d+ m of 0.2 m"):
-            run = simulate(printed_model(), 2.0, 6.25e-5, TORQUE, estimate_error=True, **QUIET)
-        assert run.accuracy.sensors["crank.angle"] == pytest.approx(CRANK_ANGLE - run["crank.angle"][-1], rel=0.3)
-        assert run.accuracy.compared_step == pytest.approx(1.5625e-5)
-        assert 1.5 < run.accuracy.order <= 2.0
-        assert "% of the range in rad" in repr(run)
-
     def test_false_checks_nothing(self, starts):
         run = simulate(printed_model(), 2.0, 1e-3, TORQUE, estimate_error=False, **QUIET)
         assert len(starts) == 1
@@ -107,7 +88,7 @@ class TestRepeats:
         assert run.accuracy.error is None
         assert run.accuracy.message == ""
 
-    @pytest.mark.parametrize(("every", "longer"), [(1, 8.0), (2, 8.0), (7, 7.0), (19, 9.5)])
+    @pytest.mark.parametrize(("every", "longer"), [(1, 8.0), (19, 9.5)])
     def test_a_right_run_is_compared_with_one_of_about_eight_times_the_step(self, starts, every, longer):
         run = simulate(system_of("pendulum"), 10.0, 0.005, every=every, **QUIET)
         assert len(starts) == 2
@@ -118,17 +99,7 @@ class TestRepeats:
         # So long steps err by less than order two says: the estimate is 0.69 of that by half the step.
         assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.5)
 
-    def test_near_the_limit_a_third_run_decides(self, starts):
-        case = CASES["pendulum"]
-        run = simulate(system_of("pendulum"), case.end, 0.2 / 6, every=6, **QUIET)
-        assert len(starts) == 4
-        assert run.accuracy.compared_step == 0.05 / 6
-        error = max(np.abs(run[s] - x).max() for s, x in zip(case.sensors, exact_of("pendulum").T, strict=True))
-        assert max(run.accuracy.sensors[s] for s in case.sensors) == pytest.approx(error, rel=0.1)
-
-    @pytest.mark.parametrize(
-        ("scene", "h"), [("pendulum", 0.02), ("double_four_bar", 0.01), ("spatial_chain", 0.01), ("bricard", 0.1)]
-    )
+    @pytest.mark.parametrize(("scene", "h"), [("pendulum", 0.02), ("double_four_bar", 0.01)])
     def test_the_estimate_is_within_a_factor_of_two_of_the_error(self, scene, h):
         case = CASES[scene]
         every = round(case.end / 50 / h)
@@ -168,7 +139,7 @@ class TestRepeats:
         assert len(starts) == 2
         assert starts[0] == starts[1]
 
-    @pytest.mark.parametrize("every", [1, 30, 900, 1000, 5000])
+    @pytest.mark.parametrize("every", [30, 5000])
     def test_few_samples_do_not_hide_or_make_an_error(self, every):
         """The range is that of the motion, not that of two samples which may be where it began."""
         system, case = system_of("pendulum"), CASES["pendulum"]
@@ -179,19 +150,6 @@ class TestRepeats:
         assert 0.002 < run.accuracy.error < 0.01
         with pytest.warns(AccuracyWarning, match=r"'bob.position.[xy]'"):
             simulate(system, case.end, 0.05, every=every, **QUIET)
-
-    def test_a_failed_run_has_the_samples_that_were_asked_for(self):
-        with pytest.raises(SimulationError) as caught:
-            simulate(system_of("cart_pole"), 0.6, 1e-3, every=100, **QUIET)
-        assert caught.value.trajectory.t == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4])
-
-    def test_a_pose_goes_along(self, starts):
-        system = compile(prototype_car.build())
-        run = simulate(
-            system, 0.5, 0.01, {"throttle": 0.3}, pose=Pose(x=5.0, yaw=0.5, speed=12.0), estimate_error=True, **QUIET
-        )
-        assert starts[0]["pose"] == starts[1]["pose"]
-        assert run.accuracy.units["m"] < 1e-4
 
     def test_a_run_at_rest_has_nothing_to_judge(self):
         m = Model("hanging", dimension=2)
@@ -204,20 +162,6 @@ class TestRepeats:
             assert run.accuracy.units == {}
             assert run.accuracy.message == ""
             assert simulate(compile(m), 5.0, 0.05, method=method, **QUIET).accuracy.check_cost == 0.0
-
-    def test_the_braked_car_stands_without_a_warning(self):
-        run = simulate(compile(prototype_car.build()), 5.0, 0.05, {"brake": 1.0}, estimate_error=True, **QUIET)
-        assert run.accuracy.message == ""
-
-    def test_without_sensors_the_coordinates_are_judged(self):
-        m = Model("silent", dimension=2)
-        bar = m.body("bar", mass=1.0, com=(1.0, 0.0), inertia=0.1)
-        m.revolute("hinge", m.ground, bar, point=(0.0, 0.0))
-        run = simulate(compile(m), 5.0, 0.01, estimate_error=True, **QUIET)
-        assert set(run.accuracy.units) == {"1"}
-        assert 0.0 < run.accuracy.error < 0.01
-        with pytest.warns(AccuracyWarning, match="coordinate '"):
-            simulate(compile(m), 20.0, 0.05, estimate_error=True, **QUIET)
 
     def test_a_repeat_that_is_refused_is_warned_of(self, monkeypatch):
         march = fixed_steps.march
@@ -237,27 +181,6 @@ class TestRepeats:
         assert shares == sorted(shares)
         assert shares[-1] == 1.0
         assert any(0.3 < s < 0.34 for s in shares)
-
-
-def test_the_error_of_the_tumbling_body_is_reported():
-    for h in (0.01, 0.005, 0.0025):
-        with pytest.warns(AccuracyWarning, match="off by"):
-            SCENES["tumbling_body"].run("ali3p", h)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        fine = SCENES["tumbling_body"].run("ali3p", 0.0002)
-    assert SCENES["tumbling_body"].error(fine)[0] < 0.01
-
-
-@pytest.mark.parametrize(("off_axis", "t_end", "h"), [(1e-2, 10.0, 2.5e-3), (1e-3, 10.0, 1e-3), (1e-6, 20.0, 5e-4)])
-def test_the_nearer_to_the_middle_axis_the_shorter_the_steps_must_be(off_axis, t_end, h):
-    """Off by 10 to 100 % at steps that turn the body by a degree or less: neither energy nor predictors show it."""
-    m = Model("tumbling", dimension=3, gravity=(0.0, 0.0, 0.0))
-    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(0.1, 0.2, 0.3))
-    m.initial_velocity(body, angular=(off_axis, 5.0, 0.0))
-    m.sense_position("y", body, (0.0, 1.0, 0.0), "y")
-    with pytest.warns(AccuracyWarning, match="off by"):
-        simulate(compile(m), t_end, h, **QUIET)
 
 
 def test_a_run_that_blew_up_is_reported_in_a_number_that_can_be_read():
@@ -290,32 +213,7 @@ def test_what_jumps_is_not_judged():
     assert not {"gear", "energy.total", "chassis.ax", "wheel_FL.omega", "solver.violation"} & judged
 
 
-class TestByHand:
-    def test_steps_warn_once_from_the_balance(self):
-        simulation = Simulation(printed_model(), inputs=TORQUE)
-        with pytest.warns(AccuracyWarning, match="J of work") as caught:
-            simulation.step(5e-4, 4000)
-        assert len(caught) == 1
-        assert caught[0].filename == __file__
-        simulation.step(5e-4, 10)  # warnings are errors here
-
-    def test_a_run_warns_once_and_carries_the_balance(self):
-        simulation = Simulation(printed_model(), inputs=TORQUE)
-        with pytest.warns(AccuracyWarning) as caught:
-            first = simulation.run(1.5, 5e-4, progress=False)
-        assert len(caught) == 1
-        simulation.run(2.0, 5e-4, progress=False)  # warnings are errors here
-        assert first.accuracy.energy_balance == first.report.energy_balance
-        assert "J of work" in first.accuracy.message
-
-    def test_a_right_motion_is_quiet(self):
-        simulation = Simulation(system_of("double_four_bar"))
-        simulation.step(0.01, 1000)
-        assert simulation.report.energy_balance < WRONG_ERROR
-
-
-@pytest.mark.parametrize(("force", "h"), [(4.0, 0.05), (12.0, 0.06)])
-def test_a_motion_in_thirds_is_judged_by_the_range_of_all_of_them(force, h):
+def test_a_motion_in_thirds_is_judged_by_the_range_of_all_of_them():
     """A pendulum on a cart that is pulled: within each third it goes about half as far as in all, and is 3 % off."""
     m = Model("cart", dimension=2)
     cart = m.body("cart", mass=20.0, com=(0.0, 0.0), inertia=1.0)
@@ -326,7 +224,7 @@ def test_a_motion_in_thirds_is_judged_by_the_range_of_all_of_them(force, h):
     names = [f"{body.name}.{c}" for body in (cart, rod) for c in "xy"]
     for name, body in zip(names, (cart, cart, rod, rod), strict=True):
         m.sense_position(name, body, component=name[-1])
-    system, inputs = compile(m), {"pull": force}
+    system, inputs, h = compile(m), {"pull": 12.0}, 0.06
     simulation = Simulation(system, inputs=inputs)
     parts = [simulation.run(k * h, h, progress=False) for k in (24, 48, 72)]  # warnings are errors here
     whole = simulate(system, 72 * h, h, inputs=inputs, **QUIET)
@@ -336,24 +234,19 @@ def test_a_motion_in_thirds_is_judged_by_the_range_of_all_of_them(force, h):
     assert max(np.ptp(part[name]) for part in parts for name in names) < 0.8 * largest
 
 
-def test_a_refused_run_carries_its_trajectory_and_report():
-    with pytest.raises(SimulationError) as caught:
-        simulate(system_of("cart_pole"), 0.6, 1e-3, **QUIET)
-    accuracy = caught.value.trajectory.accuracy
-    assert isinstance(accuracy, Accuracy)
-    assert accuracy.energy_balance < 0.02
-    assert accuracy.halvings_per_step > 0.0
+def test_steps_by_hand_warn_once_from_the_balance():
+    simulation = Simulation(printed_model(), inputs=TORQUE)
+    with pytest.warns(AccuracyWarning, match="J of work") as caught:
+        simulation.step(5e-4, 4000)
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
+    simulation.step(5e-4, 10)  # warnings are errors here
 
 
 @pytest.mark.parametrize("value", ["yes", 0.0, -1, 1e7, float("nan")])
 def test_estimate_error_is_true_false_or_a_budget(value):
     with pytest.raises(ValueError, match="estimate_error = .*; it must be True, False or None .* a number above 0"):
         simulate(system_of("pendulum"), 1.0, 0.01, estimate_error=value)
-
-
-def test_the_kinds_of_error_are_public():
-    assert issubclass(mbs.AccuracyWarning, UserWarning)
-    assert {"Accuracy", "AccuracyWarning"} <= set(mbs.__all__)
 
 
 def test_wheel_loads_of_a_car_that_is_too_fast_for_its_step_are_reported():

@@ -22,16 +22,6 @@ def run():
     return mbs.simulate(mbs.compile(pendulum.build()), 1.0, 0.01)
 
 
-def test_a_recording_has_sensors_and_poses(run):
-    recording = run.recording()
-    assert recording.name == "pendulum"
-    np.testing.assert_array_equal(recording.t, run.t)
-    np.testing.assert_array_equal(recording.columns["bob.x"], run.poses["bob.x"])
-    np.testing.assert_array_equal(recording.columns["rod.tension"], run["rod.tension"])
-    assert recording.units["rod.tension"] == "N"
-    assert recording.units["bob.x"] == "m"
-
-
 def test_animate_takes_ghosts_names_and_options(run):
     other = mbs.simulate(mbs.compile(pendulum.build(length=0.8)), 1.0, 0.01)
     animation = mbs.animate(run, other, speed=0.5, plots=["rod.tension"])

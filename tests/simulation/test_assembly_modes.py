@@ -19,9 +19,7 @@ from mbs.scenes import (
     bricard,
     double_four_bar,
     prototype_car,
-    slider_crank,
     spatial_slider_crank,
-    squeezer,
 )
 from mbs.simulation.unstepped_system import StandingSystem
 
@@ -83,12 +81,11 @@ def test_a_suspension_that_comes_back_is_not_reported() -> None:
 
 
 def test_the_mode_is_left_at_the_same_time_with_other_steps_and_methods(thrown: System) -> None:
-    for method in ("ali3p", "energy_momentum", "radau_5"):
-        for h in (2e-3, 2.5e-4):
-            run = simulate(thrown, 0.15, h, method=method)
-            assert "'tie rod'" in run.branch_change
-            assert run.report is not None
-            assert run.report.branch_time == pytest.approx(0.093, abs=0.003)
+    for method, h in (("ali3p", 2e-3), ("energy_momentum", 2.5e-4), ("radau_5", 2e-3)):
+        run = simulate(thrown, 0.15, h, method=method)
+        assert "'tie rod'" in run.branch_change
+        assert run.report is not None
+        assert run.report.branch_time == pytest.approx(0.093, abs=0.003)
 
 
 def test_a_loop_without_springs_swings_as_it_likes() -> None:
@@ -97,10 +94,9 @@ def test_a_loop_without_springs_swings_as_it_likes() -> None:
     assert run.report.branch_changes == 0
 
 
-@pytest.mark.parametrize("h", [0.04, 0.05, 0.1])
-def test_a_step_that_jumps_the_branch_is_reported(defect: System, h: float) -> None:
+def test_a_step_that_jumps_the_branch_is_reported(defect: System) -> None:
     with pytest.warns(BranchWarning, match=r"t = 1\.6 s the closed loop of 'B', 'C' .*take a shorter one"):
-        run = simulate(defect, 2.5, h)
+        run = simulate(defect, 2.5, 0.05)
     assert run["coupler.My"].min() < -11.0  # -9.1 on the branch of short steps
     assert run.report is not None
     assert run.report.branch_kind == 2
@@ -113,24 +109,16 @@ def test_short_steps_stay_on_the_branch(defect: System) -> None:
     assert run.report.branch_changes == 0
 
 
-@pytest.mark.parametrize("h", [0.002, 0.01, 0.03])
-@pytest.mark.parametrize("scene", [double_four_bar, bricard, slider_crank, spatial_slider_crank])
+@pytest.mark.parametrize(("scene", "h"), [(double_four_bar, 0.03), (bricard, 0.01), (spatial_slider_crank, 0.01)])
 def test_singular_positions_on_the_smooth_branch_are_no_alarm(scene, h: float) -> None:
     run = simulate(compile(scene.build()), 10.0, h)
     assert run.report is not None
     assert run.report.branch_changes == 0
 
 
-def test_many_cranks_in_a_row_and_the_squeezer_are_no_alarm() -> None:
-    for system, t_end, h in ((compile(double_four_bar.build(9)), 5.0, 0.01), (compile(squeezer.build()), 0.03, 1e-4)):
-        run = simulate(system, t_end, h)
-        assert run.report is not None
-        assert run.report.branch_changes == 0
-
-
-@pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize(
-    "lengths", [GRASHOF, (0.4, 0.2, 0.4, 0.2), (0.2, 0.25, 0.25, 0.35), (0.3, 0.2, 0.25, 0.2)], ids=str
+    ("lengths", "side"),
+    [(GRASHOF, 1), ((0.4, 0.2, 0.4, 0.2), -1), ((0.2, 0.25, 0.25, 0.35), 1), ((0.3, 0.2, 0.25, 0.2), -1)],
 )
 def test_four_bars_of_all_kinds_are_no_alarm(lengths: tuple[float, float, float, float], side: int) -> None:
     run = simulate(compile(four_bar(lengths, 1.0, side, 6.0)), 5.0, 0.005)
@@ -226,9 +214,8 @@ def test_a_restored_state_continues_its_count(thrown: System) -> None:
     assert third.report.branch_changes == first.report.branch_changes
 
 
-@pytest.mark.parametrize("fidelity", [0, 1, 2])
-def test_the_loops_of_the_car_are_known_at_every_fidelity(fidelity: int) -> None:
-    system = compile(prototype_car.build(None, fidelity))
+def test_the_loops_of_the_car_are_known() -> None:
+    system = compile(prototype_car.build())
     assert len(system.arrays["mode_cell_ptr"]) == 5  # a loop at each wheel
     assert np.diff(system.arrays["mode_cell_ptr"]).tolist() == [2, 2, 2, 2]
 
@@ -243,12 +230,6 @@ def test_the_kernel_refuses_altered_modes(thrown: System, name: str, place: int,
     values[place] = value
     with pytest.raises(KernelError, match=name):
         LoadedSystem(System({**thrown.arrays, name: values}, thrown.meta).to_bytes())
-
-
-def test_a_model_of_one_body_has_no_loops() -> None:
-    m = Model("pendulum", dimension=2)
-    m.revolute("pin", m.ground, m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1), point=(0.0, 0.0))
-    assert len(compile(m).arrays["mode_triad"]) == 0
 
 
 @pytest.mark.parametrize(("method", "h"), [("ali3p", 0.03), ("energy_momentum", 0.01)])

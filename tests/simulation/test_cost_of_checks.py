@@ -28,9 +28,7 @@ def swing() -> mbs.System:
 @pytest.mark.parametrize(
     ("seed", "number", "steps", "method"),
     [
-        pytest.param(3, 66, 200, "semi_recursive_4", id="68 % off, plainly smooth by v + h a"),
-        pytest.param(2, 76, 50, "semi_recursive_4", id="8 % off, the same"),
-        pytest.param(61, 184, 200, "semi_recursive_4", id="45 % off, the same"),
+        pytest.param(2, 76, 50, "semi_recursive_4", id="8 % off, plainly smooth by v + h a"),
         pytest.param(3, 96, 100, "runge_kutta_8", id="15 % off, twice the step agrees within 5 %"),
     ],
 )
@@ -45,7 +43,6 @@ def test_chains_that_were_silent_are_reported(seed: int, number: int, steps: int
     [
         pytest.param("semi_recursive_4", 0.51, id="eight times the step is too far off, and given up"),
         ("semi_recursive", 0.125),
-        ("runge_kutta_8", 0.125),
     ],
 )
 def test_a_right_tree_of_high_order_is_compared_with_eight_times_its_step(method: str, cost: float) -> None:
@@ -65,14 +62,6 @@ def test_a_half_that_surely_is_coarse_is_not_made() -> None:
     truth = place(w * w, gap, run.t)
     assert np.abs(run["x"] - truth).max() < 0.05 * np.ptp(truth)
     assert not run.accuracy.message
-
-
-def test_a_coarser_run_is_given_up_where_it_differs() -> None:
-    """At 0.625 s, after an impact at 0.5 s: half of the 0.5 of a run to 1.25 s; then two for half the step."""
-    run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.01, every=2, progress=False)
-    assert run.accuracy is not None
-    assert run.accuracy.check_cost == 2.25
-    assert run.accuracy.compared_step == 0.005
 
 
 def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth() -> None:
@@ -147,11 +136,10 @@ def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported() ->
     assert "at most 64 unless estimate_error=N" in str(run.accuracy)
 
 
-@pytest.mark.parametrize("steps", [204, 302, 403])
-def test_coordinates_are_compared_at_the_same_instants_in_all_runs(steps: int) -> None:
+def test_coordinates_are_compared_at_the_same_instants_in_all_runs() -> None:
     """Of a System that senses a force alone they are kept, at some instants."""
     system = ball(1e3, 0.5, loads=True, motion=False)
-    run = mbs.simulate(system, 1.25, 1.25 / steps, progress=False)
+    run = mbs.simulate(system, 1.25, 1.25 / 302, progress=False)
     assert run.accuracy is not None
     assert run.accuracy.check_cost > 0.0
     assert 0.0 < run.accuracy.units[COORDINATES] < 0.05

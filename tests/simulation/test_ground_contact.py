@@ -94,8 +94,8 @@ def after_impact(v, chi):
     return brentq(lambda x: x * x / 2.0 + chi * x**3 / 3.0 - energy, 0.0, v, xtol=1e-14)
 
 
-@pytest.mark.parametrize("chi", [0.05, 0.5])
-def test_ball_bounces_with_the_speed_of_the_closed_form(chi):
+def test_ball_bounces_with_the_speed_of_the_closed_form():
+    chi = 0.5
     contact = ContactPoints(4e6, 4e6, 1e4, onset=0.003, loss=chi, radius=0.1)
     system = block(PlaneRoad(), (0.0, 0.0, -4.0), 0.01, [(0.0, 0.0, 0.0)], contact, gravity=0.0)
     errors = []
@@ -108,8 +108,7 @@ def test_ball_bounces_with_the_speed_of_the_closed_form(chi):
     assert errors[-1] < errors[0] / 6.0
 
 
-@pytest.mark.parametrize("times", [0.1, 1.0, 10.0])
-@pytest.mark.parametrize("e", [0.3, 0.5, 0.8])
+@pytest.mark.parametrize(("e", "times"), [(0.3, 0.1), (0.5, 1.0), (0.8, 10.0)])
 def test_the_default_loss_is_that_of_a_restitution(e, times):
     """At sqrt(g depth) it is e, and e/2 is the limit of fast impacts; else by quadrature of m v dv = -F g dx."""
     contact = ContactPoints.for_mass(MASS, 0.01, restitution=e)
@@ -158,10 +157,11 @@ def test_grid_holds_a_block_like_the_plane_it_draws():
     assert a["touching"].max() >= 2
 
 
-@pytest.mark.parametrize("h", [1e-3, 2e-3])
-def test_energy_momentum_keeps_the_energy_of_a_contact_without_loss(h):
+def test_energy_momentum_keeps_the_energy_of_a_contact_without_loss():
     contact = ContactPoints(2e5, 2e5, 1e3, onset=0.01, friction_factor=0.0)
-    r = run(block(PlaneRoad(0.0, 0.15, 0.0), (0.0, 0.0, -2.0), 0.15, contact=contact), 1.0, h, method="energy_momentum")
+    r = run(
+        block(PlaneRoad(0.0, 0.15, 0.0), (0.0, 0.0, -2.0), 0.15, contact=contact), 1.0, 2e-3, method="energy_momentum"
+    )
     assert r["touching"].max() >= 2
     assert np.sum(np.diff((r["touching"] > 0).astype(int)) > 0) >= 2  # several blows
     scale = r["energy"].max() - MASS * G * 0.0 + 1.0
@@ -173,24 +173,6 @@ def test_energy_only_falls_in_a_tumble():
     # the trapezoidal rule errs with the square of the step at a blow
     assert np.diff(r["energy"]).max() < 2e-3 * (r["energy"][0] - r["energy"][-1])
     assert r["energy"][-1] < r["energy"][0] - 300.0
-
-
-def test_states_save_and_restore_bit_for_bit():
-    system = block(PlaneRoad(friction=MU), (2.0, 0.0, 0.0), -0.001)
-    one = mbs.Simulation(system)
-    one.step(0.002, 100)
-    kept = one.save()
-    one.step(0.002, 100)
-    two = mbs.Simulation(system)
-    two.restore(kept)
-    two.step(0.002, 100)
-    assert one.save() == two.save()
-
-
-def test_methods_without_states_refuse():
-    for method in ("radau_5", "runge_kutta_8", "energy_momentum_4"):
-        with pytest.raises(mbs.SimulationError, match="takes no element states"):
-            run(block(PlaneRoad()), 0.1, 0.001, method=method)
 
 
 def test_vocabulary_refuses_by_name():
@@ -207,15 +189,6 @@ def test_vocabulary_refuses_by_name():
     with pytest.raises(ModelError, match=r"shape \(2,\)"):
         m.contact_points("feet", body, [0.0, 1.0], road=0, contact=CONTACT)
     assert m.contact_point("foot", body, (0.0, 0.0, 0.0), road=0, contact=CONTACT).integer == (0, 1)
-
-
-def test_energy_momentum_keeps_energy_on_a_curved_road():
-    x = np.linspace(-5.0, 5.0, 41)
-    bowl = GridRoad((-5.0, -5.0), (0.25, 0.25), 0.1 * (x[:, None] ** 2 + x[None, :] ** 2), 0.5)
-    contact = ContactPoints(2e5, 2e5, 1e3, onset=0.01, friction_factor=0.0)
-    r = run(block(bowl, (1.5, 0.5, 0.0), 0.1, contact=contact), 1.0, 2e-3, method="energy_momentum")
-    assert r["touching"].max() >= 2
-    assert np.abs(r["energy"] - r["energy"][0]).max() < 1e-6 * (1.0 + abs(r["energy"][0]))
 
 
 @pytest.mark.parametrize("loss", [0.0, 0.5])

@@ -7,27 +7,9 @@ from mbs import Affine, LinearisationWarning, Model, Simulation, compile, linear
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.road import PlaneRoad
 from mbs.elements.tyre import Tyre, TyreCurve
-from tests.simulation.scenes import GRAVITY, LENGTH, MASS, pendulum, two_masses
+from tests.simulation.scenes import GRAVITY, LENGTH, MASS, two_masses
 
 RELATIVE = 1e-6
-
-
-def test_a_hanging_pendulum_swings_at_the_root_of_g_over_l():
-    model = linearise(Simulation(pendulum(hanging=True)))
-    assert model.degrees_of_freedom == 1
-    (mode,) = model.oscillating_modes()
-    assert mode.frequency_hz == pytest.approx(np.sqrt(GRAVITY / LENGTH) / (2 * np.pi), rel=RELATIVE)
-    assert mode.damping_ratio == pytest.approx(0.0, abs=RELATIVE)
-
-
-def test_an_upright_pendulum_falls_at_the_same_rate():
-    m = Model("upright", dimension=2, gravity=(0.0, -GRAVITY))
-    bob = m.point_mass("bob", mass=MASS, position=(0.0, LENGTH))
-    m.distance("rod", (m.ground, (0.0, 0.0)), bob)
-    model = linearise(Simulation(compile(m)))
-    rate = np.sqrt(GRAVITY / LENGTH)
-    np.testing.assert_allclose(sorted(mode.eigenvalue.real for mode in model.modes), [-rate, rate], rtol=RELATIVE)
-    assert model.oscillating_modes() == ()
 
 
 def test_a_compound_pendulum_of_a_body_swings_at_its_own_frequency():
@@ -77,16 +59,6 @@ def conical_pendulum(angle):
     m.distance("rod", (m.ground, (0.0, 0.0, 0.0)), bob)
     m.initial_velocity(bob, linear=(0.0, rate * radius, 0.0))
     return Simulation(compile(m)), rate
-
-
-@pytest.mark.parametrize("angle", [0.2, 0.7, 1.3])
-def test_a_conical_pendulum_swings_about_its_steady_rotation(angle):
-    """W sqrt(1 + 3 cos^2), seen in the plane that turns with it."""
-    simulation, rate = conical_pendulum(angle)
-    model = linearise(simulation)
-    (mode,) = model.oscillating_modes()
-    assert mode.eigenvalue.imag == pytest.approx(rate * np.sqrt(1.0 + 3.0 * np.cos(angle) ** 2), rel=RELATIVE)
-    assert model.frame_turning == pytest.approx((0.0, 0.0, rate), rel=RELATIVE)
 
 
 class TestTyre:

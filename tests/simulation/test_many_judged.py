@@ -7,7 +7,6 @@ import pytest
 
 import mbs
 from mbs.scenes import double_four_bar
-from mbs.vehicle import load as load_car
 
 Told = Counter[tuple[type[Warning], str]]
 
@@ -35,23 +34,6 @@ def told_together(system: mbs.System, variants: list[mbs.Variant], t_end: float,
         number, _, text = str(w.message).removeprefix("Variant ").partition(": ")
         results[int(number)][w.category, text] += 1
     return results
-
-
-@pytest.mark.slow
-def test_cars_over_kerbs_and_falls() -> None:
-    """One that stands and wrong ones, with few samples."""
-    system = mbs.compile(load_car("commonroad_escort").model())
-    kerb = {"road.kerb_x": 3.0, "road.kerb_height": 0.1}
-    variants = [
-        mbs.Variant(),
-        mbs.Variant(kerb, {"brake": 0.6}, mbs.Pose(speed=22.0)),
-        mbs.Variant(kerb, {"steering": 0.3}, mbs.Pose(speed=8.0)),
-        mbs.Variant(pose=mbs.Pose(z=0.5, speed=2.0)),
-    ]
-    each = told_by_each(system, variants, 1.0, 0.02, 10)
-    assert told_together(system, variants, 1.0, 0.02, 10) == each
-    assert each[0] == Counter()
-    assert sum(bool(warnings) for warnings in each) > 0
 
 
 def test_a_mechanism_that_swings_too_fast() -> None:

@@ -60,15 +60,6 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     assert run.accuracy.error == pytest.approx(gaps.max(), rel=0.1)
 
 
-def test_a_fourth_refined_run_decides_what_three_leave_open() -> None:
-    """By a third one, with an eighth of the step, this car is 4.8 % off, and it is 5.1 %."""
-    with pytest.warns(mbs.AccuracyWarning):
-        run = random_cars.drive(_stream(31, 27)).run(h=0.02)
-    assert run.accuracy is not None
-    assert run.accuracy.compared_step == 0.02 / 16
-    assert run.accuracy.error == pytest.approx(0.0508, rel=0.06)
-
-
 def _stream(seed: int, number: int) -> np.random.Generator:
     """Of a car of `benchmarks.honesty random`, after the number that makes it a car."""
     rng = np.random.default_rng([seed, number])
@@ -78,7 +69,7 @@ def _stream(seed: int, number: int) -> np.random.Generator:
 
 @pytest.mark.slow
 def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    """50 s in which the car lands once: from 0.3 m on its floor, whose force is 26 % off at 10 ms; from 0.1 m not."""
+    """20 s in which the car lands once: from 0.3 m on its floor, whose force is 26 % off at 10 ms; from 0.1 m not."""
     system = mbs.compile(prototype_car.build())
     names = [n for n, sensor in compared_sensors(system).items() if sensor.load]
 
@@ -88,7 +79,7 @@ def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
         fine = mbs.simulate(system, 1.0, 2.5e-4, pose=pose, progress=False, estimate_error=False)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            found = mbs.simulate(system, 50.0, 0.01, pose=pose, progress=False)
+            found = mbs.simulate(system, 20.0, 0.01, pose=pose, progress=False)
         peaks = {n: np.abs(fine[n]).max() for n in names}
         off = max(abs(np.abs(found[n]).max() - peak) for n, peak in peaks.items())
         return off / max(peaks.values()), [str(w.message) for w in caught if w.category is mbs.AccuracyWarning]

@@ -1,10 +1,8 @@
 """Systems and runs go to other processes and back, and give the same bits there."""
 
 import copy
-import multiprocessing
 import pickle
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pytest
@@ -35,16 +33,6 @@ def test_a_pickled_system_is_its_file_and_can_be_placed(car: System) -> None:
     assert again.ported is None
     assert copy.deepcopy(car) is car
     assert copy.copy(car).arrays is car.arrays
-
-
-@pytest.mark.slow
-def test_a_process_gives_the_run_back(car: System) -> None:
-    here = driven(car)
-    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        present = pool.submit(driven, car).result()
-    assert list(present) == [name for name in here if not name.startswith(("stress.", "bending_moment."))]
-    for name in present:
-        np.testing.assert_array_equal(present[name], here[name], name)
 
 
 def test_what_a_run_leaves_out_is_pickled_where_it_was_read(car: System) -> None:

@@ -7,8 +7,8 @@ import pytest
 
 import mbs
 from mbs.results import poses as poses_module
-from mbs.scenes import bicycle, flyball, pendulum, prototype_car, puma, spatial_chain
-from mbs.system.drawing import matrices, twist
+from mbs.scenes import bicycle, pendulum, spatial_chain
+from mbs.system.drawing import matrices
 
 
 def swinging(dimension: int = 3) -> mbs.Model:
@@ -42,14 +42,6 @@ def test_a_point_of_the_body_is_where_its_pose_puts_it(dimension):
     np.testing.assert_array_equal(run.poses.t, run.t)
 
 
-def test_quaternions_are_those_of_the_sensors():
-    run = mbs.simulate(mbs.compile(swinging()), 3.0, 0.01)
-    values = np.column_stack([run.poses[f"rod.q{part}"] for part in "wxyz"])
-    expected = np.column_stack([run[f"rod.q{part}"] for part in "wxyz"])
-    assert values[:, 0].min() >= 0.0
-    np.testing.assert_allclose(np.abs(np.sum(values * expected, axis=1)), 1.0, atol=1e-9)
-
-
 def test_a_planar_body_turns_about_z_with_the_sign_of_its_angle():
     m = swinging(2)
     m.sense_coordinate("angle", m.relative_angle("angle", m.ground, m.bodies[0]))
@@ -65,17 +57,6 @@ def test_a_particle_has_a_place_only():
     for c in "xy":
         np.testing.assert_array_equal(run.poses[f"bob.{c}"], run[f"bob.position.{c}"])
     np.testing.assert_array_equal(run.poses.quaternion("bob"), np.tile([1.0, 0.0, 0.0, 0.0], (len(run.t), 1)))
-
-
-def test_the_hand_of_the_puma():
-    model = puma.build()
-    run = mbs.Simulation(mbs.compile(model)).run(0.5, 0.005)
-    R, p = puma.frames(puma.START_DEG)[-1]
-    hand, last = p + R @ puma.HAND_POINT, model.bodies[-1]
-    poses = run.poses
-    actual = poses.position(last.name) + matrices(poses.quaternion(last.name)) @ (hand - last.com)
-    expected = np.column_stack([run[f"hand.position.{c}"] for c in "xyz"])
-    np.testing.assert_allclose(actual, expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive_4", "radau_5"])
@@ -112,13 +93,6 @@ def test_the_turning_of_the_carrier_is_taken_off_the_angle_of_a_wheel():
     np.testing.assert_allclose(run.poses["wheel.angle"], (5.0 - 2.0) * run.t, atol=2e-5)
 
 
-def test_twist_of_a_body_that_turns_about_a_fixed_axis():
-    axis, angle = np.array([0.6, 0.0, 0.8]), np.linspace(0.0, 25.0, 200)
-    quaternions = np.column_stack([np.cos(0.5 * angle), np.outer(np.sin(0.5 * angle), axis)])
-    np.testing.assert_allclose(twist(quaternions, axis), angle, atol=1e-12)
-    np.testing.assert_allclose(twist(quaternions, [0.0, 1.0, 0.0]), 0.0, atol=1e-12)
-
-
 def test_runs_with_a_tolerance_and_at_given_times():
     run = mbs.simulate(mbs.compile(swinging(2)), 1.0, tolerance=1e-5, times=[0.1, 0.7, 1.0])
     np.testing.assert_array_equal(run.poses.t, [0.0, 0.1, 0.7, 1.0])
@@ -126,15 +100,6 @@ def test_runs_with_a_tolerance_and_at_given_times():
     tip = run.poses.position("rod") + R @ np.array([0.5, 0.3, 0.0])
     np.testing.assert_allclose(tip[:, 0], run["tip.x"], atol=1e-7)
     assert mbs.simulate(mbs.compile(swinging(2)), 0.0, tolerance=1e-5).poses["rod.x"].tolist() == [0.5]
-
-
-def test_thinning_keeps_poses_at_the_samples():
-    run = mbs.simulate(mbs.compile(swinging(2)), 1.0, 0.01)
-    thin = run.thinned(7)
-    np.testing.assert_array_equal(thin.poses.t, thin.t)
-    np.testing.assert_array_equal(thin.poses["rod.x"], run.poses["rod.x"][::7])
-    every = mbs.simulate(mbs.compile(swinging(2)), 1.0, 0.01, every=25)
-    np.testing.assert_array_equal(every.poses["rod.x"], run.poses["rod.x"][::25])
 
 
 @pytest.mark.parametrize("every", [1, 4])
@@ -170,25 +135,6 @@ def test_a_failed_run_has_poses_until_it_failed():
     assert 100 < len(run.t) < 1000
     np.testing.assert_array_equal(run.poses.t, run.t)
     assert np.isfinite(run.poses["rod.x"]).all()
-
-
-def test_a_continued_run_begins_where_the_first_ended():
-    simulation = mbs.Simulation(mbs.compile(flyball.build()))
-    first, second = simulation.run(0.05, 0.001), simulation.run(0.1, 0.001)
-    for name in first.poses:
-        assert first.poses[name][-1] == pytest.approx(second.poses[name][0], abs=1e-12)
-
-
-@pytest.mark.slow
-def test_a_system_from_a_file_has_poses_and_scene(tmp_path):
-    system = mbs.compile(prototype_car.build())
-    system.save(tmp_path / "car.ali3")
-    loaded = mbs.System.load(tmp_path / "car.ali3")
-    assert loaded.scene == system.scene
-    runs = [mbs.Simulation(s).run(0.1, 0.005) for s in (system, loaded)]
-    assert list(runs[0].poses) == list(runs[1].poses)
-    for name in runs[0].poses:
-        np.testing.assert_array_equal(runs[0].poses[name], runs[1].poses[name])
 
 
 def test_a_system_without_a_drawing_is_refused():

@@ -38,14 +38,6 @@ def test_no_bar_when_switched_off(bar_after):
     assert isinstance(progress_for(False), Progress)
 
 
-def test_a_function_receives_the_share():
-    shares: list[float] = []
-    with progress_for(shares.append) as bar:
-        bar.update(0.5)
-        bar.update(1.0)
-    assert shares == [0.5, 1.0]
-
-
 @pytest.mark.parametrize("choice", [None, True])
 def test_the_bar_goes_to_the_error_stream(choice, capsys):
     with progress_for(choice) as bar:

@@ -1,7 +1,6 @@
 """Crates on slopes: they stand where the law of friction lets them, slide beyond it and tip where they must."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,7 +17,7 @@ def axes(slope):
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]).T
 
 
-def crate(sizes, mass, mu, slope, contact, fall=0.0, in_equilibrium=False, stiffness=None):
+def crate(sizes, mass, mu, slope, contact, fall=0.0, in_equilibrium=False):
     """A crate of `sizes` along `axes(slope)`, its lowest corners `fall` above the slope."""
     m = mbs.Model("crate")
     m.floating, m.start_in_equilibrium = not in_equilibrium, in_equilibrium
@@ -28,8 +27,6 @@ def crate(sizes, mass, mu, slope, contact, fall=0.0, in_equilibrium=False, stiff
     inertia = R @ np.diag(mass / 3.0 * (half @ half - half**2)) @ R.T
     body = m.body("crate", mass=mass, com=com, inertia=inertia)
     m.contact_points("feet", body, corners, road=road, contact=contact)
-    if stiffness is not None:
-        m.parameter("stiffness", stiffness, 1.0, 1e9, "N/m", "of the feet", targets=[("feet", "stiffness", 1.0)])
     for c in "xyz":
         m.sense_position(c, body, None, c)
         m.sense_position(f"v{c}", body, None, c, order=1)
@@ -54,35 +51,19 @@ def drawn(rng):
     return sizes, mass, rng.uniform(0.2, 0.8), contact, size * rng.choice([0.0, 0.01, rng.uniform(0.0, 0.01)]), h
 
 
-@pytest.mark.parametrize("h", [1e-3, 5e-3])
-@pytest.mark.parametrize("degrees", [14.0, 20.0, 25.0])
+@pytest.mark.parametrize(("degrees", "h"), [(14.0, 1e-3), (25.0, 5e-3)])
 def test_a_crate_stands(degrees, h):
     system = crate((1.0, 1.0, 1.0), 10.0, 0.5, math.radians(degrees), ContactPoints.for_mass(10.0, 0.001))
     r = mbs.simulate(system, 10.0, h, progress=False)
     assert moved(r, 5.0) < 1e-9
 
 
-@pytest.mark.parametrize("fall", [0.01, -0.001])
-@pytest.mark.parametrize("degrees", [0.0, 3.0, 20.0, 25.0])
+@pytest.mark.parametrize(("degrees", "fall"), [(0.0, 0.01), (3.0, -0.001), (25.0, 0.01)])
 def test_it_starts_in_equilibrium_on_a_slope(degrees, fall):
     contact, slope = ContactPoints.for_mass(2.5), math.radians(degrees)
     r = mbs.simulate(crate((1.0, 0.8, 0.6), 10.0, 0.5, slope, contact, fall, True), 2.0, 5e-3, progress=False)
     assert moved(r, 0.0) < 1e-8
     assert axes(slope)[:, 2] @ [r[c][0] for c in "xyz"] == pytest.approx(0.3, abs=0.01)
-
-
-def test_an_equilibrium_with_another_parameter_has_the_bits_of_a_compile_with_it():
-    soft = ContactPoints.for_mass(2.5)
-    stiff = replace(soft, stiffness=2.0 * soft.stiffness)
-    first, second = (
-        crate((1.0, 0.8, 0.6), 10.0, 0.5, math.radians(20.0), c, 0.0, True, c.stiffness) for c in (soft, stiff)
-    )
-    changed = mbs.Simulation(first, parameters={"stiffness": stiff.stiffness}).state
-    built, other = (mbs.Simulation(system).state for system in (second, first))
-    assert np.array_equal(changed.q, built.q)
-    assert np.array_equal(changed.y, built.y)
-    assert np.any(built.y != 0.0)
-    assert not np.array_equal(built.q, other.q)
 
 
 def test_no_equilibrium_is_found_where_friction_cannot_hold():
@@ -93,21 +74,21 @@ def test_no_equilibrium_is_found_where_friction_cannot_hold():
 @pytest.mark.slow
 def test_crates_drawn_by_chance_stand():
     rng, stood = np.random.default_rng(11), 0
-    for _ in range(60):
+    for _ in range(12):
         sizes, mass, mu, contact, fall, h = drawn(rng)
         steepest = min(math.atan(0.9 * mu), 0.7 * math.atan(sizes[0] / sizes[2]))
         system = crate(sizes, mass, mu, steepest * rng.choice([1.0, rng.uniform()]), contact, fall)
-        r = mbs.simulate(system, 1010.0 if h > 2e-3 else 60.0, h, progress=False)
+        r = mbs.simulate(system, 60.0 if h > 2e-3 else 20.0, h, progress=False)
         assert moved(r, 10.0) < 1e-3 * sizes[0]
         assert abs(r["vx"][-1]) < 1e-9
         stood += 1
-    assert stood == 60
+    assert stood == 12
 
 
 @pytest.mark.slow
 def test_beyond_friction_they_slide_and_beyond_the_angle_they_tip():
     rng, slid, tipped = np.random.default_rng(12), 0, 0
-    for k in range(40):
+    for k in range(10):
         sizes, mass, mu, contact, fall, h = drawn(rng)
         tips = k % 2
         if tips:
@@ -125,7 +106,7 @@ def test_beyond_friction_they_slide_and_beyond_the_angle_they_tip():
             expected = G * (math.sin(slope) - mu * math.cos(slope))
             assert (speed[-1] - speed[i]) / (r.t[-1] - r.t[i]) == pytest.approx(expected, rel=1e-6)
             slid += 1
-    assert slid == tipped == 20
+    assert slid == tipped == 5
 
 
 def witness(sizes, mass, mu, slope, contact, fall, t_end, h):
@@ -160,10 +141,9 @@ def witness(sizes, mass, mu, slope, contact, fall, t_end, h):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("loss", [None, 0.5])
-def test_another_integrator_of_the_law_agrees(loss):
+def test_another_integrator_of_the_law_agrees():
     sizes, mass, mu, slope, fall = (1.0, 0.8, 0.6), 10.0, 0.5, math.radians(20.0), 0.01
-    contact = ContactPoints.for_mass(10.0, 0.002, loss=loss)
+    contact = ContactPoints.for_mass(10.0, 0.002)
     system = crate(sizes, mass, mu, slope, contact, fall)
     r = mbs.simulate(system, 0.25, 2e-5, progress=False, estimate_error=False)
     x, _, z = axes(slope).T @ [r[c][-1] for c in "xyz"]

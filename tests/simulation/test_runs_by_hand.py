@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs import AccuracyWarning, Simulation
-from mbs.scenes import puma
+from mbs import Simulation
 
 QUIET = {"progress": False}
 
@@ -25,15 +24,6 @@ def swing(at: float = 1.0) -> mbs.System:
     return mbs.compile(m)
 
 
-def test_the_robot_with_too_long_steps_is_reported() -> None:
-    """169 mm at its hand; at half the step 27 mm, 4.2 % of an angle, which is right."""
-    system = mbs.compile(puma.build())
-    with pytest.warns(AccuracyWarning, match=r"off by .* % of the .* range, as a refined run with steps of 0.025 s"):
-        puma.replay(system, 0.1)
-    puma.replay(system, 0.05)
-
-
-@pytest.mark.slow
 def test_a_checked_run_continues_bit_for_bit() -> None:
     checked, plain = (Simulation(swing(), inputs={"push": 0.3}, parameters={"stiffness": 5.0}) for _ in range(2))
     for simulation, estimate in ((checked, True), (plain, False)):

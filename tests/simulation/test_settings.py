@@ -1,7 +1,5 @@
 """Settings are checked when they are created, and their defaults are the kernel's."""
 
-import dataclasses
-
 import pytest
 
 from mbs.kernel.binding import LoadedSystem
@@ -34,11 +32,6 @@ from tests.simulation.scenes import pendulum
 def test_a_wrong_value_is_refused_by_name(field, value, sentence):
     with pytest.raises(ValueError, match=sentence):
         Settings(**{field: value})
-
-
-def test_settings_do_not_change():
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        Settings().alpha = 1.0
 
 
 def test_the_defaults_are_those_of_the_kernel():

@@ -101,30 +101,29 @@ def in_balance(name, road, duration, brake=0.0, **pose):
     known = {entry["name"] for entry in system.meta["inputs"]}
     inputs = {name: value for name, value in {"brake": brake, "selector": 0.0}.items() if name in known}
     run = mbs.Simulation(system, inputs=inputs, pose=mbs.Pose(z=1.7, **pose))
-    speed = run.settle(duration, 0.002)
+    speed = run.settle(duration, H)
     loads, before = [], run.sensors["chassis.x"]
-    for steps in (0, 5, 495):
+    for steps in (0, 2, 198):
         if steps:
-            run.step(0.002, steps)
+            run.step(H, steps)
         loads.append([run.sensors[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR")])
     return np.array(loads), run.sensors["chassis.x"] - before, speed
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", quick(("prototype", "saloon", "commonroad_320i"), car_names(), "proof"))
+@pytest.mark.parametrize("name", quick(("prototype",), car_names(), "proof"))
 def test_on_a_slope_it_begins_in_balance(name):
     """Parked along and across slopes the loads stay for a second; let go or driven it begins without a jump of them;
     in all of these the wheels carry the part of the weight across the road."""
-    weight = in_balance(name, PlaneRoad(), 10.0, brake=1.0)[0][0].sum()
+    weight = in_balance(name, PlaneRoad(), 5.0, brake=1.0)[0][0].sum()
     for grade in ("grade_x", "grade_y"):
-        for degrees, duration in ((10.0, 5.0), (30.0, 10.0)):
-            slope = math.radians(degrees)
-            road, across = PlaneRoad(**{grade: math.tan(slope)}, friction=1.0), weight * math.cos(slope)
-            loads, moved, final_speed = in_balance(name, road, duration, brake=1.0)
-            assert loads.sum(axis=1) == pytest.approx(across, rel=1e-3), (grade, degrees)
-            assert np.abs(loads - loads[0]).max() < 1e-3 * weight, (grade, degrees)
-            assert abs(moved) < 2e-3, (grade, degrees)
-            assert final_speed < 1e-4, (grade, degrees)
+        slope = math.radians(10.0)
+        road, across = PlaneRoad(**{grade: math.tan(slope)}, friction=1.0), weight * math.cos(slope)
+        loads, moved, final_speed = in_balance(name, road, 5.0, brake=1.0)
+        assert loads.sum(axis=1) == pytest.approx(across, rel=1e-3), grade
+        assert np.abs(loads - loads[0]).max() < 1e-3 * weight, grade
+        assert abs(moved) < 2e-3, grade
+        assert final_speed < 1e-4, grade
         road, across = PlaneRoad(**{grade: math.tan(0.15)}, friction=1.0), weight * math.cos(0.15)
         for speed in (0.0, 15.0):
             loads, moved, _ = in_balance(name, road, 5.0, speed=speed)
@@ -137,8 +136,8 @@ def test_on_a_slope_it_begins_in_balance(name):
 @pytest.mark.slow
 def test_with_its_front_on_a_kerb_it_begins_in_balance():
     road = KerbRoad(-1.3, 0.1, upper="after")
-    loads, moved, speed = in_balance("hatchback", road, 5.0, brake=1.0)
+    loads, moved, speed = in_balance("prototype", road, 5.0, brake=1.0)
     assert np.abs(loads - loads[0]).max() < 0.1
     assert abs(moved) < 1e-6
     assert speed < 1e-5
-    assert loads[0].sum() == pytest.approx(in_balance("hatchback", PlaneRoad(), 5.0, brake=1.0)[0][0].sum(), rel=1e-3)
+    assert loads[0].sum() == pytest.approx(in_balance("prototype", PlaneRoad(), 5.0, brake=1.0)[0][0].sum(), rel=1e-3)

@@ -1,6 +1,7 @@
 """Each status of the kernel is provoked, in the kernel and through Python."""
 
 import ctypes
+import functools
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -64,6 +65,7 @@ def no_road(folder: Path) -> None:
     Instance(LoadedSystem(car().to_bytes())).set_road(0, file)
 
 
+@functools.cache
 def car(road: PlaneRoad | None = None) -> System:
     return compile(prototype_car.build(road) if road else prototype_car.build())
 

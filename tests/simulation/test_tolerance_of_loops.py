@@ -40,7 +40,7 @@ def near_equal_arms() -> mbs.System:
     return mbs.compile(m)
 
 
-@pytest.mark.parametrize(("method", "tolerance"), [("ali3p", 1e-2), ("ali3p", 1e-4), ("runge_kutta_8", 1e-2)])
+@pytest.mark.parametrize(("method", "tolerance"), [("ali3p", 1e-2), ("runge_kutta_8", 1e-2)])
 def test_steps_do_not_jump_where_branches_are_near(method: str, tolerance: float) -> None:
     system = near_equal_arms()
     run = mbs.simulate(system, 1.3, tolerance=tolerance, method=method, progress=False)
@@ -49,8 +49,7 @@ def test_steps_do_not_jump_where_branches_are_near(method: str, tolerance: float
     assert np.abs(run["x"] - exact).max() < 10.0 * tolerance * run.control.length
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
-def test_arms_that_are_folded_do_not_hide_the_joint_that_passes(tolerance: float) -> None:
+def test_arms_that_are_folded_do_not_hide_the_joint_that_passes() -> None:
     """A driven slider-crank, its rod longer by 0.0025: folded, the sine between its arms is nothing and changes sign by
     interpolation, while a step of a radian and both its halves take the rod to the other side.
     """
@@ -60,11 +59,11 @@ def test_arms_that_are_folded_do_not_hide_the_joint_that_passes(tolerance: float
     assert 0.0 < rod / crank - 1.0 < 3e-3
     assert turned is not None
     system, times = mbs.compile(random_mechanisms.model_of(drawing)), np.linspace(0.0, drawing.span, 51)
-    run = mbs.simulate(system, drawing.span, tolerance=tolerance, times=times, progress=False)
+    run = mbs.simulate(system, drawing.span, tolerance=1e-2, times=times, progress=False)
     assert run.control is not None
     angle = np.arctan2(pin[1], pin[0]) + turned(run.t)
     exact = crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle)) ** 2)
-    assert np.abs(run["tip2.x"] - exact).max() < 10.0 * tolerance * run.control.length
+    assert np.abs(run["tip2.x"] - exact).max() < 10.0 * 1e-2 * run.control.length
 
 
 def test_a_place_where_branches_are_near_is_reached_in_few_steps() -> None:
@@ -112,12 +111,10 @@ def test_rows_are_closed_so_well_that_flat_positions_give_no_kick(turned: float,
     assert off(run) < 0.05 * 1e-4 * run.control.length
 
 
-@pytest.mark.parametrize(("turned", "rate", "tolerance"), [(1.2, 8.5, 1e-5), (0.6, -8.8, 1e-5)])
-def test_a_method_that_does_not_keep_a_tolerance_hands_on_to_another(
-    turned: float, rate: float, tolerance: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_method_that_does_not_keep_a_tolerance_hands_on_to_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    tolerance = 1e-5
     monkeypatch.setattr(controlled_run, "ROUND_OFF", 1e-12)  # to which a loop that is cut is closed
-    system, off = parallelogram(turned, rate)
+    system, off = parallelogram(0.6, -8.8)
     with pytest.warns(mbs.AccuracyWarning, match="name another method than 'semi_recursive'"):
         mbs.simulate(system, 2.0, tolerance=tolerance, method="semi_recursive", progress=False)
     run = mbs.simulate(system, 2.0, tolerance=tolerance, times=np.linspace(0.0, 2.0, 51), progress=False)
@@ -127,8 +124,7 @@ def test_a_method_that_does_not_keep_a_tolerance_hands_on_to_another(
     assert off(run) < tolerance * run.control.length
 
 
-@pytest.mark.parametrize("speed", [20.0, 30.0, 50.0])
-@pytest.mark.parametrize("longer", [0.01, 0.02, 0.05])
+@pytest.mark.parametrize(("speed", "longer"), [(20.0, 0.05), (50.0, 0.01)])
 def test_a_loop_that_is_driven_fast_does_not_pass_to_another_branch(speed: float, longer: float) -> None:
     """Its drive leaves no error that would limit steps: they are at most half a radian of it."""
     run = mbs.simulate(

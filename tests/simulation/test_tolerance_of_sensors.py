@@ -36,7 +36,7 @@ def test_a_tolerance_of_a_drawing_that_hides_the_motion_is_reported() -> None:
     assert fall_off(mbs.simulate(system, 1.0, tolerance=named, progress=False)) < 0.01 * np.ptp(coarse["y"])
 
 
-@pytest.mark.parametrize("most", [1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize("most", [1e-4, 1e-8])
 def test_a_tolerance_may_be_that_of_a_sensor(most: float) -> None:
     run = mbs.simulate(spring_of_a_large_drawing(), 1.0, tolerance={"y": most}, progress=False)
     assert run.control is not None

@@ -32,10 +32,6 @@ def test_an_unknown_name_is_reported_with_the_known_ones(trajectory):
         many["speed"]
 
 
-def test_realtime_factor_is_simulated_over_wall_time(trajectory):
-    assert trajectory.realtime_factor == pytest.approx(2.0, rel=1e-12)
-
-
 def test_csv_keeps_every_bit_name_and_unit(trajectory, tmp_path):
     path = tmp_path / "run.csv"
     trajectory.to_csv(path)
