@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from hosts.check.command import main
 from hosts.check.instance import Instance, open_subject
 from mbs.kernel import build
 from tests import kinds
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.in_process import run
 
 ROOT = Path(__file__).parents[2]
@@ -41,15 +41,11 @@ def test_ours_pass(fmus: dict[str, Path], kind: str) -> None:
 
 @pytest.mark.parametrize("options", [pytest.param(("--steps", 2), marks=pytest.mark.slow), ("--show-parameters",)])
 def test_texts_without_an_end_are_cut(fmus: dict[str, Path], tmp_path: Path, options: tuple[object, ...]) -> None:
-    long = tmp_path / "long.fmu"
-    with zipfile.ZipFile(fmus["native"]) as source, zipfile.ZipFile(long, "w") as target:
-        for name in source.namelist():
-            data = source.read(name)
-            if name == "modelDescription.xml":
-                data = data.replace(b'description="', b'description="' + 20_000 * b"x")
-                data = data.replace(b'modelName="', b'modelName="' + 100_000 * b"y")
-                assert len(data) > 120_000
-            target.writestr(name, data)
+    def lengthened(description: bytes) -> bytes:
+        description = description.replace(b'description="', b'description="' + 20_000 * b"x")
+        return description.replace(b'modelName="', b'modelName="' + 100_000 * b"y")
+
+    long = changed_fmu(fmus["native"], tmp_path / "long.fmu", {DESCRIPTION: lengthened})
     done = run(main, long, *options)
     assert done.returncode in (0, 1), done.stderr
     assert len(done.stdout) + len(done.stderr) < 60_000
@@ -70,11 +66,8 @@ def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> No
     library = tmp_path / f"crash{fmpy.sharedLibraryExtension}"
     build.compile_c([source], build.host_target(), library, what="a library that crashes")
     name = fmpy.read_model_description(str(fmus["native"])).modelName
-    copy = tmp_path / "crash.fmu"
-    with zipfile.ZipFile(fmus["native"]) as whole, zipfile.ZipFile(copy, "w") as target:
-        for entry in whole.namelist():
-            inside = entry == f"binaries/{fmpy.platform}/{name}{fmpy.sharedLibraryExtension}"
-            target.writestr(entry, library.read_bytes() if inside else whole.read(entry))
+    inside = f"binaries/{fmpy.platform}/{name}{fmpy.sharedLibraryExtension}"
+    copy = changed_fmu(fmus["native"], tmp_path / "crash.fmu", {inside: library.read_bytes()})
     done = check(copy)
     assert done.returncode == 1
     (bad,) = [line for line in done.stdout.splitlines() if line.startswith(" BAD")]

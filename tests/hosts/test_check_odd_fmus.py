@@ -2,10 +2,10 @@
 
 import subprocess
 import sys
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+import fmpy
 import pytest
 
 from ali3.isolated_processes import Lost
@@ -13,6 +13,7 @@ from hosts.check.all_checks import CHECKS, Checker, lost
 from hosts.check.command import main
 from hosts.check.instance import Finding
 from hosts.experiment.pool import Pool
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.hosts.odd_fmus import odd_fmu
 from tests.in_process import run
 
@@ -89,14 +90,9 @@ def test_long_steps_are_notes(fmu: Callable[[str], Path]) -> None:
 
 
 def test_missing_functions_are_one_line(fmu: Callable[[str], Path], tmp_path: Path) -> None:
-    copy = tmp_path / "copy.fmu"
-    with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
-        for name in source.namelist():
-            data = source.read(name)
-            if name.startswith("binaries/"):
-                data = data.replace(b"fmi2GetRealStatus\0", b"fmi2GetRealStatos\0")
-            target.writestr(name, data)
-    code, found = verdicts(copy)
+    library = f"binaries/{fmpy.platform}/long_steps{fmpy.sharedLibraryExtension}"
+    other = {library: lambda data: data.replace(b"fmi2GetRealStatus\0", b"fmi2GetRealStatos\0")}
+    code, found = verdicts(changed_fmu(fmu("long_steps"), tmp_path / "copy.fmu", other))
     assert code == 1
     assert [name for name, (verdict, _) in found.items() if verdict == "BAD"] == ["functions"]
     assert found["functions"][1].startswith("1 of 34 are missing: fmi2GetRealStatus (FMI 2.0, 2.3)")
@@ -117,10 +113,8 @@ def test_a_state_of_any_size_is_named(tmp_path: Path) -> None:
 def test_a_limit_of_memory_is_no_cause_where_there_is_room(fmu: Callable[[str], Path], tmp_path: Path) -> None:
     """An FMU that is not instantiated, for its token is another, which it says where logging is on."""
     resource, limit = pytest.importorskip("resource", reason="limits of memory"), 900_000_000
-    copy = tmp_path / "other.fmu"
-    with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
-        for name in source.namelist():
-            target.writestr(name, source.read(name).replace(b'guid="{small}"', b'guid="{other}"'))
+    other = {DESCRIPTION: lambda data: data.replace(b'guid="{small}"', b'guid="{other}"')}
+    copy = changed_fmu(fmu("long_steps"), tmp_path / "other.fmu", other)
     done = subprocess.run(
         [sys.executable, "-m", "ali3", "run", str(copy), "--out", str(tmp_path)],
         capture_output=True,

@@ -22,6 +22,7 @@ from hosts.run.command import main
 from mbs.shapes.pose_outputs import pose_outputs
 from tests import kinds
 from tests.fmu.scenes import crane
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.hosts.scenes import switched
 from tests.in_process import run
 
@@ -97,14 +98,8 @@ def test_what_goes_straight_is_held_and_late_and_this_is_reported(
 
     With it, as our FMUs have it, nothing is late.
     """
-    plain = tmp_path / "plain.fmu"
-    with zipfile.ZipFile(fmu_of("crane", "fmi3")) as old, zipfile.ZipFile(plain, "w") as new:
-        for item in old.infolist():
-            data = old.read(item)
-            if item.filename == "modelDescription.xml":
-                assert b'providesIntermediateUpdate="true"' in data
-                data = data.replace(b'ntermediateUpdate="true"', b'ntermediateUpdate="false"')
-            new.writestr(item, data)
+    without = {DESCRIPTION: lambda data: data.replace(b'ntermediateUpdate="true"', b'ntermediateUpdate="false"')}
+    plain = changed_fmu(fmu_of("crane", "fmi3"), tmp_path / "plain.fmu", without)
     t = np.arange(0.0, 1.001, H)
     torque = 3.0 * np.sin(4.0 * t)
     for name, at in (("table", t), ("later", np.append(0.0, t[1:] + 0.5 * H))):
@@ -145,11 +140,8 @@ def test_states_and_start_values_are_those_of_fmi_2(fmu_of: Callable[[str, str],
 
 
 def test_elements_of_arrays_without_names_are_counted(fmu_of: Callable[[str, str], Path], tmp_path: Path) -> None:
-    named, bare = fmu_of("crane", "fmi3"), tmp_path / "bare.fmu"
-    with zipfile.ZipFile(named) as old, zipfile.ZipFile(bare, "w") as new:
-        for item in old.infolist():
-            if item.filename != ELEMENTS:
-                new.writestr(item, old.read(item))
+    named = fmu_of("crane", "fmi3")
+    bare = changed_fmu(named, tmp_path / "bare.fmu", {ELEMENTS: None})
     assert [v.name for v in described(named).modelVariables if v.name != "time"] == [
         v.name for v in described(fmu_of("crane", "native")).modelVariables
     ]

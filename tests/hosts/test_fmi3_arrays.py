@@ -20,6 +20,7 @@ from hosts.run.command import main as run_command
 from hosts.study.command import main as study
 from hosts.study.store import read_study
 from mbs.kernel import build
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.in_process import run
 
 HERE = Path(__file__).parent
@@ -112,15 +113,14 @@ def test_an_array_as_a_whole_is_refused_with_its_elements(fmu: Path) -> None:
 
 def described_as(fmu: Path, folder: Path, change: dict[str, str]) -> Path:
     """The same FMU with other words in its description."""
-    copy = folder / "Changed.fmu"
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
-        for name in old.namelist():
-            content = old.read(name)
-            for message, others in change.items() if name == "modelDescription.xml" else ():
-                assert message.encode() in content
-                content = content.replace(message.encode(), others.encode())
-            new.writestr(name, content)
-    return copy
+
+    def other(description: bytes) -> bytes:
+        for old, new in change.items():
+            assert old.encode() in description
+            description = description.replace(old.encode(), new.encode())
+        return description
+
+    return changed_fmu(fmu, folder / "Changed.fmu", {DESCRIPTION: other})
 
 
 def test_texts_of_an_array_are_not_split_and_not_set(fmu: Path, tmp_path: Path) -> None:

@@ -88,6 +88,7 @@ def test_a_table_that_begins_late_holds_its_first_row_and_is_reported(tmp_path: 
         ('"u","time"\n0,0\n', r"the heading is 'u, time'; it must be"),
         ('"time","u","u"\n0,0,0\n', r"has the column 'u' twice"),
         ('"time [s]","u"\n0,0\n1,1\n', r"the heading 'time \[s\]' has a unit; here it is 'time' alone"),
+        ('"time","u"\n1.7e9,0\n1700000003,1\n', r"goes from 1700000000 to 1700000003 s; a run begins at 0 and ends"),
         ('"time","u"\n-1,0\n1,1\n', r"begins at -1 s; a run begins at 0: add 1 s to all its times"),
         ('# hold: u\n"time","u"\n0,0\n1,0\n', r"line 1: 'hold:' is not a key of a table; did you mean 'held:'"),
         ("", r"contains no values"),

@@ -7,7 +7,6 @@ import io
 import json
 import re
 import shutil
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -21,6 +20,7 @@ from fmu_src.build.scene_registry import load_scene
 from hosts.run.command import main as run_fmu
 from hosts.view import result_tables as recorded
 from hosts.view.command import main as view
+from tests.hosts.changed_fmu import changed_fmu
 from tests.viewer.test_page_text import data_of, numbers
 from viewer import open_browser
 from viewer.browser import BrowserError, find_chromium
@@ -40,13 +40,7 @@ SCENE = {
 
 def with_resources(fmu: Path, copy: Path, geometry: str | None) -> Path:
     """A copy of an FMU with another scene in it, or none."""
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
-        for name in old.namelist():
-            if name != "resources/geometry.json":
-                new.writestr(name, old.read(name))
-        if geometry is not None:
-            new.writestr("resources/geometry.json", geometry)
-    return copy
+    return changed_fmu(fmu, copy, {"resources/geometry.json": None if geometry is None else geometry.encode()})
 
 
 @pytest.fixture(scope="module")
@@ -326,6 +320,15 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
         if status != 2 or sentence not in text or Path("out/motor_pendulum.html").exists():
             wrong.append((arguments, status, text))
     assert wrong == []
+
+
+def test_a_file_in_place_of_the_output_folder_is_refused(
+    result: Path, said: Said, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        said(result, "--out", "x.GLB")
+    assert end.value.code == 2
+    assert "x.GLB is the name of a file; --out names the output folder" in capsys.readouterr().err
 
 
 def test_without_a_browser_for_pictures_there_is_one_sentence(
