@@ -42,3 +42,9 @@ def test_offset_is_positive_to_the_left() -> None:
         pilot.act(0.0, start)
         assert pilot.offset(start | {"chassis.y": 0.2}) == pytest.approx(0.2)
         assert pilot.act(0.01, start | {"chassis.y": 2.0})["steering"] < pilot.act(0.02, start)["steering"]
+
+
+def test_steering_stays_within_its_limits() -> None:
+    pilot = CircleFollower(1.0, 10.0, 2.5, 0.5, "steering_wheel_angle_demand", 0.7)
+    start = {"chassis.x": 0.0, "chassis.y": 0.0, "chassis.yaw": 0.0, "sideslip": 0.0, "speed": 10.0}
+    assert pilot.act(0.0, start)["steering_wheel_angle_demand"] == 0.7

@@ -81,7 +81,7 @@ def test_the_job_as_it_is_written(repository: Path, tmp_path: Path) -> None:
         for result in case.result
     )
     assert re.fullmatch(
-        r"largest error [\d.e-]+ m at 0\.4 s, 5(\.\d)? % of its range in the table of [\d.e-]+ m; the bound is 1 %",
+        r"largest error [\d.e-]+ m at 0\.4 s, 5(\.\d)? % of its range in the table of [\d.e-]+ m; the bound is 0\.1 %",
         failure.message,
     )
 

@@ -164,11 +164,16 @@ def test_a_result_with_deleted_scenery_reports_it(tuned: Path, tmp_path: Path) -
         return len(recording.scene.get("scenery", [])), notes_of([recording])
 
     assert drawn() == (2, [])
-    (tmp_path / "line.json").unlink()
+    of_world = tmp_path / "line.json"
+    content = of_world.read_text()
+    of_world.unlink()
     count, (sentence,) = drawn()
     assert count == 0
-    assert sentence.startswith(f"The scenery of line is not drawn: {tmp_path / 'line.json'} is not there; ")
+    assert sentence.startswith(f"The scenery of line is not drawn: {of_world} is not there; ")
     assert sentence.endswith(f" road --world line --out {tmp_path}.")
+    of_world.write_text(re.sub(r'"checksum": *\d+', '"checksum": 7', content))
+    (recording,), _, _ = recordings_of([result], None, ViewRunOptions(None, None, None, FmuOptions([], [])))
+    assert f"{of_world} is the record of another line.road than the one beside it" in notes_of([recording])[0]
 
 
 def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned: Path, tmp_path: Path) -> None:

@@ -17,6 +17,7 @@ from pyssp_standard.standard import ModelicaStandard
 import mbs
 from ali3.errors import UserError
 from ali3.read_parameter_set import read_parameter_set
+from ali3.unit_definition import UnitDefinition
 from ali3.write_parameter_set import is_as_built, write_parameter_set
 from fmu_src.build.build import FmuBuilder, build_fmu
 from fmu_src.build.car_registry import build_car
@@ -269,6 +270,13 @@ def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
 def test_values_of_the_command_line_are_of_their_kind(name: str, text: str, message: str) -> None:
     with pytest.raises(HostError, match=message):
         Settings(kinds()).add_texts([(name, text)], "--set")
+
+
+def test_units_with_an_offset() -> None:
+    kelvin, celsius = UnitDefinition({"K": 1}), UnitDefinition({"K": 1}, 1.0, 273.15)
+    assert kelvin.convert(293.15, celsius) == pytest.approx(20.0, rel=1e-12)
+    fahrenheit = UnitDefinition({"K": 1}, 5 / 9, 459.67 * 5 / 9)
+    assert fahrenheit.convert(212.0, celsius) == pytest.approx(100.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -86,3 +86,9 @@ def test_another_host_and_the_engine_do_the_same(fmu: Path, system: System, driv
         expected = driven[name][: steps + 1]
         np.testing.assert_allclose(result[name], expected, rtol=0, atol=1e-9 * max(1.0, np.ptp(expected)))
     np.testing.assert_allclose(ys, driven["chassis.y"][: steps + 1], rtol=0, atol=1e-9)
+
+
+def test_the_way_of_steering_is_a_fixed_whole_number(fmu: Path) -> None:
+    (by_torque,) = (v for v in fmpy.read_model_description(str(fmu)).modelVariables if v.name == "steering.by_torque")
+    assert (by_torque.type, by_torque.variability, by_torque.causality) == ("Integer", "fixed", "parameter")
+    assert (by_torque.min, by_torque.max, by_torque.start) == ("0", "1", "0")
