@@ -21,6 +21,7 @@ def one_check(fmu: Path, name: str, steps: int = 10) -> tuple[str, str]:
         warnings.simplefilter("ignore", DeprecationWarning)  # of threads in this process
         child = os.fork()
     if child == 0:
+        answer: tuple[str, str]
         try:
             os.chdir(folder)
             tempfile.tempdir = str(folder)

@@ -105,10 +105,11 @@ def test_an_fmu_reaches_nothing_of_the_host(host: Host, tmp_path: Path, reached:
 
 @pytest.mark.parametrize("what", ["prototype", "faults"])
 def test_the_same_bits_come_out(what: str, prototype_fmu: Path, tmp_path: Path) -> None:
+    options: tuple[object, ...] = ()
     if what == "prototype":
         fmu, options = prototype_fmu, ("-m", "double_lane_change", "--stop-time", 0.5)
     else:
-        fmu, options = odd_fmu(what, tmp_path), ()
+        fmu = odd_fmu(what, tmp_path)
     tables = []
     for name, more in (("free", ()), ("bound", ("--confined",))):
         done = run(drive, fmu, *options, "--out", tmp_path / name, *more)

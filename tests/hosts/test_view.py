@@ -11,12 +11,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import fmpy
 import numpy as np
 import pytest
 from PIL import Image
 
 import mbs
-from fmu_src.build.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities, load_scene
 from hosts.run.command import main as run_fmu
 from hosts.view import result_tables as recorded
 from hosts.view.command import main as view
@@ -44,8 +46,9 @@ def with_resources(fmu: Path, copy: Path, geometry: str | None) -> Path:
 
 
 @pytest.fixture(scope="module")
-def built(scene_fmu: Callable[..., Path]) -> Path:
-    return scene_fmu(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, systems, fidelity = load_fidelities(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
+    return build_fmu(systems, name, tmp_path_factory.mktemp("built"), [fmpy.platform], fidelity=fidelity)
 
 
 @pytest.fixture
