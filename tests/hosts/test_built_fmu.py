@@ -54,8 +54,10 @@ def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None
     assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(PREFIX)] == []
 
 
-def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_other_ports_or_another_program_build_again(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first = built_fmu.fmu_of_car(str(car), print)
+    assert built_fmu.fmu_of_car(str(car), print, "all") != first
+    assert built_fmu.fmu_of_car(str(car), print) == first
     monkeypatch.setattr(built_fmu, "program_version", lambda: "other")
     assert built_fmu.fmu_of_car(str(car), print) != first
 
@@ -69,12 +71,6 @@ def test_a_command_with_many_cars_keeps_all_of_them(car: Path, monkeypatch: pyte
     assert built_fmu.fmu_of_car(str(car), print, "1") == result[0]  # used again, and so kept
     built_fmu.fmu_of_car(str(car), print, "4")
     assert [fmu.is_file() for fmu in result] == [True, False, False]
-
-
-def test_other_ports_are_another_fmu(car: Path) -> None:
-    first = built_fmu.fmu_of_car(str(car), print)
-    assert built_fmu.fmu_of_car(str(car), print, "all") != first
-    assert built_fmu.fmu_of_car(str(car), print) == first
 
 
 def test_a_command_takes_an_fmu_or_a_car(

@@ -11,12 +11,11 @@ from hosts.fmu.fmu import Fmu
 from tests.fmu.native import HOST_SOURCE, compile_host, unpack
 
 HERE = Path(__file__).parent
-PLATFORM = fmpy.platform
 
 
 @pytest.fixture(scope="module")
-def fmu(scene_fmu: Callable[..., Path]) -> Path:
-    return scene_fmu(f"{HERE / 'scenes.py'}:tuned")
+def fmu(tuned: Path) -> Path:
+    return tuned
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +23,7 @@ def host(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     """Its command line up to the number of steps."""
     folder = tmp_path_factory.mktemp("c_host")
     unpack(fmu, folder / "fmu")
-    library = next((folder / "fmu" / "binaries" / PLATFORM).iterdir())
+    library = next((folder / "fmu" / "binaries" / fmpy.platform).iterdir())
     guid = fmpy.read_model_description(str(fmu)).guid
     return [str(compile_host(folder)), str(library), (folder / "fmu" / "resources").as_uri(), guid]
 
@@ -56,21 +55,13 @@ def test_names_and_references_set_the_same(fmu: Path, host: list[str]) -> None:
     ("arguments", "message"),
     [
         (("abc", 0.01, 0, 0), "STEPS is 'abc'; it must be a whole number from 0 on."),
-        (("-1", 0.01, 0, 0), "STEPS is '-1'"),
-        (("10x", 0.01, 0, 0), "STEPS is '10x'"),
-        ((10, "0.01s", 0, 0), "STEP is '0.01s'; it must be a number."),
-        ((10, 0, 0, 0), "STEP is '0'; it must be positive."),
         ((10, "nan", 0, 0), "STEP is 'nan'"),
         ((10, 0.01, 3, 2), "LAST is '2'; it must be a whole number from 3 on."),
         ((10, 0.01, 0, 9999), "more than 4096 variables"),
         ((10, 0.01, 0, 0, "--set", "spring.stifness=1"), "the FMU has no variable 'spring.stifness'."),
         ((10, 0.01, 0, 0, "--set", "bob.y=1"), "'bob.y' is of the causality output"),
-        ((10, 0.01, 0, 0, "--set", "spring.mass=1"), "'spring.mass' is a constant"),
         ((10, 0.01, 0, 0, "--set", "pull=1,5"), "pull is '1,5'; it must be a number."),
-        ((10, 0.01, 0, 0, "--set", "pull"), "'pull' is not of the form NAME=VALUE."),
-        ((10, 0.01, 0, 0, "--set"), "--set needs NAME=VALUE."),
         ((10, 0.01, 0, 0, "x=3"), "'x=3' is not of the form REFERENCE=VALUE."),
-        ((10, 0.01, 0, 0, "0=abc"), "it must be a number."),
         ((10, 0.01, 0, 0, "--set", "spring.damping=1e9"), "spring.damping=1e9: status 3"),
     ],
 )

@@ -2,23 +2,21 @@
 
 import subprocess
 import sys
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+import fmpy
 import pytest
 
-from hosts.check.all_checks import CHECKS
+from ali3.isolated_processes import Lost
+from hosts.check.all_checks import CHECKS, Checker, lost
 from hosts.check.command import main
+from hosts.check.instance import Finding
+from hosts.experiment.pool import Pool
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.hosts.odd_fmus import odd_fmu
 from tests.in_process import run
 
-OF_STEPS = {
-    *("runs", "repeats", "reset", "states", "steps of any size", "many instances", "stop time"),
-    *("process settings", "files and prints", "costs of steps", "costs of instances", "messages", "ranges"),
-    *("reads twice", "end", "dependencies", "set values", "start time", "costs of states"),
-}
-"""Checks that end only where steps do, and calls that FMI allows."""
 pytestmark = pytest.mark.slow
 
 
@@ -41,16 +39,27 @@ def verdicts(path: Path, *options: object) -> tuple[int, dict[str, tuple[str, st
     return done.returncode, {line[6:28].strip(): (line[:4].strip(), line[30:]) for line in lines}
 
 
-def test_a_step_that_never_ends_is_bad_and_every_other_check_is_done(fmu: Callable[[str], Path]) -> None:
-    code, found = verdicts(fmu("endless"), "--steps", 3, "--time-limit", 0.5)
-    assert code == 1
-    assert list(found) == [check.name for check in CHECKS]
-    assert {name for name, (verdict, _) in found.items() if verdict == "BAD"} == OF_STEPS | {"quiet steps"}
-    for name in OF_STEPS - {"stop time", "steps of any size", "start time"}:
-        assert found[name][1].startswith("took more than 0.5 s in fmi2DoStep at 0 s; --time-limit"), found[name]
-    for name in ("altered states", "refusals", "refused steps", "far from zero", "long steps"):
-        assert found[name][0] == "note"
-        assert "FMI 2.0" in found[name][1]
+def of_some(path: Path, names: tuple[str, ...], steps: int, limit: float = 20.0) -> list[tuple[str, str]]:
+    """Verdict and words of some checks in one process, which is replaced as the command does it."""
+    by_name = {check.name: number for number, check in enumerate(CHECKS)}
+    results = []
+    with Pool(Checker(path, steps, {}), Finding, reads=(path,), limit=limit, in_all=True) as pool:
+        for name in names:
+            result = pool.run(by_name[name])
+            finding = lost(CHECKS[by_name[name]], result, limit) if isinstance(result, Lost) else result
+            results.append((finding.verdict, finding.words))
+    return results
+
+
+def test_a_step_that_never_ends_is_bad_and_other_checks_are_done(fmu: Callable[[str], Path]) -> None:
+    names = ("runs", "units", "long steps", "reset")
+    first, document, long, later = of_some(fmu("endless"), names, 3, 0.5)
+    for verdict, words in (first, later):
+        assert verdict == "bad"
+        assert words.startswith("took more than 0.5 s in fmi2DoStep at 0 s; --time-limit")
+    assert document[0] == "good"
+    assert long[0] == "note"
+    assert "FMI 2.0" in long[1]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names of signals")
@@ -80,53 +89,32 @@ def test_long_steps_are_notes(fmu: Callable[[str], Path]) -> None:
     assert found["long steps"][1].startswith("took more than 2 s in fmi2DoStep at 0 s (FMI sets no time for a step")
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        (b"fmi2GetRealStatus\0", b"fmi2GetRealStatos\0", "1 of 34 are missing: fmi2GetRealStatus (FMI 2.0, 2.3)"),
-        (b"fmi2", b"fmi9", "34 of 34 are missing: fmi2CancelStep, "),
-    ],
-)
-def test_missing_functions_are_one_line(
-    fmu: Callable[[str], Path], tmp_path: Path, old: bytes, new: bytes, message: str
-) -> None:
-    copy = tmp_path / "copy.fmu"
-    with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
-        for name in source.namelist():
-            data = source.read(name)
-            if name.startswith("binaries/"):
-                assert old in data
-                data = data.replace(old, new)
-            target.writestr(name, data)
-    code, found = verdicts(copy)
+def test_missing_functions_are_one_line(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+    library = f"binaries/{fmpy.platform}/long_steps{fmpy.sharedLibraryExtension}"
+    other = {library: lambda data: data.replace(b"fmi2GetRealStatus\0", b"fmi2GetRealStatos\0")}
+    code, found = verdicts(changed_fmu(fmu("long_steps"), tmp_path / "copy.fmu", other))
     assert code == 1
     assert [name for name, (verdict, _) in found.items() if verdict == "BAD"] == ["functions"]
-    assert found["functions"][1].startswith(message)
+    assert found["functions"][1].startswith("1 of 34 are missing: fmi2GetRealStatus (FMI 2.0, 2.3)")
     left_out = [check for check in CHECKS if check.calls]
     assert found["not done"] == ("note", f"{len(left_out)} checks, which call functions of the FMU")
     assert len(found) == len(CHECKS) - len(left_out) + 1
 
 
-def test_a_state_of_any_size_is_named_and_every_other_check_is_done(tmp_path: Path) -> None:
-    code, found = verdicts(odd_fmu("faults", tmp_path, "STATE_SIZE=(size_t)1<<45"), "--steps", 5)
-    assert code == 1
-    assert list(found) == [check.name for check in CHECKS]
+def test_a_state_of_any_size_is_named(tmp_path: Path) -> None:
+    fmu = odd_fmu("faults", tmp_path, "STATE_SIZE=(size_t)1<<45")
+    altered, restored = of_some(fmu, ("altered states", "states"), 5)
     bound = "at most 100000000 (or ALI3_LIMITS=351844 set)"
     message = f"The FMU says that its state has 35184372088832 bytes; it must have {bound}"
-    assert found["altered states"] == ("BAD", message)
-    assert found["states"] == ("BAD", f"{message}; say the size that is needed (FMI 2.0, 2.1.8)")
+    assert altered == ("bad", message)
+    assert restored == ("bad", f"{message}; say the size that is needed (FMI 2.0, 2.1.8)")
 
 
-@pytest.mark.parametrize("limit", [6_000_000_000, 900_000_000])
-def test_a_limit_of_memory_is_no_cause_where_there_is_room(
-    fmu: Callable[[str], Path], tmp_path: Path, limit: int
-) -> None:
+def test_a_limit_of_memory_is_no_cause_where_there_is_room(fmu: Callable[[str], Path], tmp_path: Path) -> None:
     """An FMU that is not instantiated, for its token is another, which it says where logging is on."""
-    resource = pytest.importorskip("resource", reason="limits of memory")
-    copy = tmp_path / "other.fmu"
-    with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
-        for name in source.namelist():
-            target.writestr(name, source.read(name).replace(b'guid="{small}"', b'guid="{other}"'))
+    resource, limit = pytest.importorskip("resource", reason="limits of memory"), 900_000_000
+    other = {DESCRIPTION: lambda data: data.replace(b'guid="{small}"', b'guid="{other}"')}
+    copy = changed_fmu(fmu("long_steps"), tmp_path / "other.fmu", other)
     done = subprocess.run(
         [sys.executable, "-m", "ali3", "run", str(copy), "--out", str(tmp_path)],
         capture_output=True,

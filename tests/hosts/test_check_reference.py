@@ -21,8 +21,8 @@ from tests.in_process import run
 
 
 @pytest.fixture(scope="module")
-def fmu(scene_fmu: Callable[..., Path]) -> Path:
-    return scene_fmu(f"{Path(__file__).with_name('scenes.py')}:tuned")
+def fmu(tuned: Path) -> Path:
+    return tuned
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +57,7 @@ def test_a_result_is_a_reference_of_its_own_fmu(fmu: Path, result: Path) -> None
     assert "BAD" not in done.stdout
 
 
-@pytest.mark.parametrize(("error", "bound", "code"), [(0.02, None, 1), (0.005, None, 0), (0.005, 0.001, 1)])
+@pytest.mark.parametrize(("error", "bound", "code"), [(0.005, None, 0), (0.005, 0.001, 1)])
 def test_a_signal_beyond_its_bound_is_named(
     error: float, bound: float | None, code: int, fmu: Path, result: Path
 ) -> None:
@@ -128,45 +128,51 @@ def test_tables_are_reported_in_their_order_whichever_is_done_first() -> None:
     assert [next(tables), *tables] == ["a", "b", "c", "d"]
 
 
-@pytest.mark.parametrize("at", [0.4, 0.404])
-def test_a_jump_inside_a_step_is_reported(fmu: Path, tmp_path: Path, at: float) -> None:
+def test_a_jump_inside_a_step_is_reported(fmu: Path, tmp_path: Path) -> None:
     table, reference = tmp_path / "given.csv", tmp_path / "reference.csv"
-    table.write_text(f'"time","pull"\n0,0\n{at},30\n{at},-20\n1,0\n')
+    table.write_text('"time","pull"\n0,0\n0.4,20\n0.4,10\n0.404,30\n0.404,-20\n1,0\n')
     reference.write_text('"time","bob.x"\n0,0\n1,0\n')
     output = run(main, fmu, "--reference", reference, "-m", table, "--step", 0.01).stdout
-    assert output.count("jumps inside a communication step: 1 of pull, the first at 0.404 s") == (at == 0.404)
-    assert output.count("jumps inside") == (at == 0.404)
+    assert output.count("jumps inside a communication step: 1 of pull, the first at 0.404 s") == 1
 
 
 @pytest.mark.parametrize(
-    ("what", "bounds", "message"),
+    ("what", "messages"),
     [
-        (lambda y: 1000.0 * y, (), "bob.y: in agreement where the table has it 1000 times as large: mm in place of m?"),
-        (lambda y: -y, (), "bob.y: in agreement where the table has it with the other sign"),
-        (lambda y: np.r_[y[0], y[:-1]], ("--bound", "bob.y=1e-5"), "where the table has it 0.01 s later, by one row"),
-        (lambda y: np.r_[y[1:], y[-1]], ("--bound", "bob.y=1e-5"), "where the table has it 0.01 s earlier, by one row"),
-        (lambda y: y + 0.2, (), "off from the first row on: bob.y; does the FMU start"),
-        (lambda y: 0.0 * y, (), "1 m            0 s     0 m, taken as 0.0001  10000 times"),
+        (
+            {"bob.x": lambda x: 1000.0 * x, "bob.y": lambda y: -y},
+            (
+                "bob.x: in agreement where the table has it 1000 times as large: mm in place of m?",
+                "bob.y: in agreement where the table has it with the other sign",
+            ),
+        ),
+        ({"bob.y": lambda y: np.r_[y[0], y[:-1]]}, ("where the table has it 0.01 s later, by one row",)),
+        ({"bob.y": lambda y: np.r_[y[1:], y[-1]]}, ("where the table has it 0.01 s earlier, by one row",)),
+        (
+            {"bob.x": lambda x: 0.0 * x, "bob.y": lambda y: y + 0.2},
+            ("off from the first row on: bob.y; does the FMU start", "0 m, taken as 0.0001"),
+        ),
     ],
 )
 def test_a_change_that_would_make_signals_agree_is_reported(
-    what: Callable[[np.ndarray], np.ndarray], bounds: tuple[str, ...], message: str, fmu: Path, result: Path
+    what: dict[str, Callable[[np.ndarray], np.ndarray]], messages: tuple[str, ...], fmu: Path, result: Path
 ) -> None:
     def change(heading: list[str], rows: list[list[str]]) -> None:
-        k = heading.index("bob.y")
-        for row, value in zip(rows, what(np.array([float(row[k]) for row in rows])), strict=True):
-            row[k] = repr(float(value))
+        for name, of in what.items():
+            k = heading.index(name)
+            for row, value in zip(rows, of(np.array([float(row[k]) for row in rows])), strict=True):
+                row[k] = repr(float(value))
 
-    done = run(main, fmu, "--reference", changed(result, change), *bounds)
+    done = run(main, fmu, "--reference", changed(result, change), "--bound", "bob.y=1e-5")
     assert done.returncode == 1
-    assert message in done.stdout
-    assert ("in agreement" in done.stdout) == ("in agreement" in message or "by one row" in message)
+    assert [message for message in messages if message not in done.stdout] == [], done.stdout
 
 
 def test_inputs_without_a_column_and_rows_far_apart_are_reported(fmu: Path, tmp_path: Path) -> None:
     (tmp_path / "few.csv").write_text('"time","pull","bob.x"\n0,0,0\n0.5,20,0\n1,0,0\n')
     (tmp_path / "none.csv").write_text('"time","bob.x"\n0,0\n0.5,0\n1,0\n')
     few, none = (run(main, fmu, "--reference", tmp_path / f"{name}.csv").stdout for name in ("few", "none"))
+    assert "the bound is 1 % of the range of each" in few
     assert "between rows, up to 0.5 s apart, inputs go straight" in few
     assert "inputs without a column, which keep their start values: pull" in none
     assert "inputs without" not in few
@@ -190,28 +196,19 @@ def test_bounds_of_0_ask_for_the_same_bits(fmu: Path, result: Path) -> None:
     done = run(main, fmu, "--reference", changed(result, change), "--bound", "*=1e-6", "--bound", "bob.?=0")
     assert done.returncode == 1
     assert done.stdout.splitlines()[1].startswith("BAD   bob.")
-    for share in ("inf", "nan", "-1"):
+    for share in ("nan", "-1"):
         done = run(main, fmu, "--reference", result, "--bound", f"bob.y={share}")
         assert done.returncode == 2
         assert f"bob.y is {share}; it must be a share of the range, 0 or more" in done.stderr
 
 
-def test_a_table_may_have_one_row(fmu: Path, tmp_path: Path) -> None:
-    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n1,0,9\n')
+def test_a_table_of_one_row_that_begins_later_is_compared_from_there(fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n1,2,9\n')
     done = run(main, fmu, "--reference", tmp_path / "table.csv", "--step", 0.01)
     assert done.returncode == 1
     assert "1 beyond their bounds" in done.stdout
-
-
-def test_without_a_bound_the_usual_one_is_reported(fmu: Path, result: Path) -> None:
-    assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
-
-
-def test_a_table_that_begins_later_is_reported(fmu: Path, tmp_path: Path) -> None:
-    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n0.5,2,0\n1,0,0\n')
-    output = run(main, fmu, "--reference", tmp_path / "table.csv").stdout
-    assert "table.csv begins at 0.5 s and is compared from there\n" in output
-    assert "begin of the table: at 0.5 s; before, its first row holds pull at 2\n" in output
+    assert "table.csv begins at 1 s and is compared from there\n" in done.stdout
+    assert "begin of the table: at 1 s; before, its first row holds pull at 2\n" in done.stdout
 
 
 def test_variables_that_the_fmu_lacks_are_reported(fmu: Path, result: Path) -> None:
@@ -229,15 +226,9 @@ def test_variables_that_the_fmu_lacks_are_reported(fmu: Path, result: Path) -> N
         ('"time","pull"\n0,0\n1,1\n', (), "no column that is an output"),
         ('"time","bob.x"\n0,0\n', (), "a reference must end after 0 s"),
         ('"time","bob.x"\n0,0\n0.013,0\n0.02,0\n', ("--step", 0.01), "a row at 0.013 s, which is not a communication"),
-        (
-            '"time","bob.x"\n1.7e12,0\n1700000003000,0\n',
-            (),
-            "goes from 1700000000000 to 1700000003000 s; a run begins at 0",
-        ),
         ('"time","bob.x"\n-2,0\n1,0\n', (), "begins at -2 s; a run begins at 0: add 2 s to all its times"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--bound", "bob.z=1"), "--bound bob.z:"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--show-parameters",), "--show-parameters cannot be combined with --reference"),
-        ('"time","bob.x"\n0,0\n1,0\n', ("--soak",), "--reference cannot be combined with --soak"),
     ],
 )
 def test_an_invalid_reference_is_refused_in_one_sentence(

@@ -7,7 +7,6 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 from fmpy.util import read_csv
@@ -19,12 +18,7 @@ from tests.in_process import run
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
-PLATFORM = fmpy.platform
 TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
-
-
-def drive(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return run(main, *arguments)
 
 
 @pytest.fixture(scope="module")
@@ -75,14 +69,14 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
     assert colours(picture) > 200
 
 
-@pytest.mark.parametrize("held", [pytest.param("", marks=pytest.mark.drawn), "# held: steering, brake\n"])
+@pytest.mark.parametrize("held", ["", "# held: steering, brake\n"])
 def test_a_result_is_a_manoeuvre_that_repeats_the_run(
     fmus: dict[str, Path], turn: Path, tmp_path: Path, held: str
 ) -> None:
     turn.write_text(held + turn.read_text())
     result = tmp_path / "out" / "sledge_turn.csv"
     for table, step in ((turn, ("--step", "0.02")), (result, ())):  # the record knows the step
-        assert drive(fmus["sledge"], "-m", table, *step, "--out", tmp_path / "out").returncode == 0
+        assert run(main, fmus["sledge"], "-m", table, *step, "--out", tmp_path / "out").returncode == 0
     first, again = read_csv(result), read_csv(tmp_path / "out" / "sledge_sledge_turn.csv")
     for name in first.dtype.names:
         np.testing.assert_allclose(again[name], first[name], rtol=1e-9, atol=1e-9, err_msg=name)
@@ -99,7 +93,7 @@ def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path],
         (tmp_path / "moving.state").write_bytes(fmu.state_bytes())
     turn.write_text("# state: moving.state at 2\n" + turn.read_text())
     for table in (turn, tmp_path / "out" / "sledge_turn.csv"):
-        assert drive(fmus["sledge"], "-m", table, "--out", tmp_path / "out").returncode == 0
+        assert run(main, fmus["sledge"], "-m", table, "--out", tmp_path / "out").returncode == 0
     first, again = read_csv(tmp_path / "out" / "sledge_turn.csv"), read_csv(tmp_path / "out" / "sledge_sledge_turn.csv")
     assert first["chassis.x"][0] > 1e-3  # at the ordinary start it is 0
     for name in first.dtype.names:
@@ -109,8 +103,8 @@ def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path],
 @pytest.mark.slow
 @pytest.mark.drawn
 def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
-    (tmp_path / "swing.csv").write_text('"time","torque"\n0,0\n1,0\n1,4\n4,4\n')
-    done = drive(fmus["motor_pendulum"], "-m", tmp_path / "swing.csv", "--out", tmp_path)
+    (tmp_path / "swing.csv").write_text('"time","torque"\n0,0\n1,0\n1,4\n2,4\n')
+    done = run(main, fmus["motor_pendulum"], "-m", tmp_path / "swing.csv", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
     table = read_csv(tmp_path / "motor_pendulum_swing.csv")
     assert np.ptp(table["rod.angle"]) > 0.5
@@ -122,27 +116,22 @@ def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
 @pytest.mark.drawn
 def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "rest.csv").write_text('"time","throttle"\n0,0\n1,0\n')
-    done = drive(fmus["sledge"], "-m", tmp_path / "rest.csv", "--out", tmp_path)
+    done = run(main, fmus["sledge"], "-m", tmp_path / "rest.csv", "--out", tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "distance driven            0.00 m" in done.stdout
 
 
 @pytest.mark.slow
 def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) -> None:
-    """Beyond the range by rounding is driven, and the FMU speaks of it; what is further beyond is refused before."""
+    """Beyond the range by rounding is driven, and the FMU speaks of it."""
     (tmp_path / "hard.csv").write_text('"time","torque"\n0,0\n1,20.00003\n1.1,20.00003\n')
-    done = drive(fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)
+    done = run(main, fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)
     assert done.returncode == 0
     assert "FMU: 'torque' was set to" in done.stdout
-    (tmp_path / "hard.csv").write_text('"time","torque"\n0,0\n1,90\n')
-    done = drive(fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)
-    assert done.returncode == 2
-    assert "that reaches 90 N·m in row 2" in done.stderr
-    assert "the range of the FMU's input is -20 to 20 N·m" in done.stderr
 
 
 def test_a_missing_fmu_is_reported_with_the_command_that_builds_it(turn: Path, tmp_path: Path) -> None:
-    done = drive(tmp_path / "dist" / "PrototypeCar.fmu", "-m", turn)
+    done = run(main, tmp_path / "dist" / "PrototypeCar.fmu", "-m", turn)
     assert done.returncode == 2
     assert "There is no file" in done.stderr
     assert "python build_fmu.py" in done.stderr
@@ -150,28 +139,26 @@ def test_a_missing_fmu_is_reported_with_the_command_that_builds_it(turn: Path, t
 
 def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
     (tmp_path / "text.fmu").write_text("no zip")
-    assert "is not an FMU" in drive(tmp_path / "text.fmu", "-m", turn).stderr
-    assert "is a folder; it must be a file" in drive(tmp_path, "-m", turn).stderr
+    assert "is not an FMU" in run(main, tmp_path / "text.fmu", "-m", turn).stderr
+    assert "is a folder; it must be a file" in run(main, tmp_path, "-m", turn).stderr
     (tmp_path / "u.csv").write_text('"time","lever"\n0,0\n1,0\n')
-    done = drive(fmus["sledge"], "-m", tmp_path / "u.csv")
+    done = run(main, fmus["sledge"], "-m", tmp_path / "u.csv")
     assert done.returncode == 2
     assert "'lever', which is not an input" in done.stderr
     assert "steering, throttle, brake" in done.stderr
-    (tmp_path / "s.csv").write_text("# start: initial.sped=1\n" + TURN)
-    assert "no parameter or input 'initial.sped'" in drive(fmus["sledge"], "-m", tmp_path / "s.csv").stderr
-    assert "must be positive" in drive(fmus["sledge"], "-m", turn, "--step", -1).stderr
-    assert "cannot be made" in drive(fmus["sledge"], "-m", turn, "--out", tmp_path / "u.csv" / "out").stderr
-    assert "driver needs variables" in drive(fmus["motor_pendulum"], "-m", "double_lane_change").stderr
+    assert "must be positive" in run(main, fmus["sledge"], "-m", turn, "--step", -1).stderr
+    assert "cannot be made" in run(main, fmus["sledge"], "-m", turn, "--out", tmp_path / "u.csv" / "out").stderr
+    assert "driver needs variables" in run(main, fmus["motor_pendulum"], "-m", "double_lane_change").stderr
 
 
 def test_runs_that_no_memory_holds_are_refused(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
-    done = drive(fmus["sledge"], "-m", turn, "--step", 1e-9, "--out", tmp_path / "out")
+    done = run(main, fmus["sledge"], "-m", turn, "--step", 1e-9, "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "3 s in steps of 1e-09 s are 3e+09 rows of" in done.stderr
     assert "take a step of at least" in done.stderr
-    done = drive(fmus["sledge"], "--stop-time", "inf", "--out", tmp_path / "out")
+    done = run(main, fmus["sledge"], "--stop-time", "inf", "--out", tmp_path / "out")
     assert done.stderr == "error: The stop time is inf s; it must be positive and finite.\n"
-    done = drive(fmus["sledge"], "-m", turn, "--stop-time", 1e12, "--out", tmp_path / "out")
+    done = run(main, fmus["sledge"], "-m", turn, "--stop-time", 1e12, "--out", tmp_path / "out")
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "1e+12 s in steps of" in done.stderr
     assert not (tmp_path / "out").exists()
@@ -181,11 +168,11 @@ def test_results_that_cannot_be_written_are_refused_before_the_drive(
     fmus: dict[str, Path], turn: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "out" / "sledge_turn.csv").mkdir(parents=True)
-    done = drive(fmus["sledge"], "-m", turn, "--out", tmp_path / "out")
+    done = run(main, fmus["sledge"], "-m", turn, "--out", tmp_path / "out")
     assert done.returncode == 2
     assert done.stderr == f"error: {tmp_path}/out/sledge_turn.csv is a folder; it must be a file.\n"
     if sys.platform == "linux":
-        done = drive(fmus["sledge"], "-m", turn, "--out", "/proc/out")
+        done = run(main, fmus["sledge"], "-m", turn, "--out", "/proc/out")
         assert done.returncode == 2
         assert done.stderr.startswith("error: /proc/out/sledge_turn.csv cannot be written: ")
 
@@ -206,25 +193,3 @@ def test_a_full_disk_leaves_no_table(fmus: dict[str, Path], turn: Path, tmp_path
         r"^error: The rows of the run take [\d.]+ MB, which cannot be kept: file too large\.$", done.stderr, re.M
     )
     assert not out.exists() or list(out.iterdir()) == []
-
-
-def test_the_host_knows_fmi_only() -> None:
-    for file in (ROOT / "hosts").rglob("*.py"):
-        text = file.read_text(encoding="utf-8")
-        assert "import mbs" not in text
-        assert "from mbs" not in text
-        assert "fmu_src" not in text
-
-
-@pytest.mark.slow  # the first time, the kernel is compiled for Windows too
-def test_example_of_an_fmu_of_ones_own_builds_and_swings(tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, str(ROOT / "examples" / "motor_pendulum.py")],
-        capture_output=True,
-        text=True,
-        cwd=tmp_path,
-        check=True,
-    )
-    # 4 N m against 9.81 N m of weight: at rest again where 4 a = 9.81 (1 - cos a).
-    assert "swings out to 0.869 rad" in done.stdout
-    assert 9.81 * (1.0 - np.cos(0.869)) == pytest.approx(4.0 * 0.869, abs=5e-3)

@@ -7,7 +7,7 @@ import pytest
 
 from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
-from hosts.driving.driver import CONSTANTS, DriverSettings, make_driver
+from hosts.driving.driver import DriverSettings, make_driver
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 SETTINGS = {"course": "iso_3888_1", "speed": "15"}
@@ -53,7 +53,7 @@ def test_path_runs_through_the_middle_of_the_gates_and_is_smooth() -> None:
     assert np.abs(np.diff(curvature)).max() < 1e-4
 
 
-@pytest.mark.parametrize("speed", ["5", "10", "15"])
+@pytest.mark.parametrize("speed", ["5", "15"])
 def test_double_lane_change_is_passed(speed: str) -> None:
     run = drive_bicycle(SETTINGS | {"speed": speed})
     driver = make_driver(SETTINGS, CAR)
@@ -84,31 +84,19 @@ def test_the_integral_removes_the_steady_error() -> None:
     assert np.diff(pedals) == pytest.approx([0.0, s.speed_integral * 0.5 * 2.0])
 
 
-def test_driving_straight_misses_the_second_lane() -> None:
-    course = course_of("iso_3888_1", 1.5)
-    x = np.linspace(0.0, 150.0, 500)
-    assert course.corners_outside(x, np.zeros(500), np.zeros(500), 3.2, 1.5) > 3.0
-
-
 def test_settings_of_the_manoeuvre_are_those_of_a_driver() -> None:
     driver = make_driver(load_manoeuvre("double_lane_change").driver, CAR)
     assert driver.settings.speed == load_manoeuvre("double_lane_change").start["initial.speed"]
     assert driver.settings == DriverSettings(driver.settings.speed, 2.3, 0.525, 3.2, 1.5)
+    assert make_driver(SETTINGS | {"wheelbase": "3.1"}, CAR).settings.wheelbase == 3.1
 
 
-def test_settings_of_the_manoeuvre_override_those_of_the_car() -> None:
-    driver = make_driver(SETTINGS | {"wheelbase": "3.1"}, CAR)
-    assert (driver.settings.wheelbase, driver.settings.wheel_angle_max) == (3.1, 0.525)
-
-
-@pytest.mark.parametrize("missing", list(CAR))
-def test_constants_that_the_fmu_does_not_report_are_requested(missing: str) -> None:
-    constants = {name: value for name, value in CAR.items() if name != missing}
-    with pytest.raises(HostError, match=rf"this FMU does not provide .*'{missing}'.*\[driver\]") as refusal:
+def test_constants_that_the_fmu_does_not_report_are_requested() -> None:
+    constants = {name: value for name, value in CAR.items() if name != "vehicle.width"}
+    with pytest.raises(HostError, match=r"this FMU does not provide .*'vehicle\.width'.*\[driver\]") as refusal:
         make_driver(SETTINGS, constants)
-    (setting,) = (name for name, constant in CONSTANTS.items() if constant == missing)
-    assert f"--driver {setting}=NUMBER" in str(refusal.value)
-    assert make_driver(SETTINGS | {setting: "1.25"}, constants)
+    assert "--driver vehicle_width=NUMBER" in str(refusal.value)
+    assert make_driver(SETTINGS | {"vehicle_width": "1.25"}, constants)
 
 
 @pytest.mark.parametrize(
@@ -119,7 +107,6 @@ def test_constants_that_the_fmu_does_not_report_are_requested(missing: str) -> N
         ({"course": "iso_3888_1"}, "needs a course and a speed"),
         ({"course": "iso_3888_1", "speed": "1", "mood": "2"}, "'mood'"),
         ({"course": "iso_3888_1", "speed": "-20"}, r"speed is -20; it must be positive"),
-        ({"course": "iso_3888_1", "speed": "1_0"}, r"speed: '1_0' is not a number"),
         ({"course": "iso_3888_1", "speed": "nan"}, r"speed: the value is nan"),
         ({"course": "iso_3888_1", "speed": "9", "lateral_gain": "-1"}, r"lateral_gain is -1; it must be zero or"),
     ],

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -20,6 +22,7 @@ from hosts.run.command import main
 from mbs.shapes.pose_outputs import pose_outputs
 from tests import kinds
 from tests.fmu.scenes import crane
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.hosts.scenes import switched
 from tests.in_process import run
 
@@ -27,38 +30,37 @@ H = 0.01
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], Path]:
+def fmu_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Path]:
+    """The FMU of a scene and a kind, built where it is needed first."""
     folder = tmp_path_factory.mktemp("fmus")
-    posed = crane()
-    pose_outputs(posed)
-    models = {"crane": posed, "switched": switched()}
-    return {
-        (name, kind): build_fmu(mbs.compile(model), name, folder, [fmpy.platform], kind=kind)
-        for name, model in models.items()
-        for kind in kinds.IN_C
-    }
+
+    @cache
+    def built(name: str, kind: str) -> Path:
+        model = switched() if name == "switched" else crane()
+        if name == "crane":
+            pose_outputs(model)
+        return build_fmu(mbs.compile(model), name, folder, [fmpy.platform], kind=kind)
+
+    return built
 
 
 @pytest.mark.parametrize("kind", kinds.VERSIONS)
 def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
-    kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
+    kind: str, fmu_of: Callable[[str, str], Path], tmp_path: Path
 ) -> None:
     """A message of FMI 2.0 is a format of printf, one of FMI 3.0 is the text."""
     messages: list[str] = []
-    description = read_model_description(fmus["crane", kind])
-    folder = Path(fmpy.extract(fmus["crane", kind], tmp_path))
+    description = read_model_description(fmu_of("crane", kind))
+    folder = Path(fmpy.extract(fmu_of("crane", kind), tmp_path))
     with pytest.raises(Exception, match="instantiate"):
         Instance(description, folder, "crane", lambda *message: messages.append(message[2]), token="{100% of #r1#}")
     assert "{100% of #r1#}" in messages[-1]
 
 
-@pytest.mark.parametrize("kind", kinds.IN_C)
-def test_sources_and_documentation_are_not_unpacked(
-    kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
-) -> None:
-    unpack(fmus["crane", kind], tmp_path)
+def test_sources_and_documentation_are_not_unpacked(fmu_of: Callable[[str, str], Path], tmp_path: Path) -> None:
+    unpack(fmu_of("crane", "fmi3"), tmp_path)
     actual = {file.relative_to(tmp_path).as_posix() for file in tmp_path.rglob("*") if file.is_file()}
-    with zipfile.ZipFile(fmus["crane", kind]) as fmu:
+    with zipfile.ZipFile(fmu_of("crane", "fmi3")) as fmu:
         packed_only = set(fmu.namelist()) - actual
         assert len(actual) + len(packed_only) == len(fmu.namelist())
     assert {name.partition("/")[0] for name in packed_only} == {"sources", "documentation"}
@@ -75,12 +77,12 @@ def test_sources_and_documentation_are_not_unpacked(
     ],
 )
 def test_with_held_inputs_results_are_the_same_bytes(
-    scene: str, rows: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
+    scene: str, rows: str, fmu_of: Callable[[str, str], Path], tmp_path: Path
 ) -> None:
     (tmp_path / "table.csv").write_text(rows)
     tables = []
     for kind in kinds.IN_C:
-        done = run(main, fmus[scene, kind], "-m", tmp_path / "table.csv", "--step", H, "--out", tmp_path / kind)
+        done = run(main, fmu_of(scene, kind), "-m", tmp_path / "table.csv", "--step", H, "--out", tmp_path / kind)
         assert done.returncode == 0, done.stderr
         tables += [file.read_bytes() for file in (tmp_path / kind).glob("*.csv")]
         assert "inputs held over a step" not in done.stdout  # the table wants it so
@@ -90,20 +92,14 @@ def test_with_held_inputs_results_are_the_same_bytes(
 
 @pytest.mark.slow
 def test_what_goes_straight_is_held_and_late_and_this_is_reported(
-    fmus: dict[tuple[str, str], Path], tmp_path: Path
+    fmu_of: Callable[[str, str], Path], tmp_path: Path
 ) -> None:
     """Without intermediate update half a step late: as the FMU of FMI 2.0 with a table that is late by that.
 
     With it, as our FMUs have it, nothing is late.
     """
-    plain = tmp_path / "plain.fmu"
-    with zipfile.ZipFile(fmus["crane", "fmi3"]) as old, zipfile.ZipFile(plain, "w") as new:
-        for item in old.infolist():
-            data = old.read(item)
-            if item.filename == "modelDescription.xml":
-                assert b'providesIntermediateUpdate="true"' in data
-                data = data.replace(b'ntermediateUpdate="true"', b'ntermediateUpdate="false"')
-            new.writestr(item, data)
+    without = {DESCRIPTION: lambda data: data.replace(b'ntermediateUpdate="true"', b'ntermediateUpdate="false"')}
+    plain = changed_fmu(fmu_of("crane", "fmi3"), tmp_path / "plain.fmu", without)
     t = np.arange(0.0, 1.001, H)
     torque = 3.0 * np.sin(4.0 * t)
     for name, at in (("table", t), ("later", np.append(0.0, t[1:] + 0.5 * H))):
@@ -111,7 +107,7 @@ def test_what_goes_straight_is_held_and_late_and_this_is_reported(
         (tmp_path / f"{name}.csv").write_text(f'"time","torque"\n{rows}')
     results = {}
     for kind, table in (("native", "table"), ("fmi3", "table"), ("plain", "table"), ("native", "later")):
-        fmu = plain if kind == "plain" else fmus["crane", kind]
+        fmu = plain if kind == "plain" else fmu_of("crane", kind)
         done = run(main, fmu, "-m", tmp_path / f"{table}.csv", "--step", H, "--out", tmp_path / "out")
         assert done.returncode == 0, done.stderr
         assert ("torque: 5 ms late on average" in done.stdout) == (kind == "plain")
@@ -126,9 +122,9 @@ def test_what_goes_straight_is_held_and_late_and_this_is_reported(
 
 
 @pytest.mark.slow
-def test_states_and_start_values_are_those_of_fmi_2(fmus: dict[tuple[str, str], Path]) -> None:
+def test_states_and_start_values_are_those_of_fmi_2(fmu_of: Callable[[str, str], Path]) -> None:
     for kind in kinds.IN_C:
-        with Fmu(fmus["crane", kind]) as fmu, Fmu(fmus["crane", kind]) as other:
+        with Fmu(fmu_of("crane", kind)) as fmu, Fmu(fmu_of("crane", kind)) as other:
             fmu.initialise({"torque": 2.0}, 5.0)
             read, again = (one.getter(["rod.x", "rod.angle"]) for one in (fmu, other))
             fmu.step(5.0, H)
@@ -143,14 +139,11 @@ def test_states_and_start_values_are_those_of_fmi_2(fmus: dict[tuple[str, str], 
             assert read() == again() == end
 
 
-def test_elements_of_arrays_without_names_are_counted(fmus: dict[tuple[str, str], Path], tmp_path: Path) -> None:
-    named, bare = fmus["crane", "fmi3"], tmp_path / "bare.fmu"
-    with zipfile.ZipFile(named) as old, zipfile.ZipFile(bare, "w") as new:
-        for item in old.infolist():
-            if item.filename != ELEMENTS:
-                new.writestr(item, old.read(item))
+def test_elements_of_arrays_without_names_are_counted(fmu_of: Callable[[str, str], Path], tmp_path: Path) -> None:
+    named = fmu_of("crane", "fmi3")
+    bare = changed_fmu(named, tmp_path / "bare.fmu", {ELEMENTS: None})
     assert [v.name for v in described(named).modelVariables if v.name != "time"] == [
-        v.name for v in described(fmus["crane", "native"]).modelVariables
+        v.name for v in described(fmu_of("crane", "native")).modelVariables
     ]
     with Fmu(named) as fmu, Fmu(bare) as other:
         assert "body.rod.position[1]" in other.names("output")

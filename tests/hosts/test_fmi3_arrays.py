@@ -1,7 +1,5 @@
 """Arrays of FMI 3.0 that are inputs or parameters are set by their elements, in runs and in studies."""
 
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
@@ -14,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from fmu_src.native.sources import HERE as FMI_HEADERS
-from hosts.check.command import main as check
+from hosts.check.all_checks import CHECKS, done
 from hosts.check.instance import Instance, open_subject
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu
@@ -22,37 +20,20 @@ from hosts.run.command import main as run_command
 from hosts.study.command import main as study
 from hosts.study.store import read_study
 from mbs.kernel import build
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.in_process import run
 
 HERE = Path(__file__).parent
 A, B = np.array([[0.0, 1.0], [-4.0, -0.4]]), np.array([[0.0, 0.0, 0.0], [1.0, 0.5, 0.25]])
 H = 0.01  # s
-EXACT = 1e-9
 
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("state_space")
     library = folder / f"StateSpace{fmpy.sharedLibraryExtension}"
-    subprocess.run(
-        [
-            *(
-                sys.executable,
-                "-m",
-                "ziglang",
-                "cc",
-                "-target",
-                build.host_target(),
-                "-std=c11",
-                "-O2",
-                "-shared",
-                "-fPIC",
-            ),
-            *("-ffp-contract=off", f"-I{FMI_HEADERS}", "-o", str(library)),
-            str(HERE / "state_space" / "state_space.c"),
-        ],
-        check=True,
-    )
+    source = HERE / "state_space" / "state_space.c"
+    build.compile_c([source], build.host_target(), library, include=(FMI_HEADERS,), what="the FMU")
     file = folder / "StateSpace.fmu"
     with zipfile.ZipFile(file, "w") as archive:
         archive.write(HERE / "state_space" / "modelDescription.xml", "modelDescription.xml")
@@ -132,15 +113,14 @@ def test_an_array_as_a_whole_is_refused_with_its_elements(fmu: Path) -> None:
 
 def described_as(fmu: Path, folder: Path, change: dict[str, str]) -> Path:
     """The same FMU with other words in its description."""
-    copy = folder / "Changed.fmu"
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
-        for name in old.namelist():
-            content = old.read(name)
-            for message, others in change.items() if name == "modelDescription.xml" else ():
-                assert message.encode() in content
-                content = content.replace(message.encode(), others.encode())
-            new.writestr(name, content)
-    return copy
+
+    def other(description: bytes) -> bytes:
+        for old, new in change.items():
+            assert old.encode() in description
+            description = description.replace(old.encode(), new.encode())
+        return description
+
+    return changed_fmu(fmu, folder / "Changed.fmu", {DESCRIPTION: other})
 
 
 def test_texts_of_an_array_are_not_split_and_not_set(fmu: Path, tmp_path: Path) -> None:
@@ -179,12 +159,11 @@ def test_a_refused_value_does_not_stay(fmu: Path, monkeypatch: pytest.MonkeyPatc
 def test_an_fmu_without_outputs_runs(fmu: Path, tmp_path: Path) -> None:
     hidden = {'name="y" valueReference="7" causality="output"': 'name="y" valueReference="7" causality="local"',
               '<Output valueReference="7"/>': ""}  # fmt: skip
-    for more in ((), ("--interval", "0.1")):
-        out = tmp_path / str(len(more))
-        done = run(run_command, described_as(fmu, tmp_path, hidden), "--stop-time", "0.25", "--out", out, *more)
-        assert done.returncode == 0, done.stderr
-        (file,) = out.glob("*.csv")
-        assert pd.read_csv(file)["time"].iloc[-1] == 0.25
+    options = ("--stop-time", "0.25", "--out", tmp_path, "--interval", "0.1")
+    done = run(run_command, described_as(fmu, tmp_path, hidden), *options)
+    assert done.returncode == 0, done.stderr
+    (file,) = tmp_path.glob("*.csv")
+    assert pd.read_csv(file)["time"].iloc[-1] == 0.25
 
 
 def test_a_table_at_an_interval_repeats_its_run_or_reports_that_it_cannot(fmu: Path, tmp_path: Path) -> None:
@@ -216,18 +195,17 @@ def test_checks_drive_elements_of_inputs(fmu: Path, tmp_path: Path) -> None:
     (tmp_path / "told").mkdir()
     complete = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
     lines = {}
-    for path in (fmu, silent, complete):
-        done = run(check, path, "--steps", 5, "--set", "A[2,1]=-9", "--set", "u[2]=4")
-        assert "set  A[2,1]                  -4 -> -9 (--set)" in done.stdout
-        lines[path] = {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in done.stdout.splitlines()}
-    assert lines[fmu]["runs"] == "ok 5 steps of 0.01 s, 2 outputs move"
+    for place, path in enumerate((fmu, silent, complete)):
+        subject = open_subject(path, tmp_path / f"open{place}", 5, {"A[2,1]": -9.0, "u[2]": 4.0})
+        names = ("runs", "refusals", "refused steps", "dependencies", "derivatives")
+        lines[path] = {c.name: done(c, subject).words for c in CHECKS if c.name in names}
+    assert lines[fmu]["runs"] == "5 steps of 0.01 s, 2 outputs move"
     assert "NaN for an input" in lines[fmu]["refusals"]
-    assert lines[fmu]["refused steps"].startswith("note a refused step at 0 s can be asked for without end")
+    assert lines[fmu]["refused steps"].startswith("a refused step at 0 s can be asked for without end")
     for path in (fmu, complete):
-        assert lines[path]["dependencies"].startswith("note 1 outputs, such as y, are said to depend on inputs")
-    assert lines[silent]["dependencies"] == "ok outputs change at a communication point as they are said to"
-    assert lines[silent]["derivatives"].startswith("note they are those over the last step")
-    subject = open_subject(fmu, tmp_path / "open", 5, {"A[2,1]": -9.0, "u[2]": 4.0})
+        assert lines[path]["dependencies"].startswith("1 outputs, such as y, are said to depend on inputs")
+    assert lines[silent]["dependencies"] == "outputs change at a communication point as they are said to"
+    assert lines[silent]["derivatives"].startswith("they are those over the last step")
     assert [v.name for v in subject.inputs] == ["u[1]", "u[2]", "u[3]"]
     values = np.array(Instance(subject).start().run(5))
     expected = motion(np.tile([1.0, 4.0, 3.0], (5, 1)), np.array([[0.0, 1.0], [-9.0, -0.4]]))[1:]

@@ -24,7 +24,6 @@ from hosts.compare.command import main as compare
 from hosts.view.command import main
 from tests.hosts.catalogue import synthetic_records
 from tests.in_browser import headless_chromium, wait_until
-from tests.quick import quick
 from tests.viewer.hand_scenes import floats
 from tests.viewer.simulator_program import Program
 from viewer.page_file import write_page
@@ -140,15 +139,14 @@ KEYS = (
     *("name", "arrows[0].name", "arrows[0].unit", "shapes[0].name", "shapes[0].body", "flexible[0].name"),
     *("flexible[0].names[1]", "flexible[0].stress.unit", "flexible[0].stress.limit_name"),
 )
-QUICK = ("arrows[0].unit", "flexible[0].stress.limit_name")
 
 
-@pytest.mark.parametrize("key", quick(QUICK, KEYS))
+@pytest.mark.parametrize("key", ["arrows[0].unit", "flexible[0].stress.limit_name"])
 def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_page(
     key: str, tmp_path: Path, chromium: Any
 ) -> None:
     scene = with_text(key, MARKUP)
-    assert [error.partition(" is ")[0] for error in scene_errors(scene)] == [key]
+    assert all([e.partition(" is ")[0] for e in scene_errors(with_text(k, MARKUP))] == [k] for k in KEYS)
     recording = Recording(drawing(), np.array([0.0, 1.0]), {"bob.x": np.array([0.0, 1.0])})
     assert recording.scene is not None
     recording.scene.update(scene)  # past the reader
@@ -214,8 +212,7 @@ def test_the_documentation_in_an_fmu(tmp_path: Path, chromium: Any) -> None:
     check(opened(chromium, tmp_path / "index.html"), MARKUP)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("text", ["</script>", "</SCRIPT >", "<!--", "a\rb"])
-def test_a_script_that_is_not_whole_is_refused(text: str) -> None:
-    with pytest.raises(ValueError, match="holds </script"):
-        html.page("title", "", scripts=[text])
+def test_a_script_that_is_not_whole_is_refused() -> None:
+    for text in ("</script>", "</SCRIPT >", "<!--", "a\rb"):
+        with pytest.raises(ValueError, match="holds </script"):
+            html.page("title", "", scripts=[text])

@@ -1,7 +1,6 @@
 """Manoeuvre files: read as FMPy reads them, and refused with a sentence that names the place."""
 
 import json
-import re
 from pathlib import Path
 
 import fmpy
@@ -35,10 +34,6 @@ def test_a_doubled_time_is_a_step_and_the_rest_is_linear(tmp_path: Path) -> None
     assert manoeuvre.at(1.0) == {"steering": 0.5, "throttle": pytest.approx(1.0)}
     assert manoeuvre.at(1.5) == {"steering": 0.5, "throttle": pytest.approx(0.5)}
     assert manoeuvre.at(9.0) == {"steering": 0.5, "throttle": 0.0}
-
-
-def test_before_a_step_the_value_that_is_left_counts(tmp_path: Path) -> None:
-    manoeuvre = load_manoeuvre(written(tmp_path, GOOD))
     assert manoeuvre.at(1.0, before=True) == {"steering": 0.0, "throttle": 0.0}
     assert manoeuvre.at(1.5, before=True) == manoeuvre.at(1.5)
 
@@ -87,29 +82,18 @@ def test_a_table_that_begins_late_holds_its_first_row_and_is_reported(tmp_path: 
     [
         ('"time","u"\n0,0\n2,1\n1,1\n', r"line 4: time goes back from 2 s to 1 s"),
         ('"time","u"\n0,0\n1,nan\n', r"line 3, column 'u': 'nan' is not a finite number"),
-        ('"time","u"\n0,0\ninf,1\n', r"line 3, column 'time': 'inf' is not a finite number"),
         ('"time","u"\n0,zero\n', r"line 2, column 'u': 'zero' is not a number"),
-        ('"time","u"\n0,1_0\n1,1\n', r"line 2, column 'u': '1_0' is not a number"),
-        ('"time","u"\n0,\uff11\n1,1\n', r"line 2, column 'u': '\uff11' is not a number"),
-        ('"time","u"\n0,1e999\n1,1\n', r"line 2, column 'u': '1e999' is not a finite number"),
         (f'"time","u"\n0,{140_000 * "1"}\n1,1\n', r"line 2: a cell has 140000 characters"),
         ('"time","u"\n0,0,0\n', r"line 2: 3 values where the heading has 2 columns"),
         ('"u","time"\n0,0\n', r"the heading is 'u, time'; it must be"),
         ('"time","u","u"\n0,0,0\n', r"has the column 'u' twice"),
         ('"time [s]","u"\n0,0\n1,1\n', r"the heading 'time \[s\]' has a unit; here it is 'time' alone"),
-        ('"time","u [kN]"\n0,0\n1,1\n', r"the heading 'u \[kN\]' has a unit; here it is 'u' alone"),
-        (
-            '"time","u"\n1.7e9,0\n1700000003,1\n',
-            r"goes from 1700000000 to 1700000003 s; a run begins at 0 and ends before",
-        ),
+        ('"time","u"\n1.7e9,0\n1700000003,1\n', r"goes from 1700000000 to 1700000003 s; a run begins at 0 and ends"),
         ('"time","u"\n-1,0\n1,1\n', r"begins at -1 s; a run begins at 0: add 1 s to all its times"),
         ('# hold: u\n"time","u"\n0,0\n1,0\n', r"line 1: 'hold:' is not a key of a table; did you mean 'held:'"),
-        ('"time"\n0\n', r"the heading is 'time'; it must be"),
-        ('"time","u"\n', r"contains no values"),
         ("", r"contains no values"),
         ('"time","u"\n0,0\n', r"does not say how long"),
         ('# start: speed\n"time","u"\n0,0\n1,0\n', r"line 1: 'speed' is not of the form"),
-        ('# start: v=1, v=2\n"time","u"\n0,0\n1,0\n', r"line 1: the start value 'v' is given twice"),
         ('# start: v=1\n# start: v=2\n"time","u"\n0,0\n1,0\n', r"line 2: the start value 'v' is given twice"),
     ],
 )
@@ -118,16 +102,17 @@ def test_bad_tables_are_refused(tmp_path: Path, text: str, message: str) -> None
         load_manoeuvre(written(tmp_path, text))
 
 
-def test_a_missing_file_is_no_table(tmp_path: Path) -> None:
+def test_files_that_are_no_tables_are_refused(tmp_path: Path) -> None:
     (tmp_path / "folder.csv").mkdir()
-    with pytest.raises(HostError, match=r"folder\.csv is a folder; it must be a file\.$"):
-        load_manoeuvre(str(tmp_path / "folder.csv"))
-
-
-def test_binary_tables_are_refused(tmp_path: Path) -> None:
     (tmp_path / "m.csv").write_bytes(bytes(range(128, 256)))
-    with pytest.raises(HostError, match="is not text in UTF-8"):
-        load_manoeuvre(str(tmp_path / "m.csv"))
+    for name, message in (
+        (str(tmp_path / "folder.csv"), r"folder\.csv is a folder; it must be a file\.$"),
+        (str(tmp_path / "m.csv"), "is not text in UTF-8"),
+        ("loop", r"no manoeuvre 'loop'.*slalom"),
+        ("nowhere.csv", r"no file nowhere\.csv"),
+    ):
+        with pytest.raises(HostError, match=message):
+            load_manoeuvre(name)
 
 
 def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
@@ -143,29 +128,15 @@ def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
     assert actual.inputs["u"].tolist() == [0.0, 0.5, 1.0, 1.0]
     assert (actual.step, actual.held) == (0.1, frozenset())
     cut = '"time","u","v"\n1,1,0\n2,1,0\n'
-    rows = [
-        (text, jumps)
-        for text, jumps in (
-            (good, {"3": [1.0, 0.5]}),
-            (good, {"-1": [2.0, 0.5]}),
-            (good, {"1": [1.0, 0.5, 0.5]}),
-            (good, {"1": [1.0]}),
-            (cut, record["jumps"]),
-        )
-    ]
-    for text, jumps in rows:
+    for text, jumps in ((good, {"3": [1.0, 0.5]}), (good, {"1": [1.0]}), (cut, record["jumps"])):
         with pytest.raises(HostError, match=r"m\.csv is not the table that m\.json beside it was written with"):
             read(text, jumps=jumps)
     for changed in (
         {"start": ["ab"]},
-        {"start": {"a": [1]}},
         {"held": "u"},
-        {"jumps": [1]},
         {"jumps": {"1": [1.0, float("nan")]}},
         {"step_s": -1},
-        {"interval_s": float("inf")},
         {"lost": "u"},
-        {"state": 1},
     ):
         with pytest.raises(HostError, match="is not a whole record of the run"):
             read(good, **changed)
@@ -173,27 +144,11 @@ def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
     assert list(load_manoeuvre(written(tmp_path, GOOD)).inputs) == ["steering", "throttle"]
 
 
-def test_invalid_lists_of_a_manoeuvre_are_refused(tmp_path: Path) -> None:
-    for text in ('held = [["u"]]\n[inputs]\ntime = [0, 1]\nu = [0, 1]\n', "[inputs]\nu = [0, 1]\ntime = 5\n"):
-        (tmp_path / "m.toml").write_text(text)
-        with pytest.raises(HostError, match=r"m\.toml"):
-            load_manoeuvre(str(tmp_path / "m.toml"))
-
-
-def test_unknown_names_and_files_are_named() -> None:
-    with pytest.raises(HostError, match=r"no manoeuvre 'loop'.*slalom"):
-        load_manoeuvre("loop")
-    with pytest.raises(HostError, match=r"no file nowhere\.csv"):
-        load_manoeuvre("nowhere.csv")
-
-
-@pytest.mark.parametrize("name", manoeuvre_names())
-def test_manoeuvres_of_the_host_are_whole(name: str) -> None:
-    manoeuvre = load_manoeuvre(name)
-    assert manoeuvre.stop_time > 1.0
-    for values in manoeuvre.inputs.values():
-        assert values.min() >= -1.0
-        assert values.max() <= 1.0
+def test_manoeuvres_of_the_host_are_whole() -> None:
+    for name in manoeuvre_names():
+        manoeuvre = load_manoeuvre(name)
+        assert manoeuvre.stop_time > 1.0, name
+        assert all(np.abs(values).max() <= 1.0 for values in manoeuvre.inputs.values()), name
 
 
 def test_fmpy_reads_the_same_tables() -> None:
@@ -267,25 +222,18 @@ def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
     [
         ("stop_tme = 7\n", r"m\.toml: stop_tme is not known; did you mean 'stop_time'\?"),
         ("stop_time = -3\n", r"stop_time is -3; it must be a positive number, s"),
-        ("stop_time = true\n", r"stop_time is true; it must be a positive number"),
-        ("stop_time = '7'\n", r"stop_time is '7'; it must be a positive number"),
         ("start = 3\n", r"start is 3; it must be a table"),
         ("stop_time = 1\n[start]\nx = [1]\n", r"start.x is \[1\]; it must be a number or"),
-        (
-            "stop_time = 1\n[driver]\nspeed = 2020-01-01\n",
-            r"driver.speed is a date or time, 2020-01-01; it must be a number or",
-        ),
         ("[inputs]\nsteering = [1]\n", r"\[inputs\] has steering; it must have time and inputs"),
-        ("[inputs]\ntime = [0, 1]\n", r"\[inputs\] has time; it must have time and inputs"),
         ("[inputs]\ntime = [0, 1]\nu = 3\n", r"inputs.u is 3; it must be a list of numbers"),
         ("[inputs]\ntime = [0, 1]\nu = [0, 'a']\n", r"inputs.u.1 is 'a'; it must be a number"),
-        ("[inputs]\ntime = [0, 1]\nu = [0, nan]\n", r"nan"),
         ("[inputs]\ntime = [0, 1]\nu = [0]\n", r"'u' has 1 values where time has 2"),
         ("[inputs]\ntime = [0, 2, 1]\nu = [0, 0, 0]\n", r"time goes back from 2 s to 1 s"),
-        ("[inputs]\ntime = [0]\nu = [0]\n", r"does not say how long"),
         ("stop_time = 1\n[state]\nfile = 'a'\n", r"state.time is missing; it must be a number, s"),
         ("stop_time = 1\n[state]\nfile = 'a.state'\ntime = 0\n", r"the state: 'a\.state' cannot be read"),
         ("stop_time = \n", r"is not a TOML file"),
+        ('held = [["u"]]\n[inputs]\ntime = [0, 1]\nu = [0, 1]\n', r"m\.toml"),
+        ("[inputs]\nu = [0, 1]\ntime = 5\n", r"m\.toml"),
     ],
 )
 def test_bad_toml_files_are_refused(tmp_path: Path, text: str, message: str) -> None:
@@ -302,38 +250,24 @@ def test_of_several_names_the_first_that_there_is_counts(tmp_path):
     assert "drive.creep_torque | selector" in load_manoeuvre("kerb_drop").start
 
 
-def test_columns_beyond_their_range_and_late_tables_are_refused(tmp_path: Path) -> None:
+def test_columns_beyond_their_range_values_that_overflow_and_late_tables_are_refused(tmp_path: Path) -> None:
     model = mbs.Model("bob", dimension=2)
     bob = model.point_mass("bob", mass=2.0, position=(0.0, 0.0))
-    model.force("pull", bob, inputs=(model.input("pull", unit="1", min=-1.0, max=1.0), None))
+    model.force("pull", bob, inputs=(model.input("pull", unit="1", min=-1.0, max=1.0), model.input("push", unit="N")))
 
-    def drive(values: list[float], begin: float = 0.0) -> Manoeuvre:
-        return Manoeuvre("far", begin + np.array([0.0, 1.0, 2.0]), {"pull": np.array(values)}, 2.0)
-
-    with Fmu(build_fmu(mbs.compile(model), "bob", tmp_path, [fmpy.platform])) as fmu:
-        check_columns(fmu, drive([0.0, 1.0 + 1e-7, -1.0]))
-        with pytest.raises(HostError, match="'pull' that reaches 45 in row 2 .*; it looks like % or deg"):
-            check_columns(fmu, drive([0.0, 45.0, 20.0]))
-        check_columns(fmu, drive([0.0, 1.0, 0.0], 2.0))
-        with pytest.raises(HostError, match="begins at 100 s, and the run ends at 2 s"):
-            check_columns(fmu, drive([0.0, 1.0, 0.0], 100.0))
-
-
-def test_values_whose_squares_overflow_are_refused(tmp_path: Path) -> None:
-    model = mbs.Model("bob", dimension=2)
-    bob = model.point_mass("bob", mass=2.0, position=(0.0, 0.0))
-    model.force("pull", bob, inputs=(model.input("pull", unit="N"), None))
-
-    def drive(value: float) -> Manoeuvre:
-        return Manoeuvre("far", np.array([0.0, 1.0]), {"pull": np.array([0.0, value])}, 1.0)
+    def drive(name: str, values: list[float], begin: float = 0.0) -> Manoeuvre:
+        return Manoeuvre("far", begin + np.array([0.0, 1.0, 2.0]), {name: np.array(values)}, 2.0)
 
     with Fmu(build_fmu(mbs.compile(model), "bob", tmp_path, [fmpy.platform])) as fmu:
-        check_columns(fmu, drive(9e99))
-        for value, message in ((1e308, "1e+308"), (-2e100, "-2e+100")):
-            with pytest.raises(
-                HostError, match=re.escape(f"'pull' with the value {message}; it must be within 1e+100")
-            ):
-                check_columns(fmu, drive(value))
+        check_columns(fmu, drive("pull", [0.0, 1.0 + 1e-7, -1.0], 2.0))
+        check_columns(fmu, drive("push", [0.0, 9e99, 0.0]))
+        for far, message in (
+            (drive("pull", [0.0, 45.0, 20.0]), "'pull' that reaches 45 in row 2 .*; it looks like % or deg"),
+            (drive("pull", [0.0, 1.0, 0.0], 100.0), "begins at 100 s, and the run ends at 2 s"),
+            (drive("push", [0.0, -2e100, 0.0]), r"'push' with the value -2e\+100; it must be within 1e\+100"),
+        ):
+            with pytest.raises(HostError, match=message):
+                check_columns(fmu, far)
 
 
 def test_values_whose_difference_is_no_number_go_straight_too() -> None:

@@ -40,17 +40,12 @@ def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
     ]
 
 
-@pytest.mark.slow
 def test_parameter_sets_without_effect_are_reported(
     tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for text, message in (
-        (ssv(), "empty: it sets nothing"),
-        (ssv("spring.damping=1"), "all 1 values are those of the FMU: it changes nothing"),
-    ):
-        file.write_text(text)
-        assert run([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
-        assert message in capsys.readouterr().out
+    file.write_text(ssv("spring.damping=1"))
+    assert run([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
+    assert "all 1 values are those of the FMU: it changes nothing" in capsys.readouterr().out
     assert run([str(tuned), "--set", "spring.damping=1", "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
     assert "1 N·s/m as in the FMU (--set)" in capsys.readouterr().out
     twice = ["--set", "spring.damping=1", "--set", "spring.damping=2"]
@@ -58,7 +53,6 @@ def test_parameter_sets_without_effect_are_reported(
     assert "--set: 'spring.damping' is given as 1 and as 2; give it once" in capsys.readouterr().err
 
 
-@pytest.mark.slow
 def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
     tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -86,10 +80,6 @@ def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
     errors = capsys.readouterr().err
     assert "has a column 'spring.stiffness' that reaches 100000 N/m in row 2" in errors
     assert "range of the FMU's input is 10 to 900 N/m" in errors
-    table.write_text('"time","bob.x"\n0,1\n1,1\n')
-    assert run([str(tuned), "-m", str(table), "--out", str(tmp_path)]) == 2
-    errors = capsys.readouterr().err
-    assert "'bob.x', which is not an input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in errors
 
 
 def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -104,25 +94,17 @@ def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFix
     assert ["spring.free_length", "0.8", "m", "0.1 to 2", "fixed", "Of the spring: free_length"] in rows
 
 
-@pytest.mark.parametrize("more", [["-m", "pull.csv"], [], ["--show-parameters"]])
-def test_every_host_refuses_an_invalid_set_with_the_same_message(
-    tuned: Path,
-    file: Path,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    more: list[str],
+def test_hosts_refuse_an_invalid_set_with_the_same_message(
+    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     file.write_text(ssv("spring.damping=200"))
-    Path("pull.csv").write_text('"time","pull"\n0,0\n1,10\n')
-    command = check if "--show-parameters" in more else run
-    assert command([str(tuned), *more, "--parameters", str(file)]) == 2
-    errors = capsys.readouterr().err
-    assert errors == "error: set.ssv: 'spring.damping' is 200 N·s/m; its range is 0 to 20 N·s/m.\n"
+    for command, more in ((run, []), (check, ["--show-parameters"])):
+        assert command([str(tuned), *more, "--parameters", str(file)]) == 2
+        errors = capsys.readouterr().err
+        assert errors == "error: set.ssv: 'spring.damping' is 200 N·s/m; its range is 0 to 20 N·s/m.\n"
 
 
-@pytest.mark.slow
 def test_a_column_of_whole_numbers_is_held_between_its_rows(
     scene_fmu: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -137,5 +119,3 @@ def test_a_column_of_whole_numbers_is_held_between_its_rows(
     table.write_text('"time","gear"\n0,1\n1,1.5\n')
     assert run([str(fmu), "--input", str(table), "--out", str(tmp_path)]) == 2
     assert "a column 'gear' with the value 1.5; 'gear' is a whole number" in capsys.readouterr().err
-    assert run([str(fmu), "--set", "gear=0.5", "--out", str(tmp_path)]) == 2
-    assert "--set: 'gear' is 0.5; it must be a whole number" in capsys.readouterr().err

@@ -44,7 +44,6 @@ def test_what_the_parameter_is_set_to(tmp_path, monkeypatch):
         road_value("bad.csv", tmp_path / "out")
 
 
-@pytest.mark.slow
 def test_a_run_on_a_table(sledge, tmp_path, capsys):
     (tmp_path / "hill.csv").write_text(TABLE.format(3.0))
     out = tmp_path / "out"
@@ -54,13 +53,11 @@ def test_a_run_on_a_table(sledge, tmp_path, capsys):
     assert table["z"][-1] == pytest.approx(3.2, abs=0.01)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("x", "start", "message"),
     [
         (0.0, 0.0, ""),
         (550.0, 0.0, "distance of the start from the road is 500 m"),
-        (550.0, 550.0, ""),
         (4.5e5, 0.0, "coordinates of a map"),
     ],
 )

@@ -1,9 +1,7 @@
 """Rows of a run at an interval longer than the step: its end, unresolved changes, and FMUs without outputs."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,47 +15,24 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu import StepRefusedError
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.run.run_summary import energy_balance, summary
+from tests.hosts.made_fmu import MadeFmu
 
 H = 0.01
 
 
-class Integrator:
-    """What the loop needs of an FMU: y, the integral of u, exact for inputs that go straight."""
+class Integrator(MadeFmu):
+    """y, the integral of u, exact for inputs that go straight."""
 
     def __init__(self, slopes: bool, refused: int = 1000, outputs: Sequence[str] = ("y",)) -> None:
-        self.derived = ()
-        self.path, self.messages, self.follows_slopes = Path("integrator.fmu"), list[str](), slopes
-        self.tunable = list[str]()
-        self._names = {"input": ["u"], "output": list(outputs), "parameter": []}
-        self.variables = {n: SimpleNamespace(type="Real", variability="continuous", causality=c, unit="m")
-                          for c, names in self._names.items() for n in names}  # fmt: skip
-        self.table = {n: SimpleNamespace(low=-np.inf, high=np.inf) for n in self.variables}
-        self._u, self._slope, self._y, self._left = 0.0, 0.0, 0.0, refused
-
-    def names(self, causality: str) -> list[str]:
-        return self._names[causality]
-
-    def initialise(self, start: dict[str, Any], start_time: float = 0.0) -> None:
-        self._u = start.get("u", 0.0)
-
-    def start_values(self, names: Sequence[str]) -> np.ndarray:
-        return np.zeros(len(names))
-
-    def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        return lambda values: setattr(self, "_u", values[0])
-
-    def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        return lambda values: setattr(self, "_slope", values[0])
-
-    def reader(self, names: Sequence[str]) -> Callable[[np.ndarray], None]:
-        return lambda into: into.fill(self._y)
+        super().__init__({"input": ["u"], "output": outputs, "parameter": []}, "m", slopes)
+        self._left = refused
 
     def step(self, time: float, step: float) -> None:
         if self._left == 0:
             raise StepRefusedError("enough")
         self._left -= 1
-        self._y += step * (self._u + 0.5 * step * self._slope)
-        self._u, self._slope = self._u + step * self._slope, 0.0
+        self.output += step * (self.given["u"] + 0.5 * step * self.slopes["u"])
+        self.given["u"], self.slopes["u"] = self.given["u"] + step * self.slopes["u"], 0.0
 
 
 def driven(
@@ -68,13 +43,13 @@ def driven(
 
 
 @pytest.mark.parametrize("slopes", [True, False])
-@pytest.mark.parametrize("refused", [1000, 13, 10])
+@pytest.mark.parametrize("refused", [1000, 13])
 def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
     """Where the stop time is not a multiple of the interval too, but not behind a step that was refused."""
     requested: dict[str, Any] = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
     few, each = driven(every=5, **requested), driven(every=1, **requested)
     end = min(17, refused)
-    rows = [*range(0, end, 5), end] if end in (10, 17) else [0, 5, 10]
+    rows = [0, 5, 10, 15, 17] if end == 17 else [0, 5, 10]
     assert few.time.tolist() == [H * k for k in rows]
     assert few.values.tolist() == each.values[rows].tolist()
     assert few.failed_steps == (refused < 17)
@@ -86,14 +61,11 @@ def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
 @pytest.mark.parametrize(
     ("slopes", "time", "u", "lost"),
     [
-        (True, (0.0, 0.2), (0.0, 1.0), []),
         (True, (0.0, 0.1, 0.1, 0.2), (0.0, 1.0, 3.0, 3.0), []),
         (True, (0.0, 0.08, 0.2), (0.0, 1.0, 1.0), ["u"]),
         (True, (0.0, 0.08, 0.08, 0.2), (1.0, 1.0, 2.0, 2.0), ["u"]),
-        (True, (0.0, 0.095, 0.2), (0.0, 1.0, 1.0), ["u"]),
         (False, (0.0, 0.2), (0.0, 1.0), ["u"]),
         (False, (0.0, 0.2), (1.0, 1.0), []),
-        (False, (0.0, 0.1, 0.1, 0.2), (1.0, 1.0, 2.0, 2.0), []),
         (False, (0.0, 0.08, 0.08, 0.09, 0.09, 0.2), (1.0, 1.0, 2.0, 2.0, 1.0, 1.0), ["u"]),
     ],
 )
@@ -124,15 +96,9 @@ def test_a_summary_of_rows_at_an_interval_says_so() -> None:
         (True, (0.0, 0.104, 0.104, 0.2), (0.0, 1.0, 1.0, 1.0), "corners",
          "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.0231, "
          "2.31 % of its range, at 0.104 s; --step 0.005 has it to within 1 %"),
-        (True, (0.0, 0.104, 0.2), (0.0, 1.0, 0.0), "corners",
-         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.0481, "
-         "4.81 % of its range, at 0.104 s; --step 0.002 has it to within 1 %"),
         (True, (0.0, 0.1, 0.101, 0.105, 0.105, 0.2), (0.0, 0.0, 1.0, 1.0, 5.0, 5.0), "corners and jumps",
          "2 of u, the first at 0.101 s: each becomes a line over its step of 10 ms, and u is off by up to 2.5, 50 % of "
          "its range, at 0.105 s; --step 0.001 has it to within 1 %"),
-        (False, (0.0, 0.104, 0.105, 0.2), (0.0, 0.0, 1.0, 1.0), "corners",
-         "1 of u, the first at 0.105 s: each comes with the next step of 10 ms, and u is off by up to 1, 100 % of its "
-         "range, at 0.105 s; --step 0.005 has it to within 1 %"),
         (True, (0.0, 0.104, 0.2), (0.0, 1.0, 1.8), None, ""),
     ],
 )  # fmt: skip
@@ -150,13 +116,11 @@ def test_what_is_inside_a_step_is_reported(
         assert not fine.missed
 
 
-@pytest.mark.parametrize("name", manoeuvre_names())
-def test_a_manoeuvre_of_the_package_has_nothing_inside_steps_of_2_ms(name: str) -> None:
-    requested = load_manoeuvre(name)
-    for straight in (list(requested.inputs), []):
-        assert missed_inputs(requested, 0.002, straight, ()) is None
-    if name == "slalom":  # the same with corners that matter
-        assert missed_inputs(requested, 0.3, list(requested.inputs), ()) is not None
+def test_manoeuvres_of_the_package_have_nothing_inside_steps_of_2_ms() -> None:
+    for name in manoeuvre_names():
+        requested = load_manoeuvre(name)
+        for straight in (list(requested.inputs), []):
+            assert missed_inputs(requested, 0.002, straight, ()) is None, name
 
 
 @pytest.mark.parametrize("held", [False, True])
@@ -175,7 +139,7 @@ def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset
     assert ("jumps inside a communication step" in rows) == bool(held)
 
 
-@pytest.mark.parametrize(("stop", "end"), [(1.0, 0.8), (0.6, 0.4), (0.8, None), (0.4, None)])
+@pytest.mark.parametrize(("stop", "end"), [(1.0, 0.8), (0.8, None)])
 def test_a_run_that_ends_at_another_time_is_reported(stop: float, end: float | None) -> None:
     requested = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
     result = run(Integrator(True), requested, 0.4)  # type: ignore[arg-type]
@@ -194,10 +158,9 @@ def test_time_in_the_air_ends_with_the_run() -> None:
     assert ("wheels in the air", "FL 170  ms") in summary(air, H)
 
 
-@pytest.mark.parametrize("every", [1, 5])
-def test_there_need_be_no_outputs(every: int) -> None:
+def test_there_need_be_no_outputs() -> None:
     for names in ((), ("stress.a",)):
-        result = driven((0.0, 0.17), (1.0, 1.0), every, outputs=names)
+        result = driven((0.0, 0.17), (1.0, 1.0), 5, outputs=names)
         assert result.values[-1].tolist() == [1.0, pytest.approx(0.17)][: 1 + len(names)]
 
 

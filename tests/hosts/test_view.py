@@ -7,7 +7,6 @@ import io
 import json
 import re
 import shutil
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -23,6 +22,7 @@ from fmu_src.build.scene_registry import load_fidelities, load_scene
 from hosts.run.command import main as run_fmu
 from hosts.view import result_tables as recorded
 from hosts.view.command import main as view
+from tests.hosts.changed_fmu import changed_fmu
 from tests.viewer.test_page_text import data_of, numbers
 from viewer import open_browser
 from viewer.browser import BrowserError, find_chromium
@@ -42,13 +42,7 @@ SCENE = {
 
 def with_resources(fmu: Path, copy: Path, geometry: str | None) -> Path:
     """A copy of an FMU with another scene in it, or none."""
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
-        for name in old.namelist():
-            if name != "resources/geometry.json":
-                new.writestr(name, old.read(name))
-        if geometry is not None:
-            new.writestr("resources/geometry.json", geometry)
-    return copy
+    return changed_fmu(fmu, copy, {"resources/geometry.json": None if geometry is None else geometry.encode()})
 
 
 @pytest.fixture(scope="module")
@@ -112,7 +106,6 @@ def shown(page: Path) -> list[dict[str, Any]]:
     return list(data["runs"])
 
 
-@pytest.mark.slow
 def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -> None:
     status, text = said(result)
     assert status == 0
@@ -126,17 +119,12 @@ def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -
     assert run["units"]["rod.angle"] == "rad"
 
 
-def test_the_record_stands_for_its_table(result: Path, said: Said) -> None:
-    assert said(result.with_suffix(".json"), "--no-open")[0] == 0
-    assert shown(Path("out/motor_pendulum.html"))[0]["scene"] is not None
-
-
 def test_a_result_is_found_from_another_folder(
     result: Path, said: Said, work: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (work / "elsewhere").mkdir()
     monkeypatch.chdir(work / "elsewhere")
-    assert said(work / result, "--no-open")[0] == 0
+    assert said((work / result).with_suffix(".json"), "--no-open")[0] == 0  # the record stands for its table
     assert shown(work / "out" / "motor_pendulum.html")[0]["scene"] is not None
 
 
@@ -236,21 +224,15 @@ def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path,
     assert len(page["options"]["plots"]) == 3
 
 
-@pytest.mark.parametrize(
-    ("geometry", "sentence"),
-    [
+def test_an_invalid_geometry_is_refused(pendulum: Path, built: Path, said: Said) -> None:
+    for geometry, sentence in (
         ("{", "resources/geometry.json of dist/MotorPendulum.fmu is not a JSON file"),
-        (
-            json.dumps(SCENE | {"extent": -1}),
-            "geometry.json of dist/MotorPendulum.fmu: extent is -1; it must be above 0.",
-        ),
-    ],
-)
-def test_an_invalid_geometry_is_refused(pendulum: Path, built: Path, said: Said, geometry: str, sentence: str) -> None:
-    with_resources(built, pendulum, geometry)
-    status, text = said("dist/MotorPendulum.fmu", "--stop-time", "0.1", "--no-open")
-    assert status == 2
-    assert sentence in text
+        (json.dumps(SCENE | {"extent": -1}), "geometry.json of dist/MotorPendulum.fmu: extent is -1; it must be above"),
+    ):
+        with_resources(built, pendulum, geometry)
+        status, text = said("dist/MotorPendulum.fmu", "--stop-time", "0.1", "--no-open")
+        assert status == 2
+        assert sentence in text
 
 
 def test_a_result_without_poses_is_reported(result: Path, said: Said) -> None:
@@ -292,18 +274,14 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
     ("name", "content", "sentence"),
     [
         ("a.csv", "", "a.csv contains no values"),
-        ("a.csv", "time,x\n", "contains no values"),
         ("a.csv", "time,x\n0,one\n", "a.csv, line 2, column 'x': 'one' is not a number"),
         ("a.csv", "time,x\n0,1\n1\n", "line 3: 1 values where the heading has 2 columns"),
-        ("a.csv", "time,x\n0\n", "line 2: 1 values where the heading has 2 columns"),
         ("a.csv", "x,y\n0,1\n", "its heading begins with 'x'; it must be time"),
         ("a.csv", "time,x,x\n0,1,1\n", "has the column 'x' twice"),
         ("a.csv", "time\n0\n", "a column of times and no other"),
         ("a.csv", "time,x\n1,1\n0,1\n", "The times of 'a' go back from 1 s to 0 s"),
-        ("a.csv", "time,x\nnan,1\n", "time 0 (from 0 on) is nan"),
         ("a.csv", b"\xff\xfe\x00", "is not text in UTF-8"),
         ("a.json", "{}", "has no table a.csv beside it"),
-        ("a.toml", "", "The FMU of the car a.toml cannot be built: "),
         ("a.txt", "x", "is neither a result (.csv, .json) nor an FMU (.fmu)"),
         ("a.fmu", "x", "is not an FMU (not a zip archive)"),
     ],
@@ -328,15 +306,12 @@ def test_lines_of_comment_are_left_out(work: Path, said: Said) -> None:
 UNMET = [
     (["--live"], "out/motor_pendulum.csv is a result; --live needs an FMU, which the page runs."),
     (["--live", "--png", "p.png"], "--png cannot be combined with --live."),
-    (["--live", "--from", "0"], "--from cannot be combined with --live."),
     (["--paused"], "--paused needs --live."),
     (["--plot", "rod.angel"], "There is no signal 'rod.angel' to be plotted; the result has rod.angle"),
     (["--from", "7", "--to", "8"], "There is no time from 7 s to 8 s in 'motor_pendulum'"),
     (["--most", "1"], "must be a whole number from 2 on"),
     (["--manoeuvre", "slalom"], "results are shown as they are"),
-    (["--geometry", "none.fmu"], "There is no file none.fmu."),
     (["--png", "p.png", "--at", "9"], "There is no picture at 9 s; it was recorded from 0 s to 1 s."),
-    (["--at", "9"], "--at is 9 s; it was recorded from 0 s to 1 s."),
     (["--gltf", "a.txt"], "a.txt must end with .glb or .gltf."),
 ]
 
@@ -350,15 +325,13 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
     assert wrong == []
 
 
-def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
-    for options, message in (
-        (["--out", "page.html"], "page.html is the name of a file; --out names the output folder"),
-        (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the output folder"),
-    ):
-        with pytest.raises(SystemExit) as end:
-            said(result, *options)
-        assert end.value.code == 2
-        assert message in capsys.readouterr().err
+def test_a_file_in_place_of_the_output_folder_is_refused(
+    result: Path, said: Said, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        said(result, "--out", "x.GLB")
+    assert end.value.code == 2
+    assert "x.GLB is the name of a file; --out names the output folder" in capsys.readouterr().err
 
 
 def test_without_a_browser_for_pictures_there_is_one_sentence(

@@ -1,51 +1,33 @@
-"""Results of both cars as `ali3 view` shows them."""
+"""Results of a car as `ali3 view` shows them."""
 
 import io
-from collections.abc import Callable
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
-from fmpy import platform
 from PIL import Image
 
-import mbs
 from ali3.scene.scene_columns import pose_columns
-from fmu_src.build.build import build_fmu
 from hosts.run.command import main as run
 from hosts.view.command import main as view
 from hosts.view.result_tables import read_table
-from mbs.vehicle import load
 from tests.hosts.test_view import shown
-from tests.quick import quick
 from tests.viewer.poses import FramePoses
 from viewer.browser import BrowserError, find_chromium
 
-CARS = ("prototype", "hatchback")
 WHEELS = ("FL", "FR", "RL", "RR")
 
 
-@pytest.fixture(scope="module")
-def result_of(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The table of a double lane change of a car."""
-
-    def drive(name: str) -> Path:
-        folder, fmu = tmp_path_factory.mktemp(name), prototype_fmu
-        if name != "prototype":
-            fmu = build_fmu(mbs.compile(load(name).model()), name, folder, [platform])
-        assert run([str(fmu), "-m", "double_lane_change", "--step", "0.01", "--out", str(folder)]) == 0
-        (table,) = folder.glob("*_double_lane_change.csv")
-        return table
-
-    return cache(drive)
+def driven(fmu: Path, folder: Path, *more: str) -> Path:
+    """The table of a double lane change."""
+    command = ["-m", "double_lane_change", "--step", "0.01", "--out", str(folder)]
+    assert run([str(fmu), *command, *more]) == 0
+    (table,) = folder.glob("*_double_lane_change.csv")
+    return table
 
 
-@pytest.mark.parametrize("name", quick(CARS[:1], CARS))
-def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(
-    result_of: Callable[[str], Path], name: str, tmp_path: Path
-) -> None:
-    result = result_of(name)
+def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(prototype_fmu: Path, tmp_path: Path) -> None:
+    result = driven(prototype_fmu, tmp_path, "--stop-time", "5")
     page = tmp_path / f"{result.stem}.html"
     assert view([str(result), "--no-open", "--out", str(tmp_path)]) == 0
     (drawn,) = shown(page)
@@ -68,17 +50,20 @@ def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(
 
 
 @pytest.mark.slow  # two pages are drawn by the processor
-def test_both_cars_in_one_picture(result_of: Callable[[str], Path], tmp_path: Path) -> None:
+def test_two_cars_in_one_picture(prototype_fmu: Path, tmp_path: Path) -> None:
     pytest.importorskip("playwright")
     try:
         find_chromium()
     except BrowserError as error:
         pytest.skip(str(error))
+    tables = [
+        driven(prototype_fmu, tmp_path / name, "--stop-time", "0.5", "--set", f"initial.y={y}")
+        for name, y in (("one", 0.0), ("other", 3.0))
+    ]
     pictures = []
-    for names in (CARS[:1], CARS):
-        file = tmp_path / f"{len(names)}.png"
-        paths = [str(result_of(name)) for name in names]
-        assert view([*paths, "--png", str(file), "--at", "3", "--size", "320", "180"]) == 0
+    for shown_tables in (tables[:1], tables):
+        file = tmp_path / f"{len(shown_tables)}.png"
+        assert view([*map(str, shown_tables), "--png", str(file), "--at", "0.3", "--size", "320", "180"]) == 0
         pictures.append(np.asarray(Image.open(io.BytesIO(file.read_bytes())).convert("RGB")).astype(int))
     alone, both = pictures
     changed = np.abs(alone - both).max(axis=2) > 10

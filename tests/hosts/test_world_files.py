@@ -20,7 +20,7 @@ def test_a_description_has_its_own_name_and_warnings_of_the_command_are_reported
     file = tmp_path / "other.toml"
     rows = "".join(f"{x},0,{0.6 * (x + 15):.3f}\n" for x in range(-15, 16, 3))
     (tmp_path / "hill.csv").write_text("# x, y, z\n" + rows, encoding="utf-8")
-    for name in ("mini", "maxi", "mini"):
+    for name in ("mini", "maxi"):
         file.write_text(WORLD.format(name=name) + STEEP, encoding="utf-8")
         lines: list[str] = []
         world = make_world(str(file), lines.append)
