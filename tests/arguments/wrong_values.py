@@ -41,14 +41,13 @@ BEGINNINGS = ("every =", "n =", "side =", "estimate_error =")
 OURS = (ModelError, ArgumentTypeError, ValueError, KeyError)
 
 
-def as_scalars(value: Any) -> list[Any]:
-    """The same number or truth value as NumPy has it; what is neither has none."""
+def as_scalars(value: Any) -> tuple[Any, Any, Any]:
+    """The same number or truth value in three other ways, as NumPy has it; what is neither stays."""
     if isinstance(value, bool):
-        return [np.bool_(value)]
+        return np.bool_(value), np.bool_(value), np.bool_(value)
     if isinstance(value, float):
-        same = [np.float64(value), np.array(value)]
-        return [*same, *([np.int64(value), int(value)] if value == int(value) else [])]
-    return [np.int64(value), np.int32(value), float(value)] if isinstance(value, int) else []
+        return np.float64(value), np.array(value), np.int64(value) if value == int(value) else np.float64(value)
+    return (np.int64(value), np.int32(value), float(value)) if isinstance(value, int) else (value, value, value)
 
 
 def problem_of(error: Exception, argument: str, value: Any) -> str:

@@ -17,11 +17,6 @@ def lines_of(file: Path) -> list[str]:
     return plausibility_of(read_tyre(file))[0].warnings()
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
-def test_tyres_of_others_lie_inside(file: Path) -> None:
-    assert lines_of(file) == []
-
-
 ODD: dict[str, tuple[Factors, str]] = {
     "stiffness per degree": ({"PKY1": 1.0 / DEG}, "per degree in place of per radian in PKY1"),
     "slip stiffness per percent": ({"PKX1": 0.01, "PKX2": 0.01}, "per percent in place of per slip in PKX1"),
@@ -54,15 +49,18 @@ ODD: dict[str, tuple[Factors, str]] = {
 }
 
 
-@pytest.mark.parametrize("version", ["52", "61", "62"])
+def test_tyres_of_others_lie_inside() -> None:
+    assert {file.stem: lines_of(file) for file in FILES} == {file.stem: [] for file in FILES}
+
+
 @pytest.mark.parametrize("case", ODD)
-def test_implausible_values_are_reported(case: str, version: str, tmp_path: Path) -> None:
+def test_implausible_values_are_reported(case: str, tmp_path: Path) -> None:
     factors, message = ODD[case]
+    version = "61" if case == "a pressure ten times" else "52"
     text = (Path(__file__).with_name("data") / f"assumed_{version}.tir").read_text(encoding="utf-8")
     for key, factor in factors.items():
         line = re.compile(rf"^({key}\s*=\s*)([^\s$]+)", re.MULTILINE)
-        if line.search(text) is None:
-            pytest.skip(f"version {version} has no {key}")
+        assert line.search(text), key
         text = line.sub(lambda m, f=factor: f"{m[1]}{f * float(m[2]):.12g}", text)  # type: ignore[misc]
     file = tmp_path / "odd.tir"
     file.write_text(text, encoding="utf-8")
