@@ -38,6 +38,7 @@ def moved(joints: tuple[str, str], place: int, R: np.ndarray, o: np.ndarray) -> 
     return system.meta["report"]["degrees_of_freedom"], R.T @ (np.array([run[a][-1] for a in "xyz"]) - o)
 
 
+@pytest.mark.slow
 def test_a_drawing_that_is_turned_and_moved_moves_as_before() -> None:
     """Round-off that was left of a condition was one of its own: what turns stood still, or did not start."""
     rng = np.random.default_rng(7)

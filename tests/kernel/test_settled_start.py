@@ -48,7 +48,7 @@ def test_it_is_the_steady_turn_that_driving_reaches(
     turn = started(car, 0.0, 0.0, 0.0, 0.0, 0.0, SPEED, steering=STEERING)
     at_rest = of(turn)["chassis.x"]  # the reference point from the origin
     throttle, number = 0.0, [entry["name"] for entry in car.meta["inputs"]].index("throttle")
-    for _ in range(2400):
+    for _ in range(4000):
         slower = SPEED - of(turn)["chassis.vx"]
         throttle += 0.2 * slower * H
         turn.set_input(number, throttle + 0.2 * slower)

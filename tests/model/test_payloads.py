@@ -114,10 +114,10 @@ def test_relative_coordinates_carry_payloads_like_natural_ones(method, build):
         return m
 
     values = {f"load {k}.mass": 0.4 + 0.3 * k for k in range(3)}
-    one, other = (started(loaded(way), method, way, values).run(0.3, 1e-3) for way in ("parameter", "own"))
+    one, other = (started(loaded(way), method, way, values).run(0.2, 1e-3) for way in ("parameter", "own"))
     scale = np.abs(table_of(other)).max()
     np.testing.assert_allclose(table_of(one), table_of(other), rtol=0, atol=SAME * scale)
-    natural = started(loaded("parameter"), "runge_kutta_8", "parameter", values).run(0.3, 1e-3)
+    natural = started(loaded("parameter"), "runge_kutta_8", "parameter", values).run(0.2, 1e-3)
     np.testing.assert_allclose(table_of(one), table_of(natural), rtol=0, atol=1e-6 * scale)
 
 
@@ -148,7 +148,7 @@ def flexible(way, method="ali3p", mass=3.0):
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8"])
 def test_a_payload_on_a_flexible_body_is_one_tied_to_it(method):
     h = 2e-5 if method == "runge_kutta_8" else 1e-3
-    end = 0.01 if method == "runge_kutta_8" else 0.2
+    end = 0.01 if method == "runge_kutta_8" else 0.1
     tight = Settings(method=method, tolerance_r=1e-13, tolerance_phi=1e-13)
     values = {"load 0.mass": 3.0, "load 1.mass": 3.0}
     one = Simulation(compile(flexible("parameter")), settings=tight, parameters=values).run(end, h)

@@ -341,3 +341,10 @@ def test_an_angle_of_a_body_on_two_pins_is_refused_with_a_message():
     m.relative_angle("angle", m.ground, body)
     with pytest.raises(ModelError, match="'held' cannot move: its joints fix every coordinate that has mass"):
         compile(m)
+
+
+def test_a_screw_without_pitch_is_refused():
+    m = Model("s", dimension=3)
+    nut = m.body("nut", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    with pytest.raises(ModelError, match="pitch of screw joint 's' is 0"):
+        m.screw("s", nut, m.ground, point=(0, 0, 0), axis=(0, 0, 1), pitch=0.0)

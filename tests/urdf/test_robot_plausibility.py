@@ -48,7 +48,6 @@ ODD = {
         "mm in place of m",
     ),
     "inertias in kg mm2": (scaled(INERTIA, 1e6), "inertias in kg mm2"),
-    "a centre 500 m away": (replaced(r'(<inertial>\s*<origin) xyz="[^"]*"', r'\1 xyz="500 0 0"'), "size is 1000 m"),
     "a turn of 90 rad": (replaced(r'rpy="[^"]*"', 'rpy="0 90 0"'), "degrees in place of radians in rpy"),
     "limits in degrees": (
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="-170" upper="170"'),
@@ -58,12 +57,7 @@ ODD = {
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="1" upper="2"'),
         "start beyond the limits",
     ),
-    "moments of one in kg cm2": (scaled(INERTIA, 1e4, count=6), "kg cm2 in place of kg m2 of 'link_1'"),
     "mass of one in g": (scaled(MASS, 1e3, count=1), "grams in place of kilograms in masses of 'link_1'"),
-    "a centre in cm": (
-        replaced(r'(<inertial>\s*<origin) xyz="[^"]*"', r'\1 xyz="7 -3 0"'),
-        "cm in place of m in centres of mass of 'link_1'",
-    ),
     "a joint in mm": (
         scaled(r'<joint[^>]*>(?:(?!</joint>).)*?<origin xyz="([^"]*)"', 1e3, count=2),
         "over all others together",
