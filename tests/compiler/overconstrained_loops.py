@@ -143,3 +143,14 @@ def scissor_lift(pen: Pen, guide: str, turn: float, scale: float) -> Model:
         m.prismatic("guide", plate, m.ground, axis=along(0.0, 1.0), point=at(0.0 if guide == "head" else 0.8, height))
     _sensors(m, plate, centre)
     return m
+
+
+def three_short_cranks(pen: Pen, length: float) -> Model:
+    """Planar: three parallel cranks that are short against the plate on them."""
+    m = Model("three short cranks", dimension=2)
+    plate = m.body("plate", mass=3.0, com=(1.0, 0.4), inertia=0.8)
+    for k, foot in enumerate(np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.2]])):
+        crank = m.body(f"crank {k}", mass=0.5, com=foot, inertia=0.02)
+        m.revolute(f"foot {k}", m.ground, crank, point=pen(foot))
+        m.revolute(f"head {k}", crank, plate, point=pen(foot + np.array([0.0, length])))
+    return m

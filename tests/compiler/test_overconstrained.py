@@ -33,13 +33,18 @@ def motion(system, method):
     return columns[:, :-1], np.ptp(columns[:, -1])
 
 
+def methods_of(loop):
+    """All for the first loop."""
+    return METHODS if loop == "Bennett" else ("ali3p", "energy_momentum_4", "semi_recursive")
+
+
 @pytest.fixture(scope="module")
 def exact():
     """Motion of the exact loops by loop and method; None where the method does not take the loop."""
     results = {}
     for loop, build in LOOPS.items():
         system = compile(build(drawn.exact))
-        for method in METHODS:
+        for method in methods_of(loop):
             try:
                 results[loop, method] = motion(system, method)
             except SimulationError as error:
@@ -51,7 +56,7 @@ def exact():
 
 @pytest.mark.parametrize("loop", LOOPS)
 def test_all_methods_move_a_shifted_drawing_as_the_exact_one(loop, exact):
-    for size, methods in ((2e-5, METHODS), (1e-11, ("ali3p",))):
+    for size, methods in ((2e-5, methods_of(loop)), (1e-11, ("ali3p",))):
         system = compile(LOOPS[loop](drawn.shifted(size)))
         report = system.meta["report"]
         assert report["degrees_of_freedom"] == FREEDOMS.get(loop, 1)
@@ -220,3 +225,12 @@ def test_a_redundant_guide_is_corrected_or_refused_and_never_stands_in_silence(g
         x, y = (run[c][-1] - run[c][0] for c in "xy")
         rise = (y * np.cos(turn) - x * np.sin(turn)) / scale
         assert rise == pytest.approx(rise_of_a_lift(), rel=2e-4, abs=30.0 * error)
+
+
+def test_short_links_keep_their_length():
+    """The correction is of the size of the drawing's error, not of the link, however short that is."""
+    length, error = 1e-4, 5e-7
+    joints = overconstrained.corrected_joints(drawn.three_short_cranks(drawn.shifted(error), length))
+    assert joints
+    assert max(j.correction.distance for j in joints) < 2.0 * error + 1e-15
+    assert compile(drawn.three_short_cranks(drawn.shifted(error), length)).meta["report"]["degrees_of_freedom"] == 1

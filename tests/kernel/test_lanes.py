@@ -86,7 +86,7 @@ def test_cars_have_the_bits_of_single_runs(width: int) -> None:
             names = list(CARS)[first : first + width]
             single, together = _attached(names, settings, 0)
             many = Many(prepared(single[0].system)[0], width)
-            for _ in range(2):
+            for _ in range(4):
                 part, ended = compare(many, single, together, h, 25)
                 alone[h, halvings] += part
                 statuses |= ended
