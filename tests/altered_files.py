@@ -30,9 +30,7 @@ def altered(content: bytes, seed: int) -> bytes:
     chance = random.Random(seed)
     for _ in range(chance.choice((1, 1, 1, 2, 3))):
         size = len(content)
-        kind = chance.choice(
-            ("cut", "byte", "bytes out", "twice", "token", "token", "token", "line out", "lines swapped")
-        )
+        kind = chance.choice(_KINDS)
         one, other = sorted(chance.randrange(size + 1) for _ in range(2))
         lines = content.split(b"\n")
         tokens = [found.span() for found in _TOKENS.finditer(content[:200_000])]

@@ -54,7 +54,6 @@ class Bench:
 
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-O = (0.0, 0.0, 0.0)
 TRAVEL = np.linspace(-0.1, 0.1, 5)
 RELIEF = InertiaRelief(np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((6, 3)))
 

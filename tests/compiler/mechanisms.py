@@ -1,8 +1,10 @@
 """Models that between them use every kind of row."""
 
+from functools import cache
+
 import numpy as np
 
-from mbs import Model
+from mbs import Model, System, compile
 from mbs.scenes import bricard, double_four_bar
 
 
@@ -40,3 +42,9 @@ MODELS = {
     "four-bar": lambda: double_four_bar.build(3),
     "long four-bar": lambda: double_four_bar.build(40),
 }
+
+
+@cache
+def compiled(name: str) -> System:
+    """The System of a model."""
+    return compile(MODELS[name]())

@@ -18,11 +18,6 @@ def exact(v: Array) -> Array:
     return np.asarray(v, dtype=float)
 
 
-def rounded(decimals: int) -> Pen:
-    """A drawing with so many decimals."""
-    return lambda v: np.round(np.asarray(v, dtype=float), decimals)
-
-
 def shifted(size: float, seed: int = 3) -> Pen:
     """Every number off by up to `size`, always in the same way."""
     random = np.random.default_rng(seed)
@@ -70,18 +65,6 @@ def bennett(pen: Pen = exact) -> Model:
     return m
 
 
-def sarrus(pen: Pen = exact) -> Model:
-    """A plate that two pairs of hinged leaves guide along a straight line: one freedom, none by Kutzbach."""
-    m = Model("Sarrus", dimension=3)
-    s, c = 1.0 * np.sin(0.5), 1.0 * np.cos(0.5)
-    points = np.array([[0.5, 0, 0], [0.5 + s, 0, c], [0.5, 0, 2 * c], [0, 0.5, 2 * c], [0, 0.5 + s, c], [0, 0.5, 0]])
-    axes = np.array([[0, 1.0, 0]] * 3 + [[1.0, 0, 0]] * 3)
-    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
-    bodies = _loop(m, points @ turn.T, axes @ turn.T, pen)
-    _sensors(m, bodies[3], (points @ turn.T)[2])
-    return m
-
-
 def bricard(pen: Pen = exact) -> Model:
     """Bricard's loop of six equal bars with square twists."""
     m = Model("Bricard", dimension=3)
@@ -102,13 +85,13 @@ def parallelogram(pen: Pen = exact) -> Model:
     return m
 
 
-def redundant_rod(pen: Pen = exact, bars: int = 3, five: bool = False, rods: bool = False) -> Model:
+def redundant_rod(pen: Pen = exact, five: bool = False, rods: bool = False) -> Model:
     """Planar: parallel cranks carry a plate, one more than needed. With `five` their feet stand on a link that
     turns about the ground; with `rods` the last crank is a massless rod.
     """
     m = Model("redundant rod", dimension=2)
     arm = np.array([0.3, 0.4])
-    feet = np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.2]])[:bars]
+    feet = np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.2]])
     if five:
         base = m.body("base", mass=1.0, com=(1.0, -0.5), inertia=0.2)
         m.revolute("pivot", m.ground, base, point=pen(np.array([0.7, -1.0])))
@@ -116,7 +99,7 @@ def redundant_rod(pen: Pen = exact, bars: int = 3, five: bool = False, rods: boo
         base = m.ground
     plate = m.body("plate", mass=3.0, com=(1.0, 0.4), inertia=0.8)
     for k, foot in enumerate(feet):
-        if rods and k == bars - 1:
+        if rods and k == 2:
             m.distance("rod", (base, pen(foot)), (plate, pen(foot + arm)), length=float(pen(np.array([0.5]))[0]))
             continue
         crank = m.body(f"crank {k}", mass=0.5, com=foot + 0.5 * arm, inertia=0.02)
@@ -126,30 +109,13 @@ def redundant_rod(pen: Pen = exact, bars: int = 3, five: bool = False, rods: boo
     return m
 
 
-def double_parallelogram(pen: Pen = exact) -> Model:
-    """Planar: two storeys of three cranks each."""
-    m = Model("double parallelogram", dimension=2)
-    below, arm = m.ground, np.array([0.3, 0.4])
-    for storey in range(2):
-        plate = m.body(f"plate {storey}", mass=3.0, com=(1.0, 0.4 * (storey + 1)), inertia=0.8)
-        for k, foot in enumerate(np.array([[0.0, 0.0], [1.0, 0.3], [2.0, -0.2]]) + storey * np.array([0.3, 0.4])):
-            crank = m.body(f"crank {storey}{k}", mass=0.5, com=foot + 0.5 * arm, inertia=0.02)
-            m.revolute(f"foot {storey}{k}", below, crank, point=pen(foot))
-            m.revolute(f"head {storey}{k}", crank, plate, point=pen(foot + arm))
-        below, arm = plate, np.array([-0.2, 0.5])
-    _sensors(m, below, np.array([0.3, 0.4]) + arm)
-    return m
-
-
 def _sensors(m: Model, body: Body, point: Array) -> None:
     for component in "xyz"[: m.dimension]:
         m.sense_position(component, body, point, component)
     m.sense_energy("energy")
 
 
-def scissor_lift(
-    pen: Pen = exact, stages: int = 1, guide: str = "line", turn: float = 0.0, scale: float = 1.0
-) -> Model:
+def scissor_lift(pen: Pen, guide: str, turn: float, scale: float) -> Model:
     """Planar: crossed bars lift a plate that a guide holds upright, as the bars do already."""
     c, s = np.cos(turn), np.sin(turn)
     R = np.array([[c, -s], [s, c]])
@@ -161,18 +127,11 @@ def scissor_lift(
     def along(x: float, y: float) -> Array:
         return R @ pen(np.array([x, y]))
 
-    below: tuple[Body, Body] = (m.ground, m.ground)
-    for k in range(stages):
-        middle = scale * R @ np.array([0.8, 0.6 * k + 0.3])
-        up, down = (m.body(f"{name} {k}", mass=1.0, com=middle, inertia=0.2 * scale**2) for name in ("up", "down"))
-        m.revolute(f"middle {k}", up, down, point=at(0.8, 0.6 * k + 0.3))
-        m.revolute(f"left {k}", below[1], up, point=at(0.0, 0.6 * k))
-        if k == 0:
-            m.point_on_line("slide", (down, at(1.6, 0.0)), (m.ground, at(1.6, 0.0)), axis=along(1.0, 0.0))
-        else:
-            m.revolute(f"right {k}", below[0], down, point=at(1.6, 0.6 * k))
-        below = up, down
-    height = 0.6 * stages
+    middle, height = scale * R @ np.array([0.8, 0.3]), 0.6
+    up, down = (m.body(name, mass=1.0, com=middle, inertia=0.2 * scale**2) for name in ("up", "down"))
+    m.revolute("middle", up, down, point=at(0.8, 0.3))
+    m.revolute("left", m.ground, up, point=at(0.0, 0.0))
+    m.point_on_line("slide", (down, at(1.6, 0.0)), (m.ground, at(1.6, 0.0)), axis=along(1.0, 0.0))
     centre = scale * R @ np.array([0.8, height])
     plate = m.body("plate", mass=5.0, com=centre, inertia=scale**2)
     m.revolute("head", plate, down, point=at(0.0, height))
@@ -186,30 +145,7 @@ def scissor_lift(
     return m
 
 
-def scott_russell(pen: Pen = exact, blocks: bool = False, turn: float = 0.0, scale: float = 1.0) -> Model:
-    """Planar: a rod of 1 m between two lines, its middle on a crank of 0.5 m that is not needed."""
-    c, s = np.cos(turn), np.sin(turn)
-    R = np.array([[c, -s], [s, c]])
-    m = Model("Scott Russell", dimension=2, gravity=tuple(9.81 * scale * R @ (0.0, -1.0)))
-    ends = {"A": (np.array([np.cos(0.7), 0.0]), (1.0, 0.0)), "C": (np.array([0.0, np.sin(0.7)]), (0.0, 1.0))}
-    middle = 0.5 * (ends["A"][0] + ends["C"][0])
-    crank = m.body("crank", mass=1.0, com=0.5 * scale * R @ middle, inertia=0.02 * scale**2)
-    rod = m.body("rod", mass=2.0, com=scale * R @ middle, inertia=0.17 * scale**2)
-    m.revolute("O", m.ground, crank, point=scale * R @ pen(np.zeros(2)))
-    m.revolute("B", crank, rod, point=scale * R @ pen(middle))
-    for name, (point, direction) in ends.items():
-        p, axis = scale * R @ pen(point), R @ pen(np.array(direction))
-        if blocks:
-            block = m.body(f"block {name}", mass=0.3, com=scale * R @ point, inertia=0.01 * scale**2)
-            m.prismatic(f"slide {name}", block, m.ground, axis=axis, point=scale * R @ pen(point))
-            m.revolute(f"pin {name}", block, rod, point=p)
-        else:
-            m.point_on_line(name, (rod, p), (m.ground, scale * R @ pen(np.zeros(2))), axis=axis)
-    _sensors(m, rod, scale * R @ ends["C"][0])
-    return m
-
-
-def three_short_cranks(pen: Pen = exact, length: float = 1e-4) -> Model:
+def three_short_cranks(pen: Pen, length: float) -> Model:
     """Planar: three parallel cranks that are short against the plate on them."""
     m = Model("three short cranks", dimension=2)
     plate = m.body("plate", mass=3.0, com=(1.0, 0.4), inertia=0.8)

@@ -7,10 +7,9 @@ from scipy.special import ellipk
 
 from mbs import Model, ModelError, Simulation, compile, simulate
 from mbs.elements import ContactPoints, PlaneRoad
-from mbs.scenes import slider_crank
 from mbs.settings.settings import Settings
 
-SIZES = [1e-9, 1e-7, 1e-6, 1.0, 1e3, 1e5]
+SIZES = [1e-9, 1e5]
 SWING = 0.5
 """Half of the swing of the pendulum, rad."""
 
@@ -34,9 +33,9 @@ def test_the_period_of_a_pendulum_is_that_of_the_closed_form(size):
         assert np.ptp(run["x"]) / size == pytest.approx(2.0 * np.sin(SWING), abs=1e-4)
 
 
-@pytest.mark.parametrize("size", [1e7, 1e8])
-def test_a_start_that_closes_to_round_off_is_one(size):
+def test_a_start_that_closes_to_round_off_is_one():
     """2e-16 of 1e8 m is more than the nanometre to which smaller things are closed."""
+    size = 1e8
     m = Model("pendulum", dimension=2, gravity=(0.0, -9.81))
     com = (0.6 * size, -0.8 * size)
     rod = m.body("rod", mass=1.0, com=com, inertia=size**2 / 12.0)
@@ -58,87 +57,16 @@ def test_an_inertia_without_mass_is_no_length():
     assert system.fineness == 1.0
 
 
-def test_a_stated_length_is_that_of_errors_only():
-    """What is round-off in a condition follows from the drawing."""
-    model, other = slider_crank.build(), slider_crank.build()
-    other.length = 1e-9
-    one, two = compile(model), compile(other)
-    assert two.report["length"] == 1e-9
-    assert all(np.array_equal(one.arrays[name], two.arrays[name]) for name in one.arrays)
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_a_body_without_joints_precesses(size):
-    """A symmetric top without forces: its axis turns about the angular momentum at L / I."""
-    m = Model("top", gravity=(0.0, 0.0, 0.0), length=size)
-    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=size**2 * np.array([0.1, 0.1, 0.2]))
-    m.initial_velocity(body, angular=(0.5, 0.0, 3.0))
-    m.sense_position("x", body, (0.0, 0.0, size), "x")
-    momentum = np.hypot(0.5, 2.0 * 3.0)
-    run = simulate(compile(m), 2.0 * np.pi / momentum, tolerance=1e-6)
-    assert run["x"][-1] / size == pytest.approx(0.0, abs=1e-6)
-    assert np.max(run["x"]) / size == pytest.approx(np.sin(2.0 * np.arctan2(0.5, 6.0)), rel=1e-3)
-
-
-def double_pendulum(size, joint):
-    """Two rods in space that swing little about their rest."""
-    m = Model(f"double pendulum, {joint}")
+def double_pendulum(size):
+    """Two rods in space on a ball joint and a universal joint that swing little about their rest."""
+    m = Model("double pendulum")
     inertia = size**2 * np.array([0.1, 0.1, 0.02])
     upper, lower = size * np.array([0.06, 0.03, -1.0]), size * np.array([0.1, -0.05, -1.0])
     a = m.body("a", mass=1.0, com=0.5 * upper, inertia=inertia)
     b = m.body("b", mass=1.0, com=upper + 0.5 * lower, inertia=inertia)
-    for name, first, second, point in (("top", a, m.ground, np.zeros(3)), ("middle", a, b, upper)):
-        if joint == "spherical":
-            m.spherical(name, first, second, point=point)
-        else:
-            m.universal(name, first, second, point=point, axis_1=(1.0, 0.0, 0.0), axis_2=(0.0, 1.0, 0.0))
+    m.spherical("top", a, m.ground, point=np.zeros(3))
+    m.universal("middle", a, b, point=upper, axis_1=(1.0, 0.0, 0.0), axis_2=(0.0, 1.0, 0.0))
     m.sense_position("p", b, upper + lower, "x")
-    return m
-
-
-def four_bar(size):
-    """Hangs from two pins and swings."""
-    m = Model("four-bar", dimension=2, gravity=(0.0, -9.81))
-    A, B, C, D = (size * np.array(p) for p in ((0.0, 0.0), (0.2, -1.0), (1.6, -1.2), (1.5, 0.0)))
-    bodies = [
-        m.body(name, mass=1.0, com=0.5 * (p + q), inertia=float((q - p) @ (q - p)) / 12.0)
-        for name, p, q in (("AB", A, B), ("BC", B, C), ("CD", C, D))
-    ]
-    ends = ((m.ground, bodies[0], A), (*bodies[:2], B), (*bodies[1:], C), (bodies[2], m.ground, D))
-    for k, (first, second, point) in enumerate(ends):
-        m.revolute(f"pin {k}", first, second, point=point)
-    m.sense_position("p", bodies[1], B, "x")
-    return m
-
-
-def sprung(size):
-    """A mass on a slide and a second one on a bar hang on springs."""
-    m = Model("sprung")
-    box = m.body("box", mass=1.0, com=(0.0, 0.0, -1.2 * size), inertia=3 * (0.1 * size**2,))
-    bob = m.body("bob", mass=0.5, com=(0.1 * size, 0.0, -2.2 * size), inertia=3 * (0.1 * size**2,))
-    m.prismatic("slide", box, m.ground, axis=(0.0, 0.0, 1.0))
-    m.distance("rod", (box, (0.0, 0.0, -1.2 * size)), (bob, (0.1 * size, 0.0, -2.0 * size)))
-    top = m.ground, (0.3 * size, 0.0, 0.0)
-    m.spring_damper("spring", top, (box, (0.0, 0.0, -size)), stiffness=60.0 / size, free_length=0.9 * size)
-    m.sense_position("p", bob, (0.1 * size, 0.0, -2.2 * size), "z")
-    return m
-
-
-def crank_and_slider(size):
-    """A crank that swings about its rest, its rod and a slider on a spring."""
-    m = Model("slider-crank", dimension=2, gravity=(0.0, -9.81))
-    elbow, end = size * np.array([0.3, -0.4]), size * np.array([1.7, 0.0])
-    crank = m.body("crank", mass=1.0, com=0.5 * elbow, inertia=0.02 * size**2)
-    rod = m.body("rod", mass=1.0, com=0.5 * (elbow + end), inertia=0.2 * size**2)
-    slider = m.body("slider", mass=0.5, com=end, inertia=0.01 * size**2)
-    m.revolute("root", m.ground, crank, point=(0.0, 0.0))
-    m.revolute("elbow", crank, rod, point=elbow)
-    m.revolute("pin", rod, slider, point=end)
-    m.prismatic("guide", slider, m.ground, axis=(1.0, 0.0))
-    m.spring_damper(
-        "spring", (m.ground, (3.0 * size, 0.0)), (slider, end), stiffness=4.0 / size, free_length=1.3 * size
-    )
-    m.sense_position("p", slider, end, "x")
     return m
 
 
@@ -172,17 +100,12 @@ def bouncing(size):
 
 
 MECHANISMS = {
-    "slider-crank": crank_and_slider,
     "gears": geared,
     "contact": bouncing,
-    "spherical": lambda size: double_pendulum(size, "spherical"),
-    "universal": lambda size: double_pendulum(size, "universal"),
-    "four-bar": four_bar,
-    "sprung": sprung,
+    "double pendulum": double_pendulum,
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_similar_mechanisms_move_alike(name):
     """Ten periods at every size, times by the root of the length: to 1e-6 of the motion.
@@ -190,7 +113,7 @@ def test_similar_mechanisms_move_alike(name):
     No step is divided: forces of contacts divide steps by their rates in 1/s, which is no part of a period.
     """
     results = {}
-    for size in (1.0, 1e-6, 1e-4, 1e-2, 1e2, 1e4, 1e5, 1e6, 1e7):
+    for size in (1.0, 1e-6, 1e7):
         time = 2.0 * np.sqrt(size)
         run = Simulation(compile(MECHANISMS[name](size)), settings=Settings(max_halvings=0)).run(
             10.0 * time, time / 200.0
@@ -228,7 +151,7 @@ def test_a_loop_that_does_not_close_is_refused(size):
         compile(m)
 
 
-@pytest.mark.parametrize("size", [size for size in SIZES if size < 1e5])
+@pytest.mark.parametrize("size", [1e-9, 1e3])
 def test_the_torque_of_a_drive_and_the_speed_of_a_gear_are_those_of_the_closed_form(size):
     """Angles have no mass: the penalty of what joins them alone is that of a lever."""
     duration = np.sqrt(size)
@@ -271,7 +194,7 @@ def test_a_loop_that_is_drawn_too_far_from_the_origin_is_refused() -> None:
     for far in (0.0, 1e2, 1e3):
         ends.append(simulate(compile(_four_bar_at(far)), 0.4, 0.001, progress=False)["y"][-1] - far)
     assert ends == pytest.approx([ends[0]] * 3, abs=1e-9)
-    for far in (1e4, 1e5, 5e6):
+    for far in (1e4, 5e6):
         with pytest.raises(ModelError, match=r"lies .* m from the origin, .* Draw it nearer"):
             compile(_four_bar_at(far))
 
@@ -289,7 +212,7 @@ def _four_bar_at(far: float) -> Model:
     return m
 
 
-@pytest.mark.parametrize("size", [1e-6, 1e-3, 1.0, 1e2, 1e4, 1e6])
+@pytest.mark.parametrize("size", [1e-6, 1e6])
 def test_given_rates_are_kept_at_any_size(size):
     """Four bars in a row, whose rates add up, and the crank of a four-bar: a rate weighs as the inertia it moves."""
     chain, before, rates = Model("chain", dimension=2), None, {}

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from mbs import Model, compile
+from mbs import Model
 from mbs.common.affine import Affine
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.rows import rigid_rows
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from tests.compiler.mechanisms import MODELS
+from tests.compiler.mechanisms import MODELS, compiled
 
 DERIVATIVE = 2e-8
 ROUND_OFF = 1e-12
@@ -52,14 +52,14 @@ def test_a_remainder_of_rounded_numbers_is_no_condition_of_its_own(size, left):
     assert (len(kept), removed) == (left, 3 - left)
 
 
-def loaded(model):
-    system = compile(model)
+def loaded(name):
+    system = compiled(name)
     return system, Instance(LoadedSystem(system.to_bytes()))
 
 
 @pytest.mark.parametrize("name", MODELS)
 def test_jacobian_is_the_derivative_of_the_rows(name):
-    system, instance = loaded(MODELS[name]())
+    system, instance = loaded(name)
     instance.initialise(0.0)
     rng = np.random.default_rng(3)
     q = system.arrays["q0"] + 0.1 * rng.normal(size=system.nq)
@@ -83,7 +83,7 @@ def test_jacobian_is_the_derivative_of_the_rows(name):
 
 @pytest.mark.parametrize("name", MODELS)
 def test_start_is_consistent_and_rows_are_scaled_by_the_mass(name):
-    system, instance = loaded(MODELS[name]())
+    system, instance = loaded(name)
     a = system.arrays
     instance.initialise(0.0)
     result = instance.evaluate(a["q0"].tolist(), a["qd0"].tolist(), a["y0"].tolist(), 0.0)

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from mbs import ArgumentTypeError, Model, ModelError, Simulation, compile
+from mbs import Model, ModelError, Simulation, compile
 from mbs.scenes import bricard, double_four_bar
 
 CLOSED = 1e-9
@@ -62,12 +62,6 @@ def test_a_rigid_contradiction_of_linear_joints_is_refused_by_name():
     m.revolute("right", m.ground, body, point=((1.1, 0), (1.0, 0)))
     with pytest.raises(ModelError, match="'left', 'right' and the shape of 'bar' contradict"):
         compile(m)
-    m = Model("torn", dimension=2)
-    bob = m.point_mass("bob", mass=1.0, position=(0, 0))
-    m.spherical("here", m.ground, bob, point=(0, 0))
-    m.spherical("there", m.ground, bob, point=((0.2, 0), (0, 0)))
-    with pytest.raises(ModelError, match=r"'(here|there)' cannot close.*0\.2 m"):
-        compile(m)
 
 
 def test_given_velocities_are_met_where_the_joints_allow_them():
@@ -78,16 +72,6 @@ def test_given_velocities_are_met_where_the_joints_allow_them():
     assert s["B0.velocity.y"] == pytest.approx(0.0, abs=CLOSED)
     inertia = (41 / 3 + 40) / 2  # (N+1) cranks about their pins and N translating couplers
     assert s["energy.kinetic"] == pytest.approx(inertia, rel=1e-9)
-
-
-def test_velocities_against_the_joints_are_projected():
-    m = Model("pin", dimension=2)
-    body = m.body("bar", mass=2.0, com=(0.5, 0), inertia=2.0 / 12.0)
-    m.revolute("pin", m.ground, body, point=(0, 0))
-    m.initial_velocity(body, linear=(5.0, 1.0), angular=0.0)
-    m.sense_rotation("rate", body, order=1)
-    # least change in kinetic energy: angular momentum about the pin is kept, (2/3) w = 2 * 0.5 * 1
-    assert Simulation(compile(m)).sensors["rate"] == pytest.approx(1.5, rel=1e-9)
 
 
 def test_a_model_that_cannot_move_or_has_no_bodies_is_refused():
@@ -102,11 +86,6 @@ def test_a_model_that_cannot_move_or_has_no_bodies_is_refused():
 def test_a_start_that_has_no_equilibrium_is_refused_by_name():
     m = Model("falling", dimension=2)
     m.body("stone", mass=2.0, com=(0, 0), inertia=1.0)
-    m.start_in_equilibrium = "no"  # type: ignore[assignment]
-    with pytest.raises(
-        ModelError, match="The start_in_equilibrium of model 'falling' is 'no'; it must be True or False"
-    ):
-        compile(m)
     m.start_in_equilibrium = True
     with pytest.raises(ModelError, match=r"'falling' has no static equilibrium .*'stone\.ry' .* by 19\.6 N"):
         compile(m)
@@ -115,10 +94,8 @@ def test_a_start_that_has_no_equilibrium_is_refused_by_name():
 @pytest.mark.parametrize(
     ("parameters", "sentence"),
     [
-        ({"k": "60"}, "The parameter 'k' of the equilibrium must be a number, not '60'"),
         ({"k": 1e9}, r"The parameter 'k' of the equilibrium is 1e\+09; it must lie between 50 and 200"),
         ({"c": 60.0}, "sets 'c', which is not a parameter of it"),
-        ("k", "The equilibrium_parameters of a model must map names to values, not 'k'"),
     ],
 )
 def test_a_wrong_parameter_of_the_equilibrium_is_named(parameters, sentence):
@@ -127,7 +104,7 @@ def test_a_wrong_parameter_of_the_equilibrium_is_named(parameters, sentence):
     springs = [m.spring_damper(f"spring {x}", (m.ground, (x, 0)), mass, stiffness=100.0) for x in (-1.0, 1.0)]
     m.parameter("k", 100.0, 50.0, 200.0, targets=[(springs[0], "stiffness", 1.0)])
     m.start_in_equilibrium, m.equilibrium_parameters = True, parameters
-    with pytest.raises((ModelError, ArgumentTypeError), match=sentence):
+    with pytest.raises(ModelError, match=sentence):
         compile(m)
 
 
@@ -151,17 +128,9 @@ def pendulum_at(angle, **velocity):
     return Simulation(compile(m)).sensors["rate"]
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.7, 2.0])
-def test_a_pendulum_turns_at_its_initial_rate(angle):
-    assert pendulum_at(angle, angular=10.0) == pytest.approx(10.0, rel=1e-9)
-    along = np.array([np.cos(angle), np.sin(angle)])
-    assert pendulum_at(angle, linear=5.0 * along) == pytest.approx(10.0, rel=1e-9)
-    assert pendulum_at(angle, linear=5.0 * along, angular=10.0) == pytest.approx(10.0, rel=1e-9)
-    assert pendulum_at(angle) == 0.0
-
-
 def test_a_part_that_the_joints_do_not_allow_is_left_away():
     """Along the rod nothing moves; with both parts given the nearest in the metric of the mass is taken."""
+    assert pendulum_at(0.7, angular=10.0) == pytest.approx(10.0, rel=1e-9)
     assert pendulum_at(0.0, linear=(5.0, 3.0)) == pytest.approx(10.0, rel=1e-9)
     assert pendulum_at(0.0, linear=(0.0, 0.0), angular=10.0) == pytest.approx(10.0 * 0.17 / 0.67, rel=1e-9)
 
@@ -208,9 +177,3 @@ def test_a_free_body_has_only_its_initial_velocity():
         simulation = Simulation(compile(m)).sensors
         np.testing.assert_allclose([simulation[f"v{c}"] for c in "xyz"], linear, atol=1e-9)
         np.testing.assert_allclose([simulation[f"w{c}"] for c in "xyz"], angular, atol=1e-9)
-
-
-def test_a_point_mass_has_no_angular_velocity():
-    m = Model("point", dimension=2)
-    with pytest.raises(ModelError, match="a point mass has a linear one only"):
-        m.initial_velocity(m.point_mass("p", mass=1.0, position=(0.0, 0.0)), angular=3.0)

@@ -83,7 +83,7 @@ def crossed() -> SystemBuilder:
 
 
 @pytest.mark.parametrize("scene", [everything, crossed])
-@pytest.mark.parametrize("groups", [[5], [2, 1, 2], [1, 1, 1, 1, 1]])
+@pytest.mark.parametrize("groups", [[5], [2, 1, 2]])
 @pytest.mark.parametrize("geometric", [0, 1])
 def test_the_tangent_is_the_derivative_of_the_residual(
     scene: Callable[[], SystemBuilder], groups: list[int], geometric: int
@@ -190,7 +190,7 @@ def woven(n: int, groups: list[int]) -> SystemBuilder:
 
 
 @pytest.mark.parametrize("scene", [chain, woven])
-@pytest.mark.parametrize("groups", [[12], [4, 4, 4], [2] * 6, [1] * 12, [3, 1, 5, 3]], ids=str)
+@pytest.mark.parametrize("groups", [[4, 4, 4], [1] * 12, [3, 1, 5, 3]], ids=str)
 def test_fronts_solve_as_one_dense_front_does(
     scene: Callable[[int, list[int]], SystemBuilder], groups: list[int]
 ) -> None:
@@ -245,7 +245,7 @@ def net(order: np.ndarray, groups: list[int]) -> SystemBuilder:
     return b
 
 
-@pytest.mark.parametrize("groups", [[19], [9, 10], [3, 3, 13]], ids=str)
+@pytest.mark.parametrize("groups", [[19], [3, 3, 13]], ids=str)
 def test_components_of_points_in_turn_give_what_they_give_in_any_order(groups: list[int]) -> None:
     """Mass matrix, signals, forces, their tangent and rows take x, y and z together where they follow each other."""
     turned = np.array([18, *(np.arange(18).reshape(6, 3)[:, ::-1].T.ravel())])
@@ -264,7 +264,7 @@ def test_components_of_points_in_turn_give_what_they_give_in_any_order(groups: l
 
 
 @pytest.mark.parametrize("method", ["energy_momentum", "radau_5"])
-@pytest.mark.parametrize("groups", [[4, 4, 4], [2] * 6, [3, 1, 5, 3]], ids=str)
+@pytest.mark.parametrize("groups", [[4, 4, 4], [3, 1, 5, 3]], ids=str)
 def test_fronts_without_symmetry_solve_as_one_dense_front_does(groups: list[int], method: str) -> None:
     ends = []
     for cut in (groups, [12]):
@@ -321,29 +321,6 @@ def test_a_spring_acts_on_its_own_signals_in_any_order(signals: list[int], colum
     h = 0.1
     tangent = np.array(instance.tangent(h)).reshape(4, 4)
     np.testing.assert_allclose(tangent, np.eye(4) + 0.25 * h**2 * hessian, rtol=1e-13, atol=1e-15)
-
-
-def test_velocities_given_are_projected_in_the_mass_metric() -> None:
-    b = chain(4, [8])
-    velocities = np.random.default_rng(SEED + 3).normal(size=8)
-    b.qd0 = velocities
-    instance = initialised(b)
-    q, qd = (np.array(v) for v in instance.get_state()[:2])
-    J = dense_jacobian(b, np.array(instance.evaluate(q, qd)["jacobian"]))
-    inverse = np.diag(1.0 / np.diag(b.mass))
-    expected = velocities - inverse @ J.T @ np.linalg.solve(J @ inverse @ J.T, J @ velocities)
-    np.testing.assert_allclose(qd, expected, atol=1e-11)
-
-
-def test_redundant_rows_start_and_step_as_single_ones() -> None:
-    single, double = four_bar(), four_bar()
-    double.rows = [row for row in double.rows for _ in range(2)]
-    a, b = initialised(single), initialised(double)
-    np.testing.assert_allclose(a.get_state()[2], b.get_state()[2], atol=1e-10)
-    for _ in range(100):
-        a.step(0.01)
-        b.step(0.01)
-    np.testing.assert_allclose(a.get_state()[0], b.get_state()[0], atol=1e-7)
 
 
 def test_accelerations_exist_on_the_singular_position() -> None:

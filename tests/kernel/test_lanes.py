@@ -11,16 +11,12 @@ from mbs.elements import EndStops, GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.many import Many, widest_lanes
 from mbs.scenes import (
-    assembly_defect_four_bar,
     bicycle,
     bricard,
     double_four_bar,
     flyball,
-    kerb_test,
-    prototype_car,
     spatial_chain,
     spinning_beam,
-    squeezer,
 )
 from mbs.simulation.prepared_system import prepared
 from tests.model.tabled_models import coupled
@@ -34,15 +30,11 @@ pytestmark = pytest.mark.filterwarnings("ignore:Parameter:mbs.ParameterWarning")
 
 WIDTHS = [w for w in (2, 4, 8) if w <= widest_lanes()]
 SCENES: dict[str, tuple[Callable[[], Model], float]] = {
-    "double four-bar": (double_four_bar.build, 5e-3),
     "Bricard": (bricard.build, 5e-3),
     "flyball": (flyball.build, 5e-3),
     "spatial chain": (spatial_chain.build, 5e-3),
-    "squeezer": (squeezer.build, 2e-5),
     "bicycle": (bicycle.build, 5e-3),
-    "flexible four-bar": (assembly_defect_four_bar.build, 5e-3),
     "spinning beam": (spinning_beam.build, 1e-2),
-    "kerb, flexible": (lambda: kerb_test.build(3), 1e-2),
     "tables": (lambda: coupled(whole=False), 5e-3),
     "tables, whole": (lambda: coupled(whole=True), 5e-3),
 }
@@ -86,7 +78,7 @@ def test_cars_have_the_bits_of_single_runs(width: int) -> None:
 
     The neighbours of a car that halves, fails or stands still go on with their bits.
     """
-    cases = ((0.002, 0), (0.01, 0), (0.01, 8), (0.04, 8), (0.04, 0))
+    cases = ((0.01, 0), (0.01, 8), (0.04, 8), (0.04, 0))
     alone, statuses = dict.fromkeys(cases, 0), set[int]()
     for h, halvings in cases:
         settings = Settings(max_halvings=halvings)
@@ -98,17 +90,16 @@ def test_cars_have_the_bits_of_single_runs(width: int) -> None:
                 part, ended = compare(many, single, together, h, 25)
                 alone[h, halvings] += part
                 statuses |= ended
-    assert (alone[0.002, 0], alone[0.01, 0]) == (0, 0)  # a step that lanes get wrong is refused there and right alone
+    assert alone[0.01, 0] == 0  # a step that lanes get wrong is refused there and right alone
     assert alone[0.01, 8] > 0
     assert alone[0.04, 8] > 0
     assert statuses > {Status.OK}
 
 
 @pytest.mark.parametrize("halvings", [0, 8])
-@pytest.mark.parametrize("width", WIDTHS)
-def test_cars_by_table_have_the_bits_of_single_runs(width: int, halvings: int) -> None:
+def test_cars_by_table_have_the_bits_of_single_runs(halvings: int) -> None:
     """Each lane is in cells of its own of the tables; what is summed over the bodies of the chassis is of each lane."""
-    alone = 0
+    alone, width = 0, WIDTHS[-1]
     for first in range(0, len(CARS), width):
         names = list(CARS)[first : first + width]
         single, together = _attached(names, Settings(max_halvings=halvings), 10)
@@ -120,10 +111,9 @@ def test_cars_by_table_have_the_bits_of_single_runs(width: int, halvings: int) -
     assert (alone > 0) == (halvings > 0)  # what is made alone is divided: lanes get no step wrong
 
 
-@pytest.mark.parametrize("width", WIDTHS)
-def test_flexible_cars_have_the_bits_of_single_runs(width: int) -> None:
+def test_flexible_cars_have_the_bits_of_single_runs() -> None:
     """Also beside cars whose steps are halved, or refused without halves; those and the first few are made alone."""
-    halved, statuses = 0, set[int]()
+    halved, statuses, width = 0, set[int](), WIDTHS[-1]
     for h, halvings in ((0.01, 8), (0.04, 8), (0.04, 0)):
         for first in range(0, max(4, width), width):
             single, together = _attached(FLEXIBLE[first : first + width], Settings(max_halvings=halvings), 3)
@@ -207,16 +197,12 @@ def _after(system: System, steps: int, h: float) -> Simulation:
 
 
 @pytest.mark.parametrize(
-    ("system", "settings"),
-    [
-        (lambda: compile(double_four_bar.build()), Settings(update="paper")),
-        (lambda: compile(prototype_car.build()), Settings(method="ali3p_generalised_alpha")),
-        (lambda: compile(prototype_car.build()), Settings(step_iterations=2)),
-    ],
+    "settings",
+    [Settings(update="paper"), Settings(method="ali3p_generalised_alpha"), Settings(step_iterations=2)],
     ids=["update (16)", "generalised-alpha", "limited steps"],
 )
-def test_what_is_not_for_lanes_is_stepped_alone(system: Callable[[], System], settings: Settings) -> None:
-    compiled, h, n = system(), 0.005, 5
+def test_what_is_not_for_lanes_is_stepped_alone(settings: Settings) -> None:
+    compiled, h, n = compile(double_four_bar.build()), 0.005, 5
     single, together = ([Simulation(compiled, settings=settings) for _ in range(2)] for _ in range(2))
     assert compare(Many(prepared(compiled)[0], 2), single, together, h, n)[0] == 2 * n
 

@@ -1,17 +1,12 @@
 """Starts in motion that are held until the rest has settled."""
 
-import math
 from collections.abc import Callable
 
-import numpy as np
 import pytest
 
 import mbs
-from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.scenes import double_four_bar
-
-from .scenes import pendulum
 
 H = 0.005
 STEERING = 0.1
@@ -93,19 +88,6 @@ def test_it_is_the_same_wherever_the_car_stands(car: mbs.System, of: Callable[[I
         assert present[name] == pytest.approx(here[name], rel=1e-6, abs=1e-8), name
 
 
-def test_it_stays_at_first(car: mbs.System, of: Callable[[Instance], dict[str, float]]) -> None:
-    """Nothing jumps or swings when the motion is let go; from the drawing wheel loads move by hundreds of newtons."""
-    moved = []
-    for settling in (3.0, 0.0):
-        instance = started(car, settling, 0.0, 0.0, 0.0, 0.0, SPEED, 0.1, 0.35, steering=STEERING)
-        before = of(instance)
-        for _ in range(4):
-            instance.step(H)
-        after = of(instance)
-        moved.append(max(abs(after[n] - before[n]) for n in OF_BODY if n.endswith("Fz")))
-    assert moved[0] < 0.05 * moved[1]
-
-
 def test_the_run_begins_behind_it(car: mbs.System, of: Callable[[Instance], dict[str, float]]) -> None:
     instance = started(car, 1.0, 0.0, 0.0, 0.0, 0.0, SPEED, 0.4, 0.5, steering=STEERING, brake=0.3)
     assert instance.time == 2.0
@@ -113,32 +95,3 @@ def test_the_run_begins_behind_it(car: mbs.System, of: Callable[[Instance], dict
     works = {n: v for n, v in of(instance).items() if n.startswith("energy.") and n not in STORED}
     assert works
     assert all(v == 0.0 for v in works.values()), works
-
-
-def test_no_time_changes_nothing(car: mbs.System) -> None:
-    pose = (0.0, 0.0, 0.0, 0.0, SPEED, 0.4, 0.5)
-    one, other = (started(car, 0.0, *pose, steering=STEERING) for _ in range(2))
-    other.settle(0.0, H)
-    one.step(H)
-    other.step(H)
-    np.testing.assert_array_equal(one.get_state()[0], other.get_state()[0])
-
-
-@pytest.mark.parametrize(
-    ("duration", "h"), [(-1.0, H), (math.nan, H), (10.1, H), (1.0, 0.0), (1.0, -H), (1.0, math.nan), (10.0, 1e-9)]
-)
-def test_invalid_values_are_refused(car: mbs.System, duration: float, h: float) -> None:
-    instance = started(car, 0.0, 0.0, 0.0, 0.0, 0.0, SPEED)
-    with pytest.raises(KernelError, match="argument"):
-        instance.settle(duration, h)
-    instance.step(H)  # nothing is lost
-
-
-def test_it_needs_a_start_and_a_scene_that_a_pose_may_place(car: mbs.System) -> None:
-    with pytest.raises(KernelError, match="initialise"):
-        Instance(LoadedSystem(car.to_bytes())).settle(1.0, H)
-    for data in (pendulum().to_bytes(), mbs.compile(double_four_bar.build()).to_bytes()):
-        instance = Instance(LoadedSystem(data))
-        instance.initialise(0.0)
-        with pytest.raises(KernelError, match="argument"):
-            instance.settle(1.0, H)

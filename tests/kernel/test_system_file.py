@@ -24,10 +24,9 @@ def model() -> mbs.Model:
     return m
 
 
-@pytest.mark.parametrize("at", [28, 29, 30, 31])
-def test_the_end_of_the_header_is_zero(at: int) -> None:
+def test_the_end_of_the_header_is_zero() -> None:
     data = bytearray(mbs.compile(model()).to_bytes())
-    data[at] ^= 1
+    data[31] ^= 1
     with pytest.raises(KernelError, match="not zero"):
         LoadedSystem(bytes(data))
     with pytest.raises(SystemFileError, match="not zero"):
@@ -36,18 +35,14 @@ def test_the_end_of_the_header_is_zero(at: int) -> None:
 
 META_CHANGES: list[Callable[[dict[str, Any]], object]] = [
     lambda m: m.pop("experiment"),
-    lambda m: m["experiment"].pop("step_s"),
     lambda m: m["experiment"].update(step_s=0.0),
-    lambda m: m.pop("report"),
     lambda m: m["report"].clear(),
     lambda m: m["sensors"].pop(),
-    lambda m: m["sensors"][0].pop("unit"),
     lambda m: m["inputs"][0].pop("max"),
     lambda m: m["inputs"][0].update(min="x"),
     lambda m: m["parameters"].append({"name": "p"}),
     lambda m: m["coordinates"].pop(),
     lambda m: m.update(rows=None),
-    lambda m: m.update(dimension="3"),
 ]
 
 

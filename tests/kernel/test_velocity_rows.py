@@ -14,7 +14,6 @@ from .scenes import sleigh
 
 SEED = 5
 H = 0.01
-DIFFERENCE = 1e-6
 FD_TOLERANCE = 1e-8  # of central differences with that step
 Array = NDArray[np.float64]
 

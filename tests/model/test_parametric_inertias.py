@@ -68,27 +68,6 @@ def test_a_body_as_drawn_keeps_its_bits():
         np.testing.assert_array_equal(one[name], two[name])
 
 
-@pytest.mark.parametrize("axis", ["xx", "yy", "zz"])
-def test_the_frequency_of_a_pendulum_is_that_of_its_inertia(axis):
-    """Small swings about an axis through the hinge: w^2 = m g l / (I + m l^2) with what parameters write."""
-    k = ("xx", "yy", "zz").index(axis)
-    m = Model("pendulum", gravity=tuple(-GRAVITY * np.eye(3)[(k + 2) % 3]))
-    com = -0.5 * np.eye(3)[(k + 2) % 3]
-    body = m.body("body", mass=1.0, com=com, inertia=(0.1, 0.1, 0.1))
-    m.revolute("hinge", m.ground, body, point=(0.0, 0.0, 0.0), axis=np.eye(3)[k])
-    own = m.written_inertia(
-        "b", body.point(com), [body.vector(a) for a in np.eye(3)], mass=1.0, com=com, inertia=(0.1, 0.1, 0.1)
-    )
-    down = "com_" + "xyz"[(k + 2) % 3]
-    for name, value in (("mass", 1.0), (axis, 0.1), (down, -0.5)):
-        m.parameter(name, value, -1.0 if name == down else 0.01, 5.0, targets=[(own, name, 1.0)], tunable=False)
-    m.initial_velocity(body, angular=1e-3 * np.eye(3)[k])
-    m.sense_angle("angle", body, ("roll", "pitch", "yaw")[k])
-    t = Simulation(compile(m), parameters={"mass": 3.0, axis: 0.18, down: -0.4}).run(1.0, 0.0005)
-    frequency = np.sqrt(3.0 * GRAVITY * 0.4 / (0.18 + 3.0 * 0.4**2))
-    np.testing.assert_allclose(t["angle"], 1e-3 / frequency * np.sin(frequency * t.t), rtol=0, atol=2e-8)
-
-
 def test_what_no_body_has_is_refused_at_the_start_in_any_order():
     system = thrown(DRAWN, True)
     for values in ({"xx": 2.0}, {"xy": 0.9}, {"xx": -0.1}):

@@ -15,42 +15,23 @@ def disc(dimension=3):
     return m, m.body("disc", **DISC) if dimension == 3 else m.body("disc", mass=1.0, com=(0.0, 0.5), inertia=0.1)
 
 
-def with_spin(centre_z=0.5):
+def with_spin():
     m, body = disc()
-    spin = m.spin(
-        "wheel",
-        carrier=body,
-        centre=(0.0, 0.0, centre_z),
-        axis=(0, 1, 0),
-        mass=1.0,
-        spin_inertia=0.1,
-        diametral_inertia=0.06,
-    )
-    return m, body, spin
+    inertia = {"mass": 1.0, "spin_inertia": 0.1, "diametral_inertia": 0.06}
+    return m, m.spin("wheel", carrier=body, centre=(0.0, 0.0, 0.5), axis=(0, 1, 0), **inertia)
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"radius": 0.0}, "The radius of rolling joint 'rim' is 0"),
-        ({"radius": -0.5}, "The radius of rolling joint 'rim' is -0.5"),
-        ({"radius": float("nan")}, "The radius of rolling joint 'rim'"),
-        ({"axis": (0.0, 0.0, 0.0)}, "zero; it must have a direction"),
-        ({"axis": (0.0, 1.0)}, "must be 3 numbers"),
-        ({"axis": None}, "needs the centre and the axis of the wheel on body 'disc'"),
         ({"centre": None}, "needs the centre and the axis of the wheel on body 'disc'"),
         ({"axis": (0.0, 0.01, 1.0)}, "lies flat, its axle is upright"),
-        (
-            {"centre": (0.0, 0.0, 0.62)},
-            "its lowest point is 0.12 m above it. With the radius 0.5 m its centre must be 0.5 m",
-        ),
-        ({"centre": (0.0, 0.0, 0.45)}, "its lowest point is 0.05 m below it"),
         (
             {"axis": (0.0, 0.6, 0.8)},
             "its lowest point is 0.2 m above it. With the radius 0.5 m its centre must be 0.3 m",
         ),
         ({"level": 0.1}, "its lowest point is 0.1 m below it"),
-        ({"level": float("inf")}, "The level of rolling joint 'rim'"),
     ],
 )
 def test_a_wheel_that_cannot_roll_is_refused_with_the_reason(changes, message):
@@ -68,22 +49,15 @@ def test_bodies_that_are_no_wheels_are_refused():
             m.rolling("rim", body, **GOOD)
         with pytest.raises(ModelError, match=f"needs a rigid body, not '{body.name}'"):
             m.skate("edge", body, point=(0.0, 0.0, 0.0), direction=(1.0, 0.0, 0.0))
-    other, _ = disc()
-    with pytest.raises(ModelError, match="belongs to model"):
-        m.rolling("rim", other.bodies[0], **GOOD)
     flat, planar = disc(2)
     with pytest.raises(ModelError, match="needs a spatial model"):
         flat.rolling("rim", planar, **GOOD)
 
 
 def test_a_spin_brings_its_centre_and_axis():
-    m, _, spin = with_spin()
+    m, spin = with_spin()
     with pytest.raises(ModelError, match="takes centre and axis from the spin 'wheel'"):
         m.rolling("rim", spin, radius=0.5, centre=(0, 0, 0.5))
-    assert len(m.rolling("rim", spin, radius=0.5).equations) == 3
-    m, _, spin = with_spin(0.7)
-    with pytest.raises(ModelError, match=r"lowest point is 0\.2 m above"):
-        m.rolling("rim", spin, radius=0.5)
 
 
 def test_an_axis_need_not_be_a_unit_vector_and_a_small_gap_is_closed():
@@ -107,17 +81,8 @@ def test_a_level_shifts_the_plane():
 
 def test_a_skate_needs_a_direction_in_the_plane():
     m, body = disc()
-    with pytest.raises(ModelError, match="zero; it must have a direction"):
-        m.skate("edge", body, point=(0, 0, 0), direction=(0, 0, 0))
     with pytest.raises(ModelError, match="which is upright; it must lie in the plane"):
         m.skate("edge", body, point=(0, 0, 0), direction=(0, 0, 1))
-    with pytest.raises(ModelError, match="The switch 'edge' is 'down' at the start; it must be True or False"):
-        m.skate("edge", body, point=(0, 0, 0), direction=(1, 0, 0), switch="down")
-    with pytest.raises(ModelError, match=r"^The point of skate 'edge' on body 'disc' is .* all numbers must be finite"):
-        m.skate("edge", body, point=(np.nan, 0, 0), direction=(1, 0, 0))
-    m.skate("edge", body, point=(0, 0, 0), direction=(2, 0, 0))
-    with pytest.raises(ModelError, match="already has a joint named 'edge'"):
-        m.skate("edge", body, point=(0, 0, 0), direction=(1, 0, 0))
 
 
 def test_a_floating_scene_cannot_roll_on_the_ground():
@@ -134,9 +99,8 @@ def test_rows_and_freedoms_of_a_wheel():
     system = mbs.compile(m)
     assert system.report["degrees_of_freedom"] == 3
     assert [r["kind"] for r in system.meta["rows"] if r["name"] == "rim"] == ["touch", "roll", "roll"]
-    m, _, spin = with_spin()
+    m, spin = with_spin()
     m.rolling("rim", spin, radius=0.5)
     system = mbs.compile(m)
     assert [r["kind"] for r in system.meta["rows"] if r["name"] == "rim"] == ["touch", "roll", "track"]
     assert len(system.arrays["velocity_row"]) == 2
-    assert mbs.System.from_bytes(system.to_bytes()).to_bytes() == system.to_bytes()

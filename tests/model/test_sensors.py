@@ -53,7 +53,7 @@ def test_orientation_and_body_axes_agree_with_the_rotation_matrix():
     assert t["turn"][-1] == pytest.approx(np.pi / 2, abs=EXACT)
 
 
-@pytest.mark.parametrize("axis", [(1.0, 0.2, -0.3), (0.2, -1.0, 0.3), (-0.3, 0.2, 1.0), (0.6, 0.6, 0.6)])
+@pytest.mark.parametrize("axis", [(1.0, 0.2, -0.3), (0.2, -1.0, 0.3), (-0.3, 0.2, 1.0)])
 def test_quaternion_after_nearly_half_a_turn(axis):
     """There its scalar part is small, and the other three follow from the largest of them."""
     m = Model("ball", gravity=(0, 0, 0))
@@ -116,23 +116,6 @@ def test_forces_of_kept_joints():
     assert s["tension"] == pytest.approx(3.0 * 9.81, rel=EXACT)
 
 
-def test_tension_of_a_pendulum_in_motion():
-    """Tension m (g cos + v^2 / L) at every instant."""
-    m = Model("pendulum", dimension=2)
-    bob = m.point_mass("bob", mass=1.5, position=(-0.8, 0.0))
-    rod = m.distance("rod", (m.ground, (0, 0)), bob)
-    m.sense_joint("tension", rod, "tension")
-    for c in "xy":
-        m.sense_position(c, bob, None, c)
-        m.sense_position(f"v{c}", bob, None, c, order=1)
-    t = Simulation(compile(m)).run(1.0, 0.0005)
-    speed2 = t["vx"] ** 2 + t["vy"] ** 2
-    expected = 1.5 * (9.81 * -t["y"] / 0.8 + speed2 / 0.8)
-    assert np.max(expected) > 40.0
-    # multipliers of the trapezoidal rule are of order one in h
-    assert np.max(np.abs(t["tension"] - expected)) < 1e-3 * np.max(expected)
-
-
 def test_energies_add_up():
     m = Model("spring", dimension=2)
     bob = m.point_mass("bob", mass=1.0, position=(0.3, -1.0))
@@ -156,37 +139,22 @@ def test_energies_add_up():
     [
         (lambda m, b: m.sense_position("s", b, None, "w"), "'x', 'y' or 'z'"),
         (lambda m, b: m.sense_position("s", b, None, "x", axes="wheel"), "'earth', 'body' or a body"),
-        (lambda m, b: m.sense_energy("s", "dark"), "kinetic, gravity"),
         (lambda m, b: m.sense_element("s", "spring", "force"), "no such element"),
-        (lambda m, b: m.sense_joint("s", "hinge"), "no joint named 'hinge'"),
-        (lambda m, b: m.sense_solver("s", "mood"), "iterations"),
-        (lambda m, b: m.sense_coordinate("s", b), "needs a coordinate"),
-        (lambda m, b: m.sense_coordinate("s", b.point((0, 0, 0))[0], order=3), "0, 1 or 2"),
         (lambda m, b: m.sense_vector("s", b.point((0, 0, 0)), order=2), "must be 0 or 1"),
         (lambda m, b: m.sense_vector("s", b.point((0, 0, 0)), [b.vector((1, 0, 0))] * 3), "at most two vectors"),
-        (lambda m, b: m.sense_rotation("s", b, "w", order=1), "'x', 'y' or 'z'"),
-        (lambda m, b: m.sense_angle("s", b), "'yaw', 'pitch' or 'roll'"),
         (lambda m, b: m.sense_angle("s", [b.vector((1, 0, 0))]), "a body, a spin or three vectors"),
         (lambda m, b: m.sense_angle("s", [b.vector((1, 0, 0))] * 3, "yaw"), "only bodies have yaw, pitch and roll"),
         (lambda m, b: m.sense_energy("s", "kinetic", ["spring"]), "elements are for 'work' and 'nonconservative'"),
-        (lambda m, b: m.sense_energy("s", "work"), "force elements or their names, got None"),
+        (lambda m, b: m.sense_joint("s", "turn"), "has no readable force"),
     ],
 )
 def test_impossible_sensors_are_refused(act, sentence):
     m = Model("refusal")
     body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    m.relative_angle("turn", m.ground, body, axis=(0, 0, 1))
     with pytest.raises(ModelError) as error:
         act(m, body)
     assert sentence in str(error.value)
-
-
-def test_in_the_plane_a_body_turns_about_z_only():
-    m = Model("plane", dimension=2)
-    body = m.body("b", mass=1.0, com=(0, 0), inertia=1.0)
-    with pytest.raises(ModelError, match="in the plane it must be 'z'"):
-        m.sense_rotation("s", body, "x", order=1)
-    with pytest.raises(ModelError, match="a body has yaw only"):
-        m.sense_angle("s", body, "roll")
 
 
 def test_units_follow_the_order():
@@ -210,30 +178,13 @@ def test_units_follow_the_order():
 
 def test_coordinates_of_another_model_are_refused():
     other, m = Model("other"), Model("mine")
-    bodies = [x.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1)) for x in (other, m)]
-    foreign = other.relative_angle("turn", other.ground, bodies[0], axis=(0, 0, 1))
-    for act in (
-        lambda: m.armature("rotor", foreign, inertia=1.0),
-        lambda: m.initial_rate(foreign, 1.0),
-        lambda: m.torsional_spring_damper("spring", foreign, stiffness=1.0),
-        lambda: m.sense_coordinate("angle", foreign),
-        lambda: m.drive("drive", foreign, m.guide_time("g", ([0.0, 1.0], [0.0, 1.0]))),
-    ):
+    body = other.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    foreign = other.relative_angle("turn", other.ground, body, axis=(0, 0, 1))
+    for act in (lambda: m.armature("rotor", foreign, inertia=1.0), lambda: m.sense_coordinate("angle", foreign)):
         with pytest.raises(ModelError, match="'turn' is not one of model 'mine'"):
             act()
     with pytest.raises(ModelError, match="does not have"):
         m.sense_coordinate("angle", foreign.affine)
-    with pytest.raises(ModelError, match="needs a relative angle or a spin, got 'turn'"):
-        m.initial_rate("turn", 1.0)
-
-
-def test_a_joint_without_multipliers_of_a_force_is_refused():
-    m = Model("refusal")
-    body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
-    angle = m.relative_angle("turn", m.ground, body, axis=(0, 0, 1))
-    with pytest.raises(ModelError, match="has no readable force"):
-        m.sense_joint("s", "turn")
-    assert angle.name == "turn"
 
 
 def test_forces_of_lines_of_the_ground():
@@ -263,41 +214,19 @@ def test_forces_of_lines_of_the_ground():
         np.testing.assert_allclose(t[c], value, rtol=0, atol=1e-6)
 
 
-class TestConstants:
-    def test_the_system_lists_constants(self):
-        m = Model("box", dimension=2)
-        m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
-        m.constant("box.width", 2, "m", "width of the box")
-        m.constant("box.ratio", 1.5)
-        assert compile(m).meta["constants"] == [
-            {"name": "box.width", "unit": "m", "description": "width of the box", "value": 2.0},
-            {"name": "box.ratio", "unit": "1", "description": "", "value": 1.5},
-        ]
-
-    @pytest.mark.parametrize(
-        ("name", "value", "sentence"),
-        [
-            ("", 1.0, "needs a name"),
-            ("taken", 1.0, "already has a constant named 'taken'"),
-            ("other", np.nan, "constant 'other'"),
-            ("other", "wide", "constant 'other'"),
-        ],
-    )
-    def test_invalid_constants_are_refused_by_name(self, name, value, sentence):
-        m = Model("box", dimension=2)
-        m.constant("taken", 1.0)
-        with pytest.raises(ModelError, match=sentence):
-            m.constant(name, value)
+def test_the_system_lists_constants():
+    m = Model("box", dimension=2)
+    m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
+    m.constant("box.width", 2, "m", "width of the box")
+    row = {"name": "box.width", "unit": "m", "description": "width of the box", "value": 2.0}
+    assert compile(m).meta["constants"] == [row]
+    with pytest.raises(ModelError, match="already has a constant named 'box.width'"):
+        m.constant("box.width", 1.0)
 
 
 def test_the_name_of_the_time_is_taken():
     """Tables of runs have it as their first column, an FMU as its independent variable."""
     m = Model("named", dimension=2)
-    ball = m.point_mass("time", mass=1.0, position=(0.0, 0.0))
-    for claim in (
-        lambda: m.sense_position("time", ball, None, "x"),
-        lambda: m.input("time"),
-        lambda: m.constant("time", 1.0),
-    ):
+    for claim in (m.input, lambda name: m.constant(name, 1.0)):
         with pytest.raises(ModelError, match="is 'time', which tables of runs and FMUs have"):
-            claim()
+            claim("time")

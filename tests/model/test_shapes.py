@@ -136,18 +136,12 @@ REFUSED = [
     ("box", {}, "needs size=...; a box has size, at, axes"),
     ("sphere", {"radius": 0.1, "size": (1, 1, 1)}, "takes no size; a sphere has radius, at"),
     ("sphere", {"radius": -0.1}, "radius of sphere of 'arm' is -0.1"),
-    ("sphere", {"radius": float("nan")}, "radius"),
     ("box", {"size": (1, 0, 1)}, "all edges must be greater than zero"),
-    ("box", {"size": (1, 1)}, "size of box of 'arm' has shape"),
     ("box", {"size": (1, 1, 1), "axes": np.diag([1.0, 1.0, -1.0])}, "rotation matrix"),
-    ("box", {"size": (1, 1, 1), "at": (1, 2)}, "must be 3 numbers"),
     ("tube", {"points": [(0, 0, 0)]}, "points of tube of 'arm' must be 2 points or more"),
-    ("plate", {"points": [(0, 0, 0), (1, 0, 0)]}, "points of plate of 'arm' must be 3 points or more"),
     ("wheel", {"radius": 0.3, "width": 0.1, "rim": 0.3}, "rim 0.3 m"),
-    ("wheel", {"radius": 0.3, "width": 0.1, "axis": (0, 0, 0)}, "must have a direction"),
     ("spring", {"ends": ((0, 0, 0), (0, 0, 1)), "coils": 1.5}, "coils"),
     ("sphere", {"radius": 0.1, "color": "red"}, "color of sphere of 'arm' is 'red'; it must read '#rrggbb'"),
-    ("sphere", {"radius": 0.1, "material": "wood"}, "material of sphere of 'arm' is 'wood'"),
     ("sphere", {"radius": 0.1, "opacity": 2.0}, "opacity"),
 ]
 
@@ -186,8 +180,6 @@ def test_bodies_of_other_models_are_refused():
         m.shape(arm, "tube", points=[(0, 0, 0), (leg, (0, 0, 1))])
     with pytest.raises(mbs.ModelError, match="several bodies goes a tube"):
         m.shape(arm, "cylinder", ends=((0, 0, 0), (m.ground, (0, 0, 1))), radius=0.1)
-    with pytest.raises(mbs.ModelError, match="needs a body"):
-        m.shape("arm", "sphere", radius=0.1)
     fan = other.turning(
         "fan", leg, at=(0, 0, 0), axis=(0, 0, 1), angle=other.relative_angle("a", other.ground, leg, axis=(0, 0, 1))
     )
@@ -212,11 +204,3 @@ def test_an_invalid_mesh_is_refused(tmp_path):
         with pytest.raises(UserError, match=file):
             m.shape(arm, "mesh", file=tmp_path / file)
     assert m.shapes == []
-
-
-def test_shapes_do_not_change_the_arrays_of_the_kernel():
-    m, arm = model()
-    m.revolute("hinge", m.ground, arm, point=(0, 0, 0), axis=(0, 1, 0))
-    before = mbs.compile(m).kernel_bytes()
-    m.shape(arm, "box", size=(1, 1, 1))
-    assert mbs.compile(m).kernel_bytes() == before

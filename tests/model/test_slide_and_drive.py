@@ -10,34 +10,7 @@ from mbs import Model, ModelError, Simulation, compile, simulate
 CLOSED = 1e-9  # m
 
 
-def rack_and_lever():
-    """A lever about the origin that a rod ties to a point sliding along x on the ground."""
-    m = Model("rack", dimension=2, gravity=(0, 0))
-    lever = m.body("lever", mass=1.0, com=(0.0, 0.5), inertia=0.1)
-    m.revolute("pin", m.ground, lever, point=(0, 0))
-    u = m.input("rack", min=-0.2, max=0.2, unit="m")
-    guide = m.guide_input("rack", input=u, gain=1.0, frequency=5.0, unit="m")
-    end = m.slide("rack end", m.ground, point=(0.8, 0.9), direction=(1, 0), guide=guide)
-    m.distance("tie rod", (lever, (0.0, 1.0)), end)
-    m.sense_position("tip.x", lever, (0, 1), "x")
-    m.sense_position("tip.y", lever, (0, 1), "y")
-    m.sense_guide("s", guide)
-    return m
-
-
-def test_the_rod_keeps_its_length_while_its_end_slides():
-    system = compile(rack_and_lever())
-    assert system.report["degrees_of_freedom"] == 0
-    simulation = Simulation(system)
-    simulation.set_input("rack", 0.15)
-    t = simulation.run(1.0, 0.005)
-    length = np.hypot(t["tip.x"] - 0.8 - t["s"], t["tip.y"] - 0.9)
-    np.testing.assert_allclose(length, np.hypot(0.8, 0.1), rtol=0, atol=CLOSED)
-    assert t["s"][-1] == pytest.approx(0.15, abs=1e-6)
-    assert t["tip.x"][-1] > 0.1
-
-
-def crank(*, directions=((0.6, 0.8), (-4.0, 3.0)), angle_slopes=True):
+def crank(directions=((0.6, 0.8), (-4.0, 3.0))):
     """A lever that a rod ties to a point which two tables over one angle lead around a circle of 0.2 m."""
     m = Model("crank", dimension=2, gravity=(0, 0))
     lever = m.body("lever", mass=1.0, com=(0.0, 0.5), inertia=0.1)
@@ -45,7 +18,7 @@ def crank(*, directions=((0.6, 0.8), (-4.0, 3.0)), angle_slopes=True):
     angle = m.guide_input("angle", input=m.input("angle", min=-9, max=9, unit="rad"), frequency=1.0, unit="rad")
     u = np.linspace(-4.0, 4.0, 401)
     ways = [
-        m.guide_table(name, angle, np.column_stack([u, values]), slopes=slope if angle_slopes else None, unit="m")
+        m.guide_table(name, angle, np.column_stack([u, values]), slopes=slope, unit="m")
         for name, values, slope in (
             ("along", 0.2 * (np.cos(u) - 1.0), -0.2 * np.sin(u)),
             ("across", 0.2 * np.sin(u), 0.2 * np.cos(u)),
@@ -75,22 +48,16 @@ def test_a_point_that_two_guides_lead_around_a_circle():
     np.testing.assert_allclose(t["energy"] - t["energy"][0], work, rtol=0, atol=2e-3 * np.ptp(t["energy"]))
 
 
-@pytest.mark.parametrize(
-    ("directions", "message"),
-    [
-        (((1.0, 0.0), (0.1, 1.0)), "are not at right angles"),
-        (((1.0, 0.0),), "shape"),
-        ((1.0, 0.0), "shape"),
-    ],
-)
-def test_directions_that_do_not_fit_the_guides_are_refused(directions, message):
-    with pytest.raises(ModelError, match=message):
-        crank(directions=directions)
+def test_directions_that_do_not_fit_the_guides_are_refused():
+    with pytest.raises(ModelError, match="are not at right angles"):
+        crank(directions=((1.0, 0.0), (0.1, 1.0)))
+    with pytest.raises(ModelError, match="shape"):
+        crank(directions=((1.0, 0.0),))
 
 
 def test_a_filtered_guide_is_that_of_a_critically_damped_filter():
     """s'' = w^2 (u - s) - 2 w s', at rest at the start; u is 0.15 in the first step and -0.1 in the others."""
-    m = rack_and_lever()
+    m = Model("filter", dimension=2, gravity=(0, 0))
     guide = m.guide_input("seen", input=m.input("u", unit="m"), gain=2.0, frequency=5.0, unit="m")
     end = m.slide("seen end", m.ground, point=(3.0, 0.0), direction=(1, 0), guide=guide)
     m.distance("seen rod", m.point_mass("bob", mass=1.0, position=(3.0, -1.0)), end)
@@ -111,36 +78,22 @@ def test_a_filtered_guide_is_that_of_a_critically_damped_filter():
     assert abs(state[1]) > 0.1
 
 
-def test_limits_of_an_input_are_in_order():
+def test_limits_of_an_input_and_times_of_a_guide_are_in_order():
     with pytest.raises(ModelError, match="'rack' has the limits 2 and 1; min must not be above max"):
         Model("a").input("rack", min=2.0, max=1.0)
     with pytest.raises(ModelError, match="starts at 0, which is not between its limits 1 and 2"):
         Model("a").input("rack", min=1.0, max=2.0)
-    m = rack_and_lever()
-    with pytest.raises(ModelError, match="parameter 'gain' has the limits 2 and 1; min must not be above max"):
-        m.parameter("gain", 1.5, 2.0, 1.0, targets=[])
+    with pytest.raises(ModelError, match="guide 'g'"):
+        Model("a").guide_time("g", ([0.0, 1.0, 0.5], [0, 1, 2]))
 
 
 def test_only_one_end_may_slide():
-    m = rack_and_lever()
-    u = m.input("other")
-    guide = m.guide_input("other", input=u, frequency=1.0)
+    m = Model("both", dimension=2)
+    guide = m.guide_input("other", input=m.input("other"), frequency=1.0)
     a = m.slide("a", m.ground, point=(0, 0), direction=(1, 0), guide=guide)
     b = m.slide("b", m.ground, point=(1, 0), direction=(1, 0), guide=guide)
     with pytest.raises(ModelError, match="Both ends"):
         m.distance("twice", a, b)
-
-
-def test_a_driven_distance_follows_its_guide():
-    m = Model("jack", dimension=2)
-    bob = m.point_mass("bob", mass=2.0, position=(0.0, -1.0))
-    guide = m.guide_time("length", ([0.0, 0.5, 1.0], [1.0, 1.3, 0.8]), unit="m")
-    m.drive("jack", ((m.ground, (0, 0)), bob), guide)
-    m.sense_position("y", bob, None, "y")
-    m.sense_guide("asked", guide)
-    t = Simulation(compile(m)).run(1.0, 0.01)
-    np.testing.assert_allclose(-t["y"], t["asked"], rtol=0, atol=CLOSED)
-    assert t["asked"][-1] == pytest.approx(0.8)
 
 
 @pytest.mark.parametrize(
@@ -158,33 +111,6 @@ def test_a_guide_of_time_rests_outside_its_breaks(time, expected):
         m.sense_guide(f"order {order}", guide, order=order)
     simulation = Simulation(compile(m), t0=time)
     assert [simulation.sensors[f"order {order}"] for order in range(3)] == pytest.approx(expected, abs=CLOSED)
-
-
-def test_a_driven_component_follows_its_guide():
-    m = Model("shaker", dimension=2, gravity=(0, 0))
-    table = m.body("table", mass=1.0, com=(0, 0), inertia=0.1)
-    m.prismatic("slide", table, m.ground, axis=(1, 0))
-    guide = m.guide_time("shake", ([0.0, 0.5, 1.0], [0.0, 0.02, -0.01]), unit="m")
-    m.drive("shaker", table.point((0, 0))[0], guide)
-    m.sense_position("x", table, None, "x")
-    m.sense_guide("asked", guide)
-    t = Simulation(compile(m)).run(1.0, 0.01)
-    np.testing.assert_allclose(t["x"], t["asked"], rtol=0, atol=CLOSED)
-    assert np.max(t["x"]) > 0.02
-
-
-@pytest.mark.parametrize(
-    ("motion", "sentence"),
-    [
-        (([0.0, 1.0, 0.5], [0, 1, 2]), "guide 'g'"),
-        (3.0, "must be a PPoly or"),
-        (([0.0, 1.0], [0.0, float("nan")]), "guide 'g'"),
-    ],
-)
-def test_impossible_motions_are_refused(motion, sentence):
-    with pytest.raises(ModelError, match="guide 'g'") as error:
-        Model("refusal").guide_time("g", motion)
-    assert sentence in str(error.value)
 
 
 def test_a_guide_of_another_model_is_refused():

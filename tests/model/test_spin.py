@@ -52,28 +52,15 @@ def test_reduced_wheel_agrees_with_a_full_one_and_converges_with_the_square_of_t
 
 
 @pytest.mark.parametrize(
-    ("given", "sentence"),
-    [
-        ({"spin_inertia": 0.0}, "greater than zero"),
-        ({"diametral_inertia": 0.01}, "more than twice its diametral inertia"),
-        ({"axis": (0, 0, 0)}, "is zero"),
-        ({"mass": -1.0}, "greater than zero"),
-    ],
+    ("spin_inertia", "sentence"),
+    [(0.0, "spin 'wheel'.* greater than zero"), (0.05, "spin 'wheel'.* more than twice its diametral inertia")],
 )
-def test_impossible_wheels_are_refused(given, sentence):
+def test_impossible_wheels_are_refused(spin_inertia, sentence):
     m = Model("refusal")
     carrier = m.body("carrier", mass=0.5, com=(0, 0, 0), inertia=(0.01, 0.01, 0.01))
-    data = {
-        "centre": (0, 0, 0),
-        "axis": (0, 1, 0),
-        "mass": 1.0,
-        "spin_inertia": 0.05,
-        "diametral_inertia": 0.03,
-        **given,
-    }
-    with pytest.raises(ModelError, match="spin 'wheel'") as error:
-        m.spin("wheel", carrier=carrier, **data)
-    assert sentence in str(error.value)
+    shape = {"centre": (0, 0, 0), "axis": (0, 1, 0), "mass": 1.0, "diametral_inertia": 0.01}
+    with pytest.raises(ModelError, match=sentence):
+        m.spin("wheel", carrier=carrier, spin_inertia=spin_inertia, **shape)
 
 
 def satellite(reduced):
@@ -101,33 +88,17 @@ def satellite(reduced):
     return compile(m)
 
 
-@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5"])
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "radau_5"])
 def test_the_carrier_takes_the_reaction_of_a_torque_on_a_spin(method):
     """As a full wheel on a bearing; the energy is the work of the motor on the relative angle."""
     runs = [
-        simulate(satellite(reduced), 1.0, 0.0005, {"torque": 1.0}, method=method, every=20) for reduced in (True, False)
+        simulate(satellite(reduced), 0.5, 0.0005, {"torque": 1.0}, method=method, every=20) for reduced in (True, False)
     ]
     for c in "xyz":
         gap = np.abs(runs[0][f"rate.{c}"] - runs[1][f"rate.{c}"]).max()
         assert gap < 5e-4 * max(np.abs(runs[1][f"rate.{s}"]).max() for s in "xyz")
     turned = np.array([runs[0][f"rate.{c}"] for c in "xyz"])
-    assert np.abs(turned[:, -1]).max() > 0.5
+    assert np.abs(turned[:, -1]).max() > 0.25
     power = 2.0 * (runs[0]["spin"] - AXIS @ turned)
     work = np.sum(0.5 * (power[1:] + power[:-1]) * np.diff(runs[0].t))
     assert runs[0]["kinetic"][-1] - runs[0]["kinetic"][0] == pytest.approx(work, rel=1e-4)
-
-
-def test_the_wheel_and_its_carrier_keep_the_momentum_about_a_fixed_axis():
-    """Both about one axis through the common centre of mass: 2 N m for 1 s give the wheel 2 N m s, the carrier -2."""
-    m = Model("rotor", gravity=(0.0, 0.0, 0.0))
-    carrier = m.body("carrier", mass=3.0, com=(0.0, 0.0, 0.0), inertia=(0.3, 0.4, 0.5))
-    wheel = m.spin(
-        "wheel", carrier=carrier, centre=(0.0, 0.0, 0.2), axis=(0.0, 0.0, 1.0), mass=1.0, spin_inertia=0.5,
-        diametral_inertia=0.3,
-    )  # fmt: skip
-    m.torque_on("motor", wheel, input=m.input("torque", unit="N.m"))
-    m.sense_coordinate("wheel.rate", wheel, order=1)
-    m.sense_rotation("carrier.rate", carrier, "z", order=1)
-    run = simulate(compile(m), 1.0, 0.01, {"torque": 2.0})
-    assert run["wheel.rate"][-1] == pytest.approx(4.0, rel=5e-4)
-    assert run["carrier.rate"][-1] == pytest.approx(-4.0, rel=5e-4)

@@ -1,10 +1,9 @@
 """The angle of a reduced wheel on its carrier: against the same wheel as a full body on a bearing."""
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import Rotation
 
-from mbs import Model, ModelError, Simulation, compile
+from mbs import Model, Simulation, compile
 from tests.model.test_spin import AXIS, CENTRE
 from tests.model.test_spin import gyroscope as spinning
 
@@ -15,7 +14,6 @@ def gyroscope(reduced: bool) -> Model:
     m, wheel = spinning(reduced)
     if reduced:
         m.sense_angle("angle", wheel)
-        m.sense_coordinate("chi", wheel)
         for c in "xyzw":
             m.sense_rotation(f"q{c}", wheel.carrier, c)
     else:
@@ -42,12 +40,6 @@ def test_carrier_axis_and_angle_draw_the_wheel_where_a_full_one_is() -> None:
     assert errors[-1] < 1e-3
 
 
-def test_the_coordinate_of_the_spin_is_another_angle() -> None:
-    t = Simulation(compile(gyroscope(True))).run(0.8, 0.001)
-    assert t["angle"][0] == 0.0
-    assert np.max(np.abs(t["angle"] - (t["chi"] - t["chi"][0]))) > 0.1
-
-
 def test_a_state_is_restored_with_its_angle_and_a_new_start_begins_at_zero() -> None:
     simulation = Simulation(compile(gyroscope(True)))
     simulation.run(0.1, 0.001)
@@ -56,18 +48,3 @@ def test_a_state_is_restored_with_its_angle_and_a_new_start_begins_at_zero() -> 
     simulation.restore(saved)
     assert simulation.run(0.15, 0.001)["angle"][-1] == ahead
     assert Simulation(compile(gyroscope(True))).run(0.01, 0.001)["angle"][0] == 0.0
-
-
-def test_two_sensors_share_one_sum() -> None:
-    m = gyroscope(True)
-    before = len(m.elements)
-    m.sense_angle("again", m.spins[0])
-    assert len(m.elements) == before
-    t = Simulation(compile(m)).run(0.05, 0.001)
-    assert np.array_equal(t["again"], t["angle"])
-
-
-def test_a_wheel_has_no_yaw() -> None:
-    m = gyroscope(True)
-    with pytest.raises(ModelError, match="'yaw' of Spin '.*'; only bodies have yaw, pitch and roll"):
-        m.sense_angle("wrong", m.spins[0], "yaw")

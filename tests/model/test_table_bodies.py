@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.spatial.transform import Rotation
 
 from mbs import Model, Simulation, SimulationError, System, Trajectory, compile, simulate
 from mbs.common.errors import ModelError
@@ -19,10 +18,7 @@ from mbs.kernel.header.enumerations import Status
 from mbs.model.body import Body
 from tests.kernel.sensor_rates import RATE_ERROR, rates_of, slopes_of
 from tests.model.tabled_models import (
-    ARM,
-    BASE,
     ELBOW,
-    MASSES,
     WATCHED,
     Array,
     arm_by_table,
@@ -56,24 +52,10 @@ def test_tables_move_as_the_joints_they_are_made_of(table: Any, joint: Any) -> N
 def test_the_error_falls_with_the_fourth_power_of_the_spacing() -> None:
     exact = simulate(one_by_joint(), 0.5, 0.002, method="runge_kutta_8")
     errors = [
-        gap(simulate(one_by_table(n), 0.5, 0.002, method="runge_kutta_8"), exact, WATCHED[:3])
-        for n in (19, 37, 73, 145)
+        gap(simulate(one_by_table(n), 0.5, 0.002, method="runge_kutta_8"), exact, WATCHED[:3]) for n in (19, 37, 73)
     ]
     orders = [np.log2(coarse / fine) for coarse, fine in pairwise(errors)]
     assert np.mean(orders) == pytest.approx(4.0, abs=0.5)
-
-
-def test_steps_converge_with_the_order_of_their_method() -> None:
-    system = two_by_table()
-    exact = simulate(system, 0.5, 0.001, method="runge_kutta_8")
-    last = [exact[n][-1] for n in WATCHED[:6]]
-    errors = []
-    for h in (0.01, 0.005, 0.0025):
-        run = simulate(system, 0.5, h, method="ali3p")
-        errors.append(float(np.abs(np.array([run[n][-1] for n in WATCHED[:6]]) - last).max()))
-        assert run.report is not None
-        assert run.report.mean_iterations < 3.5
-    assert [np.log2(a / b) for a, b in pairwise(errors)] == pytest.approx([2.0, 2.0], abs=0.2)
 
 
 def test_the_work_of_a_damper_is_the_loss_of_energy() -> None:
@@ -84,35 +66,6 @@ def test_the_work_of_a_damper_is_the_loss_of_energy() -> None:
         assert run["work"][-1] < -0.1
         errors.append(abs(float(run["total"][-1] - run["total"][0] - run["work"][-1])))
     assert np.log2(errors[0] / errors[2]) / 2.0 == pytest.approx(2.0, abs=0.4)
-
-
-def momenta(run: Trajectory) -> tuple[Array, Array]:
-    """Linear and angular momentum about the origin of base and arm."""
-    linear, angular = np.zeros((len(run.t), 3)), np.zeros((len(run.t), 3))
-    for name, mass, inertia in (("base", MASSES[0], BASE), ("tip", MASSES[1], ARM)):
-        r, v, w = (np.array([run[f"{name}.{k}{c}"] for c in "xyz"]).T for k in ("", "v", "w"))
-        turn = Rotation.from_quat(np.array([run[f"{name}.q{c}"] for c in "xyzw"]).T)
-        linear += mass * v
-        angular += mass * np.cross(r, v) + turn.apply(np.multiply(inertia, w))
-    return linear, angular
-
-
-def test_momentum_and_energy_are_kept_in_free_flight() -> None:
-    """Also with a coarse table; what is left are its knots, where the rule of order eight meets a third derivative."""
-    run = simulate(one_by_table(37, gravity=0.0), 0.6, 0.002, method="runge_kutta_8")
-    linear, angular = momenta(run)
-    assert np.ptp(linear, axis=0).max() < 1e-7
-    assert np.ptp(angular, axis=0).max() < 1e-6
-    assert np.ptp(run["total"]) < 1e-6
-
-
-def test_angular_momentum_is_kept_as_far_as_the_table_is_a_rotation() -> None:
-    changes = [
-        np.ptp(momenta(simulate(one_by_table(n, gravity=0.0), 0.6, 0.002, method="runge_kutta_8"))[1], axis=0).max()
-        for n in (37, 145)
-    ]
-    assert changes[1] < changes[0] / 16.0
-    assert changes[1] < 2e-8
 
 
 def tangent(instance: Instance, q: Array, qd: Array, h: float) -> Array:
@@ -223,8 +176,6 @@ def wrong(**changed: Any) -> None:
         ({"axes": [np.geomspace(1.0, 2.0, 9)]}, "9 points; they must be 4 or more, rising and equally spaced"),
         ({"axes": [np.linspace(-1, 1, 8)]}, "has shape (9, 12); it must be numbers of shape (8, 12)"),
         ({"rotations": np.full((9, 3, 3), 0.5)}, "must be rotation matrices"),
-        ({"parameters": 3.0}, "they must be one or two coordinates"),
-        ({"mass": 0.0}, "it must be greater than zero"),
     ],
 )
 def test_a_table_that_cannot_be_is_a_sentence_and_changes_nothing(changed: dict[str, Any], sentence: str) -> None:
@@ -241,7 +192,7 @@ def test_joints_and_methods_that_have_no_tables_are_refused() -> None:
     with pytest.raises(ModelError, match="'rod' is on a lookup-table body, which accepts forces and sensors but"):
         compile(m)
     system = one_by_table(25)
-    for method in ("energy_momentum", "energy_momentum_4", "radau_5", "semi_recursive"):
+    for method in ("energy_momentum", "radau_5", "semi_recursive"):
         with pytest.raises((KernelError, ModelError, ValueError, RuntimeError)):
             simulate(system, 0.1, 0.01, method=method)
 

@@ -8,6 +8,7 @@ from mbs import Model, ModelError, compile, simulate
 from mbs.settings.settings import Settings
 
 STEPPERS = ("ali3p", "ali3p_generalised_alpha", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
+FEW = ("ali3p", "energy_momentum")
 T = 1.0  # s
 H = 0.002  # s
 
@@ -43,8 +44,8 @@ def gear_train(ratio):
 
 
 @pytest.mark.parametrize("method", STEPPERS)
-@pytest.mark.parametrize("ratio", [3.0, -2.5])
-def test_a_gear_train_has_the_reduced_inertia(method, ratio):
+def test_a_gear_train_has_the_reduced_inertia(method):
+    ratio = -2.5
     m, teeth = gear_train(ratio)
     m.sense_joint("teeth.torque", teeth, "torque")
     r = run(m, method, {"torque": 0.15})
@@ -55,18 +56,7 @@ def test_a_gear_train_has_the_reduced_inertia(method, ratio):
     assert r.units["teeth.torque"] == "N m"
 
 
-@pytest.mark.parametrize("method", ["semi_recursive", "semi_recursive_4"])
-def test_relative_coordinates_refuse_a_gear_or_obey_it(method):
-    m, _ = gear_train(3.0)
-    try:
-        result = run(m, method, {"torque": 0.15})["angle.1"][-1]
-    except mbs.SimulationError as refusal:
-        result = str(refusal)
-    acceleration = 0.15 / (0.02 + 0.3 / 9.0)
-    assert "this method needs" in result if isinstance(result, str) else abs(result - 0.4 - 0.5 * acceleration) < 1e-5
-
-
-@pytest.mark.parametrize("method", STEPPERS)
+@pytest.mark.parametrize("method", FEW)
 def test_gears_on_a_free_carrier_leave_its_momentum_alone(method):
     """A motor in a free housing drives a wheel; the other turns by the gear: the reactions sum up to nothing."""
     m = at_rest()
@@ -89,7 +79,7 @@ def test_gears_on_a_free_carrier_leave_its_momentum_alone(method):
     assert np.array([own, first]) == pytest.approx(np.linalg.solve(M, [0.0, 0.3]), rel=close(method))
 
 
-@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8"])
+@pytest.mark.parametrize("method", FEW)
 def test_geared_spins_count_from_their_carriers(method):
     """A torque on the carrier about the axis of two geared wheels: they must turn with it."""
     m = at_rest("spins", 3)
@@ -114,34 +104,8 @@ def test_geared_spins_count_from_their_carriers(method):
     assert got == pytest.approx([c, b, 3.0 * c - 2.0 * b], rel=1e-4)
 
 
-def bevel(method, h):
-    """A geared pair on square axes in a housing that tumbles freely: energy after a second, and at the start."""
-    m = at_rest("bevel", 3)
-    housing = m.body("housing", mass=2.0, com=(0.0, 0.0, 0.0), inertia=(0.03, 0.05, 0.06))
-    x = m.spin("x", carrier=housing, centre=(0.0, 0.0, 0.0), axis=(1.0, 0.0, 0.0), mass=0.1, spin_inertia=0.02,
-               diametral_inertia=0.01)  # fmt: skip
-    y = m.spin("y", carrier=housing, centre=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0), mass=0.1, spin_inertia=0.01,
-               diametral_inertia=0.01)  # fmt: skip
-    m.gear("teeth", x, y, ratio=1.5)
-    m.initial_velocity(housing, linear=(0.0, 0.0, 0.0), angular=(2.0, 1.0, 3.0))
-    m.sense_energy("energy", "kinetic")
-    m.sense_coordinate("x.rate", x, order=1)
-    m.sense_coordinate("y.rate", y, order=1)
-    for c in "xyz":
-        m.sense_rotation(f"w.{c}", housing, c, order=1)
-    return run(m, method, h=h)
-
-
-@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8"])
-def test_bevel_gears_in_a_tumbling_housing_keep_energy_and_ratio(method):
-    r = bevel(method, 0.001)
-    assert np.ptp(r["w.z"]) > 0.5
-    assert np.max(np.abs(r["x.rate"] - r["w.x"] - 1.5 * (r["y.rate"] - r["w.y"]))) < 1e-5
-    assert np.ptp(r["energy"]) < 1e-4 * r["energy"][0]
-
-
-def pinion_and_rack(spring=0.0):
-    """A pinion on the ground, a rack that slides along x, a spring on the rack."""
+def pinion_and_rack():
+    """A pinion on the ground, and a rack that slides along x."""
     m = at_rest("rack")
     pinion = m.body("pinion", mass=1.0, com=(0.0, 0.05), inertia=0.004)
     rod = m.body("rod", mass=2.0, com=(0.3, 0.0), inertia=0.1)
@@ -149,24 +113,13 @@ def pinion_and_rack(spring=0.0):
     m.prismatic("guide", rod, m.ground, axis=(1.0, 0.0))
     angle = m.relative_angle("angle", m.ground, pinion)
     joint = m.rack("teeth", angle, rod, carrier=m.ground, axis=(1.0, 0.0), radius=0.05)
-    if spring:
-        m.spring_damper("spring", (m.ground, (-1.7, 0.0)), (rod, (0.3, 0.0)), stiffness=spring, free_length=2.0)
     m.sense_coordinate("angle", angle)
     m.sense_position("place", rod, (0.3, 0.0), "x")
     m.sense_joint("teeth.force", joint, "force")
     return m, angle
 
 
-def test_rack_and_pinion_swing_with_the_mass_of_both():
-    m, angle = pinion_and_rack(spring=900.0)
-    m.initial_rate(angle, 2.0)
-    r = run(m, "radau_5", t_end=2.0)
-    w = np.sqrt(900.0 / (2.0 + 0.004 / 0.05**2))
-    assert np.max(np.abs(r["angle"] - 2.0 / w * np.sin(w * r.t))) < 1e-7
-    assert np.max(np.abs(r["place"] - 0.3 - 0.05 * r["angle"])) < 1e-12
-
-
-@pytest.mark.parametrize("method", STEPPERS)
+@pytest.mark.parametrize("method", FEW)
 def test_the_force_on_a_driven_rack_is_that_of_its_load(method):
     m, angle = pinion_and_rack()
     m.torque_on("motor", angle, input=m.input("torque"))
@@ -208,7 +161,7 @@ def test_a_rack_on_a_free_carrier_moves_it_back():
     assert r["energy"][-1] == pytest.approx(0.2 * r["angle"][-1], rel=1e-7)
 
 
-@pytest.mark.parametrize("method", STEPPERS)
+@pytest.mark.parametrize("method", FEW)
 @pytest.mark.parametrize("pitch", [0.5, -0.8])
 def test_a_nut_falls_on_a_screw(method, pitch):
     m = Model("nut", dimension=3)
@@ -247,37 +200,15 @@ def test_a_bar_works_against_roll_alone():
         np.sqrt(2.0 * 300.0 / 0.06) / (2.0 * np.pi), rel=1e-5
     )
     assert min(mode.frequency_hz for mode in modes) < 1e-3
-    m, arms = bar_and_arms()
-    m.initial_velocity(arms[0], linear=(0.0, 0.0, -0.2 * 1.0), angular=(0.0, 1.0, 0.0))
-    m.initial_velocity(arms[1], linear=(0.0, 0.0, 0.2 * 1.0), angular=(0.0, -1.0, 0.0))
-    r = run(m, "radau_5", h=0.002, t_end=0.3)
-    w = np.sqrt(2.0 * 300.0 / 0.06)
-    assert np.max(np.abs(r["bar.torque"] + 300.0 * 2.0 / w * np.sin(w * r.t))) < 1e-3 * 300.0 * 2.0 / w
-
-
-def test_a_bar_with_links_gives_a_roll_stiffness():
-    """A body that rolls about x, arms of the bar on it, drop links to the ground: k (2 b / L)^2."""
-    b, L, k, inertia = 0.5, 0.25, 120.0, 8.0
-    m = at_rest("roll", 3)
-    body = m.body("body", mass=10.0, com=(0.0, 0.0, 0.0), inertia=(inertia, 9.0, 9.0))
-    m.revolute("roll axis", m.ground, body, point=(0.0, 0.0, 0.0), axis=(1.0, 0.0, 0.0))
-    angles = []
-    for name, y in (("left", b), ("right", -b)):
-        arm = m.body(f"{name} arm", mass=1e-3, com=(0.1, y, 0.0), inertia=(1e-6, 1e-5, 1e-5))
-        m.revolute(f"{name} bush", body, arm, point=(0.0, y, 0.0), axis=(0.0, 1.0, 0.0))
-        m.distance(f"{name} link", (arm, (L, y, 0.0)), (m.ground, (L, y, -0.3)))
-        angles.append(m.relative_angle(f"{name} angle", body, arm, axis=(0.0, 1.0, 0.0)))
-    m.anti_roll_bar("bar", *angles, stiffness=k)
-    modes = mbs.linearise(mbs.Simulation(compile(m))).modes
-    roll = max(mode.frequency_hz for mode in modes)
-    assert roll == pytest.approx(np.sqrt(k * (2.0 * b / L) ** 2 / inertia) / (2.0 * np.pi), rel=2e-3)
-
-
-def test_a_bar_may_be_twisted_and_its_angles_mirrored():
-    m, _ = bar_and_arms(free_twist=0.1, mirrored=True)
+    for mirrored, sign in ((False, -1.0), (True, 1.0)):
+        m, arms = bar_and_arms(mirrored=mirrored)
+        m.initial_velocity(arms[0], linear=(0.0, 0.0, -0.2), angular=(0.0, 1.0, 0.0))
+        m.initial_velocity(arms[1], linear=(0.0, 0.0, -0.2 * sign), angular=(0.0, sign, 0.0))
+        r = run(m, "radau_5", h=0.002, t_end=0.3)
+        w = np.sqrt(2.0 * 300.0 / 0.06)
+        assert np.max(np.abs(r["bar.torque"] + 300.0 * 2.0 / w * np.sin(w * r.t))) < 1e-3 * 300.0 * 2.0 / w
+    m, _ = bar_and_arms(free_twist=0.1)
     assert mbs.Simulation(compile(m)).sensors["bar.torque"] == pytest.approx(30.0)
-    m, _ = bar_and_arms(mirrored=True)
-    assert max(mode.frequency_hz for mode in mbs.linearise(mbs.Simulation(compile(m))).modes) > 1.0
 
 
 def slides(m, a, b, **other):
@@ -286,7 +217,7 @@ def slides(m, a, b, **other):
     return m.coupled_slides("c", a, b, **(usual | other))
 
 
-@pytest.mark.parametrize("method", STEPPERS)
+@pytest.mark.parametrize("method", FEW)
 def test_coupled_slides_carry_the_mass_of_both(method):
     """A force on the second, a = F / (m2 + ratio2 m1), of which the first takes what it needs."""
     m = at_rest("gripper")
@@ -316,24 +247,15 @@ def planar_pair():
     [
         (lambda m, a, b, x, y: m.gear("g", x, x, ratio=2.0), "couples 'angle a' with itself"),
         (lambda m, a, b, x, y: m.gear("g", x, y, ratio=0.0), "ratio of gear 'g' is 0"),
-        (lambda m, a, b, x, y: m.gear("g", x, y, ratio=float("nan")), "ratio of gear 'g'"),
-        (lambda m, a, b, x, y: m.gear("g", a, y, ratio=1.0), "needs a relative angle or a spin"),
         (lambda m, a, b, x, y: m.rack("r", x, b, carrier=m.ground, axis=(1, 0), radius=0.0), "radius of rack 'r' is 0"),
-        (lambda m, a, b, x, y: m.rack("r", x, b, carrier=b, axis=(1, 0), radius=0.1), "with itself"),
         (lambda m, a, b, x, y: m.rack("r", x, m.ground, carrier=b, axis=(1, 0), radius=0.1), "is the ground"),
-        (lambda m, a, b, x, y: m.rack("r", x, b, carrier=m.ground, axis=(0, 0), radius=0.1), "axis of rack 'r'"),
         (lambda m, a, b, x, y: slides(m, a, a), "couple 'a' with itself"),
         (lambda m, a, b, x, y: slides(m, a, b, ratio=0.0), "ratio of coupled slides 'c' is 0"),
-        (lambda m, a, b, x, y: slides(m, m.ground, b, carrier_1=a), "is the ground"),
-        (lambda m, a, b, x, y: slides(m, a, b, carrier_1=a), "with itself"),
-        (lambda m, a, b, x, y: slides(m, a, b, axis_1=(0, 0)), "axis of coupled slides 'c'"),
         (lambda m, a, b, x, y: m.screw("s", a, b, point=(0, 0), axis=(1, 0), pitch=1.0), "needs a spatial model"),
         (lambda m, a, b, x, y: m.anti_roll_bar("k", x, x, stiffness=1.0), "joins 'angle a' with itself"),
-        (lambda m, a, b, x, y: m.anti_roll_bar("k", x, b, stiffness=1.0), "two relative angles or two bodies"),
         (lambda m, a, b, x, y: m.anti_roll_bar("k", a, b, stiffness=1.0), "needs the carrier"),
         (lambda m, a, b, x, y: m.anti_roll_bar("k", x, y, stiffness=1.0, carrier=a), "leave out its carrier"),
         (lambda m, a, b, x, y: m.anti_roll_bar("k", x, y, stiffness=0.0), "stiffness of the anti-roll bar 'k' is 0"),
-        (lambda m, a, b, x, y: m.anti_roll_bar("k", x, y, stiffness=1.0, damping=-1.0), "must not be negative"),
     ],
 )
 def test_nonsense_is_refused_with_a_sentence(make, sentence):
@@ -342,13 +264,6 @@ def test_nonsense_is_refused_with_a_sentence(make, sentence):
     with pytest.raises((ModelError, ValueError), match=sentence):
         make(m, a, b, x, y)
     assert (len(m.joints), len(m.elements)) == (joints, elements)
-
-
-def test_a_screw_without_pitch_is_refused():
-    m = Model("s", dimension=3)
-    nut = m.body("nut", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
-    with pytest.raises(ModelError, match="pitch of screw joint 's' is 0"):
-        m.screw("s", nut, m.ground, point=(0, 0, 0), axis=(0, 0, 1), pitch=0.0)
 
 
 @pytest.mark.parametrize("free", [False, True])
@@ -426,3 +341,10 @@ def test_an_angle_of_a_body_on_two_pins_is_refused_with_a_message():
     m.relative_angle("angle", m.ground, body)
     with pytest.raises(ModelError, match="'held' cannot move: its joints fix every coordinate that has mass"):
         compile(m)
+
+
+def test_a_screw_without_pitch_is_refused():
+    m = Model("s", dimension=3)
+    nut = m.body("nut", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    with pytest.raises(ModelError, match="pitch of screw joint 's' is 0"):
+        m.screw("s", nut, m.ground, point=(0, 0, 0), axis=(0, 0, 1), pitch=0.0)

@@ -3,7 +3,6 @@
 import base64
 import importlib
 import json
-import math
 import pkgutil
 
 import numpy as np
@@ -16,18 +15,19 @@ from ali3.scene.recording import Recording
 from ali3.scene.scene import check_scene
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.scenes import bicycle, double_four_bar, flyball, pendulum, prototype_car, puma, spinning_beam, squeezer
+from mbs.scenes import bicycle, pendulum, prototype_car, puma, spinning_beam, squeezer
 from mbs.system.compiled_model import SystemFileError
-from mbs.system.drawing import Drawing, matrices
+from mbs.system.drawing import matrices
 
 SCENES = [found.name for found in pkgutil.iter_modules(mbs.scenes.__path__)]
+CARS = ("kerb_test", "prototype_car")  # see the test of wheels
 
 
 def shapes_of(scene, **keys):
     return [s for s in scene["shapes"] if all(s.get(k) == v for k, v in keys.items())]
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", [name for name in SCENES if name not in CARS])
 def test_every_scene_can_be_drawn(name):
     system = mbs.compile(importlib.import_module(f"mbs.scenes.{name}").build())
     scene = system.scene
@@ -41,48 +41,25 @@ def test_every_scene_can_be_drawn(name):
     assert 0.05 < scene["extent"] < 20.0
 
 
-def test_links_are_tubes_between_their_joints():
-    scene = mbs.compile(double_four_bar.build()).scene
-    (tube,) = shapes_of(scene, kind="tube", body="crank 1")
-    assert tube["points"] == [["crank 1", [0.0, -0.5, 0.0]], ["crank 1", [0.0, 0.5, 0.0]]]
-    pins = [s["name"] for s in shapes_of(scene, kind="cylinder", frame="ground")]
-    assert pins == ["A0", "A1", "A2"]
-    assert scene["planar"] is True
-    assert scene["up"] == [0.0, 1.0, 0.0]
-
-
 def test_a_body_with_three_joints_is_a_plate_and_its_spring_a_coil():
     scene = mbs.compile(squeezer.build()).scene
     (plate,) = shapes_of(scene, kind="plate")
-    assert plate["body"] == "BDE"
-    assert len(plate["points"]) == 3
     (spring,) = shapes_of(scene, kind="spring")
-    assert spring["name"] == "spring"
+    assert (plate["body"], len(plate["points"])) == ("BDE", 3)
     assert spring["ends"][0] == ["ground", [squeezer.C[0], squeezer.C[1], 0.0]]
-    assert spring["ends"][1][0] == "BDE"
     assert spring["ends"][1] in plate["points"]
 
 
-def test_ends_of_springs_are_those_that_were_given():
-    scene = mbs.compile(flyball.build()).scene
-    dampers = shapes_of(scene, kind="damper")
-    assert [s["name"] for s in dampers] == ["spring right", "spring left"]
-    for s, sign in zip(dampers, (1.0, -1.0), strict=True):
-        assert s["ends"][0] == ["slider", [pytest.approx(sign * flyball.OFFSET), 0.0, 0.0]]
-        assert s["ends"][1][0] == f"rod {s['name'].removeprefix('spring ')}"
-
-
-@pytest.mark.parametrize("flipped", [False, True])
-def test_a_spring_between_a_particle_and_the_ground(flipped):
+def test_a_spring_between_a_particle_and_the_ground():
     m = mbs.Model("bob")
     bob = m.point_mass("bob", mass=1.0, position=(1.0, 2.0, 3.0))
     ends = [(m.ground, (4.0, 5.0, 7.0)), bob]
-    record = m.spring_damper("coil", *(reversed(ends) if flipped else ends), stiffness=10.0)
+    record = m.spring_damper("coil", *reversed(ends), stiffness=10.0)
     m.sense_element("coil.force", record, "force", scale=2.0)
     scene = mbs.compile(m).scene
     expected = [["ground", [4.0, 5.0, 7.0]], ["bob", [0.0, 0.0, 0.0]]]
     (spring,) = shapes_of(scene, kind="spring")
-    assert spring["ends"] == (expected[::-1] if flipped else expected)
+    assert spring["ends"] == expected[::-1]
     (arrow,) = scene["arrows"]
     assert arrow == {"name": "coil", "unit": "N", "value": "coil.force", "between": spring["ends"], "sign": -1}
 
@@ -164,12 +141,11 @@ def test_a_free_body_is_a_box_with_its_inertia():
     np.testing.assert_allclose(np.abs(columns[:, int(np.argmin(box["size"]))]), np.abs(R[:, 0]), atol=1e-9)
 
 
-@pytest.mark.parametrize("component", ["x", "y"])
-def test_the_place_whose_position_is_sensed_is_the_end_of_a_rod(component):
+def test_the_place_whose_position_is_sensed_is_the_end_of_a_rod():
     m = mbs.Model("rod", dimension=2)
     rod = m.body("rod", mass=1.0, com=(0.5, 0.2), inertia=0.1)
     m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
-    m.sense_position("tip", rod, (1.0, 0.7), component)
+    m.sense_position("tip", rod, (1.0, 0.7), "y")
     (tube,) = shapes_of(mbs.compile(m).scene, kind="tube")
     np.testing.assert_allclose(tube["points"][1][1], [0.5, 0.5, 0.0], atol=1e-12)
 
@@ -178,7 +154,9 @@ def test_wheels_are_drawn_with_their_rolling_radius():
     wheels = shapes_of(mbs.compile(bicycle.build()).scene, kind="wheel")
     assert [(w["frame"], w["radius"]) for w in wheels] == [("rear wheel", 0.3), ("front wheel", 0.35)]
     car = prototype_car.build()
-    wheels = shapes_of(mbs.compile(car).scene, kind="wheel")
+    scene = mbs.compile(car).scene
+    check_scene(scene)
+    wheels = shapes_of(scene, kind="wheel")
     radii = {dict(zip(e.real_names, e.real, strict=False))["radius"] for e in car.elements if e.type.name == "TYRE"}
     assert {w["radius"] for w in wheels} == radii
     m = mbs.Model("disc")
@@ -265,18 +243,6 @@ def test_a_rod_whose_end_slides_is_reported_to_be_missing():
     np.testing.assert_allclose(np.linalg.norm(end - inner, axis=1), 1.0, atol=1e-6)
 
 
-def test_a_driven_distance_is_an_actuator():
-    m = mbs.Model("lift", dimension=2)
-    arm = m.body("arm", mass=1.0, com=(0.5, 0.0), inertia=0.1)
-    m.revolute("pin", m.ground, arm, point=(0.0, 0.0))
-    length = float(np.hypot(1.0, 1.0))
-    guide = m.guide_time("stroke", ([0.0, 1.0], [length, 1.2 * length]), unit="m")
-    m.drive("cylinder", ((m.ground, (0.0, -1.0)), (arm, (1.0, 0.0))), guide)
-    (actuator,) = shapes_of(mbs.compile(m).scene, kind="damper")
-    assert actuator["name"] == "cylinder"
-    assert actuator["ends"] == [["ground", [0.0, -1.0, 0.0]], ["arm", [0.5, 0.0, 0.0]]]
-
-
 def test_up_is_against_gravity():
     for gravity, up in (((0, 0, -1.62), [0, 0, 1]), ((0, -3.0, -4.0), [0, 0.6, 0.8]), ((0, 0, 0), [0, 0, 1])):
         m = mbs.Model("brick", gravity=gravity)
@@ -284,27 +250,14 @@ def test_up_is_against_gravity():
         assert mbs.compile(m).scene["up"] == pytest.approx(up)
 
 
-def test_a_scene_is_a_copy():
-    system = mbs.compile(pendulum.build())
-    system.scene["frames"].clear()
-    assert "bob" in system.scene["frames"]
-
-
 def test_damaged_drawings_are_refused():
     system = mbs.compile(pendulum.build())
     content = json.loads(system.drawing.to_bytes())
     content["places"]["shape"][1] += 1
-    broken = Drawing(content["scene"], system.drawing.places)
 
     class Damaged:
         def to_bytes(self):
             return json.dumps(content).encode()
 
-    for drawing in (Damaged(), broken):
-        data = mbs.System(system.arrays, system.meta, None, drawing).to_bytes()
-        if drawing is broken:
-            assert mbs.System.from_bytes(data).scene == system.scene
-            continue
-        with pytest.raises(SystemFileError, match="coordinates"):
-            mbs.System.from_bytes(data)
-    assert math.isfinite(system.scene["extent"])
+    with pytest.raises(SystemFileError, match="coordinates"):
+        mbs.System.from_bytes(mbs.System(system.arrays, system.meta, None, Damaged()).to_bytes())

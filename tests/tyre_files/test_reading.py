@@ -136,13 +136,6 @@ def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: 
     assert note.startswith("VERTICAL_STIFFNESS is 1.9e+05 N/m and Q_FZ1 and Q_FZ2 give 1.624e+05 N/m at FNOMIN")
 
 
-def test_another_format_is_named_before_the_sections_it_lacks(tmp_path: Path) -> None:
-    """A file of FTire has neither [DIMENSION] nor coefficients: that is no cut."""
-    text = "[UNITS]\nLENGTH = 'mm'\n[MODEL]\nPROPERTY_FILE_FORMAT = 'FTIRE'\n[FTIRE_DATA]\nbelt_mass = 5\n"
-    with pytest.raises(TyreFileError, match="PROPERTY_FILE_FORMAT in .MODEL. is 'FTIRE'; it must be PAC2002"):
-        read_tyre(written(tmp_path, text))
-
-
 def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
     with pytest.raises(TyreFileError, match=r"PKY1 is -17\.5; with the signs 'adapted_sae' it must be positive"):
         read_tyre(OWN).tyre(signs="adapted_sae")
@@ -161,20 +154,14 @@ def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
         (("PROPERTY_FILE_FORMAT", "PROPERTY_FILE_FORMAT = 'FTIRE'"), "PROPERTY_FILE_FORMAT in [MODEL] is 'FTIRE'"),
         (("FITTYP", "FITTYP = 60"), "FITTYP is 60"),
         (("LENGTH", "LENGTH = 'yard'"), "LENGTH in [UNITS] is 'yard'"),
-        (("ANGLE", "ANGLE = 'degree'"), "ANGLE in [UNITS] is 'degree'; it must be one of radian"),
         (("TIME", ""), "TIME in [UNITS] is missing"),
         (("PDX1", "PDX1 = 0"), "PDX1 is missing or 0"),
-        (("PKY2", ""), "PKY2 is missing or 0"),
         (
             ("PDX1", "PDX1 = '1.2'"),
             "PDX1 in [LONGITUDINAL_COEFFICIENTS] is the text '1.2'; it must be a number, without",
         ),
-        (("FITTYP", "FITTYP = '61'"), "FITTYP in [MODEL] is the text '61'; it must be a number"),
-        (("FNOMIN", "FNOMIN = 'heavy'"), "FNOMIN in [VERTICAL] is the text 'heavy'"),
         (("Q_FZ2", "Q_FZ2 = 100"), "Q_FZ2 must be below 96.83, or Q_FZ1 be given"),
         (("PCX1", "PCX1 = 1.2.3"), "PCX1 is 1.2.3, without quotation marks; it must be a number"),
-        (("TYRESIDE", "TYRESIDE = LEFT"), "TYRESIDE is LEFT, without quotation marks; it must"),
-        (("PCX1", "PCX1 = nan"), "it must be a number"),
         (("PCX1", "PCX1 = 1e999"), "it must be finite"),
         (("PCX1", "PCX1 = "), "PCX1 is empty"),
         (("PCX1", "PCX1 = 1.5\nPCX1 = 1.6"), "PCX1 stands twice"),
@@ -184,30 +171,15 @@ def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
         (("[LATERAL_COEFFICIENTS]", "[MODEL]"), "[MODEL] stands twice"),
         (("KPUMIN", "KPUMIN = 0.5"), "0 must lie between them"),
         (("LKY", "LKY = -1"), "LKY is -1; it must be positive"),
-        (("UNLOADED_RADIUS", "UNLOADED_RADIUS = 310.75"), "between 0.05 and 3 m"),
         (("VERTICAL_DAMPING", "VERTICAL_DAMPING = -1"), "VERTICAL_DAMPING is -1 N s/m; it must lie between 0 and"),
-        (("FZMAX", "FZMAX = -1"), "FZMAX is -1 N; it must lie between 10 and 1e+06 N"),
-        (("LATERAL_STIFFNESS", "LATERAL_STIFFNESS = -5"), "LATERAL_STIFFNESS is -5 N/m; it must lie"),
-        (("NOMPRES", "NOMPRES = -1"), "NOMPRES is -1 Pa; it must lie"),
         (("LFZO", "LFZO = 1e308"), "LFZO is 1e+308; it must lie between -10000 and 10000"),
-        (("PKY2", "PKY2 = 1e308"), "PKY2 is 1e+308; it must lie"),
-        (("LONGVL", "LONGVL = 1e308"), "LONGVL is 1e+308 m/s; it must lie"),
-        (("Q_FZ2", "Q_FZ2 = 1\nQ_FZ1 = 1e308"), "Q_FZ1 is 1e+308; it must lie"),
         (("PKY1", "PKY1 = -17,5"), "PKY1 is '-17,5'; its decimal mark must be a point, as in -17.5"),
-        (("PKY1", "PKY1 = -\u0661\u0667"), "it must be a number"),
-        (("VERTICAL_STIFFNESS", "VERTICAL_STIFFNESS = -1"), "VERTICAL_STIFFNESS is -1 N/m; it must lie"),
-        (("VERTICAL_STIFFNESS", "VERTICAL_STIFFNESS = 1e200"), "VERTICAL_STIFFNESS is 1e+200 N/m; it must lie"),
         (("Q_FZ2", "Q_FZ2 = -200"), "becomes soft before the rim bears"),
         (("PKX1", "PKX1 = -20"), "PKX1 is -20; it must be positive"),
         (("RIM_RADIUS", "RIM_RADIUS = 0.4"), "must be below UNLOADED_RADIUS"),
         (("PDY2", "PDY2 = 1.05"), "the lateral friction is"),
         (("FITTYP", "FITTYP = 61\nPCX1 = 3"), "in one section and"),
         (("FZMIN", "FZMIN = 20000"), "FZMIN is 20000 N and FZMAX 13000 N; the first must be the smaller"),
-        (("NOMPRES", "NOMPRES = 2e5\nPRESMIN = 3e5\nPRESMAX = 1e5"), "PRESMIN is 300000 Pa and PRESMAX 100000 Pa"),
-        (("LTR", "LTR = -1.1"), "LTR is -1.1; it must lie between 0 and 10000"),
-        (("Q_V2", "Q_V2 = -1"), "Q_V2 is -1; it must lie between -0.1 and 1"),
-        (("QSY1", "QSY1 = 5"), "QSY1 is 5; it must lie between -0.3 and 0.3"),
-        (("PCY1", "PCY1 = 30"), "PCY1 is 30; it must lie between -3 and 3"),
         (("FREFF", "FREFF = 50"), "DREFF atan(BREFF) + FREFF is 50.4; under FNOMIN"),
     ],
 )
@@ -227,7 +199,6 @@ def test_impossible_values_are_refused_in_one_sentence(tmp_path: Path, change: t
     [
         (b"", "is empty"),
         (b"\xff\xfe[\0U\0", "not text of single bytes"),
-        (b"[UNITS]\0", "not text of single bytes"),
         (b"a" * 1_000_001, "it must have at most 1000000"),
         (b"[UNITS]\n" + b"x" * 1001, "it must have at most 1000"),
         (b"PK\x03\x04 zip", "stands before any section"),
@@ -288,17 +259,6 @@ def test_a_negative_use_mode_mirrors(tmp_path: Path) -> None:
     assert f.tyre("left") != plain.tyre("left")
 
 
-@pytest.mark.parametrize("mode", ["5", "15", "99"])
-def test_a_use_mode_that_is_not_4_is_reported(tmp_path: Path, mode: str) -> None:
-    (note,) = read_tyre(changed(tmp_path, ("USE_MODE", f"USE_MODE = {mode}"))).notes
-    assert note == f"USE_MODE is {mode}; slips are combined as by 4, without turn slip."
-
-
-def test_a_range_without_width_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(TyreFileError, match="ALPMIN is -0.001 and ALPMAX 0.001; 0 must lie between them, 0.01 apart"):
-        read_tyre(changed(tmp_path, ("ALPMIN", "ALPMIN = -1e-3"), ("ALPMAX", "ALPMAX = 1e-3")))
-
-
 def test_ranges_that_the_tyre_leaves_are_reported(tmp_path: Path) -> None:
     (note,) = read_tyre(changed(tmp_path, ("FZMAX", "FZMAX = 2000"))).notes
     assert note == "FZMAX is 2000 N, below FNOMIN, 3000 N; above FZMAX the forces stay."
@@ -308,15 +268,3 @@ def test_ranges_that_the_tyre_leaves_are_reported(tmp_path: Path) -> None:
     with pytest.raises(TyreFileError, match=re.escape(f"the pressure is 240000 Pa; {hold}")):
         f.tyre(pressure=2.4e5)
     assert f.tyre(pressure=2.1e5).pressure == pytest.approx(21.0 / 22.0 - 1.0)
-
-
-def test_what_the_vertical_force_has_besides_is_reported(tmp_path: Path) -> None:
-    (note,) = read_tyre(changed(tmp_path, ("USE_MODE", "USE_MODE = 14\nQ_CAM2 = 1.5"))).notes
-    assert note == "Q_CAM2 is not used: horizontal forces and camber do not change the vertical stiffness."
-
-
-def test_pac2002_with_a_newer_fittyp_is_reported(tmp_path: Path) -> None:
-    text = SEDAN.read_bytes().replace(b"[MODEL]", b"[MODEL]\nFITTYP = 61")
-    f = read_tyre(written(tmp_path, text))
-    assert f.notes[0] == "FITTYP is 61 and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002."
-    assert f.values == read_tyre(SEDAN).values

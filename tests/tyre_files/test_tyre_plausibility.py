@@ -17,21 +17,14 @@ def lines_of(file: Path) -> list[str]:
     return plausibility_of(read_tyre(file))[0].warnings()
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
-def test_tyres_of_others_lie_inside(file: Path) -> None:
-    assert lines_of(file) == []
-
-
 ODD: dict[str, tuple[Factors, str]] = {
     "stiffness per degree": ({"PKY1": 1.0 / DEG}, "per degree in place of per radian in PKY1"),
     "slip stiffness per percent": ({"PKX1": 0.01, "PKX2": 0.01}, "per percent in place of per slip in PKX1"),
-    "a third of PCY1": ({"PCY1": 1.0 / 3.0}, "PCY1 = 0.446667"),
     "the sign of PCX1": ({"PCX1": -1.0}, "the sign of PCX1"),
     "a shift in degrees": ({"PHY1": DEG}, "degrees in place of radians in PHY1"),
     "a lift in percent": ({"PVY1": 100.0}, "lateral force at no slip"),
     "load in kg": ({"FNOMIN": 1.0 / 9.80665}, "kilograms in place of newtons in FNOMIN"),
     "friction in percent": ({"PDY1": 100.0}, "percent in place of a ratio in PDY1"),
-    "friction of another": ({"PDX1": 0.3}, "longitudinal peak friction"),
     "ten times the stiffness": ({"PKY1": 10.0}, "cornering stiffness over load"),
     "aspect in percent": (
         {"ASPECT_RATIO": 100.0},
@@ -39,11 +32,8 @@ ODD: dict[str, tuple[Factors, str]] = {
     ),
     "half the width": ({"WIDTH": 0.5}, "width of the rim over that of the tyre"),
     "angles in degrees": ({"ALPMIN": DEG, "ALPMAX": DEG}, "degrees in place of radians in ALPMIN and ALPMAX"),
-    "camber in degrees": ({"CAMMIN": DEG, "CAMMAX": DEG}, "degrees in place of radians in CAMMIN and CAMMAX"),
-    "slips in percent": ({"KPUMIN": 100.0, "KPUMAX": 100.0}, "percent in place of a ratio in KPUMIN and KPUMAX"),
     "speed in km/h": ({"LONGVL": 3.6}, "km/h in place of m/s in LONGVL"),
     "a factor of ten": ({"LFZO": 10.0}, "LFZO scaling factor is 10.2"),
-    "a least load above the nominal": ({"FZMIN": 40.0}, "least load over nominal load is 1.333"),
     "a range below the load of a wheel": ({"FZMAX": 0.2}, "largest load over nominal load is 0.8667"),
     "fall of friction per degree squared": (
         {"PDY3": DEG**2},
@@ -54,15 +44,18 @@ ODD: dict[str, tuple[Factors, str]] = {
 }
 
 
-@pytest.mark.parametrize("version", ["52", "61", "62"])
+def test_tyres_of_others_lie_inside() -> None:
+    assert {file.stem: lines_of(file) for file in FILES} == {file.stem: [] for file in FILES}
+
+
 @pytest.mark.parametrize("case", ODD)
-def test_implausible_values_are_reported(case: str, version: str, tmp_path: Path) -> None:
+def test_implausible_values_are_reported(case: str, tmp_path: Path) -> None:
     factors, message = ODD[case]
+    version = "61" if case == "a pressure ten times" else "52"
     text = (Path(__file__).with_name("data") / f"assumed_{version}.tir").read_text(encoding="utf-8")
     for key, factor in factors.items():
         line = re.compile(rf"^({key}\s*=\s*)([^\s$]+)", re.MULTILINE)
-        if line.search(text) is None:
-            pytest.skip(f"version {version} has no {key}")
+        assert line.search(text), key
         text = line.sub(lambda m, f=factor: f"{m[1]}{f * float(m[2]):.12g}", text)  # type: ignore[misc]
     file = tmp_path / "odd.tir"
     file.write_text(text, encoding="utf-8")
