@@ -1,6 +1,5 @@
 """The binaries: dependencies, exported symbols, equal results without Python and on Windows, and from sources."""
 
-import importlib.util
 import os
 import shutil
 import struct
@@ -20,8 +19,7 @@ from fmu_src.native.platforms import PLATFORMS
 from fmu_src.native.universal_binary import universal
 from tests import kinds
 from tests.fmu import native
-from tests.fmu.calls import OK, HostMaker
-from tests.fmu.other_hosts import by_libcosim
+from tests.fmu.calls import HostMaker
 from tests.sanitize import OBJECTS
 from tests.unoptimised import unoptimised
 
@@ -119,17 +117,6 @@ def host_rows(program: list[str], folder: Path, library: str) -> np.ndarray:
     return np.array([[float.fromhex(v) for v in line.split()] for line in done.stdout.splitlines()])
 
 
-@pytest.mark.skipif(importlib.util.find_spec("libcosimpy") is None, reason="libcosimpy is not installed")
-def test_libcosim_gets_the_same_bits(build: Callable[..., Path], host: HostMaker) -> None:
-    fmu, names = build("crane"), ["rod.x", "rod.ay", "rod.angle"]
-    driven, rows = host(fmu).start(), []
-    driven.set("torque", 4.0)  # libcosim sets it after initialisation
-    for k in range(STEPS):
-        assert driven.step(k * STEP, STEP) == OK
-        rows.append([driven.get(n) for n in names])
-    assert np.array_equal(by_libcosim(fmu, {"torque": 4.0}, names, STEPS, STEP), rows)
-
-
 def expected_rows(fmu: Path, host: HostMaker) -> np.ndarray:
     return np.array(host(fmu).start({"torque": 2.5, "spring.stiffness": 9.0}).run(STEPS, STEP))
 
@@ -198,7 +185,6 @@ def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, k
 
 
 STRESS = [("leak", 1000), ("memory", 0), ("states", 4000), ("systems", 4000), ("crowd", 300), ("threads", 0)]
-FLEXIBLE_STRESS = [("leak", 20), ("states", 400), ("systems", 400), ("crowd", 20)]
 
 
 def stress_run(fmu: Path, folder: Path, objects: Path, system: str, output: str) -> Callable[[str, int], str]:
@@ -235,18 +221,3 @@ def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory,
 @pytest.mark.parametrize(("what", "count"), STRESS, ids=[w for w, _ in STRESS])
 def test_stress(stress: Callable[[str, int], str], what: str, count: int) -> None:
     assert stress(what, count)
-
-
-@pytest.fixture(scope="session")
-def flexible_stress(
-    kerb_fmus: Path, tmp_path_factory: pytest.TempPathFactory, objects: Path
-) -> Callable[[str, int], str]:
-    """A car with a flexible chassis and several fidelities."""
-    folder = tmp_path_factory.mktemp("flexible_stress")
-    return stress_run(kerb_fmus / "native.fmu", folder, objects, "system_3.ali3", "bending_moment.SG1")
-
-
-@pytest.mark.proof  # the same C as above; what is of flexible bodies alone the sanitized kernel runs
-@pytest.mark.parametrize(("what", "count"), FLEXIBLE_STRESS, ids=[w for w, _ in FLEXIBLE_STRESS])
-def test_stress_of_flexible_bodies(flexible_stress: Callable[[str, int], str], what: str, count: int) -> None:
-    assert flexible_stress(what, count)

@@ -92,16 +92,6 @@ def test_a_ramp_of_a_host_does_not_depend_on_its_step(build: Callable[..., Path]
     assert abs(ends["held"] - ends["fine"]) > 1e-3
 
 
-def test_bad_input_derivatives_change_nothing(build: Callable[..., Path], host: HostMaker) -> None:
-    driven, clean = (host(build("crane", "native")).start() for _ in range(2))
-    assert slope(driven, "rod.x", 1, 1.0) == ERROR
-    assert slope(driven, "torque", 0, 1.0) == ERROR
-    assert slope(driven, "torque", 4, 1.0) == ERROR
-    assert slope(driven, "torque", 1, float("nan")) == ERROR
-    assert len(driven.messages) == 4
-    assert driven.run(3, INNER) == clean.run(3, INNER)
-
-
 def test_rates_of_positions_angles_and_velocities(build: Callable[..., Path], host: HostMaker) -> None:
     for name, known in (
         ("crane", {"rod.x", "rod.angle"}),
@@ -160,8 +150,7 @@ def test_outputs_by_inputs_of_a_step(scene: tuple[Path, str, float, float], host
     )
 
 
-@pytest.mark.parametrize("inner_steps", [1, 2, 5])
-@pytest.mark.parametrize("ramp", [0.0, 3.0])
+@pytest.mark.parametrize(("inner_steps", "ramp"), [(2, 0.0), (5, 3.0)])
 def test_outputs_by_inputs_of_a_communication_step(
     scene: tuple[Path, str, float, float], host: HostMaker, inner_steps: int, ramp: float
 ) -> None:
