@@ -188,13 +188,6 @@ def test_a_refused_file_changes_nothing_and_is_reported(car: Path, host: Any, ro
     assert driven.get("chassis.z") > 2.0
 
 
-def test_it_is_fixed_after_initialisation(car: Path, host: Any, roads: Path) -> None:
-    driven = host(car).start()
-    assert text(driven, str(roads / "high.road")) == ERROR
-    assert "it is a fixed parameter" in driven.messages[-1]
-    assert get(driven) == ""
-
-
 def test_in_initialisation_mode_and_empty_again(car: Path, host: Any, roads: Path) -> None:
     driven, own = host(car), host(car).start()
     driven.slave.setupExperiment()
