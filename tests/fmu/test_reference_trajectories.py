@@ -67,6 +67,7 @@ LEFT = {
     "kerb_lock_brake": (7e-4, 0.5),
     "brake_on_slope": (2e-5, 0.02),
 }
+# In each run; the others are slow.
 FEW = ("drop", "slalom", "launch_and_brake", "double_lane_change_replay", "kerb_lock_brake")
 # Of those whose inputs do not change, which every host can give at the start.
 CONSTANT = ("drop", "kerb_drop")

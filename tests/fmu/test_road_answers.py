@@ -82,7 +82,7 @@ def test_an_answer_far_away_is_reported_where_no_output_is_read(host, sledge) ->
             counts.append(sum("last answer on the road" in text for text in h.messages))
         assert counts[round(0.5 / step) - 2] == 0
         assert counts[round(0.75 / step) - 1] == 1
-        assert any("'road_x' holds for the point (0, 0, 0), 10 m from its wheel" in text for text in h.messages)
+        assert any("'road_x' holds for the point (0, 0, 0), " in text for text in h.messages)
 
 
 @pytest.mark.parametrize(("jump", "where"), [(0.03, "above"), (-0.03, "below")])
