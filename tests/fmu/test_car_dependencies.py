@@ -66,7 +66,7 @@ DRIVEN = [
     for kind in ("native", "fmi3_scalar")
 ]
 DRIVEN_FEW = [*((*of, "fmi3_scalar") for of in PORTS[:3]), ("prototype", "", "native")]
-STATES = 50
+STATES = 100
 
 
 def numbers(driven: Any) -> Callable[[], list[float]]:
@@ -124,7 +124,7 @@ def held_against(driven: Any, states: int, start: dict[str, float], steps: int =
 def test_what_an_input_changes_at_a_communication_point_is_declared(
     build, host: HostMaker, scene: str, kind: str
 ) -> None:
-    held_against(host(build(scene, kind)), STATES, {})
+    held_against(host(build(scene, kind)), STATES // 2, {})
 
 
 @pytest.mark.slow

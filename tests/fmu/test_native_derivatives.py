@@ -134,7 +134,7 @@ def test_outputs_by_inputs_of_a_communication_step(
     scale = np.abs(expected) + np.max(np.abs(expected)) * 1e-2
     assert np.all(np.abs(actual - expected) < DERIVATIVE_ERROR * scale)
     assert np.min(np.abs(expected)) > 0.0
-    assert derivative(driven, unknown, known, [-3.0]) == pytest.approx([-3.0 * slope for slope in actual], rel=1e-6)
+    assert derivative(driven, unknown, known, [-3.0]) == pytest.approx([-3.0 * x for x in actual], rel=1e-6)
     assert other.restore(driven.slave.serializeFMUstate(driven.slave.getFMUstate())) == OK
     assert derivative(other, unknown, known, [1.0]) == actual
     assert other.step(20 * INNER + step, step) == driven.step(20 * INNER + step, step) == OK

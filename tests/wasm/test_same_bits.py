@@ -77,7 +77,7 @@ def test_a_parameter_set(prototype: Fmu, tmp_path: Path) -> None:
     compared = native(prototype, plan)
     usual = native(prototype, drive(200, {"initial.speed": 15.0}, every=100))
     assert np.abs(compared.rows - usual.rows).max() > 1.0
-    assert_same(node(prototype, plan), compared, prototype, plan)
+    assert_same(wasmtime(prototype, plan), compared, prototype, plan)
 
 
 def refused_steps() -> Plan:
@@ -93,7 +93,7 @@ def test_steps_that_are_refused(small: Callable[[str], Fmu]) -> None:
     assert compared.refusals == [(3, "discard"), (4, "discard"), (5, "error")]
     assert np.array_equal(compared.rows[3], compared.rows[6])
     assert moved(compared) > 0
-    assert_same(node(fmu, plan), compared, fmu, plan)
+    assert_same(wasmtime(fmu, plan), compared, fmu, plan)
 
 
 def test_in_chromium(prototype: Fmu, small: Callable[[str], Fmu], expected: Any) -> None:
