@@ -7,7 +7,7 @@ IN_C = tuple(kind for kind in ALL if kind != "python")
 FMI_2 = ("native", "python")
 VERSIONS = ("native", "fmi3")
 """One of each version of FMI."""
-ALIKE = ("native", "python", "fmi3_scalar")
-"""Whose numbers have the same names: that of FMI 3.0 without arrays."""
+FACES = ("native", "fmi3_scalar")
+"""One of each version of FMI, whose numbers have the same names: that of FMI 3.0 without arrays."""
 BUILT = ("native", "fmi3", "python")
 """What ``ali3 build`` makes if nobody asks for a kind."""

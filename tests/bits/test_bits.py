@@ -8,6 +8,7 @@ import pytest
 from tests.bits import store
 from tests.bits.command import main, make_all
 from tests.bits.groups import GROUPS, group_of
+from tests.quick import quick
 
 SIGNAL = np.sin(np.arange(300) / 20.0)
 
@@ -17,11 +18,12 @@ def baseline():
     return store.read()[0]
 
 
-def test_runs_of_mechanisms_are_as_stored(baseline):
+@pytest.mark.parametrize("group", quick(("few mechanisms",), ("few mechanisms", "mechanisms")))
+def test_runs_of_mechanisms_are_as_stored(baseline, group):
     """More than half of the entries, which take seconds; the others take minutes."""
-    actual, failed = make_all(["mechanisms"], 1)
+    actual, failed = make_all([group], 1)
     assert failed == {}
-    stored = {name: entry for name, entry in baseline.items() if group_of(name) == "mechanisms"}
+    stored = {name: entry for name, entry in baseline.items() if group_of(name) == group}
     assert store.compare(stored, actual) == []
 
 
@@ -34,21 +36,18 @@ def test_each_stored_entry_belongs_to_a_group_and_each_group_has_entries(baselin
     assert {group_of(name) for name in baseline} == set(GROUPS)
 
 
-@pytest.mark.parametrize(
-    ("changed", "distance"),
-    [
+def test_a_difference_is_seen_and_its_size_is_about_right():
+    stored, one = {"a": store.entry_of({"s": SIGNAL})}, np.arange(300) == 40
+    for changed, distance in (
         (-SIGNAL, 2.0 * np.sqrt(np.mean(SIGNAL**2))),
         (SIGNAL + 1e-9, 1e-9),
-        (np.where(np.arange(300) == 40, 0.5, SIGNAL), abs(SIGNAL[40] - 0.5) / math.sqrt(300)),
-        (np.where(np.arange(300) == 40, np.nan, SIGNAL), abs(SIGNAL[40]) / math.sqrt(300)),
-    ],
-)
-def test_a_difference_is_seen_and_its_size_is_about_right(changed, distance):
-    stored = {"a": store.entry_of({"s": SIGNAL})}
-    (row,) = store.compare(stored, {"a": store.entry_of({"s": changed})})
-    assert (row.entry, row.signal, row.kind) == ("a", "s", "differs")
-    assert 0.05 * distance < row.distance < 20.0 * distance
-    assert row.relative == pytest.approx(row.distance / np.ptp(SIGNAL), rel=1e-3)
+        (np.where(one, 0.5, SIGNAL), abs(SIGNAL[40] - 0.5) / math.sqrt(300)),
+        (np.where(one, np.nan, SIGNAL), abs(SIGNAL[40]) / math.sqrt(300)),
+    ):
+        (row,) = store.compare(stored, {"a": store.entry_of({"s": changed})})
+        assert (row.entry, row.signal, row.kind) == ("a", "s", "differs")
+        assert 0.05 * distance < row.distance < 20.0 * distance
+        assert row.relative == pytest.approx(row.distance / np.ptp(SIGNAL), rel=1e-3)
 
 
 def test_the_sign_of_zero_the_shape_and_the_last_bit_are_seen():

@@ -19,7 +19,7 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2Ca
 
 from fmu_src.build.build import FmuBuilder
 from fmu_src.build.scene_registry import load_fidelities
-from fmu_src.native.platforms import PYTHON_PLATFORMS, able_platforms, this_platform
+from fmu_src.native.platforms import PYTHON_PLATFORMS, this_platform
 from hosts.fmu.fmu import unpack
 from tests import kinds
 from tests.fmu.calls import OK
@@ -85,27 +85,20 @@ def build(scene_fmu: Callable[..., Path], need: Callable[[str], None]) -> Callab
 
 @pytest.fixture(scope="session")
 def kerb_fmus(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
-    """A folder with all kinds of FMU of the paper's test, a car with a flexible frame in four fidelities."""
+    """A folder with both versions of the FMU of the paper's test, a car with a flexible frame in four fidelities."""
 
     def fill(folder: Path) -> None:
         name, systems, default = load_fidelities("kerb_test")
         builder = FmuBuilder(systems, name, default, ("", "", ""), lambda what, note="": nullcontext())
-        for kind in kinds.ALL:
-            if PLATFORM in able_platforms(kind):
-                builder.build(kind, [PLATFORM], folder / f"{kind}.fmu")
+        for kind in kinds.VERSIONS:
+            builder.build(kind, [PLATFORM], folder / f"{kind}.fmu")
 
     return made_once("kerb_test", fill)
 
 
-@pytest.fixture(params=kinds.ALIKE)
+@pytest.fixture(params=kinds.FACES)
 def kind(request: pytest.FixtureRequest) -> str:
-    """All kinds of FMU behave alike; that of FMI 3.0 here without arrays, so that each number has the same name."""
-    return str(request.param)
-
-
-@pytest.fixture(params=kinds.FMI_2)
-def kind_2(request: pytest.FixtureRequest) -> str:
-    """Both kinds of FMI 2.0."""
+    """For what both versions of FMI pass to the slave in C; `test_one_slave.py` holds the kind in Python against it."""
     return str(request.param)
 
 

@@ -144,14 +144,11 @@ def many() -> None:
 
 ENDS: dict[str, Any] = {
     "nothing freed": lambda: None,
-    "freed": free,
     "unloaded": unload,
     "freed and unloaded": lambda: (free(), unload()),
     "many": many,
     "handler before": lambda: None,
     "handler after": lambda: atexit.register(free),
-    "exit": lambda: sys.exit(0),
-    "exception": lambda: 1 / 0,
     "fork": in_a_child,
     "threads step": lambda: in_threads(lambda folder: [i.step() for i in [Instance(folder)] for _ in range(50)]),
     "threads make and free": lambda: in_threads(live_and_die),

@@ -8,24 +8,17 @@ import pytest
 from tests.fmu.calls import ERROR, OK, HostMaker
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-@pytest.mark.parametrize("name", ["torque", "spring.stiffness"])
-def test_not_finite_is_an_error_and_never_reaches_the_state(
-    crane: Path, host: HostMaker, name: str, bad: float
-) -> None:
+def test_not_finite_is_an_error_and_never_reaches_the_state(crane: Path, host: HostMaker) -> None:
     driven, clean = host(crane).start({"torque": 2.0}), host(crane).start({"torque": 2.0})
     driven.run(5, 0.01)
     clean.run(5, 0.01)
-    assert driven.set(name, bad) == ERROR
-    assert name in driven.messages[-1]
+    for bad in (math.nan, math.inf, -math.inf):
+        for name in ("torque", "spring.stiffness"):
+            assert driven.set(name, bad) == ERROR
+            assert name in driven.messages[-1]
+    both = [driven.references["torque"], driven.references["spring.stiffness"]]
+    assert driven.call("setReal", both, [9.0, math.nan]) == ERROR
     assert driven.run(5, 0.01, 0.05) == clean.run(5, 0.01, 0.05)
-
-
-def test_a_call_with_one_bad_value_changes_nothing(crane: Path, host: HostMaker) -> None:
-    driven = host(crane).start({"torque": 2.0})
-    references = [driven.references["torque"], driven.references["spring.stiffness"]]
-    assert driven.call("setReal", references, [9.0, math.nan]) == ERROR
-    assert driven.get("torque") == 2.0
 
 
 def test_values_out_of_range_are_clamped_and_reported_once(crane: Path, host: HostMaker) -> None:
@@ -38,18 +31,6 @@ def test_values_out_of_range_are_clamped_and_reported_once(crane: Path, host: Ho
     assert len(driven.messages) == 1
     assert "'torque'" in driven.messages[0]
     assert "set to 99" in driven.messages[0]
-
-
-@pytest.mark.parametrize(
-    ("name", "value"), [("spring.stiffness", -1.0), ("spring.stiffness", 51.0), ("step_size", 5.0)]
-)
-def test_a_parameter_out_of_range_is_refused(crane: Path, host: HostMaker, name: str, value: float) -> None:
-    driven = host(crane)
-    driven.slave.setupExperiment()
-    driven.slave.enterInitializationMode()
-    before = driven.get(name)
-    assert driven.set(name, value) == ERROR
-    assert driven.get(name) == before
 
 
 def test_outputs_unknown_references_and_other_types_are_refused(crane: Path, host: HostMaker) -> None:
@@ -83,17 +64,6 @@ def test_wrong_orders_of_calls(crane: Path, host: HostMaker) -> None:
     assert math.isfinite(driven.get("rod.x"))
     assert all(m.startswith(("fmi2", "fmi3")) or "cannot be set" in m for m in driven.messages)
     assert driven.three or driven.call("cancelStep") == ERROR
-
-
-def test_outputs_can_be_read_in_initialisation(crane: Path, host: HostMaker) -> None:
-    driven = host(crane)
-    driven.slave.setupExperiment()
-    driven.slave.enterInitializationMode()
-    at_rest = driven.get("rod.ay")
-    driven.set("torque", 5.0)
-    assert driven.get("rod.ay") != at_rest
-    driven.slave.exitInitializationMode()
-    assert driven.get("rod.ay") == host(crane).start({"torque": 5.0}).get("rod.ay")
 
 
 def test_a_wrong_guid_is_refused(crane: Path, host: HostMaker) -> None:

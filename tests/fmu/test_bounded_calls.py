@@ -17,17 +17,22 @@ H = 0.01
 SETTLED = {"initial.speed": 20.0, "initial.yaw_rate": 0.25, "step_size": H, "initial.settling": 0.5}
 
 
-def car() -> tuple[Instance, c_int64]:
+@pytest.fixture(scope="module")
+def system() -> bytes:
+    return mbs.compile(prototype_car.build()).to_bytes()
+
+
+def car(system: bytes) -> tuple[Instance, c_int64]:
     """A car at 20 m/s that takes its work off a number."""
-    instance, budget = Instance(LoadedSystem(mbs.compile(prototype_car.build()).to_bytes())), c_int64(10**9)
+    instance, budget = Instance(LoadedSystem(system)), c_int64(10**9)
     instance._library.ali3_count_work(instance._handle, byref(budget))
     instance.set_pose(0.0, 0.0, 0.0, 0.0, 20.0)
     instance.initialise(0.0)
     return instance, budget
 
 
-def test_steps_and_iterations_are_subtracted_from_the_budget() -> None:
-    instance, budget = car()
+def test_steps_and_iterations_are_subtracted_from_the_budget(system: bytes) -> None:
+    instance, budget = car(system)
     before = budget.value
     instance.run(H, 50)
     report = instance.report()
@@ -36,10 +41,10 @@ def test_steps_and_iterations_are_subtracted_from_the_budget() -> None:
 
 
 @pytest.mark.parametrize("act", [lambda car: car.run(H, 1000), lambda car: car.settle(10.0, H)])
-def test_where_nothing_is_left_the_kernel_ends(act: Callable[[Instance], None]) -> None:
+def test_where_nothing_is_left_the_kernel_ends(system: bytes, act: Callable[[Instance], None]) -> None:
     """Within a step of the bound; with more it goes on to the bits of a car without one."""
-    instance, budget = car()
-    free, _ = car()
+    instance, budget = car(system)
+    free, _ = car(system)
     budget.value = 100
     with pytest.raises(KernelError) as ended:
         act(instance)

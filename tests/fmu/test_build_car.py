@@ -4,6 +4,7 @@ import re
 import shutil
 import zipfile
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 
 import fmpy
@@ -11,6 +12,7 @@ import pytest
 
 import build_fmu
 from ali3.read_parameter_set import read_parameter_set
+from fmu_src.build.build import FmuBuilder
 from fmu_src.build.car_registry import build_car, car_files, car_text
 from hosts.fmu.fmu import Fmu
 from mbs.vehicle import load
@@ -46,12 +48,10 @@ def command(car: object, out: Path) -> list[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("given", ["{}", "{}/car.toml"])
-def test_a_folder_or_a_file_becomes_an_fmu(
-    car: Path, tmp_path: Path, given: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_folder_or_a_file_becomes_an_fmu(car: Path, tmp_path: Path) -> None:
+    """One that differs in a comment has another token."""
     out = tmp_path / "out"
-    assert build_fmu.main(command(given.format(car), out)) == 0
+    assert build_fmu.main(command(car / "car.toml", out)) == 0
     assert sorted(f.name for f in out.iterdir()) == ["MyCar.fmu", "MyCar.ssv"]
     description = fmpy.read_model_description(str(out / "MyCar.fmu"))
     assert description.modelName == "MyCar"
@@ -66,6 +66,9 @@ def test_a_folder_or_a_file_becomes_an_fmu(
     with Fmu(out / "MyCar.fmu") as fmu:
         fmu.initialise({})
         fmu.step(0.0, 0.01)
+    change(car, lambda text: "# a comment\n" + text)
+    assert build_fmu.main(command(car, tmp_path / "again")) == 0
+    assert fmpy.read_model_description(str(tmp_path / "again" / "MyCar.fmu")).guid != description.guid
 
 
 def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
@@ -85,22 +88,10 @@ def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
     assert load(tmp_path / "resources" / "car").model_dump() == result.model_dump()
 
 
-@pytest.mark.slow
-def test_another_file_gives_another_token(car: Path, tmp_path: Path) -> None:
-    tokens = set()
-    for k in range(2):
-        assert build_fmu.main(command(car, tmp_path / str(k))) == 0
-        tokens.add(fmpy.read_model_description(str(tmp_path / str(k) / "MyCar.fmu")).guid)
-        change(car, lambda text: "# a comment\n" + text)
-    assert len(tokens) == 2
-
-
 @pytest.mark.parametrize(
     ("edit", "message"),
     [
         (lambda t: t.replace("width = 1.5", "with = 1.5"), ["vehicle.with is not known", "'width'"]),
-        (lambda t: t.replace("schema = 2", "schema = 0"), ["schema is 0"]),
-        (lambda t: t.replace('name = "my_car"', 'name = "../x"'), ["name is '../x'"]),
         (lambda t: t + "[front\n", ["is not a TOML file"]),
     ],
 )
@@ -117,10 +108,16 @@ def test_faults_are_sentences_and_nothing_is_built(
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.slow
 def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    def build(self: FmuBuilder, kind: str, platforms: list[str], file: Path) -> Path:
+        file.parent.mkdir()
+        file.write_bytes(b"")
+        return file
+
+    monkeypatch.setattr(FmuBuilder, "build", build)
+    monkeypatch.setattr("fmu_src.native.early_compilation.compiled_ahead", lambda work: nullcontext())
     change(car, lambda text: text.replace("damping = 1000.0", "damping = 0.0"))
     assert build_fmu.main(command(car, tmp_path / "out")) == 0
     errors = capsys.readouterr().err
@@ -144,22 +141,18 @@ def test_unknown_cars_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[
 
 
 def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for error in (ValueError("too heavy."), ZeroDivisionError("division by zero")):
+    def refuse(model: object) -> None:
+        raise ZeroDivisionError("division by zero")
 
-        def refuse(model: object, error: Exception = error) -> None:
-            raise error
-
-        monkeypatch.setattr("fmu_src.geometry.system_with_poses.mbs.compile", refuse)
-        with pytest.raises(ValueError, match=f"own/car.toml: the car 'my_car' cannot be built: .*{error}"):
-            build_car(str(car))
+    monkeypatch.setattr("fmu_src.geometry.system_with_poses.mbs.compile", refuse)
+    with pytest.raises(ValueError, match=r"own/car.toml: the car 'my_car' cannot be built: .*division by zero"):
+        build_car(str(car))
 
 
-@pytest.mark.parametrize("word", ["inf", "nan", "-inf", "0.5"])
-def test_an_invalid_fidelity_is_refused_in_one_sentence(
-    word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert build_fmu.main([*command("prototype", tmp_path / "out"), f"--fidelity={word}"]) == 2
-    assert f"The fidelity of the car is {word}; it must be one of: 0 rigid" in capsys.readouterr().err
+def test_an_invalid_fidelity_is_refused_in_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for word in ("nan", "-inf", "0.5"):
+        assert build_fmu.main([*command("prototype", tmp_path / "out"), f"--fidelity={word}"]) == 2
+        assert f"The fidelity of the car is {word}; it must be one of: 0 rigid" in capsys.readouterr().err
 
 
 def test_a_folder_of_the_name_of_a_car_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,12 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-from fmpy.fmi1 import FMICallException
 
 from mbs.vehicle.read_car import CARS
-from tests import kinds
 from tests.fmu.calls import OK, WARNING, HostMaker
 from tests.in_process import build_fmu
 from tests.quick import quick
@@ -36,8 +33,7 @@ def slopes(driven: Any, names: list[str], known: str) -> dict[str, float]:
     return dict(zip(names, result, strict=True))
 
 
-@pytest.mark.parametrize("kerb", [1e6, 0.0])
-def test_initial_derivatives(prototype_fmu: Path, host: HostMaker, kerb: float) -> None:
+def test_initial_derivatives(prototype_fmu: Path, host: HostMaker) -> None:
     driven = host(prototype_fmu)
     outputs = [v.name for v in driven.description.modelVariables if v.causality == "output" and v.type == "Real"]
     variables = driven.description.modelVariables
@@ -45,7 +41,7 @@ def test_initial_derivatives(prototype_fmu: Path, host: HostMaker, kerb: float) 
     reach = declared(driven.description.initialUnknowns, settable)
     driven.slave.setupExperiment()
     driven.slave.enterInitializationMode()
-    for name, value in (("road.kerb_x", kerb), ("initial.speed", 8.0), ("initial.yaw", 0.1), ("throttle", 0.3)):
+    for name, value in (("road.kerb_x", 0.0), ("initial.speed", 8.0), ("initial.yaw", 0.1), ("throttle", 0.3)):
         assert driven.set(name, value) == 0
     visited = set()
     for known in (n for n in settable if n not in UNDERIVED):
@@ -53,30 +49,9 @@ def test_initial_derivatives(prototype_fmu: Path, host: HostMaker, kerb: float) 
         assert moved <= {n for n in outputs if known in reach[n]}, known
         visited |= {(known, n) for n in moved}
     assert len(visited) > 250
-    if kerb == 0.0:
-        assert ("initial.x", "wheel_FR.Fz") in visited
+    assert ("initial.x", "wheel_FR.Fz") in visited
     # While a start settles all that is set reaches what moves; it does not reach what only repeats an input.
     assert {n for n, known in reach.items() if known != set(settable)} >= {"used.brake", "solver.status"}
-
-
-def test_derivatives_of_a_step(prototype_fmu: Path, host: HostMaker) -> None:
-    driven = host(prototype_fmu).start({"initial.speed": 10.0})
-    outputs = [v.name for v in driven.description.modelVariables if v.causality == "output" and v.type == "Real"]
-    rng, refused = random.Random(SEED), 0
-    for k in range(60):
-        for name, low in (("steering", -1.0), ("throttle", 0.0), ("brake", 0.0)):
-            driven.set(name, rng.uniform(low, 1.0))
-        assert driven.step(k * H, H) == 0
-        for known in ("steering", "throttle", "brake"):
-            try:
-                moved = {n for n, slope in slopes(driven, outputs, known).items() if slope != 0.0}
-            except FMICallException:  # across a kink, such as that of a drive that begins to push
-                refused += 1
-                continue
-            assert moved
-    assert refused < 90
-    assert len(moved) > 80
-    assert np.isfinite(driven.get("solver.energy_balance"))
 
 
 PORTS = (
@@ -90,8 +65,7 @@ DRIVEN = [
     for of in (*((p.name, "") for p in sorted(CARS.iterdir()) if p.is_dir()), *PORTS)
     for kind in ("native", "fmi3_scalar")
 ]
-DRIVEN_FEW = [case for case in DRIVEN if (case[2] == "native") == (not case[1])]
-"""Cars as they are in FMI 2.0, those with ports in FMI 3.0."""
+DRIVEN_FEW = [*((*of, "fmi3_scalar") for of in PORTS[:3]), ("prototype", "", "native")]
 STATES = 100
 
 
@@ -146,12 +120,11 @@ def held_against(driven: Any, states: int, start: dict[str, float], steps: int =
     assert depends == nudged(driven.start(start), states, steps)
 
 
-@pytest.mark.parametrize("kind", kinds.ALL)
-@pytest.mark.parametrize("scene", ["crane", "towed", "gearstick"])
+@pytest.mark.parametrize(("scene", "kind"), [("crane", "fmi3"), ("towed", "native"), ("gearstick", "native")])
 def test_what_an_input_changes_at_a_communication_point_is_declared(
     build, host: HostMaker, scene: str, kind: str
 ) -> None:
-    held_against(host(build(scene, kind)), STATES, {})
+    held_against(host(build(scene, kind)), STATES // 2, {})
 
 
 @pytest.mark.slow

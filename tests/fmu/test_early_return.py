@@ -13,11 +13,8 @@ import numpy as np
 import pytest
 from fmpy import platform_tuple
 
-from mbs.elements import GridRoad
-from mbs.roads import write_road
 from tests.fmu.calls import DISCARD, OK, HostMaker
 from tests.fmu.native import HOST_SOURCE, compile_host, unpack
-from tests.in_process import build_fmu
 
 Host3 = Callable[..., tuple[int, list[list[float]], str]]
 
@@ -73,18 +70,6 @@ def host3(tmp_path_factory: pytest.TempPathFactory) -> Host3:
     return run
 
 
-def test_where_a_later_inner_step_is_refused(build: Callable[..., Path], host: HostMaker) -> None:
-    """A cable that an input pulls beyond its reach."""
-    answers = []
-    for early in (False, True):
-        driven = ready(host(build("reach", "fmi3_scalar")), {}, early)
-        driven.set("pull", 10.0)
-        answers.append(stepped(driven, 0.0, 2.0))
-    assert answers[0] == (DISCARD, False, 0.0)
-    assert answers[1][:2] == (OK, True)
-    assert 0.0 < answers[1].last < 2.0
-
-
 def test_where_a_wheel_leaves_its_table(build: Callable[..., Path], host: HostMaker, host3: Host3) -> None:
     """Its time is that of the last good inner step, from which the next step is refused as any other."""
     fmu, start, length, shown = build("carried_off", "fmi3_scalar"), {"force": -50.0}, 0.5, "travel"
@@ -103,14 +88,10 @@ def test_where_a_wheel_leaves_its_table(build: Callable[..., Path], host: HostMa
     assert (code, rows) == (4, [])
 
 
-@pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_fmu(tmp_path_factory.mktemp("car"), "--car", "prototype", "--fidelity", "0", "--kind", "fmi3_scalar")
-
-
 @pytest.mark.slow
-def test_where_a_car_turns_over(car: Path, host: HostMaker, host3: Host3) -> None:
+def test_where_a_car_turns_over(scene_fmu: Callable[..., Path], host: HostMaker, host3: Host3) -> None:
     """After the inner step in which it has; it goes on from there."""
+    car = scene_fmu("prototype_car", "fmi3_scalar")
     start = {"initial.speed": 30.0, "front.tyre.grip": 3.0, "rear.tyre.grip": 3.0, "steering": 1.0}
     driven, time, length = ready(host(car), start, True), 0.0, 0.5
     while not (answer := stepped(driven, time, length)).early:
@@ -130,17 +111,3 @@ def test_where_a_car_turns_over(car: Path, host: HostMaker, host3: Host3) -> Non
     assert (whole.early, whole.last) == (False, pytest.approx(answer.last + length))
     code, rows, _ = host3(car, driven, steps, length, "chassis.roll", start, False)
     assert (code, rows[-1][0]) == (0, pytest.approx(steps * length))
-
-
-@pytest.mark.slow
-def test_beyond_the_border_of_a_road_nothing_ends(car: Path, host: HostMaker, tmp_path: Path) -> None:
-    """The values at the border go on there."""
-    write_road(GridRoad((-10.0, -4.0), (0.5, 0.5), np.zeros((40, 17)), 1.0), tmp_path / "short.road")
-    driven = host(car)
-    driven.slave.instantiate(earlyReturnAllowed=True)
-    driven.slave.setString([driven.references["road.file"]], [str(tmp_path / "short.road")])
-    driven.set("initial.speed", 20.0)
-    driven.start()
-    assert stepped(driven, 0.0, 2.0) == (OK, False, 2.0)
-    assert driven.get("chassis.x") > 30.0
-    assert driven.get("chassis.z") == pytest.approx(0.0, abs=1.0)

@@ -21,12 +21,6 @@ def expected(parameters: dict[str, float] | None = None) -> list[float]:
     return list(simulation.sensors.values())
 
 
-def test_its_variability_is_in_the_description(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    variables = {v.name: v for v in host(build("sprung_reach", kind)).description.modelVariables}
-    assert variables[LENGTH].variability == "fixed"
-    assert variables[STIFFNESS].variability == "tunable"
-
-
 @pytest.mark.parametrize("phase", ["instantiated", "initialising", "initialising, asked"])
 def test_it_is_taken_until_the_initialisation_ends(
     build: Callable[..., Path], host: HostMaker, kind: str, phase: str
@@ -48,6 +42,8 @@ def test_it_is_taken_until_the_initialisation_ends(
 
 def test_it_is_refused_afterwards_with_a_sentence(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
     driven, other = (host(build("sprung_reach", kind)).start() for _ in range(2))
+    variables = {v.name: v for v in driven.description.modelVariables}
+    assert (variables[LENGTH].variability, variables[STIFFNESS].variability) == ("fixed", "tunable")
     for k in range(3):
         driven.messages.clear()
         assert driven.set(LENGTH, 0.3) == ERROR

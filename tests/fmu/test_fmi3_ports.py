@@ -16,6 +16,7 @@ from fmu_src.build.car_registry import build_car
 from hosts.fmu.fmu import Fmu
 from mbs.elements.road import ANSWER
 from tests import kinds
+from tests.vehicle.rigid_car import rigid_car
 
 STEP = 0.01  # s
 SPEED = 15.0  # m/s
@@ -137,11 +138,14 @@ def test_a_sledge_on_a_road_at_ports(build: Callable[..., Path]) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("ports", "given", "moved"),
-    [("torque,brakes,steering,road,forces,wind", at_car, "wheel_FL.Fz"), ("tyre", at_hubs, "chassis.y")],
+    [
+        ("torque,brakes,steering,road,forces,wind", at_car, "wheel_FL.Fz"),
+        pytest.param("tyre", at_hubs, "chassis.y", marks=pytest.mark.proof),
+    ],
     ids=["all but tyres", "tyres"],
 )
 def test_a_car(tmp_path: Path, ports: str, given: Callable[[float, Mapping[str, float]], Given], moved: str) -> None:
-    car = build_car("hatchback", ports=ports)
+    car = build_car(str(rigid_car("hatchback", tmp_path / "car")), ports=ports)
     system = car.systems[min(car.systems)]
     two, three = (build_fmu(system, car.name, tmp_path, [fmpy.platform], kind=kind) for kind in kinds.VERSIONS)
     names, rows = same((two, three), {"initial.speed": SPEED}, given, 70)

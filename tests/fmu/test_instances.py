@@ -1,6 +1,5 @@
 """Instances do not see each other; neither do FMUs in one process."""
 
-import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -8,20 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests import kinds
 from tests.fmu.calls import OK, HostMaker
 
-
-def test_two_interleaved_instances(crane: Path, host: HostMaker) -> None:
-    alone = [host(crane).start({"torque": u}).run(40, 0.01) for u in (2.0, -6.0)]
-    pair = [host(crane).start({"torque": u}) for u in (2.0, -6.0)]
-    rows: list[list[list[float]]] = [[], []]
-    for k in range(40):
-        for h, r in zip(pair, rows, strict=True):
-            r += h.run(1, 0.01, 0.01 * k)
-    assert rows == alone
-    assert alone[0] != alone[1]
+OF_ALL_KINDS = pytest.mark.parametrize("kind", [*kinds.FACES, "python"])
+"""Two kinds share nothing but the slave in C; in Python all instances share an interpreter."""
 
 
+@OF_ALL_KINDS
 def test_thirty_instances(crane: Path, host: HostMaker) -> None:
     first = host(crane)
     slaves = [first.instance() for _ in range(30)]
@@ -41,18 +34,19 @@ def test_thirty_instances(crane: Path, host: HostMaker) -> None:
     assert host(crane).start({"torque": 7.0}).run(20, 0.01)[-1][: len(outputs)] == list(values[7])
 
 
+@OF_ALL_KINDS
 def test_many_lives_of_one_instance(crane: Path, host: HostMaker) -> None:
     driven = host(crane)
     expected = driven.start().run(5, 0.01)
-    for _ in range(50):
+    for _ in range(15):
         driven.free(driven.slave)
         driven.slave = driven.instance()
         assert driven.start().run(5, 0.01) == expected
 
 
-def test_the_path_of_the_hosts_python_stays_as_it_was(crane: Path, host: HostMaker) -> None:
+def test_the_path_of_the_hosts_python_stays_as_it_was(build: Callable[..., Path], host: HostMaker) -> None:
     before = list(sys.path)
-    first = host(crane)
+    first = host(build("crane", "python"))
     first.instance()
     assert first.start().step(0.0, 0.01) == OK
     assert sys.path == before
@@ -80,8 +74,7 @@ def test_reset_restores_the_start(crane: Path, host: HostMaker) -> None:
     assert driven.run(10, 0.01) == expected
 
 
-@pytest.mark.parametrize("name", ["with space", "ü", "a#b", "a+b&c", "(x),y", "100%"])
-def test_any_folder_name(crane: Path, host: HostMaker, tmp_path: Path, name: str) -> None:
-    folder = tmp_path / name
-    assert host(crane, folder).start().step(0.0, 0.01) == OK
-    shutil.rmtree(folder)
+@OF_ALL_KINDS
+def test_any_folder_name(crane: Path, host: HostMaker, tmp_path: Path) -> None:
+    for name in ("with space", "ü", "a#b", "a+b&c", "(x),y", "100%"):
+        assert host(crane, tmp_path / name).start().step(0.0, 0.01) == OK, name

@@ -105,9 +105,9 @@ def test_forces_and_moments_of_joints_that_turn(build: Callable[..., Path], host
     assert np.min(np.abs(expected)) > 1e-3
 
 
-def test_outputs_by_inputs_of_the_moving_car(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
-    part, step = 1e-3, cars[0].meta["experiment"]["step_s"]
-    driven = host(cars[1]["native"]).start({"initial.speed": SPEED})
+def test_outputs_by_inputs_of_the_moving_car(prototype_fmu: Path, host: HostMaker) -> None:
+    driven, part = host(prototype_fmu).start({"initial.speed": SPEED}), 1e-3
+    step = driven.get("step_size")
     names = ("steering", "throttle", "brake")
     base = {"steering": 0.2, "throttle": 0.3, "brake": 0.1}
     driven.slave.setReal([driven.references[n] for n in names], list(base.values()))
@@ -130,10 +130,8 @@ def test_outputs_by_inputs_of_the_moving_car(cars: tuple[mbs.System, dict[str, P
         assert np.max(np.abs(expected)) > 1.0
 
 
-def test_a_start_below_the_road_is_refused_and_can_be_put_right(
-    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str
-) -> None:
-    driven = host(cars[1][kind])
+def test_a_start_below_the_road_is_refused_and_can_be_put_right(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu)
     driven.slave.setupExperiment()
     driven.slave.enterInitializationMode()
     assert driven.set("initial.z", -300.0) == OK
@@ -148,26 +146,21 @@ def test_a_start_below_the_road_is_refused_and_can_be_put_right(
     driven.run(3, STEP)
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "unit"),
-    [
+def test_a_start_beyond_the_digits_is_refused_by_its_name(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu)
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
+    for name, value, unit in (
         ("initial.x", 1e300, "m"),
         ("initial.speed", 1e7, "m/s"),
         ("initial.lateral_speed", 1e7, "m/s"),
         ("initial.yaw", 1e7, "rad"),
-    ],
-)
-def test_a_start_beyond_the_digits_is_refused_by_its_name(
-    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str, name: str, value: float, unit: str
-) -> None:
-    driven = host(cars[1][kind])
-    driven.slave.setupExperiment()
-    driven.slave.enterInitializationMode()
-    assert driven.set(name, value) == OK
-    assert driven.call("exitInitializationMode") == ERROR
-    messages = driven.messages[-1]
-    assert "too far away or too fast" in messages
-    assert f" '{name}' is {value:g} {unit}. Start nearer to the origin, or slower." in messages
-    assert "wishbone" not in messages
-    assert driven.set(name, 0.0) == OK
+    ):
+        assert driven.set(name, value) == OK
+        assert driven.call("exitInitializationMode") == ERROR
+        message = driven.messages[-1]
+        assert "too far away or too fast" in message
+        assert f" '{name}' is {value:g} {unit}. Start nearer to the origin, or slower." in message
+        assert "wishbone" not in message
+        assert driven.set(name, 0.0) == OK
     assert driven.call("exitInitializationMode") == OK

@@ -1,7 +1,7 @@
 """The binaries: dependencies, exported symbols, equal results without Python and on Windows, and from sources."""
 
-import importlib.util
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -16,12 +16,11 @@ import numpy as np
 import pytest
 
 from fmu_src.native.added_platforms import add_platforms
-from fmu_src.native.platforms import PLATFORMS
+from fmu_src.native.platforms import PLATFORMS, TARGETS
 from fmu_src.native.universal_binary import universal
 from tests import kinds
 from tests.fmu import native
-from tests.fmu.calls import OK, HostMaker
-from tests.fmu.other_hosts import by_libcosim
+from tests.fmu.calls import HostMaker
 from tests.sanitize import OBJECTS
 from tests.unoptimised import unoptimised
 
@@ -32,15 +31,11 @@ FUNCTIONS = 34
 
 @pytest.fixture(scope="session")
 def all_platforms(build: Callable[..., Path], made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
-    """The crane for all platforms, optimised for both kinds of processor; the compiler's first run for Windows takes
-    minutes.
-    """
+    """The crane for all platforms; the compiler's first run for Windows takes minutes."""
 
     def fill(folder: Path) -> None:
-        file = folder / "Crane.fmu"
-        add_platforms(build("crane"), ["linux64", "aarch64-linux"], file, told=lambda what, note: nullcontext())
         with unoptimised():
-            add_platforms(file, PLATFORMS, file, told=lambda what, note: nullcontext())
+            add_platforms(build("crane"), PLATFORMS, folder / "Crane.fmu", told=lambda what, note: nullcontext())
 
     return made_once("all_platforms", fill) / "Crane.fmu"
 
@@ -54,28 +49,41 @@ def is_fmi2_only(names: set[str]) -> bool:
     return len(names) == FUNCTIONS and all(n.startswith("fmi2") for n in names)
 
 
-@pytest.mark.slow
-def test_linux_needs_the_c_library_only(all_platforms: Path) -> None:
-    needed, exported = native.elf_dynamic(binary(all_platforms, "linux64/Crane.so"))
+@pytest.mark.skipif(fmpy.platform != "linux64", reason="looks at the library of x86-64 Linux")
+def test_linux_needs_the_c_library_only(build: Callable[..., Path]) -> None:
+    needed, exported = native.elf_dynamic(binary(build("crane"), "linux64/Crane.so"))
     assert set(needed) <= {"libc.so.6", "libm.so.6"}
     assert is_fmi2_only(exported)
 
 
 @pytest.mark.slow
+def test_what_differs_by_platform_compiles_for_each(build: Callable[..., Path], tmp_path: Path) -> None:
+    """C files with a branch for a system or a processor; all files are compiled in the proof run."""
+    folder = native.unpack(build("crane"), tmp_path) / "sources"
+    branch = re.compile(r"^#.*(_WIN32|__APPLE__|__aarch64__)", re.MULTILINE)
+    files = [file for file in folder.rglob("*.c") if branch.search(file.read_text(encoding="utf-8"))]
+    assert len(files) > 2
+    for target in (target for name in PLATFORMS for target in TARGETS[name]):
+        command = [sys.executable, "-m", "ziglang", "cc", "-target", target, "-fsyntax-only", f"-I{folder}"]
+        done = subprocess.run([*command, *map(str, files)], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.proof
 def test_linux_on_arm_has_a_binary(all_platforms: Path) -> None:
     data = binary(all_platforms, "aarch64-linux/Crane.so")
     assert data[:4] == b"\x7fELF"
     assert int.from_bytes(data[18:20], "little") == 183  # AArch64
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_windows_needs_its_own_libraries_only(all_platforms: Path) -> None:
     libraries, exported = native.pe_tables(binary(all_platforms, "win64/Crane.dll"))
     assert all(name == "kernel32.dll" or name.startswith("api-ms-win-crt-") for name in libraries)
     assert is_fmi2_only(exported)
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_mac_has_both_processors(all_platforms: Path) -> None:
     data = binary(all_platforms, "darwin64/Crane.dylib")
     magic, count = struct.unpack_from(">2I", data)
@@ -119,17 +127,6 @@ def host_rows(program: list[str], folder: Path, library: str) -> np.ndarray:
     return np.array([[float.fromhex(v) for v in line.split()] for line in done.stdout.splitlines()])
 
 
-@pytest.mark.skipif(importlib.util.find_spec("libcosimpy") is None, reason="libcosimpy is not installed")
-def test_libcosim_gets_the_same_bits(build: Callable[..., Path], host: HostMaker) -> None:
-    fmu, names = build("crane"), ["rod.x", "rod.ay", "rod.angle"]
-    driven, rows = host(fmu).start(), []
-    driven.set("torque", 4.0)  # libcosim sets it after initialisation
-    for k in range(STEPS):
-        assert driven.step(k * STEP, STEP) == OK
-        rows.append([driven.get(n) for n in names])
-    assert np.array_equal(by_libcosim(fmu, {"torque": 4.0}, names, STEPS, STEP), rows)
-
-
 def expected_rows(fmu: Path, host: HostMaker) -> np.ndarray:
     return np.array(host(fmu).start({"torque": 2.5, "spring.stiffness": 9.0}).run(STEPS, STEP))
 
@@ -144,7 +141,7 @@ def test_a_c_host_gets_the_same_bits(build: Callable[..., Path], host: HostMaker
     assert np.ptp(rows[:, 1]) > 1e-3
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 @pytest.mark.skipif(shutil.which("wine") is None or sys.platform == "win32", reason="runs the Windows library by wine")
 def test_windows_gets_the_same_bits(all_platforms: Path, host: HostMaker, tmp_path: Path) -> None:
     folder = native.unpack(all_platforms, tmp_path / "fmu")
@@ -153,7 +150,7 @@ def test_windows_gets_the_same_bits(all_platforms: Path, host: HostMaker, tmp_pa
     assert np.array_equal(rows[:, 1:], expected_rows(all_platforms, host))
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 @pytest.mark.skipif(shutil.which("wine") is None or sys.platform == "win32", reason="runs the Windows library by wine")
 def test_a_state_continues_on_another_operating_system(all_platforms: Path, tmp_path: Path) -> None:
     folder, source = native.unpack(all_platforms, tmp_path / "fmu"), native.C_FOLDER / "relay.c"
@@ -198,7 +195,6 @@ def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, k
 
 
 STRESS = [("leak", 1000), ("memory", 0), ("states", 4000), ("systems", 4000), ("crowd", 300), ("threads", 0)]
-FLEXIBLE_STRESS = [("leak", 20), ("states", 400), ("systems", 400), ("crowd", 20)]
 
 
 def stress_run(fmu: Path, folder: Path, objects: Path, system: str, output: str) -> Callable[[str, int], str]:
@@ -235,18 +231,3 @@ def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory,
 @pytest.mark.parametrize(("what", "count"), STRESS, ids=[w for w, _ in STRESS])
 def test_stress(stress: Callable[[str, int], str], what: str, count: int) -> None:
     assert stress(what, count)
-
-
-@pytest.fixture(scope="session")
-def flexible_stress(
-    kerb_fmus: Path, tmp_path_factory: pytest.TempPathFactory, objects: Path
-) -> Callable[[str, int], str]:
-    """A car with a flexible chassis and several fidelities."""
-    folder = tmp_path_factory.mktemp("flexible_stress")
-    return stress_run(kerb_fmus / "native.fmu", folder, objects, "system_3.ali3", "bending_moment.SG1")
-
-
-@pytest.mark.proof  # the same C as above; what is of flexible bodies alone the sanitized kernel runs
-@pytest.mark.parametrize(("what", "count"), FLEXIBLE_STRESS, ids=[w for w, _ in FLEXIBLE_STRESS])
-def test_stress_of_flexible_bodies(flexible_stress: Callable[[str, int], str], what: str, count: int) -> None:
-    assert flexible_stress(what, count)

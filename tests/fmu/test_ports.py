@@ -17,24 +17,24 @@ PORTS = ("left.push", "right.push")
 
 
 @pytest.fixture
-def towed(build, kind) -> Path:
+def towed(build) -> Path:
     """A body that two ports push."""
-    return build("towed", kind)
+    return build("towed")
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-def test_what_is_not_finite_holds_the_last_value_with_one_warning(host, towed, bad) -> None:
-    h = host(towed).start({"left.push": 3.0, "right.push": 0.0})
-    assert h.set("left.push", bad) == OK
-    warning = f"The port 'left.push' was set to {bad:g} and holds its last value 3 N. This is reported once."
-    assert h.messages == [warning]
-    assert h.step(0.0, 0.01) == OK
-    assert h.set("left.push", bad) == OK
-    assert len(h.messages) == 1
-    assert h.get("left.push") == 3.0
-    assert h.set("left.push", 4.0) == OK
-    assert h.step(0.01, 0.01) == OK
-    assert h.get("used") == 4.0
+def test_what_is_not_finite_holds_the_last_value_with_one_warning(host, towed) -> None:
+    for bad in (math.nan, math.inf, -math.inf):
+        h = host(towed).start({"left.push": 3.0, "right.push": 0.0})
+        assert h.set("left.push", bad) == OK
+        warning = f"The port 'left.push' was set to {bad:g} and holds its last value 3 N. This is reported once."
+        assert h.messages == [warning]
+        assert h.step(0.0, 0.01) == OK
+        assert h.set("left.push", bad) == OK
+        assert len(h.messages) == 1
+        assert h.get("left.push") == 3.0
+        assert h.set("left.push", 4.0) == OK
+        assert h.step(0.01, 0.01) == OK
+        assert h.get("used") == 4.0
 
 
 def test_a_port_that_nobody_sets_is_reported_after_the_first_step(host, towed) -> None:
@@ -107,9 +107,8 @@ def test_ports_under_random_values_keep_the_motion_finite(host, towed) -> None:
     assert len(h.messages) <= 1 + 2 * len(PORTS)
 
 
-def test_libcosim_and_the_host_in_c_get_the_same_bits(host, build, tmp_path) -> None:
+def test_libcosim_and_the_host_in_c_get_the_same_bits(host, towed, tmp_path) -> None:
     pytest.importorskip("libcosimpy.CosimExecution")
-    towed = build("towed", "native")
     pushed = dict(zip(PORTS, (4.0, math.nan), strict=True))
     driven = host(towed).start()
     for port, value in pushed.items():

@@ -64,10 +64,8 @@ def test_calls_that_clear_a_refused_step(reach: Path, host: HostMaker, change: s
     assert driven.step_status() in (OK, DISCARD)
 
 
-def test_what_has_left_its_table_is_named_with_its_range(
-    build: Callable[..., Path], kind: str, host: HostMaker
-) -> None:
-    driven = host(build("carried_off", kind)).start()
+def test_what_has_left_its_table_is_named_with_its_range(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("carried_off")).start()
     assert driven.set("force", -50.0) == OK
     count = next(k for k in range(100) if driven.step(k * H, H) != OK)
     travel = -12.5 * (count * H) ** 2  # 50 N on 2 kg
@@ -79,12 +77,12 @@ def test_what_has_left_its_table_is_named_with_its_range(
     assert "its table goes from -0.2 to 0.2" in message
 
 
-def test_fmpy_ends_soon_with_the_reason(reach: Path) -> None:
+def test_fmpy_ends_soon_with_the_reason(build: Callable[..., Path]) -> None:
     code = (
         "import fmpy, numpy as np\n"
         f"rows = [(0.0, 0.0), ({BEGIN}, 0.0), ({BEGIN}, {PULL}), (2.0, {PULL})]\n"
         "pull = np.array(rows, dtype=[('time', float), ('pull', float)])\n"
-        f"fmpy.simulate_fmu({str(reach)!r}, stop_time=2.0, output_interval={BEGIN}, input=pull)\n"
+        f"fmpy.simulate_fmu({str(build('reach'))!r}, stop_time=2.0, output_interval={BEGIN}, input=pull)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=SECONDS)
     output = done.stdout + done.stderr

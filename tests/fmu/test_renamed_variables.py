@@ -112,9 +112,8 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
     assert list(actual) == [late.get(n) for n in names]
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
+def test_names_that_cannot_be(tmp_path: Path) -> None:
+    for text, message in (
         ('partial = true\nspeed = "v"', "this model has none of the variables that it names"),
         ('torqe = "T"', "'torqe': this model has no such variable; did you mean 'torque'"),
         ('torque = { name = "T", units = "kN.m" }', "'torque' has 'units'; known are name, factor, offset, unit"),
@@ -125,11 +124,9 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
         ('torque = { name = "T", unit = "deg" }', "'torque' is in N.m, and deg is of another quantity"),
         ('"solver.status" = { name = "S", unit = "N" }', "'solver.status' is in 1, and N is of another quantity."),
         ('torque = { name = "T", factor = "gain" }', "'torque': factor is 'gain'; it must be a number, or a constant"),
-    ],
-)
-def test_names_that_cannot_be(tmp_path: Path, text: str, message: str) -> None:
-    with pytest.raises(UserError, match=message):
-        named(tmp_path, text)
+    ):
+        with pytest.raises(UserError, match=message):
+            named(tmp_path, text)
 
 
 def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
@@ -144,21 +141,18 @@ def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
     assert "is of a port, which works in m" in actual.left_out["road_height"]
 
 
-@pytest.mark.parametrize(
-    ("text", "why"),
-    [
+def test_variables_without_another_name_are_reported_with_the_reason(tmp_path: Path) -> None:
+    table = variable_table(load_scene(f"{SCENES}:crane")[1].meta, pose=False, step_size=0.01)
+    for text, why in (
         ('"spring.stiffness" = { name = "C", factor = 1e-3 }', "another unit"),
         ('torque = { name = "T", offset = 1.0 }', "another zero"),
         ('"solver.status" = { name = "S", factor = 2.0 }', "another unit"),
         ('torque = { name = "T", factor = "gain" }\n[needs]\ngain = "a gain, 1"', "it needs 'gain' (a gain, 1)"),
-    ],
-)
-def test_variables_without_another_name_are_reported_with_the_reason(tmp_path: Path, text: str, why: str) -> None:
-    (tmp_path / "names.toml").write_text('"rod.x" = "X"\n' + text, encoding="utf-8")
-    system = load_scene(f"{SCENES}:crane")[1]
-    actual = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))
-    assert set(actual.named) == {"rod.x"}
-    assert why in next(iter(actual.left_out.values()))
+    ):
+        (tmp_path / "names.toml").write_text('"rod.x" = "X"\n' + text, encoding="utf-8")
+        actual = renamed(table, read_content(tmp_path / "names.toml"))
+        assert set(actual.named) == {"rod.x"}
+        assert why in next(iter(actual.left_out.values()))
 
 
 def test_a_body_on_the_ground_and_a_road_without_friction_are_reported_under_other_names(host, tmp_path) -> None:

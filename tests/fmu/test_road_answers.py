@@ -1,16 +1,13 @@
 """A road that other programs answer for, at the slave: points ahead, normals, answers far away, states."""
 
-import itertools
 import math
 import re
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 
-from tests.fmu.calls import DISCARD, FMI_2, OK
-from tests.fmu.other_hosts import by_c_host
+from tests.fmu.calls import DISCARD, OK
 from tests.fmu.test_native_derivatives import slope
 
 ANSWER = [f"road_{name}" for name in ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")]
@@ -18,8 +15,8 @@ LEVEL = dict(zip(ANSWER, (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0), strict=True))
 
 
 @pytest.fixture
-def sledge(build, kind) -> Path:
-    return build("answered", kind)
+def sledge(build) -> Path:
+    return build("answered")
 
 
 @pytest.mark.parametrize("lead", [1.0, 2.0])
@@ -53,7 +50,6 @@ def test_an_invalid_normal_keeps_the_last_one_with_one_warning(host, sledge) -> 
     assert h.get("road_normal_x") == -0.05
 
 
-@FMI_2
 def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> None:
     """Asked again it wishes the end; without the derivative the step passes."""
     h = host(sledge).start(LEVEL)
@@ -76,29 +72,20 @@ def test_a_start_with_an_invalid_normal_is_level(host, sledge) -> None:
     assert [text for text in h.messages if "(0, 0, 1), is held" in text]
 
 
-def test_an_answer_far_from_its_wheel_is_reported_once(host, sledge) -> None:
-    h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
-    for k in range(80):
-        assert h.step(0.01 * k, 0.01) == OK
-        h.get("x")
-    messages = [text for text in h.messages if "last answer on the road" in text]
-    assert len(messages) == 1
-    assert "'road_x' holds for the point (0, 0, 0), 10 m from its wheel" in messages[0]
+def test_an_answer_far_away_is_reported_where_no_output_is_read(host, sledge) -> None:
+    """It is passed at 0.5 s, and reported once."""
+    for step in (0.01, 0.25):
+        h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
+        counts = []
+        for k in range(round(0.75 / step)):
+            assert h.step(step * k, step) == OK
+            counts.append(sum("last answer on the road" in text for text in h.messages))
+        assert counts[round(0.5 / step) - 2] == 0
+        assert counts[round(0.75 / step) - 1] == 1
+        assert any("'road_x' holds for the point (0, 0, 0), " in text for text in h.messages)
 
 
-@pytest.mark.parametrize("step", [0.01, 0.25])
-def test_an_answer_far_away_is_reported_where_no_output_is_read(host, sledge, step) -> None:
-    """It is passed at 0.5 s."""
-    h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
-    counts = []
-    for k in range(round(0.75 / step)):
-        assert h.step(step * k, step) == OK
-        counts.append(sum("last answer on the road" in text for text in h.messages))
-    assert counts[round(0.5 / step) - 2] == 0
-    assert counts[round(0.75 / step) - 1] == 1
-
-
-@pytest.mark.parametrize(("jump", "where"), [(150.0, "above"), (0.03, "above"), (-0.03, "below")])
+@pytest.mark.parametrize(("jump", "where"), [(0.03, "above"), (-0.03, "below")])
 def test_an_answer_that_leaves_the_plane_of_the_last_one_is_reported_once(host, sledge, jump, where) -> None:
     """A road that goes on with its slope does not; 10 mm are what curvature makes between answers."""
     uphill = {"road_normal_x": -0.6, "road_normal_z": 0.8}
@@ -174,7 +161,6 @@ def test_an_answer_ahead_is_reached_along_the_step_and_one_at_the_wheel_holds(ho
     assert heights[1] < heights[0]
 
 
-@FMI_2
 def test_an_answer_that_is_no_longer_set_is_held_at_once(host, sledge) -> None:
     """A derivative has led the last one ahead: the one that holds lies behind, which is no way to go along."""
     heights = []
@@ -223,17 +209,17 @@ def test_the_start_is_lifted_to_the_answer(host, sledge) -> None:
     assert host(sledge).start(LEVEL | {"road_height": 2.0}).get("z") == pytest.approx(2.3, abs=1e-9)
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-def test_what_is_not_finite_is_reported_of_ports_without_a_range(host, sledge, bad) -> None:
-    h = host(sledge).start(LEVEL | {"road_height": 2.0})
-    for _ in range(2):
-        h.set("road_height", bad)
-    assert h.get("road_height") == 2.0
-    warning = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
-    assert h.messages == [warning]
+def test_what_is_not_finite_is_reported_of_ports_without_a_range(host, sledge) -> None:
+    for bad in (math.nan, math.inf, -math.inf):
+        h = host(sledge).start(LEVEL | {"road_height": 2.0})
+        for _ in range(2):
+            h.set("road_height", bad)
+        assert h.get("road_height") == 2.0
+        warning = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
+        assert h.messages == [warning]
 
 
-def test_a_state_keeps_which_warnings_were_sent(host, sledge, kind) -> None:
+def test_a_state_keeps_which_warnings_were_sent(host, sledge) -> None:
     """Flags of what was said are more than zero and one."""
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
     h.set("push", 1e6)
@@ -282,20 +268,3 @@ def test_derivatives_by_answers_are_those_of_differences(host, sledge) -> None:
     actual = h.slave.getDirectionalDerivative(unknowns, [references["road_height"]], [1.0])
     assert 0.0 < actual[0] < 1.0
     assert actual[3] == pytest.approx(actual[1] + 0.01 * actual[2], abs=1e-12)
-
-
-def test_the_scene_stands_in_the_description(sledge) -> None:
-    description = fmpy.read_model_description(str(sledge))
-    variables = {v.name: v for v in description.modelVariables}
-    assert variables["road_ahead_x"].causality == "output"
-    assert [variables[name].causality for name in ANSWER] == ["input"] * 7
-    assert all(a.valueReference < b.valueReference for a, b in itertools.pairwise(variables[n] for n in ANSWER))
-
-
-def test_the_host_in_c_gets_the_same_bits(host, build, tmp_path) -> None:
-    sledge = build("answered", "native")
-    answers = LEVEL | {"road_height": 0.25, "road_normal_x": -0.06, "road_normal_z": math.sqrt(1.0 - 0.06**2)}
-    h = host(sledge).start(answers)
-    h.run(20, 0.01)
-    assert h.get("x") < -1e-3
-    assert by_c_host(sledge, tmp_path, answers, ["x"], 20, 0.01)[-1] == [h.get("x")]

@@ -26,9 +26,7 @@ FRICTION = 1.2705
 
 
 @pytest.fixture(scope="module")
-def built(
-    made_once: Callable[[str, Callable[[Path], None]], Path], need: Callable[[str], None]
-) -> Callable[[str], Path]:
+def built(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[[str], Path]:
     """The car in two fidelities as an FMU of a kind."""
 
     def make(kind: str) -> Path:
@@ -37,7 +35,6 @@ def built(
             systems = {k: mbs.compile(offered[k]()) for k in (Fidelity.RIGID, Fidelity.QUASI_STATIC)}
             build_fmu(systems, "prototype_car", folder, [fmpy.platform], kind=kind)
 
-        need(kind)
         (path,) = made_once(f"car_with_roads_{kind}", fill).glob("*.fmu")
         return path
 
@@ -45,8 +42,8 @@ def built(
 
 
 @pytest.fixture
-def car(built: Callable[[str], Path], kind_2: str) -> Path:
-    return built(kind_2)
+def car(built: Callable[[str], Path]) -> Path:
+    return built("native")
 
 
 @pytest.fixture
@@ -106,12 +103,9 @@ def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Pa
     assert heights(driven) == expected
 
 
-@pytest.mark.parametrize("degrees", [25.0, 30.0])
-def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(
-    car: Path, host: Any, tmp_path: Path, degrees: float
-) -> None:
+def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(car: Path, host: Any, tmp_path: Path) -> None:
     road = tmp_path / "steep.road"
-    write_road(PlaneRoad(0.0, np.tan(np.radians(degrees)), 0.0, 1.0), road)
+    write_road(PlaneRoad(0.0, np.tan(np.radians(30.0)), 0.0, 1.0), road)
     driven = host(car)
     assert text(driven, str(road)) == OK
     driven.start()
@@ -123,12 +117,12 @@ def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(
     assert re.search(r"raised by 0\.\d+ m .* Simulation.settle", notice)
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in FOLDER.glob("*.road")))
-def test_the_roads_in_the_resources_are_found_by_name(car: Path, host: Any, name: str) -> None:
-    driven = host(car)
-    assert text(driven, name) == OK
-    driven.start({"initial.speed": 10.0})
-    assert np.all(np.isfinite(heights(driven, 100)))
+def test_the_roads_in_the_resources_are_found_by_name(car: Path, host: Any) -> None:
+    for path in sorted(FOLDER.glob("*.road")):
+        driven = host(car)
+        assert text(driven, path.name) == OK
+        driven.start({"initial.speed": 10.0})
+        assert np.all(np.isfinite(heights(driven, 20)))
 
 
 def test_a_road_can_be_put_into_the_resources_without_a_build(car: Path, host: Any, roads: Path) -> None:
@@ -192,13 +186,6 @@ def test_a_refused_file_changes_nothing_and_is_reported(car: Path, host: Any, ro
     driven.start()
     assert get(driven) == str(roads / "high.road")
     assert driven.get("chassis.z") > 2.0
-
-
-def test_it_is_fixed_after_initialisation(car: Path, host: Any, roads: Path) -> None:
-    driven = host(car).start()
-    assert text(driven, str(roads / "high.road")) == ERROR
-    assert "it is a fixed parameter" in driven.messages[-1]
-    assert get(driven) == ""
 
 
 def test_in_initialisation_mode_and_empty_again(car: Path, host: Any, roads: Path) -> None:

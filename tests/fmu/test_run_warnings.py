@@ -17,7 +17,7 @@ from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar
 from mbs.vehicle import load
-from tests.fmu.calls import ERROR, FMI_2, OK, WARNING, HostMaker
+from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
 from tests.fmu.scenes import contradicting_arm, driven_crank, piston_of
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -27,8 +27,8 @@ NAMES = ("solver.energy_error", "solver.energy_balance", "crank.angle")
 
 
 @pytest.fixture
-def slider(build: Callable[..., Path], kind: str) -> Path:
-    return build("crank_slider", kind)
+def slider(build: Callable[..., Path]) -> Path:
+    return build("crank_slider")
 
 
 def run(driven: Any, h: float, end: float = 2.0) -> list[int]:
@@ -61,12 +61,11 @@ def test_a_right_run_is_silent(slider: Path, host: HostMaker) -> None:
 
 
 @pytest.mark.parametrize(("steps", "wrong"), [(90, False), (60, True)])
-@FMI_2
 def test_an_fmu_and_python_agree_on_a_driven_motion_whose_balance_is_open(
-    build: Callable[..., Path], host: HostMaker, kind: str, steps: int, wrong: bool
+    build: Callable[..., Path], host: HostMaker, steps: int, wrong: bool
 ) -> None:
     """The drive takes up what the rows err: the balance says nothing, and a second motion decides."""
-    driven, h = host(build("driven_crank", kind)), 1.0 / steps
+    driven, h = host(build("driven_crank")), 1.0 / steps
     driven.start({"step_size": h})
     results = [driven.get("piston.x")]
     for k in range(2 * steps):
@@ -96,11 +95,9 @@ def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None
     assert other.messages == []
 
 
-def test_a_start_reports_contradicting_velocities_and_locked_parts(
-    build: Callable[..., Path], host: HostMaker, kind: str
-) -> None:
+def test_a_start_reports_contradicting_velocities_and_locked_parts(build: Callable[..., Path], host: HostMaker) -> None:
     """With both numbers, as a run in Python does."""
-    driven = host(build("contradicting_arm", kind)).start()
+    driven = host(build("contradicting_arm")).start()
     notices = mbs.simulate(mbs.compile(contradicting_arm()), 0.01, 0.01, progress=False).notices
     assert [
         text for text in notices if "is given as 0, 3 m/s and is 0, " in text or "is given as 2 rad/s and is " in text
@@ -112,14 +109,9 @@ def test_a_start_reports_contradicting_velocities_and_locked_parts(
 @pytest.mark.filterwarnings(
     "ignore::mbs.simulation.large_bending.BendingWarning"
 )  # one body a bar bends by 0.05 rad, as warned
-@FMI_2
-def test_a_changed_assembly_mode_is_reported_once(
-    tmp_path: Path, host: HostMaker, kind: str, need: Callable[[str], None]
-) -> None:
-    need(kind)
+def test_a_changed_assembly_mode_is_reported_once(tmp_path: Path, host: HostMaker) -> None:
     system = mbs.compile(assembly_defect_four_bar.build(1))
-    fmu = build_fmu(system, "defect", tmp_path, [fmpy.platform], kind=kind)
-    driven, h = host(fmu), 0.05
+    driven, h = host(build_fmu(system, "defect", tmp_path, [fmpy.platform])), 0.05
     driven.start({"step_size": h})
     for k in range(30):
         driven.step(k * h, h)

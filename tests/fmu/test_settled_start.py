@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import pytest
-
 import mbs
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
@@ -35,19 +33,7 @@ def test_it_is_the_start_of_the_engine(prototype_fmu: Path, host: HostMaker) -> 
     assert abs(actual[sensors.index("chassis.roll")]) > 0.03
 
 
-def test_without_it_a_start_is_as_drawn(prototype_fmu: Path, host: HostMaker) -> None:
-    driven = host(prototype_fmu).start({**START, "steering": 0.1})
-    assert abs(driven.get("chassis.roll")) < 1e-3
-
-
 def test_one_that_has_not_settled_is_reported(prototype_fmu: Path, host: HostMaker) -> None:
     short, long = (host(prototype_fmu).start({**START, "initial.settling": t}) for t in (0.1, 3.0))
     assert any("has not settled" in m and "initial.settling" in m for m in short.messages)
     assert not any("settle" in m for m in long.messages)
-
-
-@pytest.mark.parametrize("value", [-1.0, 11.0])
-def test_a_time_out_of_its_range_is_refused(prototype_fmu: Path, host: HostMaker, value: float) -> None:
-    driven = host(prototype_fmu)
-    assert driven.set("initial.settling", value) != 0
-    assert "initial.settling" in driven.messages[-1]

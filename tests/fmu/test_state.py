@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from tests.fmu.calls import ERROR, HostMaker
@@ -37,7 +38,8 @@ def test_roll_back_repeats_bit_for_bit(crane: Path, host: HostMaker) -> None:
     driven.slave.freeFMUstate(state)
 
 
-def test_state_goes_to_a_new_process(crane: Path, host: HostMaker, tmp_path: Path) -> None:
+def test_state_goes_to_a_new_process(build: Callable[..., Path], host: HostMaker, tmp_path: Path) -> None:
+    crane = build("crane")
     driven = host(crane).start({"torque": 4.0, "spring.stiffness": 9.0})
     driven.run(30, 0.01)
     data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())

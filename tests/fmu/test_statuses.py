@@ -10,18 +10,19 @@ from fmpy.fmi2 import fmi2CallbackFunctions
 
 from mbs.kernel.binding import Status, load_library
 from mbs.kernel.binding.errors import status_remedy
-from tests.fmu.calls import DISCARD, ERROR, FMI_2, OK, HostMaker
+from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
 from tests.fmu.test_refused_steps import LONG, at_the_edge
 
 H = 0.01
 
 
 HERE = {
-    *(Status.BAD_FILE, Status.NO_MEMORY, Status.NOT_ASSEMBLED, Status.NOT_CONVERGED),
+    *(Status.NO_MEMORY, Status.NOT_ASSEMBLED, Status.NOT_CONVERGED),
     *(Status.NOT_FINITE, Status.START_REFUSED, Status.UNRESOLVED, Status.WHEEL_IN_ROAD, Status.BAD_INERTIA),
     Status.TURNS_TOO_FAR,
 }
 ELSEWHERE = {
+    Status.BAD_FILE: "test_native_calls",
     Status.TOO_FAR: "test_native_agreement",
     Status.NO_EQUILIBRIUM: "test_changed_parameters",
     Status.BRANCH_CHANGED: "test_watch",
@@ -54,8 +55,8 @@ def test_every_status_is_caused_or_cannot_be() -> None:
     assert len(HERE) + len(ELSEWHERE) + len(NEVER) == len(Status) - 1
 
 
-def test_a_start_that_does_not_close(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    driven = host(build("led_crank", kind))
+def test_a_start_that_does_not_close(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("led_crank"))
     assert driven.set("angle", 1.6) == OK
     driven.slave.setupExperiment(startTime=0.0)
     driven.slave.enterInitializationMode()
@@ -64,16 +65,16 @@ def test_a_start_that_does_not_close(build: Callable[..., Path], host: HostMaker
     assert "Worst constraint: 'bar" in driven.messages[-1]
 
 
-def test_a_motion_that_becomes_infinite(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    driven = host(build("led_crank", kind)).start()
+def test_a_motion_that_becomes_infinite(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("led_crank")).start()
     assert driven.set("push", 1e300) == OK
     assert driven.step(0.0, H) == DISCARD
     said(Status.NOT_FINITE, driven.messages[-1])
     assert "The step_size is 0.01 s" in driven.messages[-1]
 
 
-def test_what_is_pulled_beyond_its_reach(reach: Path, host: HostMaker) -> None:
-    driven = at_the_edge(reach, host)
+def test_what_is_pulled_beyond_its_reach(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = at_the_edge(build("reach"), host)
     assert driven.step(0.05, LONG) == DISCARD
     said(Status.NOT_CONVERGED, driven.messages[-1])
 
@@ -87,18 +88,16 @@ def refused_start(driven: Any, values: dict[str, float]) -> str:
     return str(driven.messages[-1])
 
 
-def test_a_start_in_the_road(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    fmu = build("before_a_wall", kind)
+def test_a_start_in_the_road(build: Callable[..., Path], host: HostMaker) -> None:
+    fmu = build("before_a_wall")
     text = refused_start(host(fmu), {"initial.z": -5.0})
     said(Status.START_REFUSED, text)
     clear = float(text.partition("from ")[2].partition(" m on it is clear")[0])
     assert host(fmu).start({"initial.z": clear}).step(0.0, H) == OK
 
 
-def test_a_car_that_drove_into_a_wall_continues_from_another_state(
-    build: Callable[..., Path], host: HostMaker, kind: str
-) -> None:
-    fmu = build("before_a_wall", kind)
+def test_a_car_that_drove_into_a_wall_continues_from_another_state(build: Callable[..., Path], host: HostMaker) -> None:
+    fmu = build("before_a_wall")
     fast, slow = host(fmu).start({"initial.speed": 30.0}), host(fmu).start({"initial.speed": 3.0})
     begins = next(k * 0.002 for k in range(100) if fast.step(k * 0.002, 0.002) != OK)
     said(Status.WHEEL_IN_ROAD, fast.messages[-1])
@@ -108,8 +107,8 @@ def test_a_car_that_drove_into_a_wall_continues_from_another_state(
     assert fast.get("block.x") == pytest.approx(3.0 * H, rel=1e-6)
 
 
-def test_an_inertia_that_no_body_has(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    fmu = build("thrown", kind)
+def test_an_inertia_that_no_body_has(build: Callable[..., Path], host: HostMaker) -> None:
+    fmu = build("thrown")
     text = refused_start(host(fmu), {"xx": 2.0})
     said(Status.BAD_INERTIA, text)
     assert "'xx' is 2 kg.m2, farthest from its start value 0.3" in text
@@ -121,19 +120,18 @@ def test_an_inertia_that_no_body_has(build: Callable[..., Path], host: HostMaker
     [("fast_armature", Status.TURNS_TOO_FAR, 1e-3), ("fast_cart", Status.UNRESOLVED, 1e-5)],
 )
 def test_a_shorter_step_passes(
-    build: Callable[..., Path], host: HostMaker, kind: str, scene: str, status: Status, shorter: float
+    build: Callable[..., Path], host: HostMaker, scene: str, status: Status, shorter: float
 ) -> None:
-    driven = host(build(scene, kind)).start({"step_size": H})
+    driven = host(build(scene)).start({"step_size": H})
     begins = next((k for k in range(60) if driven.step(k * H, H) != OK), None)
     assert begins is not None
     said(status, driven.messages[-1])
-    again = host(build(scene, kind)).start({"step_size": shorter})
+    again = host(build(scene)).start({"step_size": shorter})
     again.run(begins + 1, H)
 
 
-@FMI_2
-def test_without_memory(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    driven = host(build("crane", kind))
+def test_without_memory(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("crane"))
     inner, budget = fmpy.fmi2.defaultCallbacks, [10**6]
 
     def allocate(count: int, size: int) -> int | None:
@@ -160,14 +158,3 @@ def test_without_memory(build: Callable[..., Path], host: HostMaker, kind: str) 
     assert messages
     for text in messages:
         said(Status.NO_MEMORY, text)
-
-
-def test_a_system_that_is_damaged(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    driven = host(build("crane", kind))
-    file = next(driven.folder.rglob("system_0.ali3"))
-    data = bytearray(file.read_bytes())
-    data[len(data) // 2] ^= 1
-    file.write_bytes(data)
-    with pytest.raises(Exception, match="nstantiate"):
-        driven.instance()
-    said(Status.BAD_FILE, driven.messages[-1])

@@ -68,9 +68,8 @@ class Bare:
         return self.slave.getFMUState()
 
 
-@pytest.mark.parametrize("kind", kinds.ALIKE)
-def test_reading_stresses_leaves_no_trace(kerb_fmus: Path, kind: str, need: Callable[[str], None]) -> None:
-    need(kind)
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
+def test_reading_stresses_leaves_no_trace(kerb_fmus: Path, kind: str) -> None:
     unread, read = Bare(kerb_fmus / f"{kind}.fmu"), Bare(kerb_fmus / f"{kind}.fmu")
     unread.run(0, EDGE)
     assert np.isfinite(read.stress())
@@ -118,11 +117,25 @@ def test_stresses_have_no_rates(kerb_fmus: Path) -> None:
         assert any("'stress.SG1' is not known: it depends on forces" in line for line in fmu.messages)
 
 
-def pair(make: Callable[[int], Any]) -> tuple[System, System, System]:
+Pair = tuple[System, System, System]
+"""A rigid car, the one with ports, and that which follows the rigid one."""
+
+
+def pair(make: Callable[[int], Any]) -> Pair:
     without, ported = compile(make(0)), compile(make(1))
     follower = with_ports_of(ported, without)
     assert follower is not None
     return without, ported, follower
+
+
+@pytest.fixture(scope="module")
+def at_the_kerb() -> Pair:
+    return pair(kerb_test.build)
+
+
+@pytest.fixture(scope="module")
+def prototypes() -> Pair:
+    return pair(lambda fidelity: prototype_car.build(fidelity=fidelity))
 
 
 def loaded(system: System) -> Instance:
@@ -135,9 +148,9 @@ def gauges_of(system: System, instance: Instance) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("h", "bound"), [(0.01, 2.5e-4), (0.002, 1e-5)])
-def test_down_a_kerb_they_are_those_of_the_run_with_ports(h: float, bound: float) -> None:
+def test_down_a_kerb_they_are_those_of_the_run_with_ports(at_the_kerb: Pair, h: float, bound: float) -> None:
     """Largest difference as a share of the peak; the forces are those of each step's own rule."""
-    without, ported, follower = pair(kerb_test.build)
+    without, ported, follower = at_the_kerb
     rigid, own, following_it = loaded(without), loaded(ported), loaded(follower)
     rows = []
     for instance in (rigid, own):
@@ -152,8 +165,8 @@ def test_down_a_kerb_they_are_those_of_the_run_with_ports(h: float, bound: float
     assert (np.abs(values - expected).max(axis=0) / np.abs(expected).max(axis=0)).max() < bound
 
 
-def test_payloads_inputs_and_road_follow() -> None:
-    without, ported, follower = pair(lambda fidelity: prototype_car.build(fidelity=fidelity))
+def test_payloads_inputs_and_road_follow(prototypes: Pair) -> None:
+    without, ported, follower = prototypes
     rigid, own, following_it = loaded(without), loaded(ported), loaded(follower)
     parameters = {p["name"]: k for k, p in enumerate(without.meta["parameters"])}
     inputs = {u["name"]: k for k, u in enumerate(without.meta["inputs"])}
@@ -183,8 +196,8 @@ def test_payloads_inputs_and_road_follow() -> None:
     assert [refusing.get_parameter(k) for k in parameters.values()] == before
 
 
-def test_only_the_same_model_is_followed() -> None:
-    without, ported, follower = pair(lambda fidelity: prototype_car.build(fidelity=fidelity))
+def test_only_the_same_model_is_followed(prototypes: Pair) -> None:
+    without, ported, follower = prototypes
     other = compile(pendulum.build())
     assert without.ported is not None  # who steps a rigid car gets its stresses
     assert without.ported(without) is not None
@@ -219,8 +232,8 @@ def test_a_run_in_python_has_the_same_numbers(kerb_fmus: Path) -> None:
     assert np.array_equal(np.array(rows), np.column_stack([run[name] for name in GAUGES]))
     assert np.abs(run["stress.SG3"]).max() > 3e6
     assert run["stress.computed"].tolist() == [1.0] * len(run.t)
-    again = simulate(system, 7.9, H, every=10, progress=False, estimate_error=False)
-    assert np.array_equal(again.thinned(3).thinned(2)["stress.SG2"], run["stress.SG2"][::6])
+    again = simulate(system, 1.2, H, every=10, progress=False, estimate_error=False)
+    assert np.array_equal(again.thinned(3).thinned(2)["stress.SG2"], run["stress.SG2"][:13:6])
     stepped = Simulation(system)
     stepped.step(H, 780)
     seen = stepped.sensors

@@ -90,20 +90,20 @@ def test_errors_of_a_scene_have_their_place(scene: Path, function: str, message:
         load_scene(f"{scene}:swing")
 
 
-@pytest.mark.parametrize("text", ["a\x01b", "a\x00b", "a\ud800b", "a\ufffeb"])
-def test_characters_that_xml_cannot_hold_are_refused(text: str, tmp_path: Path) -> None:
+def test_characters_that_xml_cannot_hold_are_refused(tmp_path: Path) -> None:
     m = mbs.Model("swing", dimension=2)
     bob = m.point_mass("bob", mass=1.0, position=(1.0, 0.0))
     m.distance("rod", (m.ground, (0.0, 0.0)), bob)
     system = mbs.compile(m)
-    with pytest.raises(ValueError, match=rf"author has the character U\+{ord(text[1]):04X} at place 2"):
-        build_fmu(system, "swing", tmp_path / "out", ["linux64"], author=text)
-    with pytest.raises(ValueError, match=r"description of the model has the character U\+"):
-        build_fmu(system, f"swing {text}", tmp_path / "out", ["linux64"])
+    for text in ("a\x01b", "a\x00b", "a\ud800b", "a\ufffeb"):
+        with pytest.raises(ValueError, match=rf"author has the character U\+{ord(text[1]):04X} at place 2"):
+            build_fmu(system, "swing", tmp_path / "out", ["linux64"], author=text)
+        with pytest.raises(ValueError, match=r"description of the model has the character U\+"):
+            build_fmu(system, f"swing {text}", tmp_path / "out", ["linux64"])
     assert not (tmp_path / "out").exists()
 
 
-def test_a_description_of_a_variable_is_named() -> None:
+def test_a_text_of_a_variable_is_named() -> None:
     table = [
         Variable(name, "output", "continuous", "m", text, "sensor", k)
         for k, (name, text) in enumerate((("bob.x", "good\n\tµ"), ("bob.y", "bell \x07")))
@@ -111,9 +111,5 @@ def test_a_description_of_a_variable_is_named() -> None:
     check_texts("model", ("", "", ""), table[:1])
     with pytest.raises(ValueError, match=r"description of 'bob\.y' has the character U\+0007 at place 6"):
         check_texts("model", ("", "", ""), table)
-
-
-def test_a_name_of_a_variable_is_looked_at() -> None:
-    table = [Variable("bob\ufffe", "output", "continuous", "m", "", "sensor", 0)]
     with pytest.raises(ValueError, match=r"name 'bob\\ufffe' has the character U\+FFFE at place 4"):
-        check_texts("model", ("", "", ""), table)
+        check_texts("model", ("", "", ""), [Variable("bob\ufffe", "output", "continuous", "m", "", "sensor", 0)])

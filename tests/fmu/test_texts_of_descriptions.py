@@ -15,6 +15,7 @@ from fmu_src.description.fmi3 import terminals
 from fmu_src.description.nominal_values import drive_sizes, with_nominal
 from fmu_src.variables.arrays import arrays, common_text
 from fmu_src.variables.variables import Variable, variable_table
+from tests.quick import quick
 
 MOST = 60.0  # times the typical size, and a part of it, in common drives
 DRIVES = ("slalom", "launch_and_brake")
@@ -26,7 +27,7 @@ def with_typical_sizes(systems: Sequence[mbs.System]) -> tuple[Variable, ...]:
     return with_nominal(table, sizes, sizes)
 
 
-@pytest.fixture(scope="module", params=manoeuvres.CARS)
+@pytest.fixture(scope="module", params=quick((manoeuvres.PROTOTYPE,), manoeuvres.CARS, "proof"))
 def car(request: pytest.FixtureRequest) -> tuple[str, tuple[Variable, ...]]:
     return request.param, with_typical_sizes([manoeuvres.system_of("drop", request.param)])
 
@@ -71,18 +72,15 @@ def test_types_have_names_without_numbers(car: tuple[str, tuple[Variable, ...]])
     assert all(t["quantity"] != "Quantity" for t in types.values())
 
 
-@pytest.mark.parametrize(
-    ("texts", "message"),
-    [
+def test_a_text_of_an_array_is_of_all_elements() -> None:
+    for texts, message in (
         (("x of the centre", "y of the centre", "z of the centre"), "x, y, z of the centre"),
         (("at gauge 1", "at gauge 2", "at gauge 3"), "at gauge 1 to 3"),
         (("along x, forward, here", "along y, left, here"), "along x, forward; y, left, here"),
         (("the same", "the same"), "the same"),
         (("one", "two of them"), "one; two of them"),
-    ],
-)
-def test_a_text_of_an_array_is_of_all_elements(texts: tuple[str, ...], message: str) -> None:
-    assert common_text(texts) == message
+    ):
+        assert common_text(texts) == message
 
 
 def test_inputs_of_a_car_are_the_terminal_of_its_driver(car: tuple[str, tuple[Variable, ...]]) -> None:

@@ -17,7 +17,7 @@ VELOCITY = 1e-9  # of the largest velocity; positions over h, times the loss nea
 ACCELERATION = 1e-7  # of the largest acceleration; velocities over h
 MULTIPLIER = 1e-6  # of the largest multiplier
 PENALISED = 1e-14  # constraint units: what alpha turns into multipliers in equation (16)
-STEPS = 150
+STEPS = 60
 SETTINGS = {
     "linearised": Settings(eps_rel=EPS_REL, predictor="acceleration"),
     # equation (16) adds alpha times the round-off of Phi to the multipliers, which bounds the residual it can reach;
@@ -80,8 +80,7 @@ def agrees(after, expected, settings, h):
     )
 
 
-@pytest.mark.parametrize("h", [0.01, 0.03])
-@pytest.mark.parametrize("update", list(SETTINGS))
+@pytest.mark.parametrize(("update", "h"), [("linearised", 0.01), ("linearised", 0.03), ("paper", 0.03)])
 @pytest.mark.parametrize("scene", list(SCENES))
 def test_every_step_is_that_of_the_paper(scene, update, h):
     system, settings = compile(SCENES[scene]()), SETTINGS[update]
@@ -94,16 +93,16 @@ def test_every_step_is_that_of_the_paper(scene, update, h):
     assert relative(simulation.state.q, system.arrays["q0"]) > 0.1  # it has moved
 
 
-@pytest.mark.parametrize("change", [{"geometric": False}, {"update": "paper"}, {"project": False}])
 @pytest.mark.parametrize("scene", list(SCENES))
-def test_the_comparison_distinguishes_variants(scene, change):
+def test_the_comparison_distinguishes_variants(scene):
     system, settings, h = compile(SCENES[scene]()), SETTINGS["linearised"], 0.03
     simulation = Simulation(system, settings=settings)
     simulation.step(h, n=20)
     before, result = simulation.state, stepped(simulation, h)
     assert agrees(simulation.state, oracle_step(system, before, settings, h, result), settings, h)
-    variant = oracle_step(system, before, replace(settings, **change), h, result)
-    assert not agrees(simulation.state, variant, settings, h)
+    for change in ({"geometric": False}, {"update": "paper"}, {"project": False}):
+        variant = oracle_step(system, before, replace(settings, **change), h, result)
+        assert not agrees(simulation.state, variant, settings, h)
 
 
 def test_without_projections_the_step_is_that_of_the_paper_too():

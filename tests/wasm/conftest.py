@@ -53,17 +53,11 @@ def rough(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 @pytest.fixture(scope="session")
 def prototype(built: Built, rough: bytes) -> Fmu:
     """The prototype in its first three fidelities."""
-    return built("prototype", lambda: ("prototype_car", _fidelities("prototype")), {"roads/own.road": rough})
 
+    def systems() -> tuple[str, object]:
+        return "prototype_car", [mbs.compile(load("prototype").model(fidelity=k)) for k in range(3)]
 
-@pytest.fixture(scope="session")
-def hatchback(built: Built) -> Fmu:
-    """The hatchback in its first three fidelities."""
-    return built("hatchback", lambda: ("hatchback", _fidelities("hatchback")))
-
-
-def _fidelities(car: str) -> list[mbs.System]:
-    return [mbs.compile(load(car).model(fidelity=k)) for k in range(3)]
+    return built("prototype", systems, {"roads/own.road": rough})
 
 
 @pytest.fixture(scope="session")

@@ -146,7 +146,7 @@ def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, t
             assert loaded.remove_file("roads/long.road")
             assert not loaded.remove_file("roads/long.road")
         heights = []
-        for k in range(100):
+        for k in range(70):
             loaded.doStep(k * 0.05, 0.05)
             heights += loaded.getReal([prototype.kinds[name][1] for name in ("chassis.x", "chassis.z")])
         return heights
@@ -155,14 +155,6 @@ def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, t
     assert usual[-2] > 200.0
     assert driven("other") == usual
     assert driven("none") == usual
-
-
-@pytest.mark.slow
-def test_the_same_sources_give_the_same_module(small: Callable[[str], Fmu], tmp_path: Path) -> None:
-    name, system = load_scene(f"{SCENES}:crane")
-    again = build(system, name, tmp_path, ["wasm32"], kind="native")
-    with zipfile.ZipFile(again) as archive:
-        assert archive.read("binaries/wasm32/Crane.wasm") == small("crane").wasm
 
 
 @pytest.fixture
@@ -177,7 +169,7 @@ def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callab
     out = tmp_path / "out"
     assert build_fmu.main(["--fmu", str(bare), "--platforms", "wasm32", "--out", str(out)]) == 0
     fmu = Fmu(out / "Crane.fmu", tmp_path / "made")
-    assert fmu.wasm == small("crane").wasm
+    assert fmu.wasm == small("crane").wasm  # the same sources give the same module
     with zipfile.ZipFile(bare) as before, zipfile.ZipFile(out / "Crane.fmu") as after:
         assert {n: after.read(n) for n in before.namelist()} == {n: before.read(n) for n in before.namelist()}
     again = ["--fmu", str(out / "Crane.fmu"), "--platforms", "wasm32", "--out", str(out)]
@@ -186,7 +178,6 @@ def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callab
 
 
 @pytest.mark.slow
-@unoptimised()
 def test_other_sources_than_those_installed_are_compiled(bare: Path, tmp_path: Path) -> None:
     """The sign of a damper is turned in the FMU's sources: the module has it, the library of this machine has not."""
     plan = Plan({"torque": 2.0}, ["torque"], [{"h": 0.01, "inputs": [2.0]}] * 20)

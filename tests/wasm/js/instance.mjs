@@ -31,7 +31,6 @@ told.otherGuid = await load({ description: { ...description, guid: "{0}" } }).th
 );
 
 const fmu = await load();
-told.type = fmu.variables.get("fidelity").type;
 const car = fmu.instantiate({ logging: true });
 told.loaded = car.messages.map((m) => [m.status, m.category, m.text]);
 told.early = refused(() => car.step(0.002));
