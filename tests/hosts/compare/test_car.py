@@ -15,6 +15,8 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 END = 5.0
 ALIASES = """
 [time]
@@ -196,7 +198,9 @@ def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_
 
 
 @pytest.mark.slow
-def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_windows_begin_as_measured_each(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], in_this_process: pytest.MonkeyPatch
+) -> None:
     """The second half is left out."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     parts = ("--windows", "1", "--window-every", "0.5", "--seconds", "0.5:3")
@@ -209,6 +213,7 @@ def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytes
     bins = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
     assert sum(b["samples"] for b in bins) == 4 * 101
     assert {(b["low"], b["high"]) for b in bins} >= {(0.0, 2.0), (2.0, 4.0)}
+    in_this_process.undo()
     # Processes share the windows; not one digit depends on their number.
     _, shared = compared(car, log, *parts, "--jobs", "2", signals="chassis.wz")
     assert values(shared) == values(record)

@@ -40,7 +40,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write(tmp_path_factory.mktemp("log") / "drive.csv", log_columns())
 
 
-@pytest.mark.usefixtures("tuned")
+@pytest.mark.usefixtures("in_this_process")
 class TestCommand:
     @pytest.mark.slow
     def test_a_fit_that_is_stopped_leaves_the_comparison(
@@ -169,7 +169,6 @@ class TestCommand:
         output = capsys.readouterr().out
         assert all(message in output for message in messages)
 
-    @pytest.mark.slow
     def test_a_constant_signal_beside_a_log_that_is_not_written_over(
         self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
     ) -> None:
@@ -219,7 +218,6 @@ class TestCommand:
         assert errors.count("\n") == 1
         assert not list(tmp_path.iterdir())
 
-    @pytest.mark.slow
     def test_a_gap_in_an_input(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         columns = log_columns()
         hole = (columns["time"] > 2.0) & (columns["time"] < 3.0)
