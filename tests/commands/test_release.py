@@ -1,5 +1,6 @@
 """A release needs one version everywhere, a section of the changelog, and workflows that are valid."""
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from tests.modules import module_of
 
 ROOT = Path(__file__).parents[2]
+FILES = ("pyproject.toml", "CITATION.cff", "CHANGELOG.md", "fmu_src/description/description.py")
 
 
 @pytest.fixture(scope="module")
@@ -68,6 +70,24 @@ def test_the_command_ends_with_one_if_a_release_is_not_ready(
     monkeypatch.setattr("sys.argv", ["check_release.py", "v1.0.0"])
     assert check_release.main() == 1
     assert "error: The tag is v1.0.0" in capsys.readouterr().err
+
+
+def test_all_parts_of_the_release_are_checked_with_the_present_files(tmp_path: Path, check_release: ModuleType) -> None:
+    """The places that are read are where they are read: a tag of another version is refused by three of them."""
+    for name in FILES:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    version = check_release.version_of(tmp_path)
+    assert version is not None
+    changes = tmp_path / "CHANGELOG.md"
+    text = changes.read_text(encoding="utf-8")
+    if f"[{version}]" not in text:
+        changes.write_text(text.replace("## [Unreleased]", f"## [{version}] - 2000-01-02", 1), encoding="utf-8")
+        problems = check_release.problems(tmp_path, f"v{version}")
+        assert [s.rpartition(", ")[2].partition(" says")[0] for s in problems] == [
+            "CITATION.cff",
+            "fmu_src/description/description.py",
+        ]
 
 
 def test_workflows_are_valid() -> None:

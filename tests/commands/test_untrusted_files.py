@@ -209,10 +209,6 @@ def _calculix(path: Path) -> Any:
     return calculix_matrices(path)
 
 
-def _device(path: Path) -> Any:
-    return MappingFiles(path.parent).read(path.stem)
-
-
 def _car_table(path: Path) -> list[float]:
     return [row.number("x", -9.0, 9.0, "m") for row in read_car_table(path.parent, path.name, "frame.joints", ("x",))]
 
