@@ -31,6 +31,8 @@ NAMES = (
 )
 HEAVY = ("numpy", "scipy", "fmpy", "matplotlib", "lxml", "pydantic", "tqdm", "pandas", "distributed")
 OURS = ("mbs", "fmu_src", "hosts", "viewer")
+HEAVIER = ("simulator", "catalogue")
+"""Commands whose modules load for more than a second."""
 MOST_MODULES = 40
 """Of ours, which the help of a command may load."""
 MOST_OPTIONS = 176
@@ -215,7 +217,10 @@ def test_messages_name_the_command_that_was_typed(
     assert "ali3 compare: error: the following arguments are required" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
+@pytest.mark.parametrize(
+    "command",
+    [pytest.param(c, marks=[pytest.mark.slow] * (c.name in HEAVIER), id=c.name) for c in COMMANDS],
+)
 def test_what_is_long_on_a_command_line_is_not_quoted_whole(
     command: Command, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
