@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import sys
 import time
 from pathlib import Path
 
@@ -36,16 +35,6 @@ def test_without_a_home_it_is_a_folder_that_goes(tmp_path, monkeypatch):
     assert folder.is_dir()
     assert tmp_path not in folder.parents
     assert cache_folder("worlds") == folder
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="the place on Linux")
-def test_the_usual_place(tmp_path, monkeypatch):
-    monkeypatch.delenv("ALI3_CACHE", raising=False)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert cache_folder("a") == tmp_path / "ali3" / "a"
-    monkeypatch.delenv("XDG_CACHE_HOME")
-    monkeypatch.setenv("HOME", str(tmp_path / "home"))
-    assert cache_folder("a") == tmp_path / "home" / ".cache" / "ali3" / "a"
 
 
 def test_the_folders_that_were_used_last_stay(tmp_path):

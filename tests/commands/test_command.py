@@ -31,6 +31,8 @@ NAMES = (
 )
 HEAVY = ("numpy", "scipy", "fmpy", "matplotlib", "lxml", "pydantic", "tqdm", "pandas", "distributed")
 OURS = ("mbs", "fmu_src", "hosts", "viewer")
+HEAVIER = ("simulator", "catalogue")
+"""Commands whose modules load for more than a second."""
 MOST_MODULES = 40
 """Of ours, which the help of a command may load."""
 MOST_OPTIONS = 176
@@ -122,14 +124,6 @@ def ran(command: list[object], folder: Path) -> subprocess.CompletedProcess[str]
     return subprocess.run([sys.executable, *map(str, command)], capture_output=True, text=True, check=False, cwd=folder)
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=lambda c: c.name)
-def test_each_command_helps_under_its_name(command: object, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as end:
-        main([command.name, "--help"])
-    assert end.value.code == 0
-    assert capsys.readouterr().out.startswith(f"usage: ali3 {command.name} ")
-
-
 def test_each_command_is_in_the_documents() -> None:
     page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
     rows = [line.split("|")[1:3] for line in page.splitlines() if line.startswith("| `ali3 ")]
@@ -152,7 +146,9 @@ def test_the_help_of_a_command_imports_nothing_heavy(command: Command, tmp_path:
         "import sys; from ali3.command import main\n"
         f"try: main([{command.name!r}, '--help'])\nfinally: print('\\n', *sys.modules)"
     )
-    loaded = set(ran(["-c", text], tmp_path).stdout.split("\n ")[-1].split())
+    done = ran(["-c", text], tmp_path)
+    assert done.stdout.startswith(f"usage: ali3 {command.name} ")
+    loaded = set(done.stdout.split("\n ")[-1].split())
     assert command.module in loaded
     assert not set(HEAVY) & loaded
     ours = {name for name in loaded if name.partition(".")[0] in (*OURS, "ali3")}
@@ -221,7 +217,10 @@ def test_messages_name_the_command_that_was_typed(
     assert "ali3 compare: error: the following arguments are required" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
+@pytest.mark.parametrize(
+    "command",
+    [pytest.param(c, marks=[pytest.mark.slow] * (c.name in HEAVIER), id=c.name) for c in COMMANDS],
+)
 def test_what_is_long_on_a_command_line_is_not_quoted_whole(
     command: Command, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -84,7 +84,6 @@ def test_names_of_files_send_no_control_characters_to_a_terminal(capsys: pytest.
     assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
 
 
-@pytest.mark.slow
 def test_errors_of_ours_keep_their_traceback() -> None:
     for error in (ZeroDivisionError(), ModuleNotFoundError("No module named 'x'", name="x")):
         with pytest.raises(type(error)):
@@ -97,6 +96,7 @@ def test_a_module_starts_with_the_same_search_path(tmp_path: Path) -> None:
     assert subprocess.run(command, cwd=tmp_path, capture_output=True, check=False).returncode == 0
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for one process there")
 def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, tmp_path: Path) -> None:
     (tmp_path / "m.csv").write_text('"time","torque"\n0,0\n100000,1\n')

@@ -78,19 +78,6 @@ def test_the_extra_of_the_command_comes_first(command: str, extra: str, package:
     assert missing_package(package, extra).endswith(f'pip install "ali3[{reported}]"')
 
 
-@pytest.mark.slow
-def test_a_study_without_its_packages(tmp_path: Path) -> None:
-    (tmp_path / "s.toml").write_text('fmu = "no.fmu"\n')
-    block = "import sys; [sys.modules.__setitem__(n, None) for n in ('pyarrow', 'fmpy', 'pandas')]\n"
-    code = f"{block}import runpy; sys.argv = ['ali3', 'study', 's.toml']\n"
-    code += f"sys.path.insert(0, {str(ROOT)!r}); runpy.run_module('ali3', run_name='__main__', alter_sys=True)"
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert re.fullmatch(
-        r'error: The package \w+ is not installed; run: python -m pip install "ali3\[study\]"\n', done.stderr
-    )
-
-
 def caught(work: Callable[[], object]) -> ModuleNotFoundError:
     with pytest.raises(ModuleNotFoundError) as raised:
         work()
@@ -106,12 +93,6 @@ def test_a_module_that_a_library_wants_at_run_time(monkeypatch: pytest.MonkeyPat
     assert message == (
         'The package trimesh needs pyglet, which is not installed; run: python -m pip install "ali3[pictures]" pyglet'
     )
-
-
-@pytest.mark.slow
-def test_a_mistake_in_code_is_no_missing_package() -> None:
-    error = caught(lambda: __import__("nothing_of_this_name"))
-    assert caught(lambda: missing_module(error)) is error
 
 
 @pytest.mark.proof

@@ -132,7 +132,7 @@ def test_two_writers_of_one_archive_do_not_meet(tmp_path: Path) -> None:
         except Exception as error:
             errors.append(error)
 
-    for _ in range(30):
+    for _ in range(10):
         start = threading.Barrier(2)
         writers = [threading.Thread(target=write, args=(k, start)) for k in range(2)]
         for writer in writers:

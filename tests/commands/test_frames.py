@@ -110,11 +110,10 @@ def scribble(task: bytes, tell: Callable[[float], None]) -> int:
     return 1
 
 
-@pytest.mark.parametrize("data", [pickle.dumps(os.getcwd), b"\0" * 17 + b"{}", b"\xff" * 40])
-def test_bytes_that_a_library_writes_into_the_channel_run_nothing(data: bytes) -> None:
+def test_bytes_that_a_library_writes_into_the_channel_run_nothing() -> None:
     worker: Isolated[bytes, int] = Isolated(scribble, int)
     try:
-        answer = worker.do(data)
+        answer = worker.do(pickle.dumps(os.getcwd))
         assert isinstance(answer, Lost)
         assert worker.do(b"") == 1
     finally:

@@ -12,7 +12,6 @@ from typing import Any
 import psutil
 import pytest
 
-from ali3.child_processes import how_ended
 from ali3.errors import FileError, UserError
 from ali3.isolated_processes import Isolated, Lost
 
@@ -135,14 +134,6 @@ def test_signals_of_a_terminal_are_left_to_the_program(worker: Isolated[str, Any
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         os.kill(process, number)
     assert worker.do("") == (2, process)
-
-
-@posix
-def test_how_a_process_ended() -> None:
-    assert how_ended(-signal.SIGSEGV, "one\nlast words\n") == "crashed (SIGSEGV): last words"
-    assert how_ended(-signal.SIGTERM) == "was ended by SIGTERM"
-    assert how_ended(-200) == "was ended by signal 200"
-    assert how_ended(None) == "ended with exit code None"
 
 
 def talkative(task: float, tell: Tell) -> int:

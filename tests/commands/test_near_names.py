@@ -1,8 +1,8 @@
-"""Suggestions for an unknown name, and the sentence that lists them."""
+"""Suggestions for an unknown name."""
 
 import pytest
 
-from ali3.near_names import did_you_mean, near_names
+from ali3.near_names import near_names
 
 KNOWN = ("spring.stiffness", "spring.damping", "Chassis.ay", "chassis.AY", "bob.x")
 
@@ -27,13 +27,6 @@ def test_near_names(name: str, near: list[str]) -> None:
 
 def test_no_more_than_asked_and_the_nearest_first() -> None:
     assert near_names("wheel_F", ["wheel_FLx", "wheel_FL", "wheel_FR"], 2) == ["wheel_FR", "wheel_FL"]
-
-
-def test_the_end_of_a_sentence() -> None:
-    assert did_you_mean("Bob.x", KNOWN, "there are many") == "; did you mean 'bob.x'?"
-    assert did_you_mean("chassis.ay", KNOWN) == "; did you mean 'Chassis.ay' or 'chassis.AY'?"
-    assert did_you_mean("wheel", KNOWN, "there are many") == "; there are many."
-    assert did_you_mean("wheel", KNOWN) == "."
 
 
 def test_words_of_a_name_in_another_order_are_another_name() -> None:

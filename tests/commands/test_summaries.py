@@ -36,6 +36,7 @@ def sledge(road: GridRoad | RoadFile) -> mbs.System:
     return mbs.compile(m)
 
 
+@pytest.mark.slow
 def test_what_readers_return_sums_itself_up(tmp_path: Path) -> None:
     write_road(LEVEL, tmp_path / "level.road")
     (tmp_path / "arm.urdf").write_text(URDF)
@@ -89,6 +90,7 @@ def test_a_simulation_reports_a_start_beside_its_road(tmp_path: Path, of_file: b
         mbs.Simulation(system, pose=Pose(x=300.0))
 
 
+@pytest.mark.slow
 def test_the_picture_of_a_car_has_all_points_of_its_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert car_command(["saloon", "--picture", str(tmp_path / "saloon.png")]) == 0
     assert (tmp_path / "saloon.png").read_bytes().startswith(b"\x89PNG")

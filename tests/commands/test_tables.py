@@ -110,26 +110,6 @@ def test_an_invalid_table_is_refused(tmp_path: Path, text: str | bytes, message:
     assert str(refusal.value) == f"{tmp_path}/{message}"
 
 
-class _CountedName(str):
-    """A name that counts how often it is compared."""
-
-    compared = 0
-    __hash__ = str.__hash__
-
-    def __eq__(self, other: object) -> bool:
-        _CountedName.compared += 1
-        return str.__eq__(self, other)
-
-
-def test_names_of_many_columns_are_not_compared_with_each_other(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    cells = [_CountedName(f"a{k}") for k in range(1000)]
-    monkeypatch.setattr("ali3.tables.cells_of", lambda line, mark: cells)
-    assert table(tmp_path, "a0,a1\n").names == cells
-    assert _CountedName.compared < 5000  # each with each: half a million
-
-
 def test_numbers_are_those_of_decimal_digits() -> None:
     assert [is_number(c) for c in ("1", "-.5e3", "1_0", "\uff11", "0x1", "", "nan", "1,5")] == [True] * 2 + [False] * 6
     assert is_number("1,5", decimal=",")

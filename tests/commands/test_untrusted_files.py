@@ -209,10 +209,6 @@ def _calculix(path: Path) -> Any:
     return calculix_matrices(path)
 
 
-def _device(path: Path) -> Any:
-    return MappingFiles(path.parent).read(path.stem)
-
-
 def _car_table(path: Path) -> list[float]:
     return [row.number("x", -9.0, 9.0, "m") for row in read_car_table(path.parent, path.name, "frame.joints", ("x",))]
 
@@ -427,8 +423,8 @@ def test_each_value_may_be_of_another_kind(kind: str, tmp_path: Path) -> None:
     assert not faults, f"{len(faults)} of {len(documents)}:\n" + "\n".join(faults[:10])
 
 
-@pytest.mark.parametrize("kind", ["car", "study", "manoeuvre", "log", "record of a result"])
-@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("kind", ["car", "log", "record of a result"])
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be"])
 def test_a_text_in_another_encoding_is_called_so(kind: str, encoding: str, tmp_path: Path) -> None:
     name, _, template, read = KINDS[kind]
     (tmp_path / name).write_bytes(template.replace("@", "1").encode(encoding))

@@ -49,6 +49,8 @@ def test_the_names_it_puts_among_the_packages(wheel: Path) -> None:
     for needed in (
         "mbs/py.typed",
         "mbs/kernel/include/ali3.h",
+        "ali3/alias_files/carsim.toml",
+        "ali3/report.css",
         "hosts/driving/manoeuvres/slalom.toml",
         "hosts/c/host.c",
         "viewer/bundle/ali3-viewer.js",

@@ -4,8 +4,6 @@ import doctest
 import importlib
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[2]
 MODULES = sorted(
     ".".join(path.relative_to(ROOT).with_suffix("").parts)
@@ -15,14 +13,8 @@ MODULES = sorted(
 )
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_examples_of_a_module(name: str) -> None:
-    actual = doctest.testmod(importlib.import_module(name))
-    assert actual.attempted > 0
-    assert actual.failed == 0
-
-
-def test_there_are_some() -> None:
-    assert {"mbs.common.affine", "mbs.compiler.elimination", "mbs.model.model", "fmu_src.variables.units"} <= set(
-        MODULES
-    )
+def test_examples_of_each_module() -> None:
+    assert len(MODULES) > 5
+    for name in MODULES:
+        actual = doctest.testmod(importlib.import_module(name))
+        assert (actual.attempted > 0, actual.failed) == (True, 0), name

@@ -74,32 +74,3 @@ def test_a_site_without_live_pages_says_so(
     app = site(tmp_path)
     live_pages.build(app)
     assert "This copy of the site was built without the pages" in text(live_pages, app)
-
-
-def test_every_page_of_the_list_can_be_made(live_pages: ModuleType) -> None:
-    source = (ROOT / "docs" / "_site" / "make_live_page.py").read_text(encoding="utf-8")
-    assert all(f'"{name}":' in source for name in live_pages.PAGES)
-
-
-def test_pages_of_one_fmu_build_it_once(
-    live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    maker, builds = module_of(SITE / "make_live_page.py"), []
-
-    def build(arguments: Sequence[str], command: str) -> int:
-        builds.append(arguments)
-        Path(arguments[-1], "Car.fmu").touch()
-        return 0
-
-    def view(arguments: Sequence[str], command: str) -> int:
-        title = arguments[arguments.index("--title") + 1]
-        Path(arguments[arguments.index("--out") + 1], "Car_live.html").write_text(title)
-        return 0
-
-    monkeypatch.setattr(maker, "build", build)
-    monkeypatch.setattr(maker, "view", view)
-    monkeypatch.setattr(maker, "fmu_parts", lambda path: SimpleNamespace(path=path))
-    maker.main(live_pages.OF_ONE_FMU, tmp_path)
-    assert len(builds) == 1
-    shown = {name: (tmp_path / f"{name}.html").read_text() for name in live_pages.OF_ONE_FMU}
-    assert shown == {"proving_ground": "The proving ground", "prototype": "The prototype car"}

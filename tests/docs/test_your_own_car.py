@@ -14,6 +14,8 @@ import pytest
 
 from ali3.command import main
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "your_own_car.md").read_text(encoding="utf-8")
 COMMANDS = re.findall(r"^    ali3 (.*)$", PAGE, re.MULTILINE)
@@ -54,6 +56,8 @@ def folder(tmp_path_factory):
     assert "my_car/car.toml" in ali3(COMMANDS[1], place).replace("\\", "/")
     (snippet,) = blocks("toml")
     edit(place / "my_car" / "car.toml", tomllib.loads(snippet))
+    assert (place / "my_car" / "car.toml").read_text(encoding="utf-8").startswith("#:schema car.schema.json\n")
+    assert (place / "my_car" / "car.schema.json").is_file()
     return place
 
 
@@ -67,11 +71,6 @@ def test_the_check_prints_the_output_of_the_page(folder):
         assert line in printed
     assert "warning" not in printed
     assert "front.damper.damping" in ali3(f"{COMMANDS[2]} --show-parameters", folder)
-
-
-def test_the_copy_names_its_schema(folder):
-    assert (folder / "my_car" / "car.toml").read_text(encoding="utf-8").startswith("#:schema car.schema.json\n")
-    assert (folder / "my_car" / "car.schema.json").is_file()
 
 
 @pytest.mark.parametrize(
@@ -118,7 +117,6 @@ def test_the_snippet_in_python(folder):
     assert 3.0 < float(re.search(r"after 2 s (\d+) m/s", done.stdout)[1]) < 15.0
 
 
-@pytest.mark.slow
 def test_build_drive_and_tune(folder):
     assert "dist/MyCar.fmu" in ali3(COMMANDS[3], folder).replace("\\", "/")
     assert (folder / "dist" / "MyCar.ssv").is_file()

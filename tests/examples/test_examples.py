@@ -7,7 +7,6 @@ import pytest
 from matplotlib import image
 
 from tests.modules import module_of
-from tests.quick import quick
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples"
@@ -28,11 +27,19 @@ PROMISED = {
 LONGEST = 60  # lines
 
 
-# builds a car with ports; tests of ports and of the plant see its faults too
-QUICK = set(PROMISED) - {"anti_lock_brakes"}
+SLOW = ("four_bar", "slider_crank", "car_over_kerb", "motor_pendulum")
+# builds a car with ports; tests of ports and of the plant, and that of the page on systems see its faults too
+PROOF = ("anti_lock_brakes",)
 
 
-@pytest.mark.parametrize("name", quick(QUICK, PROMISED))
+@pytest.mark.parametrize(
+    "name",
+    [
+        *sorted(set(PROMISED).difference(SLOW, PROOF)),
+        *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW),
+        *(pytest.param(name, marks=pytest.mark.proof) for name in PROOF),
+    ],
+)
 def test_an_example_keeps_its_promise(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO, Any
 
 import pytest
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 HERE = Path(__file__).resolve().parent
@@ -19,8 +20,8 @@ _PNG = base64.b64decode(
 )
 
 
-def _one_point(_: Figure, file: str | Path | IO[bytes], **options: Any) -> None:
-    content = _SVG if options.get("format") == "svg" else _PNG
+def _one_point(of: Figure | FigureCanvasSVG, file: str | Path | IO[bytes], **options: Any) -> None:
+    content = _SVG if options.get("format") == "svg" or isinstance(of, FigureCanvasSVG) else _PNG
     if isinstance(file, (str, Path)):
         Path(file).write_bytes(content)
     else:
@@ -34,6 +35,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object
         return (yield)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Figure, "savefig", _one_point)
+        patch.setattr(FigureCanvasSVG, "print_svg", _one_point)
         return (yield)
 
 

@@ -66,10 +66,3 @@ def test_a_circle_is_seen(imports: dict[str, set[str]]) -> None:
     turned = {**imports, "mbs.common.errors": {"mbs.common.checks", "mbs.compiler.rows"}}
     assert "mbs.common.errors" in circle(turned)
     assert "mbs.common" in circle(rooms(turned))
-
-
-def test_a_circle_through_a_table_of_names_is_seen() -> None:
-    texts = sources(KERNEL)
-    texts["methods/newton.c"] += "\nint x = (int)ali3_method_order;\n"
-    graph = {file: set(names.values()) for file, names in calls(texts).items()}
-    assert "methods/methods.c" in circle(graph)

@@ -101,31 +101,3 @@ def test_files_are_opened_by_the_doors_alone() -> None:
                     results.append(f"{place}: {name}")
     assert not results, "read through a door of this list, or say why it is behind one:\n" + "\n".join(results)
     assert sorted({*DOORS, *OWN, *(place for place, _ in BEHIND)} - used) == []
-
-
-@pytest.mark.parametrize(
-    ("code", "names"),
-    [
-        ("open('a')", ["open"]),
-        ("open('a', 'w')", []),
-        ("open(file, mode='rb')", ["open"]),
-        ("path.open()", ["open"]),
-        ("path.open('rb')", ["open"]),
-        ("path.open(encoding='utf-8')", ["open"]),
-        ("path.open('w', encoding='utf-8')", []),
-        ("path.open('rb+')", []),
-        ("axle.open(folder)", []),
-        ("Path('a').read_text()", ["read_text"]),
-        ("path.read_bytes()", ["read_bytes"]),
-        ("read_bytes(path, 3)", []),
-        ("np.load(file)", ["np.load"]),
-        ("scipy.io.mmread(file)", ["mmread"]),
-        ("zipfile.ZipFile(file)", ["ZipFile"]),
-        ("zipfile.ZipFile(file, 'w')", []),
-        ("PIL.Image.open(file)", ["Image.open"]),
-        ("trimesh.load_mesh(file)", ["load_mesh"]),
-        ("json.load(file)", []),
-    ],
-)
-def test_the_walk_sees_readers_and_no_writers(code: str, names: list[str]) -> None:
-    assert list(readers(ast.parse(code))) == names

@@ -43,6 +43,7 @@ def ran(code: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
 
 
+@pytest.mark.slow
 def test_paths_of_the_documents_need_one_import() -> None:
     """Each with none of the engine imported, but NumPy and others that are not ours."""
     code = """import sys, mbs
@@ -80,6 +81,7 @@ def test_importing_mbs_loads_no_package() -> None:
     assert ran(code).stdout.split() == []
 
 
+@pytest.mark.slow
 def test_a_study_does_not_load_optional_packages() -> None:
     names = {f"hosts.study.{name}" for name in ("campaign", "command", "outcome_table", "trial_runs")}
     names |= {f"hosts.experiment.{name}" for name in ("cluster", "cluster_runs")}

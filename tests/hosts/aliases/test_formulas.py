@@ -130,8 +130,6 @@ NAMES = ("vx", "vy", "qw", "Throttle")
         ('throttle = { name = "Throttle", unit = "degC" }', "the unit 'degC' has another zero than the SI unit"),
         ('throttle = { name = "Throttle", factor = "big" }', "factor is 'big'; it must be a number, or a constant"),
         ('extends = "carsin"', "extends is 'carsin': there is neither a file"),
-        ("extends = 3", "extends is 3; it must be the name of an alias file"),
-        ("partial = 3", "partial is 3; it must be true or false"),
         ("needs = 3", "[needs] must be a table of texts"),
         ('partial = true\nthrottle = "Gas"', "of its 1 names this FMU has none, such as 'Gas'; is it an FMU of that"),
     ],

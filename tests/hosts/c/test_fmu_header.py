@@ -5,7 +5,6 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
-from itertools import product
 from pathlib import Path
 
 import fmpy
@@ -14,7 +13,6 @@ import pytest
 from hosts.fmu.built_fmu import build_fmu, fmu_of_car
 from hosts.plant import Car
 from tests.fmu.native import unpack
-from tests.quick import quick
 
 HERE = Path(__file__).parents[3] / "hosts" / "c"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -72,14 +70,9 @@ def test_the_example_drives_as_python_does(prototype: Path, tmp_path: Path) -> N
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("standard", "compiler"),
-    quick({("c++17", "g++"), ("c++20", "clang++")}, product(("c++17", "c++20"), ("g++", "clang++")), "proof"),
-)
-def test_the_header_compiles_without_a_warning(compiler: str, standard: str, tmp_path: Path) -> None:
-    if shutil.which(compiler) is None:
-        pytest.skip(f"{compiler} is not there")
-    compiled([compiler], HERE / "drive.cpp", tmp_path, standard)
+@pytest.mark.skipif(shutil.which("clang++") is None, reason="there is no clang++")
+def test_the_header_compiles_without_a_warning_by_another_compiler_and_standard(tmp_path: Path) -> None:
+    compiled(["clang++"], HERE / "drive.cpp", tmp_path, "c++20")
 
 
 @pytest.mark.proof

@@ -1,9 +1,7 @@
 """Logs of a car: made by the car's FMU at another step, with noise, delay and units of a data logger."""
 
-import csv
 import functools
 import json
-import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -16,6 +14,8 @@ from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
+
+pytestmark = pytest.mark.usefixtures("in_this_process")
 
 END = 5.0
 ALIASES = """
@@ -124,53 +124,35 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("column", "reported"),
-    [
-        ("Lenkrad", ["The input 'Lenkrad' (steering) has the opposite sign", "chassis.wz and chassis.ay have"]),
-        ("ay", ["'ay' (chassis.ay) has the opposite sign of the simulation"]),
-    ],
-)
 def test_an_inverted_input_is_reported_and_not_the_outputs(
-    car: Path, tmp_path: Path, column: str, reported: list[str], capsys: pytest.CaptureFixture[str]
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     file = log.with_suffix(".toml")
-    aliases, count = re.subn(f' = "{column}"', f' = {{ name = "{column}", factor = -1.0 }}', file.read_text("utf-8"))
-    assert count == 1
+    aliases = file.read_text("utf-8").replace('= "Lenkrad"', '= { name = "Lenkrad", factor = -1.0 }')
     file.write_text(aliases, encoding="utf-8")
     status, _ = compared(car, log)
     assert status == 1
     lines = [line for line in capsys.readouterr().out.splitlines() if "opposite sign" in line]
     assert len(lines) == 1
-    assert all(message in lines[0] for message in reported)
+    assert "The input 'Lenkrad' (steering) has the opposite sign" in lines[0]
+    assert "chassis.wz and chassis.ay have" in lines[0]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("unit", "reported"), [("m/s", True), ("km/h", False)])
-def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_it(
-    car: Path, tmp_path: Path, unit: str, reported: bool, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_it(car: Path, tmp_path: Path) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     file = log.with_suffix(".toml")
     lines = file.read_text("utf-8").splitlines()
     kept = [n for n in lines if not n.startswith(('"chassis.ay', '"chassis.v', '"chassis.x', '"chassis.y'))]
-    named = "\n".join(kept).replace('speed = "v"', f'speed = {{ name = "v", unit = "{unit}" }}')
+    named = "\n".join(kept).replace('speed = "v"', 'speed = { name = "v", unit = "m/s" }')
     file.write_text(named, encoding="utf-8")
     status, record = compared(car, log, signals="speed,chassis.wz")
-    assert status == reported
-    assert ("'v' (speed) looks like km/h in place of m/s" in "".join(record["problems"])) == reported
-    assert (values(record)["chassis.wz.correlation"] < 0.8) == reported
+    assert status == 1
+    assert "'v' (speed) looks like km/h in place of m/s" in "".join(record["problems"])
 
 
-@pytest.mark.slow
-def test_a_delay_of_the_log_is_found_with_its_sign(car: Path, tmp_path: Path) -> None:
-    _, record = compared(car, logged(car, tmp_path, {"initial.speed": 15.0}, delay=0.06))
-    assert values(record)["chassis.wz.delay"] == pytest.approx(0.06, abs=2e-3)
-    assert values(record)["chassis.ay.delay"] == pytest.approx(0.06, abs=4e-3)
-
-
-@pytest.mark.slow
+@pytest.mark.proof
 def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
     true = {"front.tyre.grip": 0.85, "initial.speed": 15.0}
     log = logged(car, tmp_path, true, delay=0.04, noise=1.0)
@@ -191,32 +173,12 @@ def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
 def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """With another drag the pedals of the log would lose the speed; the driver keeps it."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
-    other = ("--set", "aerodynamics.drag_area=8")
-    pedals = values(compared(car, log, *other)[1])["speed.rms"]
-    speed_error = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
-    assert pedals > 2.0
-    assert speed_error < 0.1
+    _, record = compared(car, log, "--set", "aerodynamics.drag_area=8", "--hold-speed")
+    assert values(record)["speed.rms"] < 0.1
     # It takes more of the throttle than the 0.2 of the car in the log, and from the start on.
     output = capsys.readouterr().out
     started = float(output.rpartition("The driver starts with ")[2].partition(" of the throttle.")[0])
     assert 0.2 < started < 0.9
-
-
-@pytest.mark.slow
-def test_a_log_that_begins_in_a_turn_starts_in_it(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Speeds are measured at the reference point, 1.3 m behind the origin of the drawing that is placed."""
-    log = logged(car, tmp_path, {"initial.speed": 15.0, "initial.yaw": 1.0})
-    _, record = compared(car, log, "--from", "2", "--to", "3", signals="chassis.wz,chassis.vy")
-    assert "The start is as measured: initial.speed = " in capsys.readouterr().out
-    assert abs(record["start"]["initial.yaw_rate"]) > 0.1
-    with (tmp_path / "out" / "fahrt.csv").open(encoding="utf-8") as stream:
-        first = {k: float(v) for k, v in next(csv.DictReader(stream)).items() if v}
-    for name, unit, near in (("chassis.wz", "rad/s", 2e-3), ("chassis.vy", "m/s", 0.01)):
-        assert first[f"{name}.simulated [{unit}]"] == pytest.approx(first[f"{name}.measured [{unit}]"], abs=near)
-    # The body begins upright and has to roll first.
-    assert values(record)["chassis.wz.rms"] < 0.01
 
 
 @pytest.mark.slow
@@ -227,18 +189,19 @@ def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_
     whole, fast = tmp_path / "whole.ssv", tmp_path / "fast.ssv"
     assert check([str(car), "--save-parameters", str(whole)]) == 0
     assert check([str(car), "--set", "initial.speed=14", "--save-parameters", str(fast)]) == 0
-    _, bare = compared(car, log)
-    _, same = compared(car, log, "--parameters", str(whole))
-    assert (same["start"], same["measures"]) == (bare["start"], bare["measures"])
+    _, same = compared(car, log, "--to", "1", "--parameters", str(whole))
+    assert same["start"]["initial.speed"] == pytest.approx(15.0, abs=2e-3)
     assert "not as measured" not in capsys.readouterr().out
-    _, other = compared(car, log, "--parameters", str(fast))
+    _, other = compared(car, log, "--to", "1", "--parameters", str(fast))
     assert other["start"]["initial.speed"] == 14.0
     assert "The start is not as measured but as given: initial.speed = 14 (15" in capsys.readouterr().out
 
 
 @pytest.mark.slow
-def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The second half is left out; a window whose car has another grip departs from none, but is off by more."""
+def test_windows_begin_as_measured_each(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], in_this_process: pytest.MonkeyPatch
+) -> None:
+    """The second half is left out."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     parts = ("--windows", "1", "--window-every", "0.5", "--seconds", "0.5:3")
     _, record = compared(car, log, *parts, signals="chassis.wz")
@@ -250,18 +213,17 @@ def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytes
     bins = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
     assert sum(b["samples"] for b in bins) == 4 * 101
     assert {(b["low"], b["high"]) for b in bins} >= {(0.0, 2.0), (2.0, 4.0)}
+    in_this_process.undo()
     # Processes share the windows; not one digit depends on their number.
     _, shared = compared(car, log, *parts, "--jobs", "2", signals="chassis.wz")
     assert values(shared) == values(record)
-    _, other = compared(car, log, *parts, "--set", "front.tyre.grip=0.2", signals="chassis.wz")
-    assert max(w["rms"]["chassis.wz"] for w in other["windows"]) > 3.0 * max(rms)
 
 
 @pytest.mark.slow
 def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The grip that is 0.8 of the car's pays for its fit, that at its start does not; both starts agree."""
+    """The grip that is 0.8 of the car's pays for its fit, that at its start does not."""
     log = logged(car, tmp_path, {"initial.speed": 15.0, "front.tyre.grip": 0.8}, noise=1.0)
-    windows = ("--windows", "1", "--window-every", "1", "--fit-step", "0.004", "--starts", "2")
+    windows = ("--windows", "1", "--window-every", "1", "--fit-step", "0.004")
     _, record = compared(
         car, log, *windows, "--fit", "front.tyre.grip", "--fit", "rear.tyre.grip=0.5:1.5", signals="chassis.wz"
     )
@@ -270,9 +232,6 @@ def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, caps
     assert abs(front["value"] - 0.8) < 1.5 * front["half_width_95"]
     assert front["half_width_95"] < 0.2
     assert front["without"] > max(1.01, rear["without"])
-    assert len(fit["starts"]) == 2
-    ends = np.array([start["end"] for start in fit["starts"]])
-    np.testing.assert_allclose(ends[0], ends[1], atol=0.05)
     assert fit["remains"]["chassis.wz"] <= fit["left_out"]["chassis.wz"] < 1.2 * fit["remains"]["chassis.wz"]
     assert "Fitted with inner steps of 4 ms" in output
 
@@ -282,7 +241,6 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     """The linkage of this car is rigid, so that the angles on the road tell that of the steering wheel."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     aliases = log.with_suffix(".toml")
-    by_hand = compared(car, log, signals="chassis.wz")[1]
     text = aliases.read_text(encoding="utf-8")
     road = '"wheel_FL.steer" = "Rad links"\n"wheel_FR.steer" = "Rad rechts"'
     aliases.write_text(text.replace('steering_wheel_angle = "Lenkrad"', road), encoding="utf-8")
@@ -293,14 +251,14 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     by_road = compared(car, log, signals="chassis.wz")[1]
     assert any("at which the standing car turns its wheels as measured" in n for n in by_road["notes"])
     assert any("1 sample of 'Rad links' (wheel_FL.steer) that no neighbour supports" in n for n in by_road["notes"])
-    one, other = (values(r)["chassis.wz.rms"] for r in (by_hand, by_road))
-    assert other < one + 0.002
+    assert values(by_road)["chassis.wz.rms"] < 0.006
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
+def test_windows_that_cannot_be_are_refused(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    arguments = [str(car), str(log), "--log-aliases", str(log.with_suffix(".toml")), "--out", str(tmp_path / "out")]
+    for options, message in (
         (("--seconds", "3:1"), "its times must be finite and in their order"),
         (("--seconds", "now"), "it must be of the form A:B,C:D"),
         (("--window-every", "1"), "--window-every needs --windows"),
@@ -308,17 +266,12 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
         (("--windows", "1", "--skip", "1"), "--skip cannot be combined with --windows"),
         (("--windows", "2", "--seconds", "0:1"), "No window of 2 s lies in --seconds 0:1"),
         (("--windows", "1", "--fit", "initial.speed=1:20"), "--fit initial.* cannot be combined with --windows"),
-    ],
-)
-def test_windows_that_cannot_be_are_refused(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: tuple[str, ...], message: str
-) -> None:
-    log = logged(car, tmp_path, {"initial.speed": 15.0})
-    arguments = [str(car), str(log), "--log-aliases", str(log.with_suffix(".toml")), "--out", str(tmp_path / "out")]
-    assert main([*arguments, *options]) == 2
-    assert message in capsys.readouterr().err
+    ):
+        assert main([*arguments, *options]) == 2
+        assert message in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_an_angle_of_the_steering_wheel_drives_at_any_ratio(prototype_fmu: Path, tmp_path: Path) -> None:
     """Full lock is at another angle where a parameter changes the travel of the rack per turn."""
     t = np.array([0.0, 0.1, 0.3, 1.0])

@@ -1,7 +1,6 @@
 """Parts left out of a fit, against fits without them, and intervals against many logs."""
 
 import numpy as np
-import pytest
 from scipy import stats
 
 from hosts.compare.cross_validation import FOLDS, Parts, clustered_covariance, folds, left_out, without_each
@@ -20,9 +19,8 @@ def linear(begins: np.ndarray, seed: int = 3) -> tuple[np.ndarray, np.ndarray, P
     return jacobian, jacobian @ p - target, Parts(number, begins, LENGTH)
 
 
-@pytest.mark.parametrize("every", [10.0, 5.0])
-def test_what_is_left_of_a_part_is_that_of_a_fit_without_it_and_without_its_neighbours(every: float) -> None:
-    jacobian, residual, parts = linear(every * np.arange(8))
+def test_what_is_left_of_a_part_is_that_of_a_fit_without_it_and_without_its_neighbours() -> None:
+    jacobian, residual, parts = linear(0.5 * LENGTH * np.arange(8))
     actual = left_out(jacobian, residual, parts)
     for k, begin in enumerate(parts.begins):
         near = np.abs(parts.begins - begin) < LENGTH
@@ -33,10 +31,9 @@ def test_what_is_left_of_a_part_is_that_of_a_fit_without_it_and_without_its_neig
     assert np.mean(actual**2) > np.mean(residual**2)
 
 
-@pytest.mark.parametrize("every", [10.0, 5.0])
-def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it(every: float) -> None:
+def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it() -> None:
     """Of windows that are given in any order."""
-    begins = every * np.random.default_rng(1).permutation(12)
+    begins = 0.5 * LENGTH * np.random.default_rng(1).permutation(12)
     jacobian, residual, parts = linear(begins)
     actual = folds(jacobian, residual, parts)
     assert actual.shape == (FOLDS, 3)

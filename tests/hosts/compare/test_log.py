@@ -45,11 +45,7 @@ def assert_read(log: Log) -> None:
     assert log.outputs["bob.x"].time == pytest.approx(0.01 * np.arange(ROWS))
 
 
-def test_names_of_the_fmu_need_no_aliases(fmu: NamedFmu, tmp_path: Path) -> None:
-    assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")))
-
-
-@pytest.mark.parametrize(("used", "reported"), [((), 1), (("bob.x",), 1), (("speed",), 0)])
+@pytest.mark.parametrize(("used", "reported"), [(("bob.x",), 1), (("speed",), 0)])
 def test_an_omitted_sample_is_reported_for_used_signals(
     fmu: NamedFmu, tmp_path: Path, used: tuple[str, ...], reported: int
 ) -> None:
@@ -74,14 +70,6 @@ def test_an_input_jumps_between_two_rows_of_one_time(fmu: NamedFmu, tmp_path: Pa
     assert log.inputs["pull"].interval == pytest.approx(0.01)
 
 
-def test_a_sample_that_no_neighbour_supports_is_left_out_and_reported(fmu: NamedFmu, tmp_path: Path) -> None:
-    text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,10.0,", "0.2,99.0,")
-    log = read(fmu, tmp_path, text)
-    assert log.inputs["pull"].values == pytest.approx(0.5 * np.delete(np.arange(ROWS), 20))
-    assert len(log.outputs["bob.x"].values) == ROWS
-    assert [note for note in log.notes if "99 N at 0.2 s" in note and note.startswith("1 sample of 'pull' (pull)")]
-
-
 def test_times_of_a_clock_and_over_midnight(fmu: NamedFmu, tmp_path: Path) -> None:
     begin, text = 86399.95, "time,pull,bob.x\n"
     for k in range(ROWS):
@@ -94,17 +82,14 @@ def test_times_of_a_clock_and_over_midnight(fmu: NamedFmu, tmp_path: Path) -> No
         read(fmu, tmp_path, "time,pull,bob.x\n" + short.replace("07:00.020", "7 h"))
 
 
-@pytest.mark.parametrize(("time", "unit"), [("{t}", ""), ("{ms}", " [ms]")])
-def test_a_heading_that_is_repeated_is_reported_by_its_line(
-    fmu: NamedFmu, tmp_path: Path, time: str, unit: str
-) -> None:
+def test_a_heading_that_is_repeated_is_reported_by_its_line(fmu: NamedFmu, tmp_path: Path) -> None:
     """Empty lines are counted; a word among numbers is told as what it is."""
-    heading = f"time{unit},pull,bob.x\n"
-    lines = (heading + rows(time + ",{f},{x}")).splitlines()
+    heading = "time [ms],pull,bob.x\n"
+    lines = (heading + rows("{ms},{f},{x}")).splitlines()
     again = [*lines[:4], "", heading.strip(), *lines[4:]]
     with pytest.raises(HostError, match=r"log\.csv, line 6: the heading stands there again; cut the log there"):
         read(fmu, tmp_path, "\n".join(again))
-    again[5] = f"time{unit},pull,"  # cut behind a cell that is empty
+    again[5] = "time [ms],pull,"  # cut behind a cell that is empty
     with pytest.raises(HostError, match=r"log\.csv, line 6, column"):
         read(fmu, tmp_path, "\n".join(again))
     again[5] = "soon,1,2"
@@ -172,8 +157,8 @@ def test_clock_with_factor_offset_and_its_own_column(fmu: NamedFmu, tmp_path: Pa
     assert_read(read(fmu, tmp_path, text, aliases))
 
 
-@pytest.mark.parametrize(("unit", "form"), [("epoch_ms", "{}"), ("iso", "{}")])
-def test_moments(fmu: NamedFmu, tmp_path: Path, unit: str, form: str) -> None:
+@pytest.mark.parametrize("unit", ["epoch_ms", "iso"])
+def test_moments(fmu: NamedFmu, tmp_path: Path, unit: str) -> None:
     moments = pd.Timestamp("2024-05-03T12:00:00") + pd.to_timedelta(10.0 * np.arange(ROWS), unit="ms")
     texts = [str(int(m.timestamp() * 1000)) if unit == "epoch_ms" else m.isoformat() for m in moments]
     lines = [f"{t},{0.5 * k},{0.001 * k}" for k, t in enumerate(texts)]
@@ -187,13 +172,6 @@ def test_several_rates_leave_cells_empty(fmu: NamedFmu, tmp_path: Path) -> None:
     assert log.outputs["bob.x"].interval == pytest.approx(0.04)
     assert log.inputs["pull"].interval == pytest.approx(0.01)
     assert len(log.outputs["bob.x"].values) == ROWS // 4
-
-
-def test_parquet_with_units(fmu: NamedFmu, tmp_path: Path) -> None:
-    k = np.arange(ROWS)
-    table = pd.DataFrame({"time": 0.01 * k, "pull": 0.5 * k, "bob.x": 0.001 * k})
-    table.to_parquet(tmp_path / "log.parquet")
-    assert_read(log_for(fmu, read_log(tmp_path / "log.parquet", LogAliases().dialect), LogAliases()))
 
 
 @pytest.mark.parametrize(
@@ -239,7 +217,7 @@ def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: NamedFmu, tmp_path: P
         assert actual.values == pytest.approx(0.001 * np.arange(ROWS))
 
 
-@pytest.mark.parametrize(("rate", "jitter"), [(10, 0), (10, 1), (5, 0), (100, 3)])
+@pytest.mark.parametrize(("rate", "jitter"), [(10, 1), (5, 0)])
 def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
     fmu: NamedFmu, tmp_path: Path, rate: int, jitter: int
 ) -> None:
@@ -280,29 +258,14 @@ BAD = [
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "deg" }', "is in 'deg'; 'pull' of"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "kNn" }', "or 'kN'"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { nam = "F" }', "must be a column of the log"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), "[signals]\nbob.x = 'x'", "a name with a dot needs quotation marks"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[time]\nunit = "hours"', "time.unit is 'hours'; it must be one of s, ms"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[sensors]\na = 'x'", "keys of the file are file, time, signals"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), "[signals]\npull = 'F'\n[time]\nname = 'Time'", "did you mean 'time'"),
     ("a,pull,bob.x\n" + rows("{t},{f},{x}"), "", "has no column of times"),
     ("time,pull,bob.x\n0,1,2\n0.1,2,3\n", "", "at least 10 are needed"),
-    ("", "", "is empty"),
     ("time pull bob.x\n" + rows("{t} {f} {x}"), "", "is not a table of numbers"),
-    (
-        "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("19.5,", "high,"),
-        "",
-        "line 41, column 'pull': 'high' is",
-    ),
-    ("time;pull;bob.x\n" + rows("{t};{f};{x}"), "[file]\ndelimiter = ','", "is not a table of numbers"),
     (rows("{t},{f},{x}"), "", "has no line of 3 names"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), '[time]\nunit = ["s"]', "time.unit is ['s']; it must be one of s, ms"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nunits = 1000", "[file] units is line 1000; values begin in line 2"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nunits = 2", "[file] units is line 2; values begin in line 2"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nheading = 2", "[file] heading is line 2; values begin in line 2"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nunits = 1", "has no line of 3 names"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nheading = 1\nunits = 1", "heading and units are both 1"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nencoding = 'punycode'", "is not written in punycode"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), '[file]\nencoding = "a\\u0000"', "[file] encoding of the alias file is wrong"),
 ]
 
 
@@ -329,12 +292,11 @@ def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None
     assert list(read_log(tmp_path / "b.parquet", Dialect()).table) == ["u"]
 
 
-@pytest.mark.parametrize("value", ["1e308", "-2e100"])
-def test_what_squares_to_no_number_is_refused_with_its_line(fmu: NamedFmu, tmp_path: Path, value: str) -> None:
+def test_what_squares_to_no_number_is_refused_with_its_line(fmu: NamedFmu, tmp_path: Path) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}")
     read(fmu, tmp_path, text.replace("0.12,6.0", "0.12,9e99"))
-    with pytest.raises(HostError, match=r"line 14, column 'pull': -?[12]e\+\d+ is too large; numbers up to 1e\+100"):
-        read(fmu, tmp_path, text.replace("0.12,6.0", f"0.12,{value}"))
+    with pytest.raises(HostError, match=r"line 14, column 'pull': -2e\+100 is too large; numbers up to 1e\+100"):
+        read(fmu, tmp_path, text.replace("0.12,6.0", "0.12,-2e100"))
 
 
 def test_a_file_of_another_kind(tmp_path: Path) -> None:

@@ -85,37 +85,22 @@ def joined(d: Drive) -> Drive:
 
 PLANTED = {
     "km/h": (scaled("speed", 3.6), "km/h in place of m/s of 'speed'"),
-    "mph": (scaled("speed", 2.237), "mph in place of m/s of 'speed'"),
     "deg/s": (scaled("chassis.wz", 57.3), "deg/s in place of rad/s of 'wz'"),
     "g of ay": (scaled("chassis.ay", 1.0 / 9.81), "g in place of m/s² of 'ay'"),
-    "g of ax": (scaled("chassis.ax", 1.0 / 9.81), "g in place of m/s² of 'ax'"),
-    "mm/s2": (scaled("chassis.ay", 1e3), "mm/s² in place of m/s² of 'ay'"),
     "heading in degrees": (scaled("chassis.yaw", 57.3), "deg in place of rad of 'yaw'"),
     "path in mm": (lambda d: scaled("chassis.x", 1e3)(scaled("chassis.y", 1e3)(d)), "mm in place of m of the path"),
-    "path in feet": (
-        lambda d: scaled("chassis.x", 3.28)(scaled("chassis.y", 3.28)(d)),
-        "ft in place of m of the path",
-    ),
     "rpm": (scaled("wheel_FL.omega", 9.549), "rpm in place of rad/s of 'omega' (wheel_FL.omega)"),
     "sign of ay": (scaled("chassis.ay", -1.0), "the other sign of 'ay'"),
-    "sign of ax": (scaled("chassis.ax", -1.0), "the other sign of 'ax'"),
     "sign of the heading": (scaled("chassis.yaw", -1.0), "the other sign of 'yaw'"),
     "time twice as fast": (timed(0.5), "time twice as fast"),
-    "time half as fast": (timed(2.0), "time half as fast"),
     "time in ms": (timed(1e3), "ms in place of s"),
     "ax and ay": (swapped("chassis.ax", "chassis.ay"), "'ax' and 'ay' exchanged"),
     "ay late": (late("chassis.ay", 0.9), "a delay of 0.9"),
     "-9999": (missing("chassis.ay"), "-9999 in the place of no value in"),
-    "-9999 of the yaw rate": (missing("chassis.wz"), "-9999 in the place of no value in"),
     "a frozen yaw rate": (
         frozen("chassis.wz", 10.0, 14.0),
         "'wz', longest time without a change while the car moves is 3.9",
     ),
-    "a frozen speed": (
-        frozen("speed", 15.0, 19.0),
-        "'speed', longest time without a change while the car moves is 3.9",
-    ),
-    "a frozen ay": (frozen("chassis.ay", 10.0, 13.0), "'ay', longest time without a change while the car moves is 2.9"),
     "a frozen wheel": (frozen("wheel_RR.omega", 10.0, 16.0), "'omega', longest time without a change"),
     "appended to itself": (twice, "samples that come again one by one"),
     "two drives": (joined, "samples at which most signals jump is 1"),
@@ -129,7 +114,7 @@ def test_a_mistake_is_reported_with_its_correction(case: str) -> None:
     assert any(message in sentence for sentence in warnings), warnings
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_right_drive_has_nothing_odd(seed: int) -> None:
     log = drive(seed)
     plausibility = log_plausibility("log.csv", log)
@@ -139,12 +124,12 @@ def test_a_right_drive_has_nothing_odd(seed: int) -> None:
     assert log_plausibility("log.csv", coarse).warnings() == []
 
 
-@pytest.mark.parametrize("name", ["chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw"])
+@pytest.mark.parametrize("name", ["chassis.ax", "chassis.wz"])
 def test_a_signal_of_the_other_sign_is_not_consistent(name: str) -> None:
     assert name not in consistent(log_plausibility("log.csv", scaled(name, -1.0)(drive())))
 
 
-@pytest.mark.parametrize("factor", [0.5, 2.0, 1.8])
+@pytest.mark.parametrize("factor", [0.5, 1.8])
 def test_a_factor_without_a_name_is_reported_with_its_interval(factor: float) -> None:
     """A hint names a signal only if correcting it alone mends all relations it is in."""
     (sentence,) = log_plausibility("log.csv", scaled("chassis.wz", factor)(drive())).warnings()
@@ -181,7 +166,7 @@ def test_a_speed_of_0_is_reported_unless_all_others_stand_too() -> None:
     assert any(message in sentence for sentence in log_plausibility("log.csv", {"speed": dead["speed"]}).warnings())
 
 
-@pytest.mark.parametrize("step", [0.2, 0.1, 0.02, 0.01])
+@pytest.mark.parametrize("step", [0.2, 0.01])
 def test_peaks_that_are_rounded_are_no_range_that_a_sensor_reaches(step: float) -> None:
     """A robot steers to both sides alike; the sensor tells whole steps."""
     time = np.asarray(0.01 * np.arange(2000), dtype=np.float64)

@@ -11,6 +11,8 @@ from hosts.compare.command import main
 from hosts.driving.manoeuvre_table import read_table
 from hosts.run.command import main as run
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 ROWS = (
     ("time", "pull", "spring.stiffness"),
     (0.0, 0.0, 100.0),
@@ -37,14 +39,12 @@ def test_held_inputs_and_parameters_that_change(
 JUMPS = ((0.0, 1.0), (0.5, 1.5), (0.5, -20.0), (1.3, -9.0), (1.3, 12.0), (2.0, 3.0))
 
 
-@pytest.mark.parametrize("interval", [0.05, 0.1])
-def test_a_jump_means_the_same_as_in_the_run(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], interval: float
-) -> None:
+@pytest.mark.slow
+def test_a_jump_means_the_same_as_in_the_run(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Of a result, whose record tells the jumps, and of samples with two rows where the input jumps."""
     table = tmp_path / "drive.csv"
     table.write_text("time,pull\n" + "\n".join(f"{t},{x}" for t, x in JUMPS) + "\n")
-    options = ["--step", "0.05", "--interval", str(interval)]
+    options = ["--step", "0.05", "--interval", "0.1"]
     assert run([str(tuned), "-m", str(table), *options, "--out", str(tmp_path)]) == 0
     log, manoeuvre = next(tmp_path.glob("*_drive.csv")), read_table(table)
     with log.open() as file:

@@ -19,6 +19,8 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.measures.signal import Signal
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 RATE = 2.0
 REFUSED = 3.0
 T = np.linspace(0.0, 3.0, 151)

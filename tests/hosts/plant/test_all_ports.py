@@ -15,8 +15,7 @@ from tests.vehicle.rigid_car import rigid_car
 WHEELS = ("FL", "FR", "RL", "RR")
 CARS = (
     "hatchback: torque, brakes=pressure, road, forces, wind",
-    "hatchback: tyre, forces=vehicle",
-    "prototype: torque=hub_motors, brakes, steering=rack_position, tyre",
+    "hatchback: torque=hub_motors, brakes, steering=rack_position, tyre, forces=vehicle",
     "ferrari_250_lm: brakes, steering=rack_force, road, gear, clutch, hitch",
 )
 """Every kind of port is in one; `hitch` is a point of forces."""
@@ -59,7 +58,7 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
     with Car(ported, step=0.005) as car:
         ports = [name for name in ports_of(car) if name != "gear_request"]
         count = 0
-        for seed in range(4):
+        for seed in range(2):
             random = np.random.default_rng(seed)
             car.reset(**{"initial.speed": 10.0})
             inputs = level(car)
@@ -116,10 +115,7 @@ def test_each_silent_or_non_finite_port_is_reported_once(ported: Path) -> None:
         (10.0, 0.002, 0.0, None),
         (10.0, 0.003, 0.0, "are held for longer than 7.4 ms may shake it, {at_once} 2.5 ms"),
         (30.0, 0.003, 0.0, None),
-        (30.0, 0.006, 0.0, "are held"),
-        (10.0, 0.002, 1.0, None),
         (10.0, 0.003, 1.0, "follow derivatives for longer than 7.1 ms may shake it, {at_once} 2.5 ms"),
-        (30.0, 0.003, 1.0, None),
     ],
 )
 def test_a_step_that_is_long_for_a_tyre_is_reported_once_at_each_wheel(
@@ -172,7 +168,7 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ported", CARS[3:], indirect=True)
+@pytest.mark.parametrize("ported", CARS[2:], indirect=True)
 @pytest.mark.parametrize(("silent", "reported"), [("gear_request", 0), ("clutch", 1)])
 def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str, reported: int) -> None:
     with Car(ported, step=0.002) as car:
@@ -208,9 +204,7 @@ def test_a_wheel_in_the_air_and_a_standing_car_cause_no_warning(ported: Path) ->
     ("ported", "normal"),
     [
         (CARS[0], (0.0, 0.0, 0.0)),
-        (CARS[0], (0.7, 0.7, 0.7)),
-        (CARS[3], (0.0, 0.0, -1.0)),
-        (CARS[3], (1.0, 0.0, 0.0)),
+        (CARS[2], (0.0, 0.0, -1.0)),
     ],
     indirect=["ported"],
 )

@@ -58,10 +58,11 @@ def car(rigid_fmu: Path):
     ("fmu", "inputs", "start"),
     [
         ("rigid_fmu", INPUTS, SPEED),
-        (
+        pytest.param(
             "braked_fmu",
             ("steering", "wheel_FL.brake_torque_demand", "wheel_RR.brake_torque_demand"),
             SPEED | {"road.friction": 0.7, "front.spring.stiffness": 18000.0, "initial.yaw": 1.0},
+            marks=pytest.mark.slow,
         ),
     ],
 )
@@ -113,13 +114,6 @@ def test_ranges_are_drawn_by_the_seed(car: Car) -> None:
     assert all(10.0 <= a <= 20.0 and 0.5 <= b <= 0.9 for a, b in drawn)
 
 
-def test_values_go_into_an_array_that_is_given(car: Car) -> None:
-    car.reset(**SPEED)
-    row = np.zeros(2)
-    assert car.read(("speed", "chassis.x"), row) is row
-    assert row[0] == pytest.approx(15.0, rel=1e-6)
-
-
 def test_warnings_are_those_of_the_fmu(car: Car) -> None:
     car.reset(**SPEED)
     car.step([3.0, 0.0])
@@ -134,9 +128,10 @@ def test_warnings_are_those_of_the_fmu(car: Car) -> None:
 def test_inconsistent_arguments_are_refused_in_one_sentence(car: Car, rigid_fmu: Path) -> None:
     cases = {
         "no start yet": lambda: car.step([0.0, 0.0]),
-        "no input 'pedal'": lambda: Car(rigid_fmu, inputs=("pedal",)),
+        "no input 'stering'; did you mean 'steering'[?]": lambda: Car(rigid_fmu, inputs=("stering",)),
+        "The names are 'steering'; they must be a list": lambda: Car(rigid_fmu, inputs="steering"),
+        "'throttle' is named 2 times": lambda: Car(rigid_fmu, inputs=("throttle", "throttle")),
         "Ports are chosen": lambda: Car(rigid_fmu, ports="brakes"),
-        "The ports are 'brakes,nowhere'": lambda: Car("prototype", ports=["brakes", "nowhere"]),
         "positive number": lambda: Car(rigid_fmu, step=0.0),
         "no parameter or input 'mass'": lambda: car.reset(mass=3.0),
     }
@@ -148,13 +143,9 @@ def test_inconsistent_arguments_are_refused_in_one_sentence(car: Car, rigid_fmu:
         car.step([0.0, 0.0, 0.0])
     with pytest.raises(HostError, match="no variable that is a number 'sped'"):
         car.read(("sped",))
-    for bad in ("brake", {"steering": 0.0}, [0.0, "x"]):
+    for bad in ("brake", {"steering": 0.0}, [0.0, "x"], [10**400, 0.0]):
         with pytest.raises(HostError, match="they must be numbers, in an array"):
             car.step(bad)
-    with pytest.raises(HostError, match="they must be numbers, in an array"):
-        car.step([10**400, 0.0])
-    with pytest.raises(HostError, match="The names have 1 among them; they must be a list or tuple of texts"):
-        car.read([1])  # type: ignore[list-item]
     with pytest.raises(HostError, match=r"The names have \['speed'\] among them"):
         car.read((["speed"],))  # type: ignore[arg-type]
     locked = np.zeros(2)
@@ -169,12 +160,8 @@ def test_inconsistent_arguments_are_refused_in_one_sentence(car: Car, rigid_fmu:
     ("seed", "parameters", "message"),
     [
         (1, {"initial.speed": (20.0, 10.0)}, "'initial.speed' is [20.0, 10.0]; a range is two numbers, the smaller"),
-        (1, {"initial.speed": (10.0, 20.0, 30.0)}, "a range is two numbers"),
-        (1, {"initial.speed": (10.0, float("inf"))}, "a range is two numbers"),
         (1, {"initial.speed": "fast"}, "'initial.speed' is 'fast'; it must be a number."),
-        (1, {"initial.speed": None}, "'initial.speed' is None; it must be a number, or a range of two."),
         (-1, {}, "The seed is -1; it must be a whole number from 0, or None."),
-        ("a", {}, "The seed is 'a'"),
         (1, {"initial.sped": 1.0}, "no parameter or input 'initial.sped'; did you mean 'initial.speed' or"),
         (1, {"initial.speed": float("nan")}, "'initial.speed' was set to nan"),
     ],
@@ -214,27 +201,16 @@ def test_a_car_without_a_start_or_closed_is_refused(rigid_fmu: Path) -> None:
     ("options", "message"),
     [
         ({"car": 1}, "The car is 1; it must be a name, a folder or a file."),
-        ({"car": "a\x00b"}, r"The car is 'a\\x00b'"),
-        ({"car": 1000 * "a"}, "; the cars of the package are "),
+        pytest.param({"ports": ["brakes", "nowhere"]}, "The ports are 'brakes,nowhere'", marks=pytest.mark.slow),
         ({"ports": {"torque": 1}}, "The ports are {'torque': 1}; they must be a list or tuple of texts."),
-        ({"parameters": 5}, "The parameters are 5; they must be a dictionary."),
+        ({"car": "rigid", "parameters": 5}, "The parameters are 5; they must be a dictionary."),
         ({"step": "0.01"}, "The communication step of a car is '0.01'; it must be a positive number, in s."),
     ],
 )
-def test_options_of_another_type_are_refused_in_one_sentence(options: dict[str, object], message: str) -> None:
+def test_options_of_another_type_are_refused_in_one_sentence(
+    options: dict[str, object], message: str, rigid_fmu: Path
+) -> None:
+    if options.get("car") == "rigid":
+        options = options | {"car": rigid_fmu}
     with pytest.raises(HostError, match=message):
         Car(**options)
-
-
-@pytest.mark.parametrize(
-    ("inputs", "message"),
-    [
-        ("steering", "The names are 'steering'; they must be a list or tuple of texts."),
-        (5, "The names are 5; they must be a list or tuple of texts."),
-        (("stering",), "no input 'stering'; did you mean 'steering'?"),
-        (("steering", "throttle", "steering"), "'steering' is named 2 times"),
-    ],
-)
-def test_inputs_that_there_are_not(rigid_fmu: Path, inputs: tuple[str, ...], message: str) -> None:
-    with pytest.raises(HostError, match=message.replace("?", "[?]")):
-        Car(rigid_fmu, inputs=inputs)

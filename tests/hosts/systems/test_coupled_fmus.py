@@ -23,10 +23,9 @@ from tests.hosts.systems.twins import twin
 from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, parts_of, start_of
 from tests.quick import quick
 
-# one part and several, controllers in Python, two cars: each way to wire a system by one of the other masters
+# one part and several, controllers in Python: each way to wire a system by one of the other masters
 BY_OTHERS = {
-    ("libcosim", "drive"), ("libcosim", "brakes on split friction"), ("libcosim", "two cars"),
-    ("Ecos", "road"), ("Ecos", "trailer"), ("Ecos", "yaw control"),
+    ("libcosim", "drive"), ("libcosim", "brakes on split friction"), ("Ecos", "trailer"), ("Ecos", "yaw control"),
 }  # fmt: skip
 WIRES = {"spring.position": "mass.position", "mass.force": "spring.force"}
 
@@ -145,8 +144,6 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
                 lambda: system.initialise(**{"mass.start": [1.0]}),
                 r"'start' is \[1.0\]; only finite numbers can be used",
             ),
-            (lambda: system.initialise(**{"mass.start": 10**400}), "'start' is a whole number of more than 19 digits"),
-            (lambda: system.initialise(**{"mass.start": None}), "'start' is None; only finite numbers can be used"),
             (lambda: system.fmu(1), "There is no part 1"),
             (lambda: system.fmu("sprin"), "There is no part 'sprin'; did you mean 'spring'"),
         ):
@@ -171,13 +168,10 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
     ("options", "message"),
     [
         ({"step": "0.01"}, r"The communication step is '0.01'; it must be a positive number, in s\."),
-        ({"step": True}, "The communication step is True"),
-        ({"step": 10**400}, "The communication step is a whole number of more than 19 digits"),
         ({"parts": ["mass"]}, r"The parts of a system are \['mass'\]; they must be a dictionary"),
         ({"parts": {"mass": None}}, "The part 'mass' is None; it must be the path of an FMU"),
         ({"parts": {1: "mass.fmu"}}, "The names of the parts of a system have 1 among them"),
         ({"connections": "spring.force"}, "The connections are 'spring.force'; they must be a dictionary"),
-        ({"connections": {"mass.force": None}}, "None names no part"),
     ],
 )
 def test_options_of_another_type_are_refused_in_one_sentence(
@@ -213,7 +207,7 @@ def test_invalid_wires_are_refused(partners: dict[str, Path], wires: dict[str, s
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", quick(("drive", "tyre"), CASES, "proof"))
+@pytest.mark.parametrize("name", quick(("drive",), CASES, "proof"))
 def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str) -> None:
     """At 2 ms: wheel loads within 1 %, the path within 0.2 %; repeated steps halve the error or better."""
     load, path, messages = coupled(name, 0.002)
@@ -227,8 +221,8 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
     assert (10.0 if name == "road" else 1.5) < rate < (13.0 if name == "road" else 2.4), "planes: of order three"
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", quick({"yaw control"}, ["yaw control", "torque vectoring", "two cars"], "proof"))
+@pytest.mark.proof
+@pytest.mark.parametrize("name", ["yaw control", "torque vectoring", "two cars"])
 def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(name: str) -> None:
     """Against the same as one."""
     held, again = (run(name, 0.004, inputs=inputs)[SYSTEMS[name].measure][-1] for inputs in ("held", "repeated"))
@@ -238,12 +232,10 @@ def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(nam
 @pytest.mark.slow
 def test_a_switching_law_is_late_by_a_step_for_all_kinds_of_inputs() -> None:
     """Against steps of 0.1 ms: held inputs are the nearer the shorter the step, others are not nearer."""
-    held = [error(h, "held") for h in (0.001, 0.002, 0.004, 0.01)]
-    assert held == sorted(held)
-    assert held[0] < 1.5e-3
-    assert held[-1] < 1e-2
-    assert error(0.002, "repeated") > 0.5 * held[1]
-    assert error(0.01, "followed") > 0.5 * held[-1]
+    held = [error(h, "held") for h in (0.002, 0.01)]
+    assert held[0] < held[1] < 1e-2
+    assert error(0.002, "repeated") > 0.5 * held[0]
+    assert error(0.01, "followed") > 0.5 * held[1]
 
 
 @pytest.mark.proof
@@ -254,10 +246,8 @@ def test_the_stored_distance_is_that_of_steps_of_a_tenth_of_a_millisecond() -> N
 
 @pytest.mark.slow
 def test_gears_requested_by_another_program_are_held_for_all_kinds_of_inputs() -> None:
-    """A whole number has no derivative; against steps of 1 ms the distance is the nearer the shorter the step."""
-    late = [abs(distance_with_shifts(h) / distance_with_shifts(0.001) - 1.0) for h in (0.002, 0.01)]
-    assert 1e-6 < late[0] < 1e-4
-    assert late[0] < late[1] < 2e-3
+    """A whole number has no derivative."""
+    assert 1e-6 < abs(distance_with_shifts(0.01) / distance_with_shifts(0.002) - 1.0) < 2e-3
     assert (
         distance_with_shifts(0.01, "followed") == distance_with_shifts(0.01, "repeated") == distance_with_shifts(0.01)
     )
@@ -332,16 +322,6 @@ def test_other_masters_run_the_ssp_as_the_own_one_does(name: str, master: str, t
         own = system.read([f"car.{n}" for n in names])
     assert actual == pytest.approx(own, rel=1e-9, abs=1e-11)
     assert own[0] > before[0] + 2.0
-
-
-@pytest.mark.slow
-def test_a_slip_controller_stops_the_car_sooner_than_locked_wheels_do() -> None:
-    ways = []
-    for on in (False, True):
-        columns = run("anti-lock brakes", 0.004, on=on)
-        assert columns["car.speed"][-1] < 0.1
-        ways.append(float(np.ptp(columns["car.chassis.x"])))
-    assert ways[1] < 0.9 * ways[0]
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ali3.temporary_folder import PREFIX
+from tests.quick import quick
 
 ROOT = Path(__file__).parents[3]
 PROGRAM = """
@@ -27,7 +28,7 @@ print("stepped")
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("valgrind") is None, reason="valgrind is not installed; .ci/run installs it")
-@pytest.mark.parametrize("end", ["closed", "left open"])
+@pytest.mark.parametrize("end", quick(("closed",), ("closed", "left open"), "proof"))
 def test_the_record_of_python_is_freed_once(partners: dict[str, Path], end: str) -> None:
     """Seen by valgrind: with PythonFMU 0.7 alone one run of about 40 ends with a damaged heap."""
     memory = ("--num-callers=8", "--undef-value-errors=no", "--leak-check=no")  # what is freed, in half the time
