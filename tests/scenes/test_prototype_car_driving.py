@@ -39,8 +39,7 @@ def bicycle(speed, angle, slips):
     return speed * angle / (a + b + gradient * speed**2), gradient
 
 
-@pytest.mark.parametrize("speed", [8.0, 14.0, 20.0])
-@pytest.mark.parametrize("steering", [0.01, -0.01])
+@pytest.mark.parametrize(("speed", "steering"), [(8.0, 0.01), (20.0, -0.01)])
 def test_steady_cornering_is_that_of_the_bicycle_model(speed, steering):
     t = drive(car(), 6.0, H, {"steering": steering}, neutral=True, pose=Pose(speed=speed))
     v, yaw_rate = t["speed"][-1], t["chassis.wz"][-1]
@@ -81,8 +80,7 @@ def test_full_lock_at_15_m_s():
         assert np.all(force <= grip * np.maximum(t[f"wheel_{w}.Fz"], 1.0))
 
 
-@pytest.mark.parametrize("friction", [0.9, 0.3, 0.1])
-@pytest.mark.parametrize("pedal", [1.0, 0.3])
+@pytest.mark.parametrize(("friction", "pedal"), [(0.9, 1.0), (0.9, 0.3), (0.1, 0.3)])
 def test_friction_of_the_road_bounds_the_deceleration(friction, pedal):
     """By the road at most friction times g, 3.5 % more for loads below the nominal one; drag and pitch come on top."""
     t = drive(

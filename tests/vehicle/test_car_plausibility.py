@@ -41,12 +41,9 @@ def turned(name: str, key: str) -> dict[str, Any]:
     return {key: [[-v, -force] for v, force in reversed(at(name, key))]}
 
 
-TOE = [f"front.alignment.toe_{side}" for side in ("left", "right")]
 PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
     "half the track": ("hatchback", lambda: times("hatchback", "rear.wheel.centre.1", 0.5), "half the track less half"),
-    "half of another": ("saloon", lambda: times("saloon", "rear.wheel.centre.1", 0.5), "half the track less half"),
-    "toe in degrees": ("saloon", lambda: dict.fromkeys(TOE, 0.15), "degrees in place of radians in front"),
-    "toe of one": ("hatchback", lambda: {TOE[0]: 0.18}, "degrees in place of radians in front.alignment.toe_left"),
+    "toe of one": ("hatchback", lambda: {"front.alignment.toe_left": 0.18}, "radians in front.alignment.toe_left"),
     "camber in degrees": (
         "saloon",
         lambda: {"rear.alignment.camber_left": -0.18, "rear.alignment.camber_right": -0.18},
@@ -54,7 +51,6 @@ PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
     ),
     "bump for rebound": ("hatchback", lambda: turned("hatchback", "front.damper.table"), "bump and rebound exchanged"),
     "no final drive": ("saloon", lambda: times("saloon", "drive.ratios", 0.27), "ratios without a final drive"),
-    "no final drive too": ("ferrari_250_lm", lambda: times("ferrari_250_lm", "drive.ratios", 0.25), "final drive"),
     "final drive twice": ("saloon", lambda: times("saloon", "drive.ratios", 4.0), "twice in drive.ratios"),
     "x for z": ("saloon", lambda: {"chassis.inertia": at("saloon", "chassis.inertia")[::-1]}, "x and z exchanged"),
     "damping in lbf s/in": (
