@@ -73,12 +73,6 @@ def test_a_bad_table_is_refused(tmp_path, text, sentence):
     assert "a.csv" in str(refused.value)
 
 
-def test_a_comment_that_looks_like_coordinates_is_a_comment(tmp_path):
-    """The remedy that the refusal of such a comment gives."""
-    (tmp_path / "a.csv").write_text("x/y,0,1\n0,1,2\n1,3,4\n")
-    assert read_road(tmp_path / "a.csv").heights.tolist() == [[1.0, 2.0], [3.0, 4.0]]
-
-
 def test_arrays(tmp_path):
     np.save(tmp_path / "a.npy", HEIGHTS.astype(np.float32))
     road = read_road(tmp_path / "a.npy", spacing=(1.0, 2.0), frictions=0.5)

@@ -8,7 +8,7 @@ import pytest
 
 from mbs import ModelError, Pose, Simulation, compile, simulate
 from mbs.flexible import shape_integrals
-from mbs.scenes import kerb_test, prototype_car
+from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
 from mbs.vehicle.environment import GRAVITY
 
@@ -148,12 +148,6 @@ def test_in_a_steady_turn_the_flexible_and_the_quasi_static_car_agree():
     assert largest > 0.1  # the turn does load the gauges
 
 
-@pytest.mark.parametrize("fidelity", [5, -1, True, 2.5, "fine"])
-def test_an_unknown_fidelity_is_named(fidelity):
-    with pytest.raises(ModelError, match="fidelity of the car is .*it must be one of: 0 rigid"):
-        prototype_car.build(fidelity=fidelity)
-
-
 @pytest.mark.slow
 def test_a_fidelity_is_given_as_member_number_or_name():
     for number, name in enumerate(("rigid", "quasi_static", "load_paths", "dynamic", "many_modes")):
@@ -164,13 +158,3 @@ def test_a_fidelity_is_given_as_member_number_or_name():
     assert built[0] == built[1] == built[2] != compile(prototype_car.build(fidelity="rigid")).to_bytes()
     with pytest.raises(ModelError, match="2 load_paths, 3 dynamic, 4 many_modes"):
         prototype_car.build(fidelity="stiff")
-
-
-def test_an_fmu_is_offered_the_first_four():
-    for scene in (prototype_car, kerb_test):
-        assert list(scene.fidelities()) == [
-            Fidelity.RIGID,
-            Fidelity.QUASI_STATIC,
-            Fidelity.LOAD_PATHS,
-            Fidelity.DYNAMIC,
-        ]

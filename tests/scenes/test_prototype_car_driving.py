@@ -96,13 +96,6 @@ def test_friction_of_the_road_bounds_the_deceleration(friction, pedal):
     assert slowing < 1.035 * friction * GRAVITY + drag.max()
 
 
-def test_the_friction_a_user_reads_is_that_of_the_tyre():
-    parameter = next(p for p in car().meta["parameters"] if p["name"] == "road.friction")
-    largest = TYRES["front"].longitudinal.max_force[0] / TYRES["front"].nominal_load
-    assert parameter["value"] == pytest.approx(1.125 * largest)  # a dry road, a little better than that of the curves
-    assert "the curves of the tyres hold at 1.129 (front), 1.129 (rear)" in parameter["description"]
-
-
 def test_inclination_counts_from_the_road_and_camber_from_the_vehicle():
     t = drive(car(), 3.0, H, {"steering": 0.15}, neutral=True, pose=Pose(speed=14.0))
     roll = t["chassis.roll"][-1]

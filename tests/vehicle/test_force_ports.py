@@ -10,12 +10,11 @@ import mbs
 from mbs.vehicle import Car, CarFileError
 from tests.quick import quick
 from tests.scenes.car import ON_ICE
-from tests.vehicle.cars_with_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
+from tests.vehicle.cars_with_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports, works_of
 from tests.vehicle.second_tyres import drive, longest, saloon
 
 ORDERS = [*product((hatchback, saloon, rigid), (False, True))]
 """Whether the tyre is stepped at once with the car, by the car."""
-STORED = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
 
 
 def test_works_of_forces_and_wind_close_the_balance() -> None:
@@ -30,7 +29,7 @@ def test_works_of_forces_and_wind_close_the_balance() -> None:
         s.set_input("wind.heading", 1.5)
         s.step(STEP)
     end = s.sensors
-    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
+    works = works_of(end)
     assert works["energy.ports"] > 1e4
     residual = end["energy.total"] - start["energy.total"] - sum(works.values())
     own = abs(s.instance.report()["energy_error"])
@@ -112,7 +111,7 @@ def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> N
     assert path < 2e-3
     assert 1.6 < coarse / fine < 2.6
     end = loop.sensors
-    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
+    works = works_of(end)
     assert abs(works["energy.ports"]) > 100.0
     assert works["energy.tyres"] == 0.0
 

@@ -8,7 +8,6 @@ import pytest
 
 import mbs
 from mbs.flexible import tube
-from mbs.flexible.frame import Frame
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.errors import CarFileError
 from tests.flexible.structures import straight
@@ -108,23 +107,6 @@ def test_axial_and_torsion_bridges_read_pull_and_twist_alone():
     torsion = stresses(direction, 0.7, bridge="torsion")
     shear = TORQUE * 0.5 * DIAMETER / (2.0 * SECOND)
     assert torsion == pytest.approx({"torsional_moment": TORQUE, "stress": shear}, rel=ROUND_OFF)
-
-
-def test_bridges_of_several_gauges_are_sums_of_single_ones():
-    frame = straight(3, direction=(-0.4, 0.3, 0.2))
-    u = np.random.default_rng(5).normal(size=9 * 4) * 1e-3  # displacements, then accelerations of the nodes
-    single = {fibre: _reading(frame, u, bridge="quarter", fibre=fibre) for fibre in ("top", "bottom", 90.0, 270.0)}
-    half, axial = _reading(frame, u), _reading(frame, u, bridge="axial")
-    assert half == pytest.approx(single["top"] - single["bottom"], rel=ROUND_OFF)
-    assert axial == pytest.approx((single["top"] + single["bottom"]) / 2, rel=ROUND_OFF)
-    assert axial == pytest.approx((single[90.0] + single[270.0]) / 2, rel=ROUND_OFF)
-
-
-def _reading(frame: Frame, u: np.ndarray, **gauge: Any) -> float:
-    section = TubeGauge(tube=("A", "B"), place=0.4, **gauge)
-    ends = frame.positions[0], frame.positions[-1]
-    readings = section.readings(section.strain_gauge("G", ends, 0.02, range(3)), frame)
-    return float(next(r.row @ u for r in readings if r.quantity == "stress"))
 
 
 @cache

@@ -17,6 +17,7 @@ from tests.vehicle.cars_with_ports import (
     system,
     throttle_at,
     with_ports,
+    works_of,
 )
 from tests.vehicle.column_car import column_car
 
@@ -84,8 +85,7 @@ def test_works_of_ports_close_the_balance() -> None:
         s.set_input("wheel_FL.brake_pressure", 1e6 if k > 600 else 0.0)
         s.step(STEP)
     end = s.sensors
-    stored = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
-    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in stored}
+    works = works_of(end)
     assert {"energy.ports", "energy.brakes"} <= set(works)
     assert works["energy.ports"] > 1e3
     assert works["energy.brakes"] < -1e2
@@ -103,8 +103,7 @@ def open_and_own(s: mbs.Simulation, name: str, amplitude: float, parts: int) -> 
         s.set_input(name, amplitude * np.sin(4.0 * np.pi * k * STEP))
         s.step(STEP / parts, parts)
     end = s.sensors
-    stored = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
-    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in stored}
+    works = works_of(end)
     change = end["energy.total"] - start["energy.total"]
     return works, change - sum(works.values()), s.instance.report()["energy_error"]
 

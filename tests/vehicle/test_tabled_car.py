@@ -43,17 +43,6 @@ def test_fourteen_freedoms_and_all_outputs() -> None:
         assert [x["name"] for x in tabled.meta[kind]] == [x["name"] for x in linked.meta[kind]]
 
 
-def test_it_rests_as_the_car_with_links() -> None:
-    tabled, linked = (Simulation(s).sensors for s in systems(CAR))
-    for wheel in WHEELS:
-        for output, most in (("Fz", 0.01), ("z", 1e-7), ("camber", 1e-7), ("steer", 1e-7)):
-            key = f"wheel_{wheel}.{output}"
-            assert tabled[key] == pytest.approx(linked[key], abs=most), key
-        assert tabled[f"spring_{wheel}.force"] == pytest.approx(linked[f"spring_{wheel}.force"], abs=0.01)
-    assert tabled["chassis.z"] == pytest.approx(linked["chassis.z"], abs=1e-7)
-    assert tabled["mass"] == pytest.approx(linked["mass"], rel=1e-12) if "mass" in linked else True
-
-
 def _off(name: str, axle: str) -> tuple[float, float]:
     """Largest distance and turn of the parts of an axle between the points of their tables."""
     m = car(name).model(fidelity="table")

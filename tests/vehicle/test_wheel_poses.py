@@ -145,20 +145,3 @@ def test_the_angle_times_the_rolling_radius_is_the_way() -> None:
         slip = np.mean(run[f"wheel_{w}.slip"])
         assert -1e-3 < slip < -2e-4, "rolling resistance"
         assert run[f"wheel_{w}.angle"][-1] * radius == pytest.approx(distance * (1.0 + slip), rel=5e-5)
-
-
-@pytest.mark.slow
-def test_two_hundred_seconds_in_a_circle_leave_no_drift() -> None:
-    """Each round adds psi' e_z to the angle of a leaning wheel: what a steady circle gives in closed form."""
-    cruise = {"steering": lambda t: 0.3, "throttle": lambda t: 0.25}
-    run = mbs.simulate(system(), 200.0, 0.01, cruise, every=10, progress=False)
-    steady = run.t > 150.0
-    t = run.t[steady]
-    for w in WHEELS:
-        rate = run[f"wheel_{w}.omega"] - run["chassis.wz"] * run[f"wheel_{w}.axis_z"]
-        mean = np.mean(rate[steady])
-        angle = run[f"wheel_{w}.angle"][steady]
-        assert np.ptp(rate[steady]) < 1e-2 * mean
-        assert (angle[-1] - angle[0]) == pytest.approx(np.trapezoid(rate[steady], t), rel=2e-5)
-        total = np.trapezoid(run[f"wheel_{w}.omega"], run.t)
-        assert 5e-4 < abs(run[f"wheel_{w}.angle"][-1] / total - 1.0) < 0.1
