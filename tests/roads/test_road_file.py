@@ -152,39 +152,6 @@ def test_a_state_on_another_road_is_refused(tmp_path, car, road):
     assert instances[1].save() == saved
 
 
-def test_memory_does_not_grow_with_the_road(tmp_path, car):
-    """A road of 50 km, sparse on the disk: its size cannot be read, only the tiles under the car are."""
-    short = tmp_path / "short.road"
-    write_road(GridRoad((-16.0, -8.0), (0.5, 0.5), np.zeros((64, 32)), 1.0), short)
-    head = RoadFile(short).header
-    tile = bytearray(short.read_bytes()[HEADER.size :][: head.tile_bytes])
-    count = 3125
-    header = type(head)(
-        head.kind, ROAD_TILE * count, ROAD_TILE, head.maps, (-16.0, -8.0, 0.5, 0.5, 1.0, 0.0, 0.0, 0.0), 7
-    )
-    long = tmp_path / "long.road"
-    with long.open("wb") as file:
-        file.write(header.to_bytes())
-        for number in range(4):  # those under the car; the others stay holes
-            struct.pack_into("<q", tile, len(tile) - 16, number)
-            struct.pack_into("<I", tile, len(tile) - 4, zlib.crc32(tile[:-4]))
-            file.write(tile)
-        file.truncate(header.file_bytes)
-    loaded = LoadedSystem(car.to_bytes())
-    instance = Instance(loaded)
-    instance.set_road(0, long)
-    instance.set_pose(0.0, 0.0, 0.0, 0.0, 20.0)
-    instance.initialise()
-    instance.run(H, 500)
-    before = instance.save()
-    with pytest.raises(KernelError) as lost:  # into the holes
-        instance.run(H, 1000)
-    assert lost.value.status == Status.ROAD_LOST
-    assert "x = 48 m, y = -8 m on was altered or damaged" in instance.road_lost()
-    instance.restore(before)
-    instance.step(H)
-
-
 def test_a_file_that_is_cut_while_a_run_is_checked_leaves_its_error_unknown(tmp_path, car):
     """The result stands: it is the repeat that the road is missing to."""
     path, times, passes = tmp_path / "a.road", [0.0], []

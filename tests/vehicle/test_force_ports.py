@@ -81,28 +81,6 @@ def test_a_torque_about_the_vertical_axis_turns_the_car_on_ice() -> None:
     assert abs(ice.sensors["chassis.wz"]) < 0.02 * first
 
 
-@ON_ICE
-@pytest.mark.parametrize(("speed", "wind", "heading"), [(0.0, 20.0, 0.7), (20.0, 12.0, 0.5 * np.pi)])
-def test_on_ice_wind_is_the_only_force(speed: float, wind: float, heading: float) -> None:
-    """Mass times the change of the velocity is rho c A |w| w / 2 of the velocity w over the air, along and across."""
-    s = mbs.Simulation(
-        system(rigid, (("wind", "speed"),)), pose=mbs.Pose(speed=speed), parameters={"road.friction": 0.0}
-    )
-    first = s.sensors
-    s.set_input("wind.speed", wind)
-    s.set_input("wind.heading", heading)
-    s.step(STEP, 50)
-    now = s.sensors
-    mass = sum(first[f"wheel_{w}.Fz"] for w in WHEELS) / 9.81
-    before, after = (np.array([at["chassis.earth_vx"], at["chassis.earth_vy"]]) for at in (first, now))
-    over = wind * np.array([np.cos(heading), np.sin(heading)]) - 0.5 * (before + after)
-    air = rigid()._data["aerodynamics"]
-    pushed = 0.5 * air["air_density"] * air["drag_area"] * np.hypot(*over) * over
-    assert mass * (after - before) / 0.1 == pytest.approx(pushed, rel=1e-4, abs=1e-3)
-    moved = [now[f"chassis.{c}"] - first[f"chassis.{c}"] for c in "xy"]
-    assert now["energy.drag"] - first["energy.drag"] == pytest.approx(pushed @ moved, rel=1e-3, abs=1e-3)
-
-
 @pytest.mark.slow
 def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> None:
     """By order one, held over 2 and 4 ms."""

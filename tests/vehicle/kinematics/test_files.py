@@ -59,8 +59,8 @@ def test_two_readers_find_the_same_numbers(made, found):
 def test_tables_of_the_command_are_axles_by_their_curves(made):
     folder, printed = made
     assert "front_table.csv, rear_table.csv: where the wheels stand" in printed
-    assert read_curves(folder, "rear_table.csv", "key", 1.0).second is not None
-    parallel = read_curves(folder, "rear_parallel.csv", "key", 1.0)
+    assert len(read_curves(folder, "rear_table.csv", "key", 1.0).travel) > 4
+    parallel = read_curves(folder, "front_parallel.csv", "key", 1.0)
     assert parallel.both
     both = parallel.columns["wheel_centre_y_right"] + parallel.columns["wheel_centre_y_left"]
     assert np.abs(both).max() < 1e-9
