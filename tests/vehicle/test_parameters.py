@@ -20,7 +20,7 @@ SAME_ITERATED = 1e-6
 OF_ALL_KINDS = ("prototype", "hatchback", "saloon", "ferrari_250_lm", "commonroad_320i")  # each template is in one
 TOGETHER = 8  # parameters that are changed in one run
 CHASSIS = {"mass": 0.003, "com": 0.002, "inertia": 0.01, "products": 1.0}
-"""Changes of the body, of mass and inertia by parts of them; the frame of a car allows no more."""
+"""Changes of the body, of mass and inertia by parts of them; the checks of a file allow little more."""
 SAME_BODY = 2e-6
 """Of another body, whose run begins with other round-off."""
 ALONE = ("steering.by_torque",)  # with it the steering wheel is let go
@@ -116,10 +116,14 @@ def differing(name, some, others, same=SAME):
 
 
 def told(car):
-    """Parameters of a car that change a run; the density of the air does so by an area only."""
-    values = [*car.values().items()]
-    air = any(value for path, value in values if path.startswith("aerodynamics.") and "area" in path)
-    return [path for path, _ in values if air or path != "aerodynamics.air_density"]
+    """Parameters of a car that change a run; the density of the air does so by an area only.
+
+    A frame that a file has fits one body alone.
+    """
+    air = any(value for path, value in car.values().items() if path.startswith("aerodynamics.") and "area" in path)
+    hidden = {"aerodynamics.air_density"} if not air else set()
+    framed = getattr(car.chassis, "frame", None) is not None
+    return [path for path in car.values() if path not in hidden and not (framed and of_the_body(path))]
 
 
 def wrong_parameters(name, groups, each=False):
