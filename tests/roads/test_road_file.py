@@ -91,9 +91,8 @@ def test_a_plane_and_a_kerb_in_files_are_those_of_the_model(tmp_path, car):
     assert np.ptp(built_in["chassis.z"]) > 0.04
 
 
-@pytest.mark.parametrize("frictions", [True, False])
-def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path, frictions):
-    grid = rough(frictions=frictions)
+def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path):
+    grid = rough()
     write_road(grid, tmp_path / "a.road")
     file = mbs.compile(prototype_car.build(RoadFile(tmp_path / "a.road", grid)))
     inside = mbs.Simulation(mbs.compile(prototype_car.build(grid)), pose=mbs.Pose(speed=12.0))

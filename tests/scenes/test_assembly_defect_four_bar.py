@@ -31,6 +31,7 @@ def test_one_body_per_bar_over_the_whole_time() -> None:
     assert max(_gaps(1, 10.0).values()) < ONE_BODY * largest
 
 
+@pytest.mark.slow
 def test_four_bodies_per_bar_reach_the_goal() -> None:
     """Beyond the first change point, where the bars are in line."""
     gaps, expected = _gaps(4, 3.0), reference()

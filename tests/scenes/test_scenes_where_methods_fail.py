@@ -36,6 +36,7 @@ def largest_error(scene, names, exact, end, h, interval):
     return float(np.linalg.norm(places(trajectory, names) - expected, axis=1).max())
 
 
+@pytest.mark.slow
 def test_the_squeezer_follows_the_published_motion():
     system = compile(squeezer.build())
     names = ("F.position.x", "F.position.y")
@@ -114,6 +115,7 @@ def test_the_light_cart_swings_round_as_momentum_and_energy_ask():
     assert np.sqrt(2.0 * cart_pole.GRAVITY * cart_pole.BOB / cart_pole.CART) == pytest.approx(4429.0, abs=1.0)
 
 
+@pytest.mark.slow
 def test_the_chain_follows_the_motion_of_minimum_norm_accelerations():
     system = compile(spatial_chain.build(4))
     names = tuple(f"tip.position.{c}" for c in "xyz")

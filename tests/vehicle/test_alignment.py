@@ -91,6 +91,7 @@ def test_the_held_car_has_its_contacts_on_the_ground(car):
         assert wheel.radius == pytest.approx(height / math.cos(ANGLES[f"{axle}.alignment.camber_{side}"]), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_angles_that_parameters_write_are_those_of_the_car_built_so_by_tables_too():
     """At rest, where the equilibrium is another, and on the road; without them the numbers are those of the file.
 

@@ -48,6 +48,7 @@ def test_it_is_as_stiff_as_bodies_of_the_class() -> None:
     np.testing.assert_allclose(actual.frequencies, [27.6, 28.3, 38.9, 40.9], rtol=0, atol=0.06)
 
 
+@pytest.mark.slow
 def test_every_fidelity_stands_as_drawn_and_reads_the_same_stresses() -> None:
     assert list(car().fidelities()) == [Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC]
     rest = {fidelity: Simulation(system(fidelity)).sensors for fidelity in (0, *FLEXIBLE)}

@@ -115,6 +115,7 @@ def drive_file(tmp_path):
     return file
 
 
+@pytest.mark.slow
 def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys):
     result = tmp_path / "levels.json"
     arguments = ["car", "saloon", "--cheapest", f"drive={drive_file(tmp_path)}", "speed=10"]

@@ -77,6 +77,7 @@ def test_a_braked_car_stays_on_a_slope_of_a_tenth(name: str, pedal: str) -> None
     assert s.sensors["chassis.x"] < before - 0.3
 
 
+@pytest.mark.slow
 def test_a_pushed_car_without_brakes_rolls_against_its_resistance() -> None:
     """r artanh(F r / (f_r m g R)) in the end, r the loaded radius; with the hand brake it stands."""
     car = load("hatchback").changed({"ports.forces": "earth"})

@@ -149,6 +149,7 @@ def test_torque_at_the_arm_is_the_work_of_the_tie_rods(skewed):
     np.testing.assert_allclose(t["steering_wheel_angle"], 21.0 * t["steering_arm_angle"], rtol=0, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_kinematics_has_the_angles_of_the_standing_car():
     result = kinematics(SKEWED, points=9)
     c = result.curves["front", "steer"].columns
@@ -181,6 +182,7 @@ def test_friction_is_at_the_steering_wheel():
     np.testing.assert_allclose(rough["chassis.y"], smooth["chassis.y"], rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_an_arm_that_points_ahead_or_sits_on_the_right_steers_to_the_same_side():
     ahead = {"arm_pivot": [-0.28, 0.40, 0.25], "arm_joint": [-0.125, 0.36, 0.232]}
     right = {key: [x, -y, z] for key, (x, y, z) in ((k, ARM[k]) for k in ("arm_pivot", "arm_joint"))}

@@ -133,6 +133,7 @@ def test_the_work_that_moves_the_rack_is_booked(ports: dict[str, str], name: str
     assert abs(own[16]) < 1e-3
 
 
+@pytest.mark.slow
 def test_the_reaction_of_hub_motors_is_on_the_carriers() -> None:
     """A driving hub motor turns its trailing arm down, and the spring by its pivot holds the torque: balance of moments
     about the pivot, against half shafts, whose reaction is on the body.

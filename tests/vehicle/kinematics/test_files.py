@@ -40,6 +40,7 @@ def found():
     return kinematics(load("hatchback"), points=5)
 
 
+@pytest.mark.slow
 def test_two_readers_find_the_same_numbers(made, found):
     folder, _ = made
     assert len(found.curves) == 7
@@ -56,6 +57,7 @@ def test_two_readers_find_the_same_numbers(made, found):
     assert next(iter(mine.columns)).startswith("wheel_travel")
 
 
+@pytest.mark.slow
 def test_tables_of_the_command_are_axles_by_their_curves(made):
     folder, printed = made
     assert "front_table.csv, rear_table.csv: where the wheels stand" in printed
@@ -70,6 +72,7 @@ def test_tables_of_the_command_are_axles_by_their_curves(made):
             read_curves(folder, f"front_{motion}.csv", "key", 1.0)
 
 
+@pytest.mark.slow
 def test_page_table_and_json(made, found):
     folder, printed = made
     page = (folder / "kinematics.html").read_text(encoding="utf-8")
