@@ -52,7 +52,7 @@ def test_no_wheel_is_deep_in_the_road_without_a_warning(name: str, seed: int) ->
     system = mbs.compile(car.model(PlaneRoad(friction=0.9)))
     rng, deep, below = np.random.default_rng(seed), 0, 0
     tyres = {w: car.front.tyre if w[0] == "F" else car.rear.tyre for w in WHEELS}
-    for k in range(60):
+    for k in range(100):
         angles = rng.uniform(-np.pi, np.pi, 3) * ([1.0, 0.3, 1.0] if k % 10 else [0.0, 0.05, 1.0])
         simulation = dropped(
             system, Rotation.from_euler("xyz", angles), rng.uniform(2.0, 30.0), rng.uniform(0.0, 20.0), 2.6

@@ -77,7 +77,7 @@ def warned(changes, name):
     """Sentences of the warnings for a car's file with other values, without a frame that they do not concern."""
     car = load(name)
     data = changed_content(car._data, changes, "x")
-    if not any(path.startswith("chassis.frame") for path in changes):
+    if not any(path.startswith("chassis.") for path in changes):
         data["chassis"].pop("frame", None)  # its modes take long
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

@@ -8,7 +8,7 @@ from mbs.vehicle import car_names, load
 from mbs.vehicle.fidelity import Fidelity
 from tests.quick import quick
 
-PLACE = (1e8, -5e6)  # m
+PLACE = (1e8, -1e8)  # m
 INPUTS = {"steering": ([0.0, 0.1, 0.3], [0.0, 0.0, 0.2]), "throttle": 0.2}
 POSITIONS = (".x", ".y", ".contact_x", ".contact_y")
 MORE = {"prototype": (Fidelity.MANY_MODES, Fidelity.TABLE)}

@@ -68,9 +68,9 @@ def test_a_braked_car_stays_on_a_slope_of_a_tenth(name: str, pedal: str) -> None
     names = [entry["name"] for entry in system.meta["inputs"]]
     neutral = {"selector": 0.0} if "selector" in names else {}
     s = Simulation(system, inputs={pedal: 1.0} | neutral)
-    s.step(0.005, 2000)
+    s.step(0.002, 5000)
     before = s.sensors["chassis.x"]
-    s.step(0.005, 12000)
+    s.step(0.002, 30000)
     assert abs(s.sensors["chassis.x"] - before) < 2e-5
     s.set_input(pedal, 0.0)
     s.step(0.002, 500)

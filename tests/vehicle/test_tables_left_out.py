@@ -87,12 +87,13 @@ def test_without_stops_it_is_reported_how_far_the_links_follow(name, tmp_path):
         linkage, start = Linkage(car, axle), Linkage(car, axle).drawn.q
         for end in ends:
             q = start
-            for part in np.linspace(0.1, 0.98, 12):
+            for part in np.linspace(0.05, 0.98, 40):
                 q = linkage.solve(q, np.full(2, part * end), 0.0).q
             with pytest.raises(NotReachedError):
                 linkage.solve(q, np.full(2, 1.02 * end), 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", quick(("prototype",), ("prototype", "ferrari_250_lm"), "proof"))
 def test_without_a_stop_of_the_steering_it_is_reported_how_far_the_links_follow(name, tmp_path):
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
@@ -108,7 +109,7 @@ def test_without_a_stop_of_the_steering_it_is_reported_how_far_the_links_follow(
     def follow(*places):
         at = linkage.drawn
         for start, end in zip(((0.0, 0.0), *places), places, strict=False):
-            for share in np.linspace(0.1, 1.0, 10):
+            for share in np.linspace(0.02, 1.0, 50):
                 heave, rack = (a + share * (b - a) for a, b in zip(start, end, strict=True))
                 at = linkage.solve(at.q, np.full(2, heave), rack)
 
