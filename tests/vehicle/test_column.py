@@ -168,6 +168,7 @@ def test_the_other_way_of_steering_is_not_heard():
     np.testing.assert_allclose(requested["chassis.y"], free["chassis.y"], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_car_with_a_frame_and_a_column_is_rigid_only():
     """The frame changes no bit of it; what needs a chassis that bends is refused."""
     with_frame = load("prototype").changed({f"steering.{name}": value for name, value in COLUMN.items()})

@@ -11,6 +11,7 @@ from mbs.flexible import tube
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.errors import CarFileError
 from tests.flexible.structures import straight
+from tests.quick import quick
 from tests.vehicle.frame_cars import PROTOTYPE
 
 DIAMETER = 0.04  # m
@@ -116,7 +117,7 @@ def car(fidelity: int, more: bool) -> mbs.System:
     return mbs.compile(changed.model(fidelity=fidelity))
 
 
-@pytest.mark.parametrize("fidelity", [1, 3])
+@pytest.mark.parametrize("fidelity", quick((3,), (1, 3)))
 def test_ten_more_gauges_change_no_mode_no_state_and_no_other_output(fidelity):
     few, many = car(fidelity, False), car(fidelity, True)
     assert many.meta["coordinates"] == few.meta["coordinates"]
@@ -131,7 +132,7 @@ def test_ten_more_gauges_change_no_mode_no_state_and_no_other_output(fidelity):
     assert names.index("stress.Up0") > names.index("bending_moment.Up0") > names.index("torsional_moment.T")
 
 
-@pytest.mark.parametrize("fidelity", [1, 3])
+@pytest.mark.parametrize("fidelity", quick((3,), (1, 3)))
 def test_bridges_of_the_driving_car_are_sums_of_its_single_gauges(fidelity):
     run = mbs.Simulation(car(fidelity, True)).run(0.4, 0.005, inputs=DRIVING, estimate_error=False)
     s = {name: run[f"stress.{name}"] for name in (*TEN, "SG1")}

@@ -167,6 +167,7 @@ def test_kinematics_has_the_angles_of_the_standing_car():
         assert t[f"wheel_{wheel}.steer"][-1] == pytest.approx(turned, abs=6e-3)  # it has sunk and leans a little
 
 
+@pytest.mark.slow
 def test_the_ratio_of_the_box_as_a_parameter_is_that_of_the_file():
     written = run(TRAPEZOID, parameters={"steering.ratio": 15.0}, inputs={"steering_wheel_angle_demand": 2.0})
     built = run(CAR.changed({"steering": ARM | {"ratio": 15.0}}), inputs={"steering_wheel_angle_demand": 2.0})

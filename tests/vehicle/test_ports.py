@@ -234,6 +234,7 @@ def test_the_rack_follows_its_port() -> None:
     assert now["steering_rack"] == pytest.approx(0.01 * (1.0 - (1.0 + w * 0.1) * np.exp(-w * 0.1)), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_force_on_the_rack_relieves_the_steering_wheel() -> None:
     """In a standing start of a turn the force that the rods ask for is that of the actuator and of the pinion."""
     car, by_force = column_car(), {}

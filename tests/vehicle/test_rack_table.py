@@ -98,6 +98,7 @@ def test_full_lock_is_that_of_the_rack():
     assert any("beyond full lock" in text for text in t.notices)
 
 
+@pytest.mark.slow
 def test_the_travel_per_turn_stretches_the_table():
     """As a parameter it gives what a file with it gives; the file then says by how much."""
     name, value = "steering.rack_per_turn", 1.1 * PER_TURN

@@ -113,6 +113,7 @@ def test_answers_for_the_end_of_the_step_that_they_hold_in_are_the_best(
     assert requested["path"] < 5e-4
 
 
+@pytest.mark.slow
 def test_what_the_answers_lift_is_booked_apart_from_the_tyres() -> None:
     coarse = drive(0.01, "at once", 1.0)
     assert abs(coarse["road"]) > 20.0

@@ -139,6 +139,7 @@ def test_stresses_are_refused_and_a_rack_with_mass_is_a_sentence() -> None:
         column_car().model(fidelity=Fidelity.TABLE)
 
 
+@pytest.mark.slow
 def test_an_fmu_of_one_fidelity_is_named_after_it() -> None:
     built = build_car("prototype", fidelity=10)
     assert built.name == "prototype_table"
