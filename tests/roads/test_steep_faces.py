@@ -26,8 +26,8 @@ def face(height: float, spacing: float) -> GridRoad:
     return GridRoad((0.0, -1.0), (spacing, 0.5), np.repeat(heights[:, None], 5, axis=1))
 
 
-@pytest.mark.parametrize(("height", "reported"), [(0.12, False), (0.28, False), (0.32, True), (100.0, True)])
-@pytest.mark.parametrize("spacing", [0.02, 0.05, 0.2])
+@pytest.mark.parametrize(("height", "reported"), [(0.28, False), (0.32, True), (100.0, True)])
+@pytest.mark.parametrize("spacing", [0.02, 0.2])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_face_that_is_higher_than_the_radius(spacing: float, height: float, reported: bool, sign: float) -> None:
     sentence = steep_face(face(sign * height, spacing), "face.road")

@@ -26,7 +26,7 @@ def car_on_ice():
     return compile(prototype_car.build(PlaneRoad(friction=0.0)))
 
 
-def drive(system, t_end, h=H, inputs=None, *, neutral=False, pose=None, every=1, parameters=None, estimate_error=None):
+def drive(system, t_end, h=H, inputs=None, *, neutral=False, pose=None, every=1, parameters=None, estimate_error=False):
     parameters = (parameters or {}) | (NEUTRAL if neutral else {})
     more = {"every": every, "pose": pose, "estimate_error": estimate_error}
     return simulate(system, t_end, h, inputs, None, parameters, progress=False, **more)

@@ -75,20 +75,19 @@ def test_two_newton_iterations_a_step_at_ten_milliseconds_and_one_at_one():
         assert report.factorizations <= report.iterations + 4  # the projections use the last tangent of the step
 
 
-@pytest.mark.parametrize("windows", [1, 2, 40])
+@pytest.mark.parametrize("windows", [1, 40])
 def test_the_tip_follows_the_exact_reduction_with_order_two(windows):
     """Up to 2 s, two crossings, before the error of the phase grows by itself."""
-    steps = np.array([0.02, 0.01, 0.005, 0.0025])
+    steps = np.array([0.02, 0.01, 0.005])
     errors = np.array([position_error(windows, 2.0, h, TIGHT) for h in steps])
     order = np.polyfit(np.log(steps), np.log(errors), 1)[0]
     assert 1.9 < order < 2.1
     assert errors[1] < 5e-3
 
 
-@pytest.mark.parametrize(("windows", "bound"), [(1, 3e-4), (2, 3e-4), (40, 1.5e-3)])
-def test_ten_seconds_at_one_millisecond(windows, bound):
+def test_ten_seconds_at_one_millisecond():
     """Long after the first crossings; the bound is the error of the rule, not of the singular passages."""
-    assert position_error(windows, END, 0.001, TIGHT) < bound
+    assert position_error(2, END, 0.001, TIGHT) < 3e-4
 
 
 @pytest.mark.slow
@@ -114,9 +113,8 @@ def test_without_projections_the_velocities_run_away(windows):
     assert projected.report.velocity_violation < 1e-10
 
 
-@pytest.mark.parametrize("h", [0.01, 0.03])
-def test_the_result_does_not_depend_on_the_penalty_over_decades(h):
-    system = compile(double_four_bar.build())
+def test_the_result_does_not_depend_on_the_penalty_over_decades():
+    system, h = compile(double_four_bar.build()), 0.01
     runs = [simulate(system, END, h, settings=Settings(eps_rel=10.0**-k), estimate_error=False) for k in range(6, 14)]
     expected = energy_deviation(
         simulate(system, END, h, settings=Settings(eps_rel=1e-9, tolerance_phi=1e-14), estimate_error=False)
@@ -130,19 +128,16 @@ def test_the_result_does_not_depend_on_the_penalty_over_decades(h):
         np.testing.assert_allclose(part, early[0], atol=3e-6)  # 1e-13 is where round-off begins to show
 
 
-@pytest.mark.parametrize("h", [1e-5, 1e-6])
-def test_the_increment_form_has_no_floor_of_round_off_at_small_steps(h):
+def test_the_increment_form_has_no_floor_of_round_off_at_small_steps():
     """The paper's form loses its digits below about 1e-5 s: the tangent's condition grows as 1/h^3."""
-    every = round(1e-3 / h)
-    trajectory = simulate(compile(double_four_bar.build()), 0.5, h, every=every)
+    trajectory = simulate(compile(double_four_bar.build()), 0.2, 1e-6, every=1000)
     error = np.linalg.norm(tip(trajectory) - exact(2, trajectory.t), axis=1).max()
-    assert error < max(20.0 * h**2, 1e-9)
+    assert error < 1e-9
     assert energy_deviation(trajectory) < 1e-7 * 35.835
 
 
-@pytest.mark.parametrize("windows", [300, pytest.param(1000, marks=pytest.mark.proof)])
-def test_many_windows_take_the_iterations_of_two(windows):
-    h = 0.01
+def test_many_windows_take_the_iterations_of_two():
+    h, windows = 0.01, 100
     long, short = (
         simulate(compile(double_four_bar.build(n)), 0.3, h, settings=Settings(tolerance_phi=1e-9, tolerance_r=1e-9))
         for n in (windows, 2)

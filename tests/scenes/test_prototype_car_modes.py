@@ -42,6 +42,7 @@ def test_ride_and_wheel_hop(monkeypatch):
         assert zeta == pytest.approx(expected_zeta, abs=HOP_DAMPING)
 
 
+@pytest.mark.slow
 def test_tyre_damping_damps_the_hop_only(monkeypatch):
     with_damping = symmetric_modes(car_on_ice())
     original = TMeasy.tyre

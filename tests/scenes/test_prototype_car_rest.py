@@ -10,19 +10,19 @@ from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car
 from tests.scenes.car import H, car, drive, moved, place
 
-STILL = 1e-3  # m in 100 s
+STILL = 1e-3  # m
 CREEP = 1e-6  # m/s on a slope of ten per cent
 SETTLED = 1e-5  # m
 GRADE = 0.1
 
 
 @pytest.mark.parametrize("case", ["brake", "neutral"])
-def test_a_hundred_seconds_at_rest(case):
+def test_forty_seconds_at_rest(case):
     """With the brake on, the drive's creep torque leans on it: it moves the car by a fraction of a millimetre, once."""
     braked = case == "brake"
-    t = drive(car(), 100.0, H, {"brake": 1.0 if braked else 0.0}, neutral=not braked, every=10)
-    assert moved(t, 0.0, 100.0) < (STILL if braked else 1e-9)
-    assert moved(t, 10.0, 100.0) < 1e-6
+    t = drive(car(), 40.0, H, {"brake": 1.0 if braked else 0.0}, neutral=not braked, every=10)
+    assert moved(t, 0.0, 40.0) < (STILL if braked else 1e-9)
+    assert moved(t, 10.0, 40.0) < 1e-6
     energy = t["energy.total"] - t["energy.total"][0]
     work = 2 * 60.0 * 2 * 0.9e-3 / 0.29  # J: creep torque times the give of the brakes
     assert energy.max() < (work if braked else 1e-9)
@@ -33,19 +33,17 @@ def test_a_hundred_seconds_at_rest(case):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("h", [0.01, 0.005])
-def test_the_braked_car_stands_with_the_energy_momentum_step(h):
+def test_the_braked_car_stands_with_the_energy_momentum_step():
     """Its carried velocity rings; brushes and brakes that took that for a motion let the car creep by metres."""
     settings = Settings(method="energy_momentum")
-    t = simulate(car(), 60.0, h, {"brake": 1.0}, settings, every=10, progress=False, estimate_error=False)
+    t = simulate(car(), 60.0, H, {"brake": 1.0}, settings, every=10, progress=False, estimate_error=False)
     assert moved(t, 0.0, 60.0) < STILL
     assert moved(t, 20.0, 60.0) < SETTLED
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("way", ["grade_x", "grade_y"])
-@pytest.mark.parametrize("grade", [GRADE, -GRADE])
-def test_parked_on_a_slope_up_down_and_across(way, grade):
+@pytest.mark.parametrize(("way", "grade"), [("grade_x", GRADE), ("grade_y", -GRADE)])
+def test_parked_on_a_slope_up_and_across(way, grade):
     """It starts level above the slope, falls onto it and stays; what remains is the creep of the tyres."""
     system = compile(prototype_car.build(PlaneRoad(**{way: grade})))
     t = drive(system, 25.0, H, {"brake": 1.0}, every=10, pose=Pose(z=0.25))

@@ -96,8 +96,7 @@ def test_motion_ratio_wheel_rate_and_camber_gain(heaving, axle):
     assert camber > 0.0  # in bump the top of the left wheel leans in, a turn about x from y to z
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize("rack", STEER)
+@pytest.mark.parametrize(("sign", "rack"), [(1.0, 20.0), (-1.0, 40.0), (1.0, 60.0)])
 def test_steering_geometry(sign, rack):
     x = Simulation(car_on_ice(), parameters=NEUTRAL, inputs={"steering": sign * rack / 60.0}).sensors
     assert x["steering_rack"] == pytest.approx(-sign * 1e-3 * rack, abs=1e-12)

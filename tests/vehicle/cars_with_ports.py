@@ -39,6 +39,12 @@ def simulation(make: Callable[[], Car], speed: float = 10.0, **ports: object) ->
     return mbs.Simulation(system(make, tuple(ports.items())), pose=mbs.Pose(speed=speed))
 
 
+def works_of(sensors: dict[str, float]) -> dict[str, float]:
+    """Works on a car, J, by the names of their outputs."""
+    stored = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
+    return {n: x for n, x in sensors.items() if n.startswith("energy.") and n not in stored}
+
+
 class SecondDrive:
     """A copy of the drive of a car in another place, which knows the speeds of the wheels alone."""
 

@@ -60,30 +60,6 @@ def curved_content(car: Car, folder: Path, axles: Sequence[str] = ("front", "rea
     return data
 
 
-def truck_content(car: Car, folder: Path) -> dict[str, Any]:
-    """The content of a car with links, with a wheelbase of 3.4 m and its wheels 0.35 m farther out."""
-    data = _content(car)
-    for file in car.folder.glob("*.tir"):
-        shutil.copy(file, folder)
-    for axle, dx in (("front", 0.0), ("rear", car.wheelbase - 3.4)):
-        part = data[axle]
-        part["wheel"]["centre"] = _moved(part["wheel"]["centre"], dx)
-        part["suspension"] = _moved(part["suspension"], dx)
-        if "points" in part.get("anti_roll_bar", {}):
-            part["anti_roll_bar"]["points"] = _moved(part["anti_roll_bar"]["points"], dx)
-    data["vehicle"].update(length=6.0, width=2.6)
-    return data
-
-
-def _moved(value: Any, dx: float) -> Any:
-    """Points of the left side."""
-    if isinstance(value, dict):
-        return {key: item if key in ("inertia", "products") else _moved(item, dx) for key, item in value.items()}
-    if isinstance(value, list) and len(value) == 3:
-        return [value[0] + dx, value[1] + 0.35, value[2]]
-    return value
-
-
 def _ends(points: dict[str, Any], arm: str) -> dict[str, Any]:
     """Of an arm that turns about two bushes."""
     front, rear = (points[f"{arm}_pivot_{end}"] for end in ("front", "rear"))

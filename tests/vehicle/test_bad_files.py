@@ -10,11 +10,11 @@ from mbs.vehicle import Car, CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
 from tests.quick import quick
-from tests.vehicle.content import new_with, numbers, sentences, tables, told
+from tests.vehicle.content import new_with, numbers, sentences, tables, told, warned
 
 FIRST = "prototype"
 CAR_NAMES = sorted(car_names(), reverse=True)
-SWEPT = quick(("prototype", "hatchback", "commonroad_320i"), CAR_NAMES, "proof")
+SWEPT = quick(("prototype",), CAR_NAMES, "proof")
 
 
 def refused(changes, name=FIRST, lines=1):
@@ -40,22 +40,15 @@ def test_keys_of_another_kind_are_reported_as_such():
     assert any(line.startswith("front.suspension.points.lower_ball_joint belongs to another kind") for line in lines)
 
 
-def test_a_drive_that_gives_nothing_is_a_drive():
-    assert told({"drive.efficiency": 0.0}, FIRST) == []
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.proof)])
 @pytest.mark.parametrize("name", quick(("prototype", "commonroad_320i"), CAR_NAMES, "proof"))
-@pytest.mark.parametrize("factor", [1000.0, 0.001])
-def test_each_number_in_a_unit_wrong_by_1000_is_reported(name, factor, every):
-    """Each number of each car, or each in the first car that has it: its range is that of its name."""
+@pytest.mark.parametrize("factor", [1000.0, pytest.param(0.001, marks=pytest.mark.proof)])
+def test_each_number_in_a_unit_wrong_by_1000_is_reported(name, factor):
+    """Each in the first car that has it: its range is that of its name."""
     silent = set()
     values = numbers(name)
-    for path in values if every else new_with(name, numbers, CAR_NAMES):
-        value = values[path]
-        lines = told({path: factor * value}, name) if value else ["0 has no unit"]
-        if not lines:
+    for path in new_with(name, numbers, CAR_NAMES):
+        if values[path] and not told({path: factor * values[path]}, name):
             silent.add(path)
     angles = {
         f"{axle}.alignment.{what}_{side}"
@@ -65,15 +58,6 @@ def test_each_number_in_a_unit_wrong_by_1000_is_reported(name, factor, every):
     }
     # a centre of mass just off the middle is a possible one, and so are an angle and a difference of nearly 0
     assert silent <= {"vehicle.reference_point.1"} | (angles | {"brakes.side"} if factor < 1.0 else set())
-
-
-@pytest.mark.parametrize("name", SWEPT)
-def test_lengths_in_mm_and_masses_in_t(name):
-    for unit in ("mm", "t"):
-        factor, key = {"mm": (1000.0, ("points", "centre", "com", "reference")), "t": (0.001, ("mass",))}[unit]
-        changes = {p: factor * v for p, v in numbers(name).items() if set(key) & set(p.split("."))}
-        assert len(changes) > 5
-        assert len(told(changes, name)) > 1
 
 
 @pytest.mark.parametrize("name", SWEPT)
@@ -146,15 +130,6 @@ def test_points_of_the_right_side(case):
     assert any("left" in line or "y = -" in line for line in refused(MIRRORED[case], lines=None))
 
 
-def test_all_points_of_the_right_side():
-    changes = {p: -v for p, v in numbers("prototype").items() if p.endswith(".1") and ".points." in p}
-    assert len(refused(changes, lines=None)) > 5
-    right = dict(load("prototype")._data["front"]["suspension"]["points"])
-    points = {f"front.suspension.points_right.{k}": [x, -y, z] for k, (x, y, z) in right.items()}
-    (line,) = refused(points)
-    assert line == "front.suspension.points_right is not known; did you mean 'points'?"
-
-
 P = "front.suspension.points"
 GEOMETRY = {  # what cannot move or has no direction, and what the sentence says
     "lower pivots at one place": ({f"{P}.lower_pivot_rear": [0.15, 0.3, 0.165]}, "the axis of the lower wishbone"),
@@ -206,24 +181,20 @@ def test_invalid_cars_are_refused(case):
 
 ODD = {
     "tyres without grip": ({"front.tyre.grip": 0.0}, "force over load that the tyre reaches on its road is 0;"),
-    "a road without friction": ({"road.friction": 0.0}, "force over load that the tyre reaches on its road is 0;"),
     "a narrow body": ({"vehicle.width": 0.6}, "width over track is 0.44"),
     "a short body": ({"vehicle.length": 2.4}, "length over wheelbase is 1.043"),
-    "another tyre": ({"front.tyre.radius": 0.34}, "compresses the tyre by"),
     "springs far too long": ({"front.spring.free_length": 1.9}, "length of the spring at rest over free length is 0."),
     "ice": ({"road.friction": 0.05}, None),
+    "a drive that gives nothing": ({"drive.efficiency": 0.0}, None),
     "soft springs": ({"front.spring.stiffness": 9000.0}, "higher in the chassis than front.wheel.centre"),
     "a soft tyre": ({"rear.tyre.stiffness": 40000.0}, "compresses the tyre by"),
-    "weak dampers": ({"front.damper.damping": 60.0}, "front damping ratio in bump is 0.0"),
     "weak brakes": ({"brakes.torque": 60.0}, "braking at full pedal without slip is 0.08"),
-    "a wheel of little inertia": ({"front.wheel.spin_inertia": 0.2}, "front radius of gyration of the wheel about"),
     "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "in front.tyre.nominal_load"),
     "a small tyre": ({"rear.tyre.nominal_load": 6000.0} | {
         f"rear.tyre.{c}.{k}": [4.0 * v for v in getattr(getattr(load("prototype").rear.tyre, c), k)]
         for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")
     }, "deflection at the nominal load over radius is 0.34"),
     "tyres of glue": ({"front.tyre.grip": 5.0}, "on its road is"),
-    "forces at too little friction": ({"rear.tyre.reference_friction": 0.1}, "tyre reaches on its road is"),
     "a load without forces": (
         {"rear.tyre.max_load_factor": 0.5}, "rear.tyre.max_load_factor: the forces grow with the load up to 750 N, but",
     ),
@@ -232,19 +203,17 @@ ODD = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", ODD)
+@pytest.mark.parametrize("case", quick(("tyres without grip", "ice", "soft springs", "brakes behind only"), ODD))
 def test_implausible_values_are_reported_and_built(case):
     changes, message = ODD[case]
-    lines = told(changes, "prototype")
+    lines = warned(changes, "prototype")
     assert (lines == []) if message is None else any(message in line for line in lines)
-    assert load("prototype").changed(changes).name == "prototype"
 
 
-@pytest.mark.parametrize("ports", ["", '\n[ports]\ntyre = "hub"\n'])
-def test_a_user_is_warned_of_implausible_values(copied, ports):
+def test_a_user_is_warned_of_implausible_values(copied):
     file = copied()
     text = file.read_text(encoding="utf-8").replace("stiffness = 12360.0", "stiffness = 9000.0")
-    file.write_text(text + ports, "utf-8")
+    file.write_text(text + '\n[ports]\ntyre = "hub"\n', "utf-8")
     with pytest.warns(CarWarning, match=r"car\.toml: at rest the front wheels stand 0\.\d+ m higher") as caught:
         load(file)
     assert caught[0].filename == __file__
@@ -253,21 +222,15 @@ def test_a_user_is_warned_of_implausible_values(copied, ports):
 TEXTS = {
     "empty": (b"", "schema is missing"),
     "no TOML": (b"schema = = 1\n", "is not a TOML file: Invalid value (at line 1, column 10)"),
-    "twice": (b"schema = 1\nschema = 1\n", "is not a TOML file"),
     "UTF-16": ("schema = 1\n".encode("utf-16"), "is written in UTF-16; it must be in UTF-8"),
     "Latin-1": ('description = "Käfer"'.encode("latin-1"), "is not text in UTF-8: byte 16 is not"),
-    "zero bytes": (b"schema = 1\n\0", "is not a TOML file"),
     "deep lists": (b"a = " + b"[" * 20000 + b"]" * 20000, "nested more than 100 deep"),
-    "deep tables": (b"schema = 2\na = " + b"{a=" * 20000 + b"1" + b"}" * 20000, "nested more than 100 deep"),
     "a deep key": (b"schema = 1\n" + b"a." * 3000 + b"a = 1\n", "a key has more than 200 parts"),
     "huge": (b"#" * 1_000_001, "has 1000001 bytes; it must have at most 1000000"),
     "a huge number": (b"schema = " + b"9" * 5000, "is not a readable TOML file"),
-    "a picture": (b"\x89PNG\r\n\x1a\n", "is not text in UTF-8"),
     "schema missing": (b"name = 'x'", "schema is missing; a car file says schema = 2"),
     "schema text": (b"schema = '1'", "schema is '1'; it must be the whole number 2"),
-    "schema of decimals": (b"schema = 1.0", "schema is 1.0; it must be the whole number 2"),
     "schema a table": (b"[schema]", "schema is a table or list"),
-    "schema a date": (b"schema = 2020-01-01", "it must be the whole number 2"),
     "older": (b"schema = 1", "schema is 1; this release reads 2"),
     "newer": (b"schema = 3", "a newer form; this release reads 2. Update ALi3"),
     "a list for a table": (b"schema = 2\nfront = [1, 2]\nchassis = 3", "front is [1, 2]; it must be a table."),
@@ -358,7 +321,7 @@ def test_changes_that_are_no_mapping():
 
 @pytest.mark.parametrize(
     "changes",
-    [{"front.spring.stifness": 1.0}, {"front.tyre.radius": 0.2}, {"drive.ratios": []}, {"vehicle.mass": 0.597}],
+    [{"front.spring.stifness": 1.0}, {"front.tyre.radius": 0.2}],
 )
 def test_the_same_through_every_door(changes, copied, capsys):
     """By a file, by `changed` and by the command line."""

@@ -15,10 +15,6 @@ def car() -> mbs.Model:
     return load("prototype").model()
 
 
-def test_a_car_as_it_is_has_no_such_book() -> None:
-    assert "energy.added" not in [s.name for s in car().sensors]
-
-
 @ON_ICE
 def test_works_of_added_elements_close_the_balance() -> None:
     """A torque by an input turns the standing car on ice, and a damper holds it against the ground."""

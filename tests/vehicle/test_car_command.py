@@ -14,7 +14,7 @@ def test_it_lists_the_cars(capsys):
     assert [line.split()[0] for line in printed.splitlines()] == car_names()
 
 
-@pytest.mark.parametrize("name", car_names())
+@pytest.mark.parametrize("name", ["prototype", "commonroad_320i"])
 def test_a_copy_is_the_same_car(name, tmp_path, capsys):
     folder = tmp_path / "new" / "own"
     assert main(["car", name, str(folder)]) == 0
@@ -28,7 +28,7 @@ def test_a_copy_is_the_same_car(name, tmp_path, capsys):
     assert capsys.readouterr().err == f"error: {folder} exists; the copy of a car needs a folder that does not.\n"
 
 
-@pytest.mark.parametrize("name", car_names())
+@pytest.mark.parametrize("name", ["hatchback", "ferrari_250_lm"])
 def test_it_prints_a_summary_of_a_car(name, capsys):
     assert main(["car", name, "--show-parameters"]) == 0
     printed = capsys.readouterr()

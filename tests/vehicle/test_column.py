@@ -81,7 +81,7 @@ def test_stiffer_columns_approach_the_rigid_rack():
     light = {**SMOOTH, "rack_mass": 0.2, "damping": 0.0}
     rigid = Simulation(compile(load("prototype").model()), pose=Pose(speed=15.0)).run(4.0, H, inputs=LEFT)
     gaps = []
-    for stiffness in (200.0, 800.0, 3200.0, 12800.0):
+    for stiffness in (800.0, 3200.0, 12800.0):
         t = run(system(*{**light, "stiffness": stiffness}.items()), 4.0, **LEFT)
         gaps.append(abs(t["steering_rack"][-1] - rigid["steering_rack"][-1]))
     ratios = np.array(gaps[:-1]) / gaps[1:]
@@ -168,6 +168,7 @@ def test_the_other_way_of_steering_is_not_heard():
     np.testing.assert_allclose(requested["chassis.y"], free["chassis.y"], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_car_with_a_frame_and_a_column_is_rigid_only():
     """The frame changes no bit of it; what needs a chassis that bends is refused."""
     with_frame = load("prototype").changed({f"steering.{name}": value for name, value in COLUMN.items()})
@@ -199,16 +200,15 @@ def test_bad_numbers_are_refused():
         car(stiffness=115e3)
 
 
-@pytest.mark.parametrize(
-    "name", ["stiffness", "damping", "friction", "rack_friction", "assistance", "assistance_limit"]
-)
-def test_a_parameter_is_the_number_of_the_file(name):
-    value = {"assistance": 3.0, "assistance_limit": 20.0}.get(name, 1.5 * float(COLUMN.get(name, 0.0)))
+def test_parameters_are_the_numbers_of_the_file():
     base = {"assistance": 2.0, "assistance_limit": 40.0}
-    changed = Simulation(system(*base.items()), pose=Pose(speed=15.0), parameters={f"steering.{name}": value})
-    rebuilt = Simulation(compile(car(**{**base, name: value}).model()), pose=Pose(speed=15.0))
+    values = {"assistance": 3.0, "assistance_limit": 20.0}
+    values |= {name: 1.5 * float(COLUMN[name]) for name in ("stiffness", "damping", "friction", "rack_friction")}
+    parameters = {f"steering.{name}": value for name, value in values.items()}
+    changed = Simulation(system(*base.items()), pose=Pose(speed=15.0), parameters=parameters)
+    rebuilt = Simulation(compile(car(**values).model()), pose=Pose(speed=15.0))
     a, b = (s.run(2.0, H, inputs=LEFT) for s in (changed, rebuilt))
-    for output in ("steering_wheel_torque", "chassis.y"):
+    for output in ("steering_wheel_torque", "steering_assistance", "chassis.y"):
         np.testing.assert_allclose(a[output], b[output], rtol=0, atol=1e-9)
 
 

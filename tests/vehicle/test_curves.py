@@ -10,10 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-import tomli_w
 from scipy.interpolate import CubicSpline
 
-from ali3.command import main
 from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Car, CarFileError, CarWarning
@@ -23,10 +21,10 @@ from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.side import Side
 from mbs.vehicle.suspensions.curve_poses import wheel_curves
 from mbs.vehicle.suspensions.curve_table import COLUMNS, FINEST, read_curves
-from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car, truck_content
+from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
 
 WHEELS = ("FL", "FR", "RL", "RR")
-CARS = ("saloon", "hatchback", "prototype")
+CARS = ("saloon", "hatchback")
 SWERVE = {
     "steering": (np.array([0.0, 0.2, 0.5, 0.8, 1.1, 1.5]), np.array([0.0, 0.0, 0.4, -0.4, 0.0, 0.0])),
     "brake": (np.array([0.0, 0.8, 1.1, 1.5]), np.array([0.0, 0.0, 0.3, 0.3])),
@@ -59,7 +57,7 @@ def drive(system: System, seconds: float = 1.5) -> Any:
 
 @pytest.mark.parametrize(
     ("name", "angle", "way", "load"),
-    [("saloon", 1e-6, 1e-6, 5e-5), ("hatchback", 1e-4, 1e-5, 1e-3), ("prototype", 1e-6, 1e-6, 5e-5)],
+    [("saloon", 1e-6, 1e-6, 5e-5), ("hatchback", 1e-4, 1e-5, 1e-3)],
 )
 def test_it_drives_as_the_links_that_its_tables_come_from(
     name: str, angle: float, way: float, load: float, content: dict, folder: Path
@@ -349,36 +347,6 @@ def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: 
         simulate(compile(car.model()), 2.0, 0.005, pose=Pose(z=0.6))
 
 
-@pytest.fixture(scope="module")
-def truck(folder: Path) -> Car:
-    """With a wheelbase of 3.4 m and wider by 0.7 m."""
-    place = folder / "truck"
-    place.mkdir()
-    return car_from(truck_content(linked("saloon"), place), place, "truck")
-
-
-@pytest.mark.slow
-def test_every_table_of_a_truck_is_read_again(truck: Car, tmp_path: Path) -> None:
-    """Those of the command by `read_curves` too; the wheels stand where the links put them."""
-    (tmp_path / "car.toml").write_text(tomli_w.dumps(truck._data))
-    for file in truck.folder.glob("*.tir"):
-        shutil.copy(file, tmp_path)
-    assert main(["car", str(tmp_path), "--kinematics", "--points", "5", "--out", str(tmp_path / "out")]) == 0
-    curved = car_from(curved_content(truck, tmp_path), tmp_path, "x")
-    assert curved.wheelbase == pytest.approx(3.4)
-    for axle, size in (("front", 1.1), ("rear", 1.1)):
-        for kind in ("table", "parallel"):
-            assert len(read_curves(tmp_path / "out", f"{axle}_{kind}.csv", "key", size).travel) > 4
-        parallel = kinematics(truck, points=5).curves[axle, "parallel"]
-        own = getattr(curved, axle).suspension.of(Side(axle, "left", 1.0))
-        middle = int(np.argmin(np.abs(own.second)))
-        for k, c in enumerate("xy"):
-            spline = CubicSpline(own.travel, own.centres[:, middle, k])(parallel["wheel_travel_left"])
-            np.testing.assert_allclose(spline, parallel[f"wheel_centre_{c}_left"], atol=1e-5)
-        table = read_curves(tmp_path / "out", f"{axle}_parallel.csv", "key", size)
-        assert table.both
-
-
 def test_track_change_is_of_both_wheels(content: dict, copied: Path) -> None:
     """A swing axle whose wheel goes 0.55 m aside per m of travel: both together have 1.1 m per m."""
     heading, rows = rows_of(copied / "rear.csv")
@@ -402,24 +370,17 @@ def test_track_change_is_of_both_wheels(content: dict, copied: Path) -> None:
         car_from(content["saloon"], copied, "x")
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("tabled", ["front", "rear"])
-def test_the_axle_with_links_has_its_own_curves(tabled: str, tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
-    whole, other = linked("saloon"), "rear" if tabled == "front" else "front"
-    (tmp_path / "car.toml").write_text(tomli_w.dumps(curved_content(whole, tmp_path, (tabled,))))
-    assert main(["car", str(tmp_path), "--kinematics", "--points", "5", "--out", str(tmp_path / "out")]) == 0
-    notes = [line for line in capsys.readouterr().err.splitlines() if f"{tabled}.suspension.kind is 'curves'" in line]
-    assert len(notes) == 1
-    motions = ["opposite", "parallel", "single", *(["steer"] if other == "front" else []), "table"]
-    result = sorted(file.name for file in (tmp_path / "out").glob("*.csv"))
-    assert result == [f"{other}_{motion}.csv" for motion in motions]
-    half = car_from(curved_content(whole, tmp_path, (tabled,)), tmp_path, "half")
+def test_the_axle_with_links_has_its_own_curves(content: dict, folder: Path) -> None:
+    whole = linked("saloon")
+    data = content["saloon"] | {"rear": whole._data["rear"], "chassis": whole._data["chassis"]}
+    half = car_from(data, folder / "saloon", "half", at_rest=False)
     actual, full = (kinematics(car, points=5) for car in (half, whole))
-    assert not actual.drawn(tabled)
-    assert actual.drawn(other) == pytest.approx(full.drawn(other), rel=1e-9)
+    assert {axle for axle, _ in actual.curves} == {"rear"}
+    assert not actual.drawn("front")
+    assert actual.drawn("rear") == pytest.approx(full.drawn("rear"), rel=1e-9)
     gives = compliance(half).values
-    assert [*gives] == [other]
-    assert gives[other] == pytest.approx(compliance(whole, 0).values[other], rel=1e-6)
+    assert [*gives] == ["rear"]
+    assert gives["rear"] == pytest.approx(compliance(whole, 0).values["rear"], rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -447,23 +408,3 @@ def test_functions_that_need_links_ask_for_them(content: dict, folder: Path) -> 
     data = content["saloon"] | {"front": content["saloon"]["front"] | {"anti_roll_bar": bar}}
     with pytest.raises(CarFileError, match="needs links; for an axle by its curves give"):
         car_from(data, folder / "saloon", "x")
-
-
-@pytest.mark.slow
-def test_the_command_writes_the_tables_of_links(
-    content: dict, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture
-) -> None:
-    assert main(["car", "saloon", "--kinematics", "--points", "5", "--out", str(tmp_path)]) == 0
-    assert "front_table.csv, rear_table.csv: where the wheels stand" in capsys.readouterr().out
-    written_by_hand = rows_of(folder / "saloon" / "rear.csv")
-    heading, rows = rows_of(tmp_path / "rear_table.csv")
-    assert heading == written_by_hand[0]
-    np.testing.assert_allclose(rows, written_by_hand[1], atol=1e-12)  # masses are no part of it
-    parallel = read_curves(tmp_path, "rear_parallel.csv", "key", 1.0)
-    right = np.abs(parallel.columns["wheel_centre_y_right"] + parallel.columns["wheel_centre_y_left"])
-    assert parallel.both
-    assert right.max() < 1e-9
-    for motion, row in (("opposite", 1), ("single", 1)):
-        match = rf"{motion}\.csv\), row {row} has .*; both wheels must travel alike, or give other_wheel_travel"
-        with pytest.raises(CarFileError, match=match):
-            read_curves(tmp_path, f"rear_{motion}.csv", "key", 1.0)

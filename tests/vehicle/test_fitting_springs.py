@@ -36,7 +36,7 @@ def said_of(car: Car, lengths: dict[str, float]) -> tuple[str, Car | None]:
     return "\n".join(str(entry.message) for entry in caught), checked
 
 
-@pytest.mark.parametrize("case", quick(("longer",), CASES))
+@pytest.mark.parametrize("case", quick(("longer", "curves"), CASES, "proof"))
 def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -> None:
     name, changes = CASES[case]
     car = load(name)

@@ -10,18 +10,16 @@ import mbs
 from mbs.vehicle import Car, CarFileError
 from tests.quick import quick
 from tests.scenes.car import ON_ICE
-from tests.vehicle.cars_with_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
+from tests.vehicle.cars_with_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports, works_of
 from tests.vehicle.second_tyres import drive, longest, saloon
 
 ORDERS = [*product((hatchback, saloon, rigid), (False, True))]
 """Whether the tyre is stepped at once with the car, by the car."""
-STORED = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
 
 
-@pytest.mark.parametrize("axes", ["earth", "vehicle"])
-def test_works_of_forces_and_wind_close_the_balance(axes: str) -> None:
+def test_works_of_forces_and_wind_close_the_balance() -> None:
     """To 1e-6 of the largest work, beside the step's own error."""
-    s = simulation(hatchback, 12.0, forces=axes, wind="speed")
+    s = simulation(hatchback, 12.0, forces="vehicle", wind="speed")
     start = s.sensors
     for k in range(600):
         s.set_input("point_reference.Fx", 2500.0)
@@ -31,7 +29,7 @@ def test_works_of_forces_and_wind_close_the_balance(axes: str) -> None:
         s.set_input("wind.heading", 1.5)
         s.step(STEP)
     end = s.sensors
-    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
+    works = works_of(end)
     assert works["energy.ports"] > 1e4
     residual = end["energy.total"] - start["energy.total"] - sum(works.values())
     own = abs(s.instance.report()["energy_error"])
@@ -83,30 +81,6 @@ def test_a_torque_about_the_vertical_axis_turns_the_car_on_ice() -> None:
     assert abs(ice.sensors["chassis.wz"]) < 0.02 * first
 
 
-@ON_ICE
-@pytest.mark.parametrize(
-    ("speed", "wind", "heading"), [(0.0, 20.0, 0.7), (20.0, 10.0, np.pi), (20.0, 12.0, 0.5 * np.pi), (20.0, 5.0, 0.0)]
-)
-def test_on_ice_wind_is_the_only_force(speed: float, wind: float, heading: float) -> None:
-    """Mass times the change of the velocity is rho c A |w| w / 2 of the velocity w over the air, along and across."""
-    s = mbs.Simulation(
-        system(rigid, (("wind", "speed"),)), pose=mbs.Pose(speed=speed), parameters={"road.friction": 0.0}
-    )
-    first = s.sensors
-    s.set_input("wind.speed", wind)
-    s.set_input("wind.heading", heading)
-    s.step(STEP, 50)
-    now = s.sensors
-    mass = sum(first[f"wheel_{w}.Fz"] for w in WHEELS) / 9.81
-    before, after = (np.array([at["chassis.earth_vx"], at["chassis.earth_vy"]]) for at in (first, now))
-    over = wind * np.array([np.cos(heading), np.sin(heading)]) - 0.5 * (before + after)
-    air = rigid()._data["aerodynamics"]
-    pushed = 0.5 * air["air_density"] * air["drag_area"] * np.hypot(*over) * over
-    assert mass * (after - before) / 0.1 == pytest.approx(pushed, rel=1e-4, abs=1e-3)
-    moved = [now[f"chassis.{c}"] - first[f"chassis.{c}"] for c in "xy"]
-    assert now["energy.drag"] - first["energy.drag"] == pytest.approx(pushed @ moved, rel=1e-3, abs=1e-3)
-
-
 @pytest.mark.slow
 def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> None:
     """By order one, held over 2 and 4 ms."""
@@ -115,7 +89,7 @@ def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> N
     assert path < 2e-3
     assert 1.6 < coarse / fine < 2.6
     end = loop.sensors
-    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
+    works = works_of(end)
     assert abs(works["energy.ports"]) > 100.0
     assert works["energy.tyres"] == 0.0
 
@@ -128,25 +102,6 @@ def test_a_wheel_is_calm_up_to_the_step_that_its_tyre_bears(make: Callable[[], C
     calm, shaken = (drive(part * h, 5.0, make=make, late=late, time=1.0)[2] for part in (0.85, 1.4))
     assert calm < 0.015
     assert shaken > 0.05
-
-
-@pytest.mark.slow
-def test_a_tyre_with_little_damping_shakes_above_the_step_that_the_fmu_names() -> None:
-    """At 5 m/s: 4 ms are too long for held forces, 2 ms and, with derivatives, 5 ms are not."""
-    steps = ((0.004, False), (0.002, False), (0.005, True))
-    shaken, held, followed = (drive(h, 5.0, make=saloon, slopes=slopes, time=1.0)[2] for h, slopes in steps)
-    assert shaken > 0.05
-    assert held < 0.02
-    assert followed < 1e-3
-
-
-@pytest.mark.slow
-def test_long_steps_shake_a_slow_wheel_and_derivatives_calm_it() -> None:
-    """At 5 m/s and 10 ms: what the FMU warns of."""
-    held, followed, short = (drive(h, 5.0, slopes=s)[2] for h, s in ((0.01, False), (0.01, True), (0.004, False)))
-    assert held > 0.05
-    assert followed < 0.01
-    assert short < 0.01
 
 
 def test_what_a_tyre_at_a_port_replaces_is_left_out() -> None:

@@ -8,10 +8,10 @@ import pytest
 
 import mbs
 from mbs.flexible import tube
-from mbs.flexible.frame import Frame
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.errors import CarFileError
 from tests.flexible.structures import straight
+from tests.quick import quick
 from tests.vehicle.frame_cars import PROTOTYPE
 
 DIAMETER = 0.04  # m
@@ -70,7 +70,7 @@ WAYS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (-0.4, 0.3, 0.2), (0.0, 0.1, 1.0)])
+@pytest.mark.parametrize("direction", [(-1.0, 0.0, 0.0), (-0.4, 0.3, 0.2), (0.0, 0.1, 1.0)])
 @pytest.mark.parametrize("way", list(WAYS))
 def test_a_single_gauge_reads_pull_and_bending_of_the_fibre_that_it_is_named_by(direction, way):
     along = np.array(direction) / np.linalg.norm(direction)
@@ -110,23 +110,6 @@ def test_axial_and_torsion_bridges_read_pull_and_twist_alone():
     assert torsion == pytest.approx({"torsional_moment": TORQUE, "stress": shear}, rel=ROUND_OFF)
 
 
-def test_bridges_of_several_gauges_are_sums_of_single_ones():
-    frame = straight(3, direction=(-0.4, 0.3, 0.2))
-    u = np.random.default_rng(5).normal(size=9 * 4) * 1e-3  # displacements, then accelerations of the nodes
-    single = {fibre: _reading(frame, u, bridge="quarter", fibre=fibre) for fibre in ("top", "bottom", 90.0, 270.0)}
-    half, axial = _reading(frame, u), _reading(frame, u, bridge="axial")
-    assert half == pytest.approx(single["top"] - single["bottom"], rel=ROUND_OFF)
-    assert axial == pytest.approx((single["top"] + single["bottom"]) / 2, rel=ROUND_OFF)
-    assert axial == pytest.approx((single[90.0] + single[270.0]) / 2, rel=ROUND_OFF)
-
-
-def _reading(frame: Frame, u: np.ndarray, **gauge: Any) -> float:
-    section = TubeGauge(tube=("A", "B"), place=0.4, **gauge)
-    ends = frame.positions[0], frame.positions[-1]
-    readings = section.readings(section.strain_gauge("G", ends, 0.02, range(3)), frame)
-    return float(next(r.row @ u for r in readings if r.quantity == "stress"))
-
-
 @cache
 def car(fidelity: int, more: bool) -> mbs.System:
     gauges = PROTOTYPE._data["chassis"]["frame"]["gauges"]
@@ -134,7 +117,7 @@ def car(fidelity: int, more: bool) -> mbs.System:
     return mbs.compile(changed.model(fidelity=fidelity))
 
 
-@pytest.mark.parametrize("fidelity", [1, 2, 3])
+@pytest.mark.parametrize("fidelity", quick((3,), (1, 3)))
 def test_ten_more_gauges_change_no_mode_no_state_and_no_other_output(fidelity):
     few, many = car(fidelity, False), car(fidelity, True)
     assert many.meta["coordinates"] == few.meta["coordinates"]
@@ -149,7 +132,7 @@ def test_ten_more_gauges_change_no_mode_no_state_and_no_other_output(fidelity):
     assert names.index("stress.Up0") > names.index("bending_moment.Up0") > names.index("torsional_moment.T")
 
 
-@pytest.mark.parametrize("fidelity", [1, 2, 3])
+@pytest.mark.parametrize("fidelity", quick((3,), (1, 3)))
 def test_bridges_of_the_driving_car_are_sums_of_its_single_gauges(fidelity):
     run = mbs.Simulation(car(fidelity, True)).run(0.4, 0.005, inputs=DRIVING, estimate_error=False)
     s = {name: run[f"stress.{name}"] for name in (*TEN, "SG1")}

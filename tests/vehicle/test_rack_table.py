@@ -1,23 +1,17 @@
 """A steering whose ratio varies: from the file by drawing, kinematics, run, lanes and torque, and what is refused."""
 
 import math
-import re
-import shutil
 
-import fmpy
 import numpy as np
 import pytest
 from pydantic import ValidationError
 from scipy.interpolate import PchipInterpolator
 
-import build_fmu
 import mbs
-from hosts.fmu.fmu import Fmu
 from mbs import Simulation, compile
 from mbs.vehicle import load
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
-from mbs.vehicle.read_car import CARS
 from mbs.vehicle.steering.rack_by_angle import RackByAngle
 
 CAR = load("prototype")
@@ -52,11 +46,6 @@ def test_a_straight_table_is_the_constant_ratio():
     straight = [[k * 60.0, k * 42.0 / 6.0] for k in range(11)]
     car = CAR.changed({KEY: straight})
     assert car.steering.wheel_angle_max == pytest.approx(CAR.steering.wheel_angle_max, rel=1e-14)
-    results, usual = kinematics(car, points=5), kinematics(CAR, points=5)
-    for name, values in usual.curves["front", "steer"].columns.items():
-        np.testing.assert_allclose(
-            results.curves["front", "steer"].columns[name], values, rtol=1e-12, atol=1e-12, err_msg=name
-        )
     a, b = run(car), run(CAR)
     for name in ("chassis.y", "steering_rack", "steering_wheel_angle", "steering_wheel_speed", "wheel_FL.steer"):
         np.testing.assert_allclose(a[name], b[name], rtol=0, atol=1e-12 * max(1.0, np.ptp(b[name])), err_msg=name)
@@ -64,15 +53,15 @@ def test_a_straight_table_is_the_constant_ratio():
 
 @pytest.mark.slow
 def test_kinematics_has_the_angle_and_the_ratio_of_the_table():
-    c = kinematics(TABLED, points=41).curves["front", "steer"].columns
+    c = kinematics(TABLED, points=9).curves["front", "steer"].columns
     angle, rack = c["steering_wheel_angle"], CAR.rack_direction * c["rack_travel"]
     np.testing.assert_allclose(CURVE(angle), rack, rtol=0, atol=1e-14)
-    usual = kinematics(CAR, points=41).curves["front", "steer"].columns
+    usual = kinematics(CAR, points=9).curves["front", "steer"].columns
     constant = CAR.steering.rack_per_turn / (2.0 * math.pi)
     np.testing.assert_allclose(
         c["steering_ratio"] * CURVE(angle, 1), usual["steering_ratio"] * constant, rtol=1e-12, atol=0
     )
-    assert c["steering_ratio"][0] < 0.7 * c["steering_ratio"][20]
+    assert c["steering_ratio"][0] < 0.7 * c["steering_ratio"][4]
 
 
 def test_a_run_moves_the_rack_by_the_table(tabled):
@@ -109,6 +98,7 @@ def test_full_lock_is_that_of_the_rack():
     assert any("beyond full lock" in text for text in t.notices)
 
 
+@pytest.mark.slow
 def test_the_travel_per_turn_stretches_the_table():
     """As a parameter it gives what a file with it gives; the file then says by how much."""
     name, value = "steering.rack_per_turn", 1.1 * PER_TURN
@@ -152,39 +142,6 @@ def test_lanes_have_it_too():
         assert np.ptp(a["steering_wheel_angle"]) > 2.0
         rack = CAR.rack_direction * a["steering_rack"]
         np.testing.assert_allclose(rack, CURVE(a["steering_wheel_angle"]), rtol=0, atol=1e-14)
-
-
-@pytest.mark.slow
-def test_an_fmu_of_the_file_steers_by_it(tmp_path):
-    """From the text of a car file to the outputs of its FMU, those of the same run in this process."""
-    folder = tmp_path / "quick"
-    shutil.copytree(CARS / "prototype", folder)
-    text = (folder / "car.toml").read_text(encoding="utf-8")
-    text = re.sub(r"\n\[chassis\.frame\b.*?(?=\n\[(?!chassis\.frame))", "\n", text, flags=re.DOTALL)
-    requested = f"rack_by_wheel_angle = {ROWS}"
-    text, count = re.subn(r"rack_per_turn = 0\.042", requested, text)
-    assert count == 1
-    (folder / "car.toml").write_text(text.replace('name = "prototype"', 'name = "quick"'), encoding="utf-8")
-    arguments = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
-    assert build_fmu.main(arguments) == 0
-    names = ["steering_rack", "steering_wheel_angle", "steering_wheel_speed", "steering_wheel_torque"]
-    recorded = []
-    with Fmu(tmp_path / "Quick.fmu") as fmu:
-        fmu.initialise({})
-        steer, read = fmu.setter(["steering", "throttle"]), fmu.getter([*names, "steering_rack_force"])
-        for k in range(100):
-            steer([0.5 * math.sin(0.05 * k), 0.3])
-            fmu.step(0.01 * k, 0.01)
-            recorded.append(read())
-    rack, angle, speed, torque, force = np.transpose(recorded)
-    assert np.ptp(angle) > 3.0
-    np.testing.assert_allclose(CAR.rack_direction * rack, CURVE(angle), rtol=0, atol=1e-14)
-    np.testing.assert_allclose(
-        torque * speed,
-        -force * CAR.rack_direction * CURVE(angle, 1) * speed,
-        rtol=0,
-        atol=1e-9 * np.ptp(torque * speed),
-    )
 
 
 @pytest.mark.parametrize(

@@ -72,11 +72,11 @@ def fast_validator():
     return fastjsonschema.compile(json.loads(schema_text()))
 
 
-@pytest.mark.parametrize("name", car_names())
-def test_two_validators_accept_the_cars_of_the_package(name):
-    data = copy.deepcopy(load(name)._data)  # validators write defaults into it
-    jsonschema.Draft7Validator(json.loads(schema_text())).validate(data)
-    fast_validator()(data)
+def test_two_validators_accept_the_cars_of_the_package():
+    for name in car_names():
+        data = copy.deepcopy(load(name)._data)  # validators write defaults into it
+        jsonschema.Draft7Validator(json.loads(schema_text())).validate(data)
+        fast_validator()(data)
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ def part() -> dict[str, Any]:
     return dict(record)
 
 
-def kerb_run(fidelity: int) -> Trajectory:
+def kerb_run(fidelity: int, end: float = 8.9) -> Trajectory:
     """Down the kerb with both axles."""
     m = kerb_test.build(fidelity)
     for body in m.bodies:
@@ -38,7 +38,7 @@ def kerb_run(fidelity: int) -> Trajectory:
                 for c in "xyz":
                     m.sense_position(f"node.{node}.{c}", body.interface(node), component=c)
     pose_outputs(m)
-    return Simulation(compile(m)).run(8.9, kerb_test.STEP)
+    return Simulation(compile(m)).run(end, kerb_test.STEP)
 
 
 def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
@@ -82,36 +82,22 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("fidelity", "tolerance"), [(2, STRESS), (1, 3e-3)])
-def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
-    fidelity: int, tolerance: float, part: dict[str, Any]
-) -> None:
-    run = kerb_run(fidelity)
+def test_the_same_scene_gives_the_gauges_of_the_quasi_static_frame(part: dict[str, Any]) -> None:
+    run = kerb_run(1)
     eta = amplitudes(part, run)
     assert run["stress.computed"].min() == 1.0
     for name in ("SG1", "SG2", "SG3", "SG4"):
         largest = np.abs(run[f"stress.{name}"]).max()
         assert largest > 4e6
-        np.testing.assert_allclose(
-            gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=tolerance * largest + BETWEEN
-        )
+        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=3e-3 * largest + BETWEEN)
 
 
 def test_a_rigid_chassis_has_the_same_outputs_marked_as_not_computed(part: dict[str, Any]) -> None:
     """With amplitudes as outputs there is no model with ports that follows it."""
-    run = kerb_run(0)
+    run = kerb_run(0, 0.1)
     assert part["computed"] == "stress.computed"
     with pytest.raises(KeyError, match="is not computed by this System"):
         amplitudes(part, run)
-
-
-def test_colours_end_at_the_stress_of_the_standing_car_and_the_yield_strength_is_marked(
-    part: dict[str, Any],
-) -> None:
-    at_rest = stress(part, np.array([part["start"]])).max()
-    assert at_rest == pytest.approx(26.5e6, abs=0.1e6)
-    assert part["stress"]["range"] == 30e6
-    assert part["stress"]["limit"] == 235e6
 
 
 def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any]) -> None:
@@ -124,8 +110,3 @@ def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any])
         at, to = (np.array(part["nodes"][k]) + shift for k in actual["nodes"])
         np.testing.assert_allclose(at + actual["along"] * (to - at), start + gauge.place * (end - start), atol=1e-6)
         assert actual["value"] == f"stress.{actual['name']}"
-
-
-def test_a_car_without_a_frame_has_no_flexible_part() -> None:
-    car = prototype_car.car()
-    assert car.model_copy(update={"chassis": car.chassis.model_copy(update={"frame": None})}).model().more_poses == []

@@ -1,7 +1,6 @@
 """Each table of the cars' files omitted: a car that drives, or a sentence that names the table."""
 
 import re
-import warnings
 
 import numpy as np
 import pytest
@@ -12,7 +11,6 @@ from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.copy_car import copy_car
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
-from mbs.vehicle.springs import Damper, Spring
 from tests.quick import quick
 from tests.vehicle.content import new_with, sentences, tables_of
 
@@ -28,19 +26,17 @@ OPTIONAL = {
 
 
 def marks(name, path):
-    """Each table in the first car that has it, of those that a user names one; in the others in the proof run."""
-    if (name, path) not in NEW:
-        return pytest.mark.proof
+    """Each table in the first car that has it, of those that a user names one; the others in the proof run."""
     outer = path.rpartition(".")[0]
     again = outer in NAMED and path != next(p for n, p in NEW if p.startswith(f"{outer}."))
-    return pytest.mark.slow if again else ()
+    return pytest.mark.proof if again or (name, path) not in NEW else ()
 
 
 TABLES = [pytest.param(name, path, marks=marks(name, path)) for name in NAMES for path in tables_of(name)]
 
 
 def without(name, path):
-    """The car without a table, and what is told of it."""
+    """The car without a table."""
     car = load(name)
     data = changed_content(car._data, {}, "x")
     *outer, last = path.split(".")
@@ -48,17 +44,14 @@ def without(name, path):
     for key in outer:
         table = table[key]
     del table[last]
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        result = car_from(data, car.folder, "x", warn=True)
-    return result, [sentences(warning.message, "x: ") for warning in caught]
+    return car_from(data, car.folder, "x", at_rest=False)
 
 
 @pytest.mark.parametrize(("name", "path"), TABLES)
 def test_a_car_or_a_sentence(name, path):
     named = path.rpartition(".")[0] in NAMED
     try:
-        car, _ = without(name, path)
+        car = without(name, path)
     except CarFileError as error:
         assert path not in OPTIONAL
         assert not named
@@ -71,13 +64,13 @@ def test_a_car_or_a_sentence(name, path):
 
 
 def test_without_points_that_touch_the_ground_there_is_no_work_of_it():
-    car = mbs.compile(without("hatchback", "chassis.ground_contact")[0].model())
+    car = mbs.compile(without("hatchback", "chassis.ground_contact").model())
     run = mbs.simulate(car, 0.02, 0.002)
     assert not run["energy.ground"].any()
     assert "chassis.ground_force" not in [s["name"] for s in car.meta["sensors"]]
 
 
-@pytest.mark.parametrize("name", quick(("commonroad_320i", "hatchback"), car_names(), "proof"))
+@pytest.mark.parametrize("name", quick(("commonroad_320i", "hatchback"), NAMES, "proof"))
 def test_without_stops_it_is_reported_how_far_the_links_follow(name, tmp_path):
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
     text = file.read_text(encoding="utf-8")
@@ -100,7 +93,8 @@ def test_without_stops_it_is_reported_how_far_the_links_follow(name, tmp_path):
                 linkage.solve(q, np.full(2, 1.02 * end), 0.0)
 
 
-@pytest.mark.parametrize("name", quick(("prototype",), ("prototype", "ferrari_250_lm")))
+@pytest.mark.slow
+@pytest.mark.parametrize("name", quick(("prototype",), ("prototype", "ferrari_250_lm"), "proof"))
 def test_without_a_stop_of_the_steering_it_is_reported_how_far_the_links_follow(name, tmp_path):
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
     text = file.read_text(encoding="utf-8")
@@ -128,12 +122,3 @@ def test_without_a_stop_of_the_steering_it_is_reported_how_far_the_links_follow(
         follow((0.0, full), (0.98 * end, full))
         with pytest.raises(NotReachedError):
             follow((0.0, full), (0.98 * end, full), (1.02 * end, full))
-
-
-def test_springs_and_dampers_of_a_truck_are_in_the_ranges():
-    """A damper of 36 725 N s/m, by number and by table, and a spring of 116 kN."""
-    rows = [[-1.0, -36725.0], [0.0, 0.0], [1.0, 36725.0]]
-    for damper in (Damper(damping=36725.0), Damper(table=rows)):
-        assert not list(damper.faults())
-    spring = Spring(table=[[-0.05, -29000.0], [0.0, 0.0], [0.1, 58000.0], [0.2, 116000.0]], free_length=0.6)
-    assert not list(spring.faults())

@@ -69,39 +69,6 @@ def test_it_runs_straight_and_turns_left_to_the_left(car):
     assert run[1.0]["energy.tyres"][-1] < -100.0
 
 
-@pytest.mark.slow
-def test_scaling_factors_are_parameters_that_change_the_tyre(car):
-    values = car.values()
-    names = [f"{axle}.tyre.{name}" for axle in ("front", "rear") for name in ("grip", "lmux", "lmuy", "lkx", "lky")]
-    assert all(values[name] == 1.0 for name in names)
-    changed = car.changed({"front.tyre.lky": 0.8, "rear.tyre.lmuy": 0.7, "front.tyre.grip": 0.9})
-    assert changed.front.tyre.tyre("left").lky == 0.8
-    assert changed.rear.tyre.friction[1] == pytest.approx(0.7 * car.rear.tyre.friction[1])
-    h, t = 0.005, 0.6
-    by_file = simulate(
-        compile(changed.model()),
-        t,
-        h,
-        {"steering": lambda t: 0.3},
-        None,
-        progress=False,
-        pose=Pose(speed=15.0),
-        estimate_error=False,
-    )
-    by_parameter = simulate(
-        compile(car.model()),
-        t,
-        h,
-        {"steering": lambda t: 0.3},
-        None,
-        {"front.tyre.lky": 0.8, "rear.tyre.lmuy": 0.7, "front.tyre.grip": 0.9},
-        progress=False,
-        pose=Pose(speed=15.0),
-        estimate_error=False,
-    )
-    np.testing.assert_array_equal(by_file["chassis.y"], by_parameter["chassis.y"])
-
-
 def test_friction_and_radii_of_the_section_are_those_of_the_tyre(car):
     tyre = car.front.tyre
     result = tyre.tyre("left")

@@ -97,20 +97,3 @@ def test_a_centre_of_mass_at_the_end_of_its_range_leaves_each_axle_and_side_its_
             at_rest = Simulation(result, parameters={f"chassis.com.{axis}": ranges[f"chassis.com.{axis}"][end]}).sensors
             part = sum(at_rest[f"wheel_{w}.Fz"] for w in left.split()) / sum(at_rest[f"wheel_{w}.Fz"] for w in WHEELS)
             assert part == pytest.approx(share if end else 1.0 - share, abs=0.015)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", [n for n in car_names() if load(n).front.tyre.kind == "tmeasy"])
-def test_at_the_ends_of_the_ranges_a_car_drives_over_a_kerb_on_its_wheels(name):
-    bad, ranges, values = [], working_ranges(load(name)), load(name).values()
-    inputs = {"brake": ([0.0, 1.2, 1.4, 3.0], [0.0, 0.0, 0.5, 0.5])}
-    for path in ranges.keys() & values.keys():
-        least, most = (next(p[k] for p in system(name).meta["parameters"] if p["name"] == path) for k in ("min", "max"))
-        for value in np.clip(ranges[path], least, most):
-            kerb = {path: float(value), "road.kerb_x": 8.0, "road.kerb_height": 0.05}
-            start = Simulation(system(name)).sensors["chassis.z"]
-            quiet = {"estimate_error": False, "progress": False}
-            run = simulate(system(name), 3.0, 0.002, inputs, None, kerb, pose=Pose(speed=8.0), **quiet)
-            if not np.abs(run["chassis.z"] - start).max() < SUNK + 0.15 or not np.abs(run["chassis.roll"]).max() < 0.5:
-                bad.append((path, value, np.abs(run["chassis.z"] - start).max()))
-    assert bad == []

@@ -42,7 +42,7 @@ def test_the_files_are_small(proving_ground):
     assert proving_ground.json.stat().st_size < 5e6
 
 
-@pytest.mark.parametrize("part", quick(("all", "kerbs"), PARTS))
+@pytest.mark.parametrize("part", quick(("all",), PARTS, "proof"))
 def test_the_road_agrees_with_its_drawing_to_5_mm_and_its_description_to_3_mm(proving_ground, part):
     x, y = places(part, 4000)
     with opened(proving_ground.road) as at:
@@ -64,7 +64,7 @@ def test_the_patches_cover_the_world_once_and_have_no_cracks(proving_ground):
     assert area == pytest.approx((x1 - x0) * (y1 - y0), rel=1e-9)
     random = np.random.default_rng(3)
     patches = record["roads"][0]["patches"]
-    for k in random.integers(0, len(patches), 60):  # heights on both sides of an edge
+    for k in random.integers(0, len(patches), 30):  # heights on both sides of an edge
         patch = patches[k]
         x = patch["origin"][0] + patch["spacing"][0] * 16.0 * random.random(20)
         y = np.full(20, patch["origin"][1])
@@ -73,7 +73,7 @@ def test_the_patches_cover_the_world_once_and_have_no_cracks(proving_ground):
         below, above = (drawn({"patches": patches}, x, y + side)[0] for side in (-1e-9, 1e-9))
         edges[int(k)] = float(np.abs(below - above).max())
     assert max(edges.values()) < 1e-5
-    assert len(edges) > 40
+    assert len(edges) > 20
 
 
 def test_frictions_and_surfaces_are_the_same_for_wheels_and_eyes(proving_ground):
@@ -103,17 +103,16 @@ def test_the_record_is_a_part_of_a_scene(proving_ground):
     assert hill["yaw"] == pytest.approx(math.pi)
 
 
-CROSSED = [  # place, speeds, m/s, and how far ahead of it the car has then been, m
-    ("kerbs", (4.0, 12.0, 20.0)),
-    ("washboard", (6.0, 15.0, 25.0)),
-    ("ramp_30_cm", (12.0, 20.0)),
-    ("ramp_50_cm", (14.0, 20.0)),
-    ("ramp_1_m", (20.0, 30.0)),
-    ("hill", (15.0, 25.0)),
-    ("banked_curve", (12.0, 25.0)),
-    ("two_frictions", (25.0,)),
-    ("gravel_road", (10.0, 25.0)),
-]
+CROSSED = {  # m/s
+    "kerbs": 12.0,
+    "washboard": 25.0,
+    "ramp_30_cm": 20.0,
+    "ramp_1_m": 30.0,
+    "hill": 25.0,
+    "banked_curve": 25.0,
+    "two_frictions": 25.0,
+    "gravel_road": 25.0,
+}
 
 
 def driven(car, world, place, speed, seconds, **inputs):
@@ -127,12 +126,11 @@ def driven(car, world, place, speed, seconds, **inputs):
     return simulation.run(seconds, 0.002, estimate_error=False)
 
 
-@pytest.mark.parametrize(("place", "speeds"), CROSSED, ids=[c[0] for c in CROSSED])
-def test_a_car_drives_over_each_feature_without_a_failed_step(proving_ground, car, place, speeds):
-    for speed in speeds:
-        run = driven(car, proving_ground, place, speed, min(8.0, 140.0 / speed))
-        assert np.all(np.isfinite(run["chassis.z"]))
-        assert np.hypot(np.ptp(run["chassis.x"]), np.ptp(run["chassis.y"])) > 20.0
+@pytest.mark.parametrize("place", CROSSED)
+def test_a_car_drives_over_each_feature_without_a_failed_step(proving_ground, car, place):
+    run = driven(car, proving_ground, place, CROSSED[place], 4.0)
+    assert np.all(np.isfinite(run["chassis.z"]))
+    assert np.hypot(np.ptp(run["chassis.x"]), np.ptp(run["chassis.y"])) > 20.0
 
 
 def test_a_wheel_over_the_kerb_rises_by_80_mm_and_a_jump_leaves_the_ground(proving_ground, car):
@@ -159,22 +157,14 @@ OBSTACLES = [
 ]
 APPROACHES = (0.0, math.pi, 0.4)
 SPEEDS = (2.0, 5.0, 8.0, 15.0, 22.0, 30.0, 40.0)
-COURSES = list(itertools.product(*map(enumerate, (OBSTACLES, APPROACHES, SPEEDS))))
 
 
+@pytest.mark.proof
 @pytest.mark.filterwarnings("ignore:.*the rim is pressed in:mbs.RoadWarning")  # up to 40 m/s into steep backs
-@pytest.mark.parametrize(
-    "courses",
-    [
-        # each obstacle with each approach
-        pytest.param([c for c in COURSES if sum(k for k, _ in c) % 7 == 0], id="pairs", marks=pytest.mark.slow),
-        pytest.param(COURSES, id="all", marks=pytest.mark.proof),
-    ],
-)
-def test_every_obstacle_from_both_sides_and_aslant(proving_ground, car, courses):
+def test_every_obstacle_from_both_sides_and_aslant(proving_ground, car):
     """Also into the steep backs of the ramps."""
     failed = []
-    for (_, (x, y)), (_, yaw), (_, speed) in courses:
+    for (x, y), yaw, speed in itertools.product(OBSTACLES, APPROACHES, SPEEDS):
         simulation = mbs.Simulation(
             car,
             pose=mbs.Pose(x - 14.0 * math.cos(yaw), y - 14.0 * math.sin(yaw), 0.0, yaw, speed),

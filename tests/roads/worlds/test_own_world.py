@@ -318,7 +318,7 @@ def test_an_invalid_world_is_refused_in_one_sentence(tmp_path, monkeypatch, caps
     assert not list(Path("out").glob("*.road")) if Path("out").exists() else True
 
 
-@pytest.mark.parametrize("name", ["plane", "kerb", "washboard", "rough", "split"])
+@pytest.mark.parametrize("name", ["plane", "washboard", "split"])
 def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
     assert main(["--world", name, "--out", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out" / f"{name}.road").read_bytes() == (ROADS / f"{name}.road").read_bytes()
@@ -344,7 +344,7 @@ def test_a_thinned_world_deviates_by_its_stated_error(folder, own_cache, tmp_pat
         results[kind] = tmp_path / kind / "mine.road"
     most, nearly_all = map(float, re.findall(r"(?:at most|and by) ([0-9.e-]+) mm", capsys.readouterr().out))
     random = np.random.default_rng(5)
-    x, y = 10.0 + 280.0 * random.random(20000), 10.0 + 180.0 * random.random(20000)
+    x, y = 10.0 + 280.0 * random.random(5000), 10.0 + 180.0 * random.random(5000)
     heights = {}
     for kind, path in results.items():
         with opened(path) as at:

@@ -22,9 +22,7 @@ def run(car, motion):
 @pytest.mark.parametrize(
     ("car", "axle", "motion"),
     [
-        ("prototype", "front", "heave"),
         ("prototype", "rear", "heave"),
-        ("hatchback", "front", "roll"),
         ("hatchback", "rear", "roll"),
         ("hatchback", "front", "steer"),
     ],

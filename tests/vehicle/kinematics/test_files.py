@@ -14,10 +14,11 @@ import pytest
 
 from ali3.command import main
 from mbs.common.errors import ModelError
-from mbs.vehicle import load
+from mbs.vehicle import CarFileError, load
 from mbs.vehicle.kinematics import kinematics, quantity_of, read_curve
 from mbs.vehicle.kinematics.curves import travel_curve
 from mbs.vehicle.linkages.linkage import Linkage
+from mbs.vehicle.suspensions.curve_table import read_curves
 from tests.vehicle.kinematics.planar_wishbones import FourBar
 
 LEVEL = FourBar((0.30, 0.15), (0.60, 0.15), (0.30, 0.385), (0.60, 0.385))
@@ -39,6 +40,7 @@ def found():
     return kinematics(load("hatchback"), points=5)
 
 
+@pytest.mark.slow
 def test_two_readers_find_the_same_numbers(made, found):
     folder, _ = made
     assert len(found.curves) == 7
@@ -55,6 +57,22 @@ def test_two_readers_find_the_same_numbers(made, found):
     assert next(iter(mine.columns)).startswith("wheel_travel")
 
 
+@pytest.mark.slow
+def test_tables_of_the_command_are_axles_by_their_curves(made):
+    folder, printed = made
+    assert "front_table.csv, rear_table.csv: where the wheels stand" in printed
+    assert len(read_curves(folder, "rear_table.csv", "key", 1.0).travel) > 4
+    parallel = read_curves(folder, "front_parallel.csv", "key", 1.0)
+    assert parallel.both
+    both = parallel.columns["wheel_centre_y_right"] + parallel.columns["wheel_centre_y_left"]
+    assert np.abs(both).max() < 1e-9
+    for motion in ("opposite", "single"):
+        match = rf"{motion}\.csv\), row 1 has .*; both wheels must travel alike, or give other_wheel_travel"
+        with pytest.raises(CarFileError, match=match):
+            read_curves(folder, f"front_{motion}.csv", "key", 1.0)
+
+
+@pytest.mark.slow
 def test_page_table_and_json(made, found):
     folder, printed = made
     page = (folder / "kinematics.html").read_text(encoding="utf-8")
