@@ -99,12 +99,12 @@ def test_variants_keep_all_limits_in_all_their_manoeuvres() -> None:
     assert [(s.within, s.outside) for s in (left, right, both)] == [(2, 1), (1, 2), (1, 2)]
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("in_process")
 def test_a_study_with_limits(
-    study_file: Callable[..., Path], tmp_path: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
+    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The exit code, the files and the words; then other limits for runs that are there."""
-    out = ["--out", str(tmp_path / "out"), "--scheduler", scheduler, "--no-report"]
+    out = ["--out", str(tmp_path / "out"), "--no-report"]
     file = study_file(more='[limits]\nlowest = { min = -1.2 }\nhighest = { max = 1.0, unit = "m" }\n')
     assert main([str(file), *out]) == 1
     frame = read_study(tmp_path / "out")
