@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from hosts.study.analysis.report import report_of
 from hosts.study.command import main
 from hosts.study.limits import share_notes, share_rows, shares
 from hosts.study.store import read_study
@@ -118,11 +117,3 @@ def test_a_study_with_limits(
     study_file(more="[limits]\nlowest = { min = -12.0 }\n")
     assert main([str(file), *out]) == 0
     assert "16 of 16 variants" in capsys.readouterr().out
-
-
-@pytest.mark.slow
-def test_the_report_has_the_shares(tmp_path: Path) -> None:
-    text = report_of(made_frame(), tmp_path, lambda index: [])[0].read_text(encoding="utf-8")
-    assert "3 of 10 runs, 2 without a result" in text
-    assert "10.8 to 60.3 %" in text
-    assert "3 of 10 variants" in text

@@ -70,15 +70,16 @@ def test_plots_of_a_measure_with_a_long_name_have_a_file_each(tmp_path: Path) ->
     assert len([*(tmp_path / "analysis").glob("*.svg")]) == text.count("data:image/svg+xml") == 5
 
 
-def test_the_report_of_an_incomplete_study_says_so_and_has_messages_of_the_fmu(
-    frame: pd.DataFrame, tmp_path: Path
-) -> None:
+def test_the_report_of_an_incomplete_study_with_limits_and_messages(frame: pd.DataFrame, tmp_path: Path) -> None:
     half = frame.iloc[:60].copy()
     half["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(60)]
-    half.attrs = frame.attrs
+    half.attrs = frame.attrs | {"limits": {"peak": {"min": 3.0, "max": None, "unit": "m/s2"}}}
+    within = int((half["peak"] >= 3.0).sum())
     assert said(study_data(half)) == [("The step 1 to 57 ms is coarse.", list(range(0, 60, 7)))]
     text = report_of(half, tmp_path, commands)[0].read_text(encoding="utf-8")
     assert "The step 1 to 57 ms is coarse." in text.partition("Messages of the FMU")[2]
+    assert "at least 3 m/s²" in text
+    assert f"{within} of 60 runs" in text
     assert "140 of 200 runs are not done yet; this is the report of the others." in text
     with pytest.raises(HostError, match="has no run yet"):
         report_of(frame.iloc[:0], tmp_path, commands)
