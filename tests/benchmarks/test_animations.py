@@ -39,9 +39,3 @@ def test_the_command_films(tmp_path, capsys):
     assert "pendulum.webp  61 pictures, 4.1 s" in output
     with Image.open(tmp_path / "films" / "pendulum.webp") as file:
         assert file.n_frames > 30
-
-
-def test_the_command_names_its_films(capsys):
-    with pytest.raises(SystemExit):
-        pictures.main(["films", "--only", "opera"])
-    assert "double_four_bar" in capsys.readouterr().err

@@ -39,15 +39,6 @@ def test_it_stands_on_its_springs_with_its_weight() -> None:
     assert np.abs(data.qpos[:3]).max() < 2e-3  # the springs are those of the load
 
 
-def test_it_turns_as_wheelbase_and_angle_say() -> None:
-    """The yaw rate of a slow car is speed x angle / wheelbase, to the left for an angle to the left."""
-    angles = np.full((600, 2), 0.05)
-    rates, seconds = mujoco_car.drive([mujoco_car.model(CAR, MASS, H)], 3.0, angles, 0)
-    speed = float(np.linalg.norm(rates[0, -1, :2]))
-    assert rates[0, -1, 5] == pytest.approx(speed * 0.05 / CAR.wheelbase, rel=0.03)
-    assert seconds > 0.0
-
-
 def test_cars_in_threads_are_those_one_after_the_other() -> None:
     models = [mujoco_car.model(CAR, MASS, H, factor) for factor in (1.0, 1.1, 1.2)]
     angles = np.linspace(0.0, 0.1, 40).repeat(2).reshape(-1, 2)
@@ -117,16 +108,6 @@ def test_exudyns_car_turns_and_leans_as_its_numbers_say(rates: dict[str, float])
     moment += body * CAR.chassis.com[2]
     leans = (moment * speed + spin) * turn / (stiffness - 9.81 * moment)
     assert q[-1, exudyn_car.ROLL] == pytest.approx(leans, rel=0.03)
-
-
-def test_exudyns_car_comes_to_its_motion_with_order_two(rates: dict[str, float]) -> None:
-    ends = []
-    for h in (0.02, 0.01, 0.005):
-        t = h * np.arange(1, round(2.0 / h) + 1)
-        angles = np.repeat(0.02 * np.sin(np.pi * t)[:, None], 2, axis=1)
-        ends.append(exudyn_car.ExudynCar(CAR, MASS, 15.0, h, angles, rates).drive()[0][-1, 1])
-    assert abs(ends[2] - ends[1]) < 2e-3
-    assert (ends[0] - ends[1]) / (ends[1] - ends[2]) > 3.5
 
 
 def test_programs_that_are_not_installed_are_left_out_with_a_message(capsys, monkeypatch) -> None:

@@ -1,5 +1,6 @@
 """The commands that draw the charts run in their reduced form, and what they compute from rows is right."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -9,14 +10,15 @@ from benchmarks import cost, honesty, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.methods import cost_growth, dissipative
 from benchmarks.methods import stability as maps
+from benchmarks.methods import work_precision as precision
 from benchmarks.methods.honesty import VERDICTS, honesty_blocks, summary
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY
 from benchmarks.methods.stability import OUTCOMES
 from benchmarks.methods.stability_margins import margins
 from benchmarks.methods.work_precision import time_at_error, work_blocks
-from benchmarks.methods.work_precision_chart import KERNEL as COLOURED
 from benchmarks.paper import __main__ as paper
-from benchmarks.shared.pages import replace, table
+from benchmarks.references.cases import CASES
+from benchmarks.shared.pages import replace
 from mbs import Settings
 from mbs.settings.settings import METHODS as KERNEL
 
@@ -31,7 +33,11 @@ def read(file):
 
 
 @pytest.mark.slow
-def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_step(tmp_path, capsys):
+def test_work_precision_runs_every_method_and_one_gets_better_with_the_step(tmp_path, capsys, monkeypatch):
+    coarse = dataclasses.replace(CASES["double_four_bar"], divisions=(1, 1, 1, 2, 4))
+    monkeypatch.setitem(CASES, "double_four_bar", coarse)
+    monkeypatch.setattr(precision, "LONG", 0.02)  # s; longer ones are not repeated
+    monkeypatch.setattr(precision, "FEW_REPEATS", 0)
     files = ["--json", str(tmp_path / "w.json"), "--chart", str(tmp_path)]
     assert work_precision.main(["charts", "--quick", "--only", "double_four_bar", *files]) == 0
     _, rows = read(tmp_path / "w.json")
@@ -194,12 +200,6 @@ def test_margins_count_decades_around_the_default_and_stop_at_the_first_gap():
     assert line["decades_above"] == pytest.approx(2.0)
 
 
-def test_every_method_has_a_title_and_all_but_those_for_comparison_a_colour_of_their_own():
-    assert set(TITLES) == set(KERNEL)
-    assert set(TITLES.values()) - set(COLOURED) == {TITLES["ali3p_no_projection"]}
-    assert len({colour for colour, _ in COLOURED.values()}) == len({mark for _, mark in COLOURED.values()}) == 8
-
-
 def test_the_puma_table_has_the_paper_beside_it(tmp_path):
     assert paper.main(["puma", "--quick", "--json", str(tmp_path / "p.json")]) == 0
     _, rows = read(tmp_path / "p.json")
@@ -207,9 +207,3 @@ def test_the_puma_table_has_the_paper_beside_it(tmp_path):
     assert actual[0.01]["paper_error_mm"] == pytest.approx(0.53)
     assert actual[0.005]["error_mm"] < 0.3 * actual[0.01]["error_mm"] < 0.3  # mm
     assert actual[0.1]["ended"] == "finished" or "refused" in actual[0.1]["ended"]
-
-
-def test_tables_go_between_their_marks_and_nothing_else_changes():
-    page = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n<!-- begin y -->\nkept\n<!-- end y -->\n"
-    new = replace(page, {"x": table([{"h_s": 0.01, "e": None}], {"h_s": "g", "e": ".1f"}), "z": "nowhere"})
-    assert new == page.replace("old", "| h s | e |\n| --- | --- |\n| 0.01 | – |")

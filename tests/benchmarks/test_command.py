@@ -142,11 +142,6 @@ def test_the_bar_shows_itself_during_a_first_item_that_takes_long(capsys, monkey
     assert "100 %" in capsys.readouterr().err
 
 
-def test_a_short_run_shows_no_bar(capsys):
-    assert list(watched("abc")) == ["a", "b", "c"]
-    assert capsys.readouterr().err == ""
-
-
 def test_the_same_chart_gives_the_same_bytes(tmp_path, capsys):
     files = [tmp_path / "new" / name for name in ("one.png", "other.png")]
     for file in files:

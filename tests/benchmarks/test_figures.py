@@ -50,11 +50,6 @@ def test_an_altered_figure_is_a_sentence(before, after, message):
     assert any(message in line for line in differences(AGAIN, PAGE.replace(before, after)))
 
 
-def test_an_altered_sentence_is_reported():
-    again = RemadeTable("README.md", "takes 0.36 s of time")
-    assert differences(again, PAGE.replace("0.36", "0.29")) == ["README.md does not say: takes 0.36 s of time"]
-
-
 def test_a_chart_carries_its_description_and_changed_panels_are_reported(tmp_path):
     """A panel less, another unit, a curve more, a figure of the summary that is another."""
 

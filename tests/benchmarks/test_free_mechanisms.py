@@ -39,7 +39,7 @@ def test_each_joint_and_each_force_has_a_mechanism(monkeypatch):
 
 def test_energy_momentum_keeps_the_energy_of_each():
     for name in ELEMENTS:
-        actual = measure(name, 0.2, 300, "energy_momentum")
+        actual = measure(name, 0.2, 150, "energy_momentum")
         if name == "tabled body":
             assert actual["told"] == "no"
         else:
@@ -57,13 +57,8 @@ def test_a_force_that_gives_energy_is_seen():
 
 
 def test_the_command_gives_the_tables(capsys):
-    assert (
-        work_precision.main(["free", "--quick", "--only", "weld", "rack", "skate", "--methods", "ali3p", "radau_5"])
-        == 0
-    )
-    text = capsys.readouterr().out
-    assert "| rack |" in text
-    assert "| skate |" in text
+    assert work_precision.main(["free", "--quick", "--only", "weld", "rack", "--methods", "ali3p"]) == 0
+    assert "| rack |" in capsys.readouterr().out
 
 
 @pytest.mark.slow
@@ -137,7 +132,7 @@ def check_pairs(count, seed):
 
 
 def test_energy_of_two_joints_drawn_by_chance_is_work():
-    check_pairs(8, 1)
+    check_pairs(4, 1)
 
 
 @pytest.mark.slow

@@ -19,19 +19,6 @@ def test_generated_code_makes_the_same_steps() -> None:
     assert row["kB"] > 1
     if counter() is not None:
         assert row["instructions generated"] < 0.9 * row["instructions loops"]
-
-
-def test_the_table_has_a_row_for_each_scene() -> None:
-    row = {"scene": "slalom", "step, ms": 5.0, "instructions loops": 300000, "instructions generated": 150000}
-    row |= {"us loops": 20.0, "us generated": 12.5, "ratio": 0.625, "kB": 300}
-    (rows,) = rows_of(blocks([row])["generated"])
-    assert rows == {
-        "scene": "slalom",
-        "step, ms": "5",
-        "instructions, loops": "300,000",
-        "generated": "150,000",
-        "us, loops": "20.0",
-        "us, generated": "12.5",
-        "times as fast": "1.60",
-        "code, kB": "300",
-    }
+    row |= {"us loops": 20.0, "us generated": 12.5, "ratio": 0.625}
+    (written,) = rows_of(blocks([row])["generated"])
+    assert (written["us, loops"], written["us, generated"], written["times as fast"]) == ("20.0", "12.5", "1.60")

@@ -15,7 +15,9 @@ from tests.unoptimised import unoptimised
 @unoptimised()
 def test_counts_are_those_of_a_run_and_a_dearer_step_is_reported(tmp_path, capsys, monkeypatch):
     scene = scene_instructions.SCENES[0]._replace(steps=20)
+    program = scene_instructions.compiled(tmp_path)
     monkeypatch.setattr(scene_instructions, "SCENES", [scene])
+    monkeypatch.setattr(scene_instructions, "compiled", lambda folder: program)
     table = tmp_path / "table.json"
     assert cost.main(["instructions", "--json", str(table)]) == 0
     stored = json.loads(table.read_text("utf-8"))

@@ -9,6 +9,7 @@ from benchmarks.car import plant_steps as plant
 from hosts.plant.vector_environment import VectorEnvironment
 
 
+@pytest.mark.slow
 def test_every_way_makes_its_steps(prototype_fmu: Path) -> None:
     rows = plant.measure("LaneKeeping", 2, 2, 3, car=str(prototype_fmu))
     ways = ["2 by SyncVectorEnv", "2 by AsyncVectorEnv", "2 by threads"]

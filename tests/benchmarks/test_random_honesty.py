@@ -102,7 +102,6 @@ def test_a_wrong_run_without_a_warning_is_found(monkeypatch):
 @pytest.mark.parametrize(
     ("family", "number", "verdicts"),
     [
-        ("machines", 2, ["wrong, told", "right"]),
         ("switches", 1, ["wrong, told"]),
         ("jumps", 0, ["right", "right"]),
         ("boxes", 0, ["right", "right"]),
@@ -118,7 +117,7 @@ def test_verdicts_of_a_few_cases_are_as_stored(family, number, verdicts):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("family", ["jumps", "switches", "boxes", "gears", "tumbling"])
+@pytest.mark.parametrize("family", ["switches", "gears", "tumbling"])
 def test_the_engine_in_fine_steps_moves_as_the_reference(family):
     """Of the first case of a family that has one."""
     for number in range(8):
@@ -134,6 +133,7 @@ def test_the_engine_in_fine_steps_moves_as_the_reference(family):
         assert np.abs(result.values[name] - case.truth[name]).max() < 2e-3 * size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "number", "h"), [(2, 54, 0.02), (7, 968, 0.01)])
 def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, number, h, monkeypatch):
     """The hatchback down 6.5 cm, 5.3 % off, which the run with a quarter of the step took for right; and up 11.2 cm.
@@ -146,6 +146,7 @@ def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, nu
     assert run.accuracy.error == pytest.approx(error, rel=0.15)
 
 
+@pytest.mark.slow
 def test_a_run_with_divided_steps_is_not_plainly_smooth():
     """The prototype that falls at 18 m/s: parts of steps hid a force of a stop that is 7 % off at 5 ms."""
     run, error = told_and_true(3, 81, 0.005)
@@ -160,7 +161,7 @@ def told_and_true(seed, number, h):
     drive = random_cars.drive(rng)
     with pytest.warns(mbs.AccuracyWarning):
         run = drive.run(h=h)
-    fine, length = drive.run(h=1e-4, estimate_error=False), length_of(drive.system)
+    fine, length = drive.run(h=2e-4, estimate_error=False), length_of(drive.system)
     judged = {name: sensor for name, sensor in compared_sensors(drive.system).items() if sensor.always}
     error = max(differences(run, fine, judged, None, length)[0].values())
     assert error > 0.05

@@ -44,7 +44,7 @@ def test_a_braked_mass_slides_to_rest():
 @pytest.mark.parametrize("kind", random_machines.KINDS)
 def test_the_engine_in_fine_steps_moves_as_the_reference(kind):
     d, result = next(filter(None, map(_with_reference, (random_machines.KINDS[kind],) * MOST, range(MOST))))
-    n = 1000
+    n = 250
     system = mbs.compile(random_machines.model_of(d))
     run = mbs.simulate(system, d.span, d.span / INSTANTS / n, every=n, estimate_error=False, progress=False)
     for i in set(range(len(d.masses))) - set(d.driven):

@@ -9,12 +9,13 @@ from benchmarks import cost
 from benchmarks.car import real_time
 from benchmarks.car.real_time import write_ground
 from benchmarks.car.step_costs import drive
+from benchmarks.shared.figures import rows_of
 
 H = 2e-3
 
 
 @pytest.mark.slow
-def test_the_rows_have_the_costs_of_steps(prototype_fmu, tmp_path, capsys, monkeypatch):
+def test_the_rows_have_the_costs_of_steps(prototype_fmu, tmp_path, monkeypatch):
     file = tmp_path / "rows.json"
     chosen = ["--fmu", str(prototype_fmu), "--seconds", "2", "--fidelity", "0", "--step", "2", "10", "--limit", "2"]
     monkeypatch.setattr(real_time, "drive", _without_fidelity)
@@ -27,7 +28,10 @@ def test_the_rows_have_the_costs_of_steps(prototype_fmu, tmp_path, capsys, monke
         assert 0 < row["capped"] <= row["steps"]
         assert 1.0 <= row["iterations"] <= 2.0
         assert 0.0 < row["mean_us"] <= row["p99_9_us"] <= row["worst_us"]
-    assert "wild limits" in capsys.readouterr().out
+    (limited,) = rows_of(real_time.real_time_blocks(rows)["wild limits"])
+    assert limited["capped steps"] == f"{rows[0]['capped']} of 1000"
+    (free,) = rows_of(real_time.real_time_blocks([rows[1] | {"limit": 0}])["wild steps"])
+    assert (free["step, ms"], free["quarter of the deadline, us"]) == ("10", "2500")
 
 
 def _without_fidelity(fmu, start, *rest):

@@ -43,10 +43,10 @@ def test_nothing_imports_a_command() -> None:
     assert not wrong
 
 
-@pytest.mark.slow
 def test_tests_other_than_those_of_the_commands_import_no_command() -> None:
     tests = [f for f in files(ROOT / "tests") if "benchmarks" not in f.relative_to(ROOT).parts]
-    results = {(f.name, name) for f in tests for name in imports(f) if name.startswith("benchmarks")}
+    users = [f for f in tests if "benchmarks" in f.read_text(encoding="utf-8")]
+    results = {(f.name, name) for f in users for name in imports(f) if name.startswith("benchmarks")}
     assert results, "no test uses the references: look here again"
     assert not {pair for pair in results if pair[1] in COMMANDS}
 
@@ -68,24 +68,15 @@ def test_the_list_names_every_command(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.parametrize("name", sorted(commands()))
-def test_a_command_names_itself(name: str) -> None:
-    tree = ast.parse(commands()[name].read_text(encoding="utf-8"))
-    assert f"python -m benchmarks.{name}" in (ast.get_docstring(tree) or "")
-
-
-@pytest.mark.parametrize("name", sorted(commands()))
-def test_a_command_explains_its_arguments(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_command_explains_itself_and_its_parts(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Tables of a part stand on its pages, and what is between marks there is made by a part or by `figures`."""
     module = importlib.import_module(MODULES[name])
+    assert f"python -m benchmarks.{name}" in (module.__doc__ or "")
     with pytest.raises(SystemExit) as ended:
         module.main(["--help"])
     assert ended.value.code == 0
     assert f"usage: python -m benchmarks.{name} " in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("name", sorted(set(commands()) - {"figures"}))
-def test_parts_that_measure_write_rows_and_parts_with_a_page_have_its_marks(name: str) -> None:
-    """Tables of a part stand on its pages, and what is between marks there is made by a part or by `figures`."""
-    for key, part in importlib.import_module(MODULES[name]).PARTS.items():
+    for key, part in module.PARTS.items() if name != "figures" else ():
         assert part.about
         assert (part.blocks is not None) == bool(part.pages), key
         assert part.rows or part.blocks is None, key

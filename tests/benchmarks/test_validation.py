@@ -22,6 +22,7 @@ GRIP = 1.1
 OFFSET = 0.002  # rad, of the steering
 END = 275.0  # s
 H = 0.01  # s
+SPANS = ((0.0, 60.0),), ((60.0, 100.0),)  # s that are fitted, and that tell what a fit predicts
 PLACES = {model.name: k for k, model in enumerate(MODELS)}
 
 
@@ -55,13 +56,13 @@ def drive() -> Drive:
 def test_the_fit_finds_the_numbers_of_a_drive(drive: Drive, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fitting, "LENGTH", 4.0)  # s: more windows cost nothing, longer ones do
     model = MODELS[PLACES["saturating bicycle, tanh"]]
-    actual = fitting.fit(model, BODY, drive)
+    actual = fitting.fit(model, BODY, drive, *SPANS)
     assert np.max(np.abs(drive.yaw_rate * drive.vx)) > 0.75 * 9.81 * GRIP  # the curves bend
     np.testing.assert_allclose(actual.numbers, [*STIFFNESS, GRIP, OFFSET], rtol=0.01)
     assert max(actual.fitted, actual.windows, actual.whole) < 3e-4
     assert actual.lateral < 0.01
     assert actual.departed == 0
-    linear = fitting.fit(MODELS[PLACES["linear bicycle"]], BODY, drive)
+    linear = fitting.fit(MODELS[PLACES["linear bicycle"]], BODY, drive, *SPANS)
     assert linear.windows > 20.0 * actual.windows
 
 

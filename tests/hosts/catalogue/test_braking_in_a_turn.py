@@ -57,6 +57,7 @@ def left(prototype: TestedCar) -> TestRecord:
     return perform(TEST, prototype, FEW)
 
 
+@pytest.mark.slow
 def test_prototype_brakes_from_the_circle_that_was_asked_for(left: TestRecord) -> None:
     measured = values(left)
     assert not left.notes

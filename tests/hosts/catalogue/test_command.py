@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,9 @@ from hosts.catalogue.command import main
 from hosts.catalogue.registry import TESTS
 from hosts.common.options import FmuOptions
 from hosts.view.view_sources import ViewRunOptions, recordings_of
+from tests.hosts.pool_in_process import runs_in_this_process
 
-FAST = ["--tests", "drop"]
+FAST = ["--tests", "drop", "--test-setting", "drop.height=0.1", "--test-setting", "drop.duration=4"]
 SSV = """<?xml version="1.0" encoding="UTF-8"?>
 <ssv:ParameterSet xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" version="1.0" name="s">
 <ssv:Parameters><ssv:Parameter name="front.tyre.stiffness"><ssv:Real value="40000"/></ssv:Parameter></ssv:Parameters>
@@ -31,15 +33,16 @@ def rows(folder: Path) -> list[dict[str, str]]:
 
 
 @pytest.mark.slow
-def test_cars_stand_side_by_side_and_jobs_change_nothing(
+def test_cars_stand_side_by_side_and_processes_change_nothing(
     prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     soft = tmp_path / "soft.ssv"
     soft.write_text(SSV, encoding="utf-8")
-    for jobs in (1, 2):
+    for jobs, where in ((1, runs_in_this_process()), (2, nullcontext())):
         out = tmp_path / f"out_{jobs}"
         sets = ["--variant", "as-is", "--variant", str(soft)]
-        assert main([str(prototype_fmu), *FAST, *sets, "--jobs", str(jobs), "--out", str(out)]) == 0
+        with where:
+            assert main([str(prototype_fmu), *FAST, *sets, "--jobs", str(jobs), "--out", str(out)]) == 0
     printed = capsys.readouterr().out
     first, second = tmp_path / "out_1", tmp_path / "out_2"
     assert (first / "measures.csv").read_bytes() == (second / "measures.csv").read_bytes()
@@ -73,12 +76,6 @@ def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
     assert row["note"].startswith(f"The FMU {fmu.name} has no ")
     assert "vehicle.wheelbase" in row["note"]
     assert "1 of 1 tests could not be done" in capsys.readouterr().out
-
-
-def test_no_tests_at_a_time(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        main(["car.fmu", "--jobs", "0"])
-    assert "argument --jobs: '0' is given; it must be a whole number of at least 1" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

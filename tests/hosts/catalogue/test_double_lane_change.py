@@ -67,12 +67,6 @@ def measures_of(name: str, passed: Passage | None) -> list[Measure]:
     return sheet.measures
 
 
-def test_each_measure_names_its_course() -> None:
-    texts = [m.text for name in ("iso_3888_1", "iso_3888_2") for m in measures_of(name, None)]
-    assert len({*texts}) == len(texts) == 24
-    assert all(text.startswith(("ISO 3888-1: ", "ISO 3888-2: ")) for text in texts)
-
-
 def test_hit_or_stopped_is_not_clean() -> None:
     hit, stopped = passage(72.0, 0.6), passage(72.0, 0.0, until=29.0)
     assert not hit.clean

@@ -82,13 +82,6 @@ def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path: Path
     assert "limits.'peak'.unit" in fault
 
 
-def test_limits_of_tests_that_are_not_done_are_left_out(tmp_path: Path) -> None:
-    own_limits = limits(tmp_path, '"kerb.peak" = {max = 1}\n"drop.peak" = {max = 1}\npeak = {max = 1}').of_tests(
-        ["drop"]
-    )
-    assert list(own_limits.entries) == ["drop.peak", "peak"]
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [

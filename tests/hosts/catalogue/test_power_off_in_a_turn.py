@@ -53,6 +53,7 @@ def test_a_lateral_acceleration_that_no_circle_has_is_reported() -> None:
     assert "80 m and 5 m/s² where 100 m and 6 m/s² were asked for" in sheet.notes[0]
 
 
+@pytest.mark.slow
 def test_prototype_without_power_turns_in_and_slows_down(prototype: TestedCar) -> None:
     record = perform(TEST, prototype, {"levels": 2.0, "lowest": 4.5, "highest": 5.5})
     measured = values(record)

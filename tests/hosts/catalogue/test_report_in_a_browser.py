@@ -63,7 +63,6 @@ def test_dark_and_light_have_enough_contrast(seen):
         assert min(ratios) > 4.5, ratios
 
 
-@pytest.mark.slow
 def test_tables_open(seen):
     page = seen[0][390]
     page.locator("summary").first.click()

@@ -85,8 +85,6 @@ def test_a_car_that_is_too_weak_has_no_gradient_but_a_reason() -> None:
     [
         ({"method": 2.5}, "it must be 1, 2 or 3"),
         ({"fit_from": 3.0, "fit_to": 3.2}, "at least 0.5 m/s² above"),
-        ({"radius": 5.0}, "it must be from 30 to 1000 m"),
-        ({"raduis": 50.0}, "no setting 'raduis'"),
     ],
 )
 def test_wrong_settings_are_reported(settings: dict[str, float], message: str) -> None:

@@ -228,14 +228,13 @@ def test_an_fmu_that_refuses_a_step_before_the_steering_is_reported() -> None:
             perform(standard_test(test), BicycleCar(refuses_after=0.5))
 
 
-@pytest.mark.parametrize("test", ["sine_steer", "sine_with_dwell"])
 @pytest.mark.parametrize(
-    ("factors", "message"),
+    ("test", "factors", "message"),
     [
-        ({"chassis.ay": -1.0}, r"the other sign of 'chassis\.ay'"),
-        ({"chassis.wz": -1.0}, r"the other sign of 'chassis\.wz'"),
-        ({"chassis.wz": math.degrees(1.0)}, r"deg/s in place of rad/s of 'chassis\.wz'"),
-        ({"chassis.wz": -1.0, "chassis.ay": -1.0}, r"the other sign of 'steering_wheel_angle'"),
+        ("sine_steer", {"chassis.ay": -1.0}, r"the other sign of 'chassis\.ay'"),
+        ("sine_with_dwell", {"chassis.wz": -1.0}, r"the other sign of 'chassis\.wz'"),
+        ("sine_steer", {"chassis.wz": math.degrees(1.0)}, r"deg/s in place of rad/s of 'chassis\.wz'"),
+        ("sine_steer", {"chassis.wz": -1.0, "chassis.ay": -1.0}, r"the other sign of 'steering_wheel_angle'"),
     ],
 )
 def test_wrong_signs_and_units_are_reported(test: str, factors: dict[str, float], message: str) -> None:

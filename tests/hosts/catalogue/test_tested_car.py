@@ -67,12 +67,6 @@ def test_a_foreign_car_is_driven_to_the_same_bits(prototype: TestedCar, foreign:
     assert ours.time[-1] < 2.0
 
 
-@pytest.mark.slow
-def test_a_second_drive_has_the_same_bits(prototype: TestedCar) -> None:
-    first, second = drive(prototype), drive(prototype)
-    assert first.values.tobytes() == second.values.tobytes()
-
-
 def test_rows_that_are_recorded_more_rarely_are_the_same_rows(prototype: TestedCar) -> None:
     each, some = drive(prototype), drive(prototype, record_step=0.02)
     assert some.time == pytest.approx(each.time[::10])

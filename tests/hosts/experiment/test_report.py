@@ -29,10 +29,6 @@ def test_links_end_at_the_sections_of_their_titles() -> None:
     assert next(p.text for p in reversed([*tree.iter("p")])).partition(", by ALi3 ")[1]
 
 
-def test_a_page_of_one_section_has_no_links() -> None:
-    assert "<nav" not in page("Title", [], [Section("a", [])])
-
-
 def test_a_figure_is_laid_out_and_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = []
     draw = Figure.draw

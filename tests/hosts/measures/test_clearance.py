@@ -22,12 +22,6 @@ def test_outline_is_the_turned_rectangle() -> None:
     np.testing.assert_allclose(corners, [[0.0, 4.0], [0.0, 0.0], [2.0, 0.0], [2.0, 4.0]], atol=1e-12)
 
 
-def test_straight_in_the_lane() -> None:
-    assert least(5.0, 0.0, 0.0) == pytest.approx(1.0)
-    assert least(5.0, 0.7, 0.0) == pytest.approx(0.3)
-    assert least(5.0, -1.2, 0.0) == pytest.approx(-0.2)
-
-
 def test_between_lanes_nothing_is_near() -> None:
     assert least(-3.0, 0.0, 0.0) == math.inf
     assert least(20.0, 5.0, 0.3) == math.inf

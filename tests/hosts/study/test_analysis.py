@@ -37,12 +37,11 @@ def test_ishigami() -> None:
     assert (indices.first_conf < 0.1).all()
 
 
-@pytest.mark.parametrize("blocks", [64, 128, 512])
-def test_intervals_hold_the_truth_for_most_seeds(blocks: int) -> None:
+def test_intervals_hold_the_truth_for_most_seeds() -> None:
     """Of 95 %; the points of a sequence are not independent, so single indices are held less or more often."""
     covered = []
     for seed in range(100):
-        y = ishigami(saltelli(blocks, seed))
+        y = ishigami(saltelli(64, seed))
         indices = saltelli_indices(NAMES, np.arange(len(y)), y)
         assert isinstance(indices, Indices)
         covered.append(
@@ -92,15 +91,8 @@ def test_linear_model() -> None:
     assert estimate.first == pytest.approx(expected, abs=0.03)
     assert (np.abs(estimate.first - expected) < estimate.first_conf).all()
     assert np.isnan(estimate.total).all()
-
-
-def test_an_estimate_of_ishigami() -> None:
-    x = (2.0 * qmc.LatinHypercube(3, rng=2).random(4000) - 1.0) * np.pi
-    actual = estimated_indices(NAMES, x, ishigami(x))
-    assert isinstance(actual, Indices)
-    assert actual.first == pytest.approx(FIRST, abs=0.03)
-    assert "estimate" in actual.how
-    assert estimated_indices(NAMES, x[:50], ishigami(x[:50])) == (
+    assert "estimate" in estimate.how
+    assert estimated_indices(NAMES, latin[:50], latin[:50] @ slopes) == (
         "50 runs yield the measure; from 64 on indices are estimated."
     )
 

@@ -62,7 +62,7 @@ def test_a_wrong_row_of_a_table_is_named(told: Callable[..., str], tmp_path: Pat
 
 
 def test_wrong_options_and_study_files_are_refused(
-    study_file: Callable[..., Path], spring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    study_file: Callable[..., Path], tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([str(tmp_path / "none.toml")]) == 2
     assert capsys.readouterr().err == f"error: {tmp_path}/none.toml cannot be read: there is no such file.\n"
@@ -70,7 +70,7 @@ def test_wrong_options_and_study_files_are_refused(
     assert capsys.readouterr().err == f"error: {tmp_path} is a folder; a study is a TOML file.\n"
     results = tmp_path / "my results"
     file = study_file(name="my study.toml")
-    begin_study(results, make_plan(read_study_file(file)[0], file, spring).record, b"", spring)
+    begin_study(results, make_plan(read_study_file(file)[0], file, tuned).record, b"", tuned)
     assert main([str(results)]) == 2
     assert f"'{file}' --out '{results}'; else give --run or --report." in capsys.readouterr().err
     with pytest.raises(SystemExit) as end:

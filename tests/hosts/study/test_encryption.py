@@ -31,13 +31,13 @@ def test_a_study_on_this_machine_opens_no_port(study_file: Callable[..., Path], 
     opened, ended, before = set[int](), threading.Event(), listening()
 
     def look() -> None:
-        while not ended.wait(0.02):
+        while not ended.wait(0.1):
             opened.update(listening())
 
     watch = threading.Thread(target=look)
     watch.start()
     try:
-        assert run_study(study_file(), tmp_path / "out", None, 2) is not None
+        assert run_study(study_file(), tmp_path / "out", None, 1) is not None
     finally:
         ended.set()
         watch.join()
@@ -46,7 +46,7 @@ def test_a_study_on_this_machine_opens_no_port(study_file: Callable[..., Path], 
 
 @pytest.mark.slow
 def test_another_scheduler_with_certificates_of_the_configuration(
-    study_file, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    study_file: Callable[..., Path], tmp_path: Path, in_process: None, capfd: pytest.CaptureFixture[str]
 ) -> None:
     result = Security.temporary()
     names = {"ca-file": "tls_ca_file"}

@@ -17,6 +17,7 @@ from hosts.study.jobs import Job
 from hosts.study.store import read_study
 from hosts.study.study_runs import Bench
 from hosts.study.worker_data import Work
+from tests.hosts.pool_in_process import runs_in_this_process
 
 TESTS = Path(__file__).parents[2]
 BAD = """
@@ -26,6 +27,8 @@ import time
 
 def value(result, parameters):
     k = parameters["spring.stiffness"]
+    if "REPAIRED" in os.environ:
+        return k
     if k == 52.0:
         raise ArithmeticError("not this one")
     if k == 53.0:
@@ -55,7 +58,12 @@ def table_study(study_file: Callable[..., Path], folder: Path) -> Path:
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path], tmp_path: Path) -> None:
+def test_runs_that_raise_crash_or_hang_are_rows_and_are_made_again(
+    study_file: Callable[..., Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     file = table_study(study_file, tmp_path)
     ended = run_study(file, tmp_path / "out", None, 2)
     assert ended is not None
@@ -79,6 +87,15 @@ def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path],
         "The run took more than 2 s (time_limit).",
         "The process of the run ended with exit code 3.",
     ]
+    monkeypatch.setenv("REPAIRED", "1")
+    with runs_in_this_process():
+        ended = run_study(file, tmp_path / "out", None, 1, again=True)
+    assert ended is not None
+    assert (ended.good, ended.failed) == (True, 0)
+    assert "3 failed runs are repeated" in capsys.readouterr().out
+    repaired = read_study(ended.folder)
+    assert repaired["status"].tolist() == table["status"].replace("failed", "done").tolist()
+    assert repaired.loc[[3, 4, 5], "own"].tolist() == [53.0, 54.0, 55.0]
 
 
 def test_a_refused_step_is_a_reason(scene_fmu: Callable[..., Path]) -> None:
@@ -103,13 +120,13 @@ def test_a_refused_step_is_a_reason(scene_fmu: Callable[..., Path]) -> None:
     bench.close()
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("in_process")
 def test_a_study_without_a_measure_is_not_good(
-    study_file: Callable[..., Path], tmp_path: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
+    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "none.py").write_text("def value(result):\n    return float('nan')\n")
     file = study_file(('"max(bob.y)"', '"max(bob.y)"\nown = "none.py:value"'))
-    ended = run_study(file, tmp_path / "out", scheduler, None)
+    ended = run_study(file, tmp_path / "out", None, 1)
     assert ended is not None
     assert (ended.good, ended.failed) == (False, 0)
     assert "No run has yielded all its measures" in capsys.readouterr().err

@@ -21,13 +21,13 @@ from hosts.study.worker_data import Outcome
 
 
 @pytest.fixture
-def folder(study_file: Callable[..., Path], spring: Path, tmp_path: Path) -> Path:
+def folder(study_file: Callable[..., Path], tuned: Path, tmp_path: Path) -> Path:
     """Results of a study, whose rows were written without a run."""
     file = study_file()
     study, content = read_study_file(file)
-    plan = make_plan(study, file, spring)
+    plan = make_plan(study, file, tuned)
     record = json.loads(json.dumps(plan.record))
-    begin_study(tmp_path / "out", record, content, spring)
+    begin_study(tmp_path / "out", record, content, tuned)
     table = OutcomeTable(tmp_path / "out", record)
     for k, run in enumerate(plan.runs_at(range(plan.runs))):
         table.take("", (run, Outcome(measures={"highest": 0.1 * k})))

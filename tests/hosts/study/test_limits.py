@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from hosts.study.analysis.report import report_of
 from hosts.study.command import main
 from hosts.study.limits import share_notes, share_rows, shares
 from hosts.study.store import read_study
@@ -99,12 +98,12 @@ def test_variants_keep_all_limits_in_all_their_manoeuvres() -> None:
     assert [(s.within, s.outside) for s in (left, right, both)] == [(2, 1), (1, 2), (1, 2)]
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("in_process")
 def test_a_study_with_limits(
-    study_file: Callable[..., Path], tmp_path: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
+    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The exit code, the files and the words; then other limits for runs that are there."""
-    out = ["--out", str(tmp_path / "out"), "--scheduler", scheduler, "--no-report"]
+    out = ["--out", str(tmp_path / "out"), "--no-report"]
     file = study_file(more='[limits]\nlowest = { min = -1.2 }\nhighest = { max = 1.0, unit = "m" }\n')
     assert main([str(file), *out]) == 1
     frame = read_study(tmp_path / "out")
@@ -118,11 +117,3 @@ def test_a_study_with_limits(
     study_file(more="[limits]\nlowest = { min = -12.0 }\n")
     assert main([str(file), *out]) == 0
     assert "16 of 16 variants" in capsys.readouterr().out
-
-
-@pytest.mark.slow
-def test_the_report_has_the_shares(tmp_path: Path) -> None:
-    text = report_of(made_frame(), tmp_path, lambda index: [])[0].read_text(encoding="utf-8")
-    assert "3 of 10 runs, 2 without a result" in text
-    assert "10.8 to 60.3 %" in text
-    assert "3 of 10 variants" in text

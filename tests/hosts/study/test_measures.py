@@ -87,17 +87,13 @@ def test_means_do_not_change_where_more_samples_lie(result: Result) -> None:
     ("text", "sentence"),
     [
         ("max(chassis.ay", r"cannot be read: .*never closed"),
-        ("", "cannot be read"),
         ("chassis.ay", r"a signal over time, not a number; reduce it, such as by max\(chassis.ay\)"),
         ("max(max(chassis.ay))", r"'max\(chassis.ay\)' is a number"),
         ("eval(chassis.ay)", "no function 'eval'"),
         ("__import__('os').system('ls')", "cannot be read: signals, numbers"),
         ("max((lambda: 1)())", "cannot be read: signals"),
-        ("max([chassis.ay])", "cannot be read: signals"),
         ("max(chassis.ay ** 2)", "cannot be read: signals"),
         ("max(chassis.ay).values", "cannot be read: signals"),
-        ("abs.__class__(1)", "cannot be read: signals"),
-        ("max(chassis.ay) if 1 else 2", "cannot be read: signals"),
         ("max(True)", "'True' is not a number"),
         ("max(chassis.ay, 3)", "takes one signal; it was given 2"),
         ("max(chassis.ay, until=3)", "it has after and before"),
@@ -248,7 +244,6 @@ def test_no_file(tmp_path: Path) -> None:
         parse_measure("none.py:f", folder=tmp_path)
 
 
-@pytest.mark.slow
 def test_digests_tell_changes(functions: Path) -> None:
     before = parse_measure("mine.py:peak", folder=functions).digest
     (functions / "mine.py").write_text(FUNCTIONS.replace("TWICE *", "TWICE +"))

@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib import pyplot as plt
-from SALib.sample import sobol
 from scipy.stats import qmc
 
 from hosts.common.errors import HostError
@@ -71,23 +70,16 @@ def test_plots_of_a_measure_with_a_long_name_have_a_file_each(tmp_path: Path) ->
     assert len([*(tmp_path / "analysis").glob("*.svg")]) == text.count("data:image/svg+xml") == 5
 
 
-@pytest.mark.slow
-def test_nothing_is_written_through_a_link(frame: pd.DataFrame, tmp_path: Path) -> None:
-    other = tmp_path / "other.html"
-    other.write_text("mine")
-    folder = tmp_path / "study"
-    folder.mkdir()
-    (folder / "report.html").symlink_to(other)
-    with pytest.raises(HostError, match="report.html is a link; nothing is written through it"):
-        report_of(frame, folder, commands)
-    assert other.read_text() == "mine"
-    assert [file.name for file in folder.iterdir()] == ["report.html"]
-
-
-def test_the_report_of_an_incomplete_study_says_so(frame: pd.DataFrame, tmp_path: Path) -> None:
-    half = frame.iloc[:60]
-    half.attrs = frame.attrs
+def test_the_report_of_an_incomplete_study_with_limits_and_messages(frame: pd.DataFrame, tmp_path: Path) -> None:
+    half = frame.iloc[:60].copy()
+    half["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(60)]
+    half.attrs = frame.attrs | {"limits": {"peak": {"min": 3.0, "max": None, "unit": "m/s2"}}}
+    within = int((half["peak"] >= 3.0).sum())
+    assert said(study_data(half)) == [("The step 1 to 57 ms is coarse.", list(range(0, 60, 7)))]
     text = report_of(half, tmp_path, commands)[0].read_text(encoding="utf-8")
+    assert "The step 1 to 57 ms is coarse." in text.partition("Messages of the FMU")[2]
+    assert "at least 3 m/s²" in text
+    assert f"{within} of 60 runs" in text
     assert "140 of 200 runs are not done yet; this is the report of the others." in text
     with pytest.raises(HostError, match="has no run yet"):
         report_of(frame.iloc[:0], tmp_path, commands)
@@ -99,12 +91,6 @@ def test_all_runs_failed(frame: pd.DataFrame, tmp_path: Path) -> None:
     text = report_of(lost, tmp_path, commands)[0].read_text(encoding="utf-8")
     assert "No run yields a measure." in text
     assert "The worker was killed." in text
-
-
-def test_a_measure_that_never_changes(tmp_path: Path) -> None:
-    frame = frame_of({"mass": np.arange(100.0)}, {"peak": np.full(100, 3.0)}, UNITS)
-    text = report_of(frame, tmp_path, commands)[0].read_text(encoding="utf-8")
-    assert "It is 3 m/s² in all runs, but for rounding: nothing that was varied changes it." in text
 
 
 def test_round_off_is_no_effect(tmp_path: Path) -> None:
@@ -220,17 +206,6 @@ def test_extremes_reasons_and_statistics(frame: pd.DataFrame) -> None:
     assert statistics(peak)["5 %"] == pytest.approx(frame["peak"].quantile(0.05))
 
 
-@pytest.mark.slow
-def test_messages_of_the_fmu(frame: pd.DataFrame, tmp_path: Path) -> None:
-    rows = frame.iloc[:70].copy()
-    rows["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(70)]
-    rows.attrs = frame.attrs
-    assert said(study_data(rows)) == [("The step 1 to 64 ms is coarse.", list(range(0, 70, 7)))]
-    text = report_of(rows, tmp_path, commands)[0].read_text(encoding="utf-8")
-    assert "Messages of the FMU" in text
-    assert "The step 1 to 64 ms is coarse." in text
-
-
 def test_two_manoeuvres_are_two_responses() -> None:
     x = np.linspace(1.0, 2.0, 50)
     frame = frame_of({"mass": x}, {"peak": np.stack([x, -x], axis=1).ravel()}, UNITS, manoeuvres=("slalom", "drop"))
@@ -239,19 +214,3 @@ def test_two_manoeuvres_are_two_responses() -> None:
     assert data.responses[1].values == pytest.approx(-x)
     assert data.points(data.responses[1]).tolist() == list(range(50))
     assert rank_correlations(data, data.responses).ravel().tolist() == pytest.approx([1.0, -1.0])
-
-
-@pytest.mark.slow
-def test_a_design_of_saltellis_with_failed_runs(tmp_path: Path) -> None:
-    """A linear model: the indices of the report are those of the closed form."""
-    problem = {"num_vars": 2, "names": ["a", "b"], "bounds": [[0.0, 1.0]] * 2}
-    x = sobol.sample(problem, 256, calc_second_order=False, seed=4)
-    y = 3.0 * x[:, 0] - x[:, 1]
-    frame = frame_of(
-        {"a": x[:, 0], "b": x[:, 1]}, {"y": y}, {}, method="saltelli", failed=lambda f: f.index % 100 == 50
-    )
-    text = report_of(frame, tmp_path, commands)[0].read_text(encoding="utf-8")
-    assert "blocks with a missing or failed run left out: 10." in text
-    table = pd.read_csv(tmp_path / "analysis" / "effects.csv").set_index("parameter")
-    assert table["first"].tolist() == pytest.approx([0.9, 0.1], abs=0.03)
-    assert table["total"].tolist() == pytest.approx([0.9, 0.1], abs=0.02)

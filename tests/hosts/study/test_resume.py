@@ -7,34 +7,32 @@ import sys
 import zipfile
 from pathlib import Path
 
-import fmpy
 import pyarrow.parquet as pq
 import pytest
 from fmpy.util import read_csv
 
 from ali3.errors import UserError
 from ali3.locks import locked
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.common.errors import HostError
 from hosts.run.command import main as drive
 from hosts.study.campaign import run_study
 from hosts.study.command import main
 from hosts.study.repeated_run import repeater
 from hosts.study.store import read_study
+from tests.hosts.pool_in_process import runs_in_this_process
 
-TESTS = Path(__file__).parents[2]
-ROOT = TESTS.parent
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture(scope="module")
-def finished(spring: Path, scheduler: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def finished(tuned: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a study of its own FMU, that is done."""
     folder = tmp_path_factory.mktemp("finished")
-    fmu = shutil.copy(spring, folder / "Tuned.fmu")
+    fmu = shutil.copy(tuned, folder / "Tuned.fmu")
     text = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8").format(fmu=fmu)
     (folder / "study.toml").write_text(text)
-    assert run_study(folder / "study.toml", folder / "out", scheduler, None) is not None
+    with runs_in_this_process():
+        assert run_study(folder / "study.toml", folder / "out", None, 1) is not None
     return folder
 
 
@@ -54,23 +52,21 @@ def refused(folder: Path) -> str:
     return str(caught.value).replace(f"{folder}/", "")
 
 
-def test_another_fmu_is_refused_by_its_guid(half: Path) -> None:
-    scene = (TESTS / "hosts" / "scenes.py").read_text().replace("mass=2.0", "mass=2.5")
-    (half / "heavier.py").write_text(scene)
-    name, system = load_scene(f"{half / 'heavier.py'}:tuned")
-    before = read_study(half / "out").attrs["guid"]
-    build_fmu(system, name, half, [fmpy.platform])
-    now = fmpy.read_model_description(str(half / "Tuned.fmu")).guid
-    assert refused(half) == (
-        f'out holds another study, whose rows stay as they are: the GUID of the FMU was "{before}" and is "{now}". '
-        "Put it back as it was, or give another --out."
-    )
-
-
-def test_an_fmu_of_the_same_guid_and_other_content_is_refused(half: Path) -> None:
-    with zipfile.ZipFile(half / "Tuned.fmu", "a") as archive:
+def test_another_fmu_is_refused(half: Path) -> None:
+    fmu = half / "Tuned.fmu"
+    with zipfile.ZipFile(fmu) as archive:
+        content = {item.filename: archive.read(item) for item in archive.infolist()}
+    with zipfile.ZipFile(fmu, "a") as archive:
         archive.writestr("documentation/more.txt", "more")
     assert "rows stay as they are: the content of the FMU changed. Put it back" in refused(half)
+    before = read_study(half / "out").attrs["guid"]
+    with zipfile.ZipFile(fmu, "w") as archive:
+        for name, data in content.items():
+            archive.writestr(name, data.replace(before.encode(), b"{another}"))
+    assert refused(half) == (
+        f'out holds another study, whose rows stay as they are: the GUID of the FMU was "{before}" and is '
+        '"{another}". Put it back as it was, or give another --out.'
+    )
 
 
 @pytest.mark.parametrize(
@@ -89,19 +85,18 @@ def test_a_changed_study_is_refused(half: Path, old: str, new: str, message: str
     assert f"rows stay as they are: {message} Put it back" in refused(half)
 
 
-@pytest.mark.slow
 def test_only_missing_runs_are_made(
-    finished: Path, half: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
+    finished: Path, half: Path, in_process: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = read_study(finished / "out")
     runs = half / "out" / "runs"
-    again = [str(half / "study.toml"), "--out", str(half / "out"), "--no-report", "--scheduler"]
+    again = [str(half / "study.toml"), "--out", str(half / "out"), "--no-report"]
     shutil.copy(finished / "out" / "runs" / "part-000001.parquet", runs)
-    assert main([*again, "tcp://127.0.0.1:9"]) == 0  # where nobody answers: nobody is asked
+    assert main([*again, "--scheduler", "tcp://127.0.0.1:9"]) == 0  # where nobody answers: nobody is asked
     assert "16 of 16 runs are there" in capsys.readouterr().out
     table = pq.ParquetFile(runs / "part-000001.parquet").read()
     pq.write_table(table.slice(3, 9), runs / "part-000001.parquet")
-    assert main([*again, scheduler]) == 0
+    assert main(again) == 0
     output = capsys.readouterr().out
     present = 16 - len(table) + len(table.slice(3, 9))  # a slow machine writes more than one part
     assert f"{present} of 16 runs are there" in output
@@ -118,16 +113,14 @@ def test_two_programs_do_not_write_to_one_folder(half: Path) -> None:
         ).replace(f"{half}/", "")
 
 
-@pytest.mark.slow
-def test_no_scheduler_is_one_sentence(half: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_scheduler_is_one_sentence(half: Path, in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("hosts.experiment.cluster._PATIENCE", 0.5)
     assert refused(half).startswith("No scheduler of Dask answers at tcp://127.0.0.1:9: ")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
 @pytest.mark.slow
-def test_a_full_disk_keeps_the_written_rows(finished: Path, half: Path, scheduler: str) -> None:
-    shutil.copy(finished / "out" / "runs" / "part-000001.parquet", half / "part")
+def test_a_full_disk_keeps_the_written_rows(half: Path, in_process: None) -> None:
     (half / "study.toml").write_text((half / "study.toml").read_text().replace("runs = 16", "runs = 32"))
     start = """
 import resource, signal, sys
@@ -137,17 +130,19 @@ from hosts.study import campaign
 from hosts.study.outcome_table import OutcomeTable
 written = OutcomeTable.write
 def write(self):
-    rows = self._rows["index"] != []
+    rows = self._part.rows["index"] != []
     written(self)
     if rows:  # full from now on
         resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))
 OutcomeTable.write = write
 store._WRITE = (0.0, 0.0)
 from hosts.study.command import main
-sys.exit(main())
+from tests.hosts.pool_in_process import runs_in_this_process
+with runs_in_this_process():
+    sys.exit(main())
 """
     new = half / "new"
-    command = [sys.executable, "-c", start, half / "study.toml", "--out", new, "--scheduler", scheduler]
+    command = [sys.executable, "-c", start, half / "study.toml", "--out", new]
     done = subprocess.run(map(str, command), capture_output=True, text=True, check=False, cwd=ROOT)
     assert done.returncode == 2, done.stderr
     table = read_study(new)
@@ -158,19 +153,19 @@ sys.exit(main())
     )
     assert [file.name for file in (new / "runs").iterdir()] == ["part-000001.parquet"]
     assert (new / "done").is_file()
-    ended = run_study(half / "study.toml", new, scheduler, None)
-    assert ended is not None
+    assert run_study(half / "study.toml", new, None, 1) is not None
     assert len(read_study(new)) == 32
     assert read_study(new).loc[table.index].equals(table)
 
 
-def test_a_run_is_repeated_as_a_drive(finished: Path) -> None:
+def test_a_run_is_repeated_as_a_drive(finished: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = finished / "out"
-    lines = repeater(out)(11)
-    words = shlex.split(lines.drive)
+    assert main([str(out), "--run", "11"]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if "run-11." in line]
+    (words,) = [shlex.split(line) for line in lines if " run " in line]
+    assert any(" view " in line for line in lines)
     assert drive(words[words.index("run") + 1 :]) == 0
     table = read_csv(out / "repeat" / "tuned_run-11.csv")
     assert max(table["bob.y"]) == read_study(out).loc[11, "highest"]
-    assert " view " in lines.view
     with pytest.raises(HostError, match="There is no run 16; the study in .* has the runs 0 to 15."):
         repeater(out)(16)

@@ -24,12 +24,6 @@ def test_a_monotone_measure_is_met_by_few_runs() -> None:
     assert (actual.rises, actual.falls) == (True, False)
 
 
-def test_the_slope_has_its_sign() -> None:
-    actual = sought(lambda x: 5.0 - 2.0 * x, 1.0, 0.0, 5.0)
-    assert actual.met
-    assert actual.slope == pytest.approx(-2.0)
-
-
 @pytest.mark.parametrize(
     ("top", "law"),
     [(4.0, lambda x: x - 0.7 + (x - 2.0) ** 3), (19000.0, lambda x: 1.174 + 0.69 / (1.0 + x / 800.0))],

@@ -1,4 +1,4 @@
-"""A study from its file to its table, on a scheduler with two workers."""
+"""A study from its file to its table."""
 
 import json
 from collections.abc import Callable
@@ -15,18 +15,20 @@ from hosts.study.plan import make_plan
 from hosts.study.store import open_signals, read_study
 from hosts.study.study_file import read_study_file
 from hosts.study.study_runs import Bench
+from tests.hosts.pool_in_process import runs_in_this_process
 
 GRAVITY = 9.81
 STUDY = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
-def folder(spring: Path, scheduler: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tuned: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A study that is done."""
     place = tmp_path_factory.mktemp("study")
     signals = '[signals]\nnames = ["bob.y", "pull"]\ninterval = 0.05\n'
-    (place / "study.toml").write_text(STUDY.format(fmu=spring) + signals)
-    ended = run_study(place / "study.toml", place / "out", scheduler, None)
+    (place / "study.toml").write_text(STUDY.format(fmu=tuned) + signals)
+    with runs_in_this_process():
+        ended = run_study(place / "study.toml", place / "out", None, 1)
     assert ended is not None
     assert ended.good
     return ended.folder
@@ -78,7 +80,6 @@ def columns(folder: Path) -> dict[str, object]:
     return {n: c.to_numpy().tobytes() if c.dtype.kind in "if" else c.tolist() for n, c in table.items()}
 
 
-@pytest.mark.slow
 def test_rows_have_the_bits_of_new_instances(folder: Path) -> None:
     table = read_study(folder)
     file = folder.parent / "study.toml"
@@ -92,15 +93,14 @@ def test_rows_have_the_bits_of_new_instances(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_the_same_bits_with_one_worker_and_with_three(study_file: Callable[..., Path], tmp_path: Path) -> None:
-    file = study_file(("runs = 16", "runs = 32"))
-    for workers in (1, 3):
-        assert run_study(file, tmp_path / f"out{workers}", None, workers) is not None
-    assert columns(tmp_path / "out1") == columns(tmp_path / "out3")
+def test_two_processes_of_their_own_give_the_same_bits(folder: Path, tmp_path: Path) -> None:
+    assert run_study(folder.parent / "study.toml", tmp_path / "out", None, 2) is not None
+    assert columns(tmp_path / "out") == columns(folder)
+    assert open_signals(tmp_path / "out").equals(open_signals(folder))
 
 
 def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
-    study_file: Callable[..., Path], spring: Path, tmp_path: Path
+    study_file: Callable[..., Path], tuned: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "names.toml").write_text(
         '"chassis.z" = { name = "bob.y", factor = -1.0 }\n"rate" = { name = "spring.stiffness", factor = 10.0 }\n'
@@ -116,9 +116,9 @@ def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
         (study_file(), {"spring.stiffness": 60.0}),
         (study_file(*ours, name="named.toml"), {"rate": 6.0}),
     ):
-        plan = make_plan(read_study_file(file)[0], file, spring)
+        plan = make_plan(read_study_file(file)[0], file, tuned)
         assert set(plan.work.parameters) == {*stiffness, "spring.free_length"}
-        bench = Bench(plan.work, spring)
+        bench = Bench(plan.work, tuned)
         results.append(bench.run(plan.work.jobs[0], {**stiffness, "spring.free_length": 0.7}, 1).measures)
         bench.close()
     theirs, named = results
@@ -127,4 +127,4 @@ def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
     wrong = study_file(*ours, ('"rate"', '"chassis.z"'))
     study = read_study_file(wrong)[0]
     with pytest.raises(HostError, match=r"'chassis.z' is not a parameter or input of the FMU; it cannot be set"):
-        make_plan(study, wrong, spring)
+        make_plan(study, wrong, tuned)

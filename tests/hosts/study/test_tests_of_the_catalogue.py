@@ -57,7 +57,7 @@ def test_each_test_gives_a_whole_row(study: Callable[[str], Path], prototype_fmu
     assert sorted(map(math.isfinite, speeds)) == [False, True]
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("in_process")
 def test_measures_that_are_chosen_are_the_columns(study: Callable[[str], Path], prototype_fmu: Path) -> None:
     file = study(entry("drop", 'measures = ["settling_time", "load.peak"]'))
     plan = make_plan(read_study_file(file)[0], file, prototype_fmu)
@@ -67,7 +67,7 @@ def test_measures_that_are_chosen_are_the_columns(study: Callable[[str], Path], 
     assert sorted(outcome.measures) == sorted(trial.columns)
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("in_process")
 def test_an_unknown_measure_is_one_sentence(
     study: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

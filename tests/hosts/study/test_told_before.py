@@ -14,8 +14,9 @@ from hosts.study.jobs import Job
 from hosts.study.study_runs import OneProcess
 from hosts.study.worker_data import Run, Work
 
+pytestmark = pytest.mark.usefixtures("in_process")
 
-@pytest.mark.slow
+
 def test_a_function_that_raises_is_reported_before_the_study(
     study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -26,7 +27,6 @@ def test_a_function_that_raises_is_reported_before_the_study(
     assert "no such number" in errors
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("workers", "message"), [(1, "in all on one worker"), (2, "in all with 2 workers")])
 def test_the_plan_names_its_workers(
     study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], workers: int, message: str
@@ -35,7 +35,6 @@ def test_the_plan_names_its_workers(
     assert message in capsys.readouterr().out
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("x", "reported"), [(550.0, 0), (0.0, 1)])
 def test_a_start_is_reported_where_a_run_has_it(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], x: float, reported: int
