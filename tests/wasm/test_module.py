@@ -146,7 +146,7 @@ def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, t
             assert loaded.remove_file("roads/long.road")
             assert not loaded.remove_file("roads/long.road")
         heights = []
-        for k in range(70):
+        for k in range(80):
             loaded.doStep(k * 0.05, 0.05)
             heights += loaded.getReal([prototype.kinds[name][1] for name in ("chassis.x", "chassis.z")])
         return heights

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from ali3.temporary_folder import temporary_folder
+
 HERE = Path(__file__).parent
 if str(HERE) not in sys.path:
     sys.path.append(str(HERE))  # for what the tests share
@@ -29,7 +31,9 @@ class _NoProcess:
         finish: Callable[[Any, Path], Any] = lambda result, store: result,
         in_all: bool = False,
     ) -> object:
-        return finish(self._work(task, tell), HERE)
+        with temporary_folder() as folder, pytest.MonkeyPatch.context() as patch:
+            patch.setattr("ali3.processes._store", folder / "rows")
+            return finish(self._work(task, tell), folder / "rows")
 
     def close(self) -> None:
         pass
