@@ -108,21 +108,23 @@ class CourseLayer:
 
     def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
         s, offset, distance = self.line.beside(x, y, guess)
-        half = self.half(s)
+        half_width = self.half(s)
         bank = self.course.bank
-        pivot = {"left": half, "centre": 0.0 * half, "right": -half}[bank.pivot if bank is not None else "centre"]
+        pivot = {"left": half_width, "centre": 0.0 * half_width, "right": -half_width}[
+            bank.pivot if bank is not None else "centre"
+        ]
         height = self.height(s) + self.bank(s) * (pivot - offset)
-        return LayerPoints(distance - half, height, s, offset)
+        return LayerPoints(distance - half_width, height, s, offset)
 
 
 def _smoothed(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:
     """A spline through heights at the points of a line, smoothed by a Gaussian whose deviation is so many points."""
     if not line.closed:
-        found = CubicSpline(line.stations, gaussian_filter1d(heights, width, mode="nearest"), bc_type="natural")
+        spline = CubicSpline(line.stations, gaussian_filter1d(heights, width, mode="nearest"), bc_type="natural")
     else:
         smooth = gaussian_filter1d(heights[:-1], width, mode="wrap")
-        found = CubicSpline(line.stations, np.append(smooth, smooth[0]), bc_type="periodic")
-    return lambda s: np.asarray(found(s), np.float64)
+        spline = CubicSpline(line.stations, np.append(smooth, smooth[0]), bc_type="periodic")
+    return lambda s: np.asarray(spline(s), np.float64)
 
 
 class AreaLayer:
