@@ -108,13 +108,11 @@ class CourseLayer:
 
     def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
         s, offset, distance = self.line.beside(x, y, guess)
-        half_width = self.half(s)
+        half = self.half(s)
         bank = self.course.bank
-        pivot = {"left": half_width, "centre": 0.0 * half_width, "right": -half_width}[
-            bank.pivot if bank is not None else "centre"
-        ]
+        pivot = {"left": half, "centre": 0.0 * half, "right": -half}[bank.pivot if bank is not None else "centre"]
         height = self.height(s) + self.bank(s) * (pivot - offset)
-        return LayerPoints(distance - half_width, height, s, offset)
+        return LayerPoints(distance - half, height, s, offset)
 
 
 def _smoothed(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:

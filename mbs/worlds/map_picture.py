@@ -75,16 +75,16 @@ def _heights(road: dict[str, Any], bounds: list[float]) -> np.ndarray[Any, np.dt
     step = [(x1 - x0) / n[0], (y1 - y0) / n[1]]
     for patch in road["patches"]:
         z = decoded(patch["heights"], "f").reshape(patch["shape"])
-        offsets = [(patch["origin"][k] - bounds[k]) / step[k] for k in range(2)]
+        corner = [(patch["origin"][k] - bounds[k]) / step[k] for k in range(2)]
         size = [patch["spacing"][k] * (patch["shape"][k] - 1) / step[k] for k in range(2)]
         ranges = [
-            np.arange(max(0, math.ceil(offsets[k] - 0.5)), min(n[k], math.ceil(offsets[k] + size[k] - 0.5)))
+            np.arange(max(0, math.ceil(corner[k] - 0.5)), min(n[k], math.ceil(corner[k] + size[k] - 0.5)))
             for k in range(2)
         ]
         if min(map(len, ranges)) == 0:
             continue
         index = [
-            np.clip(((ranges[k] + 0.5 - offsets[k]) / size[k] * (patch["shape"][k] - 1)).round().astype(int), 0, 16)
+            np.clip(((ranges[k] + 0.5 - corner[k]) / size[k] * (patch["shape"][k] - 1)).round().astype(int), 0, 16)
             for k in range(2)
         ]
         heights[np.ix_(*ranges)] = z[np.ix_(*index)]
