@@ -104,8 +104,8 @@ class Washboard(_Road):
         """The road as a grid with 24 points per wave."""
         dx = self.wavelength / 24.0
         x = dx * np.arange(-24, math.ceil(self.length / dx) + 25)
-        grown = np.clip(x / self.wavelength, 0.0, 1.0) * np.clip((self.length - x) / self.wavelength, 0.0, 1.0)
-        z = self.amplitude * grown * np.sin(2.0 * np.pi * x / self.wavelength)
+        envelope = np.clip(x / self.wavelength, 0.0, 1.0) * np.clip((self.length - x) / self.wavelength, 0.0, 1.0)
+        z = self.amplitude * envelope * np.sin(2.0 * np.pi * x / self.wavelength)
         heights = np.repeat(_rounded(z)[:, None], 2, axis=1)
         return GridRoad((self.start + x[0], -0.5 * self.width), (dx, self.width), heights, self.friction)
 
@@ -176,11 +176,11 @@ def grid_road(
     **mesh: Any,
 ) -> GridRoad:
     """A grid from files; what is given here goes before what the files say. `mesh`: `scale` and `up` of `mesh_road`."""
-    for limits, what, file in ((height_range, "heights", heights), (friction_range, "frictions", frictions)):
+    for limits, name, file in ((height_range, "heights", heights), (friction_range, "frictions", frictions)):
         if limits is not None and Path(str(file)).suffix.lower() != PICTURE:
             raise RoadFileError(
-                f"{heights}: the range {limits[0]:g} to {limits[1]:g} of {what} says what black and white of a picture "
-                f"({PICTURE}) are, but its {what} come from no picture; leave the range out."
+                f"{heights}: the range {limits[0]:g} to {limits[1]:g} of {name} says what black and white of a picture "
+                f"({PICTURE}) are, but its {name} come from no picture; leave the range out."
             )
     for step in spacing or ():
         positive(step, f"The spacing of the grid of {heights}", RoadFileError)
@@ -189,8 +189,8 @@ def grid_road(
     if frictions is None:
         values = grid.frictions
     elif not isinstance(frictions, int | float):
-        second = read_grid(frictions, friction_range, "frictions")
-        values = second.values
+        friction_grid = read_grid(frictions, friction_range, "frictions")
+        values = friction_grid.values
         if values.shape != np.shape(grid.heights):
             raise RoadFileError(
                 f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "

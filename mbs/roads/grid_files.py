@@ -65,8 +65,8 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     for values in (grid.values, grid.frictions):
         if values is not None and not np.all(np.isfinite(values)):
             i, j = np.argwhere(~np.isfinite(values))[0].tolist()
-            place = f"row {i + 1}, column {j + 1} of the points"
-            raise RoadFileError(f"{path}: the value at {place} is {values[i, j]}, not a finite number.")
+            position = f"row {i + 1}, column {j + 1} of the points"
+            raise RoadFileError(f"{path}: the value at {position} is {values[i, j]}, not a finite number.")
     return grid
 
 
@@ -79,21 +79,21 @@ def _table(file: Path) -> Grid:
     rows = list(table.rows())
     if len(rows) < 2:
         raise RoadFileError(f"{file} has {len(rows)} rows; a grid needs at least two.")
-    begins = [row.line for row in rows if not is_number(row.cells[0], table.decimal)]
-    if not begins or begins[0] != rows[0].line:
+    heading_lines = [row.line for row in rows if not is_number(row.cells[0], table.decimal)]
+    if not heading_lines or heading_lines[0] != rows[0].line:
         _check_comments(table, rows[0].line)
         return Grid(np.array([table.numbers(row) for row in rows]))
     corner = rows[0].cells[0]
     unit = UNIT.search(corner)
     if unit is not None and (unit["unit"] or unit["bare"]) not in ("m", "metre", "meter", "metres", "meters"):
         raise RoadFileError(f"{file}: its first cell is {brief(corner)}; coordinates and heights must be in m.")
-    if len(begins) > 2:
-        raise RoadFileError(f"{file}, line {begins[2]} begins a third table; there are heights and frictions.")
-    second = begins[1] if len(begins) > 1 else math.inf
-    heights = _labelled(table, [row for row in rows if row.line < second])
-    if len(begins) == 1:
+    if len(heading_lines) > 2:
+        raise RoadFileError(f"{file}, line {heading_lines[2]} begins a third table; there are heights and frictions.")
+    second_line = heading_lines[1] if len(heading_lines) > 1 else math.inf
+    heights = _labelled(table, [row for row in rows if row.line < second_line])
+    if len(heading_lines) == 1:
         return heights
-    frictions = _labelled(table, [row for row in rows if row.line >= second])
+    frictions = _labelled(table, [row for row in rows if row.line >= second_line])
     if (frictions.origin, frictions.spacing) != (heights.origin, heights.spacing):
         raise RoadFileError(f"{file}: the frictions have other coordinates than the heights.")
     if frictions.values.shape != heights.values.shape:
@@ -106,8 +106,8 @@ def _table(file: Path) -> Grid:
 def _check_comments(table: TextTable, first: int) -> None:
     """A comment above a table of numbers alone that says what its columns are is not passed over."""
     for line, cells in table.comment_cells():
-        above = [cell for cell in cells[1:] if is_number(cell, table.decimal)]
-        if line < first and len(above) == len(cells) - 1 >= 2:
+        numeric_cells = [cell for cell in cells[1:] if is_number(cell, table.decimal)]
+        if line < first and len(numeric_cells) == len(cells) - 1 >= 2:
             raise RoadFileError(
                 f"{table.name}, line {line} is a comment with a number for each column but the first, as the "
                 "coordinates y of a grid; take its # away, or divide its numbers otherwise if they are none."
@@ -134,9 +134,9 @@ def _regular(values: NDArray[np.float64], name: str, path: object) -> tuple[floa
     spacing = float((values[-1] - values[0]) / (len(values) - 1))
     if not (math.isfinite(spacing) and spacing > 0.0):
         raise RoadFileError(f"{path}: the coordinates {name} do not ascend.")
-    off = np.abs(values - (values[0] + spacing * np.arange(len(values))))
-    k = int(np.argmax(off))
-    if not off[k] <= REGULAR * spacing + 1e-12 * float(np.abs(values).max()):
+    deviations = np.abs(values - (values[0] + spacing * np.arange(len(values))))
+    k = int(np.argmax(deviations))
+    if not deviations[k] <= REGULAR * spacing + 1e-12 * float(np.abs(values).max()):
         expected = values[0] + spacing * k
         raise RoadFileError(
             f"{path}: the coordinates {name} are not regular: {values[k]:.12g} should be {expected:.12g}."

@@ -88,11 +88,11 @@ def mesh_road(
     road = GridRoad((float(x[0]), float(y[0])), (float(x[1] - x[0]), float(y[1] - y[0])), np.empty((len(x), len(y))))
     x_between, y_between = between(road)
     lowest, highest = triangle_heights(corners, x_between, y_between)
-    if np.any(over := highest - lowest > OVERHANG):
-        i, j = np.argwhere(over)[0].tolist()
+    if np.any(covered := highest - lowest > OVERHANG):
+        i, j = np.argwhere(covered)[0].tolist()
         raise RoadFileError(
             f"{source} has surfaces above one another at x = {x_between[i]:.6g} m, y = {y_between[j]:.6g} m, of "
-            f"heights {lowest[i, j]:.4g} and {highest[i, j]:.4g} m, at {int(over.sum())} of {over.size} places: "
+            f"heights {lowest[i, j]:.4g} and {highest[i, j]:.4g} m, at {int(covered.sum())} of {covered.size} places: "
             f"{_ONE_HEIGHT}"
         )
     heights = triangle_heights(corners, x, y)[1]
@@ -103,11 +103,11 @@ def mesh_road(
             f"A spacing of {_spacing_that_hits(corners, areas):.2g} m has such points."
         )
     road = replace(road, heights=_filled(heights, road, source))
-    own = corners.reshape(-1, 3)
+    vertices = corners.reshape(-1, 3)
     rows = (
         (np.stack([np.full(len(y_between), x_k), y_between], -1), z) for x_k, z in zip(x_between, highest, strict=True)
     )
-    return compared(road, chain(rows, [(own[:, :2], own[:, 2])]), source)
+    return compared(road, chain(rows, [(vertices[:, :2], vertices[:, 2])]), source)
 
 
 def _seen_areas(corners: Values) -> Values:
@@ -118,9 +118,9 @@ def _seen_areas(corners: Values) -> Values:
 
 def _spacing_that_hits(corners: Values, seen: Values) -> float:
     """Spacing with a grid point in the widest triangle, m: the diagonal of a cell fits into its inscribed circle."""
-    sides = np.linalg.norm(np.diff(corners[:, [0, 1, 2, 0], :2], axis=1), axis=-1).sum(axis=1)
-    inner = 2.0 * seen / np.maximum(sides, 1e-300)
-    return 0.9 * float(np.sqrt(2.0) * inner.max())
+    perimeters = np.linalg.norm(np.diff(corners[:, [0, 1, 2, 0], :2], axis=1), axis=-1).sum(axis=1)
+    inradii = 2.0 * seen / np.maximum(perimeters, 1e-300)
+    return 0.9 * float(np.sqrt(2.0) * inradii.max())
 
 
 def _refuse_upright(corners: Values, seen: Values, source: str, name: str) -> None:
@@ -142,20 +142,23 @@ def _filled(heights: Values, road: GridRoad, source: str) -> Values:
     """
     missing = np.isnan(heights)
     (x0, y0), (dx, dy) = road.origin, road.spacing
-    parts, count = ndimage.label(missing)
-    outside = np.unique(np.concatenate([parts[0], parts[-1], parts[:, 0], parts[:, -1]]))
-    areas = np.bincount(parts.ravel(), minlength=count + 1) * dx * dy
-    for part in np.setdiff1d(np.arange(1, count + 1), outside):
-        i, j = np.argwhere(parts == part)[0].tolist()
-        gap = f"a gap of {areas[part]:.3g} m2 at x = {x0 + i * dx:.6g} m, y = {y0 + j * dy:.6g} m"
-        if areas[part] < HOLE:
+    regions, count = ndimage.label(missing)
+    outside = np.unique(np.concatenate([regions[0], regions[-1], regions[:, 0], regions[:, -1]]))
+    areas = np.bincount(regions.ravel(), minlength=count + 1) * dx * dy
+    for region in np.setdiff1d(np.arange(1, count + 1), outside):
+        i, j = np.argwhere(regions == region)[0].tolist()
+        gap = f"a gap of {areas[region]:.3g} m2 at x = {x0 + i * dx:.6g} m, y = {y0 + j * dy:.6g} m"
+        if areas[region] < HOLE:
             raise RoadFileError(f"{source} has {gap} in its surface, with no triangle above or below; close the hole.")
         warning = f"{source} has {gap}; it is taken as what the road goes round and filled from its border."
         warnings.warn(warning, RoadWarning, stacklevel=4)
-    pieces, number = ndimage.label(~missing, np.ones((3, 3)))
-    if number > 1:
-        least = np.bincount(pieces.ravel())[1:].min() * dx * dy
-        warning = f"{source} is in {number} pieces, the smallest has {least:.3g} m2; between them their borders go on."
+    components, component_count = ndimage.label(~missing, np.ones((3, 3)))
+    if component_count > 1:
+        smallest_area = np.bincount(components.ravel())[1:].min() * dx * dy
+        warning = (
+            f"{source} is in {component_count} pieces, the smallest has {smallest_area:.3g} m2; "
+            "between them their borders go on."
+        )
         warnings.warn(warning, RoadWarning, stacklevel=4)
     nearest = ndimage.distance_transform_edt(missing, sampling=(dx, dy), return_distances=False, return_indices=True)
     return np.asarray(heights[tuple(nearest)])

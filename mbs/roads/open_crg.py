@@ -52,17 +52,17 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     crg = _read(source)
     _checked(crg, source)
     edges = np.concatenate([np.stack(crg.uv_to_xy(crg.u, np.full(crg.nu, v)), -1) for v in (crg.v[0], crg.v[-1])])
-    apart = float(np.diff(crg.v).min())
+    v_spacing = float(np.diff(crg.v).min())
     if spacing is None:
-        along = crg.is_straight and abs(crg.phi_start) < _LEVEL
-        spacing = (crg.u_inc, apart) if along else (min(crg.u_inc, apart),) * 2
+        along_x = crg.is_straight and abs(crg.phi_start) < _LEVEL
+        spacing = (crg.u_inc, v_spacing) if along_x else (min(crg.u_inc, v_spacing),) * 2
     x, y = points_of_box(edges.min(axis=0), edges.max(axis=0), spacing, source)
     spacing = float(x[1] - x[0]), float(y[1] - y[0])
     grid = GridRoad((float(x[0]), float(y[0])), spacing, _heights_about(crg, x, y))
-    worst = list[Values]()
-    found = compared(grid, _surface_samples(crg, grid, worst), source)
-    largest, place = _largest(crg, grid, np.concatenate(worst), found.largest, found.place)
-    return replace(found, largest=largest, place=place)
+    worst_positions = list[Values]()
+    road = compared(grid, _surface_samples(crg, grid, worst_positions), source)
+    largest, place = _largest(crg, grid, np.concatenate(worst_positions), road.largest, road.place)
+    return replace(road, largest=largest, place=place)
 
 
 def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
@@ -77,14 +77,14 @@ def _heights_about(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
     Finding where a place lies along the road takes a microsecond, and most of the box of a long road is beside it.
     """
     lines = tuple(np.unique([*range(0, len(a), _BLOCK), len(a) - 1]) for a in (x, y))
-    few = _heights(crg, *(a.ravel() for a in np.meshgrid(x[lines[0]], y[lines[1]], indexing="ij")))
-    few = few.reshape(len(lines[0]), len(lines[1]))
-    heights = make_interp_spline(y[lines[1]], few, 1, axis=1)(y)
+    coarse_heights = _heights(crg, *(a.ravel() for a in np.meshgrid(x[lines[0]], y[lines[1]], indexing="ij")))
+    coarse_heights = coarse_heights.reshape(len(lines[0]), len(lines[1]))
+    heights = make_interp_spline(y[lines[1]], coarse_heights, 1, axis=1)(y)
     heights = make_interp_spline(x[lines[0]], heights, 1, axis=0)(x)
     size = _BLOCK * float(np.hypot(x[1] - x[0], y[1] - y[0]))
     centres = [a[k[:-1]] + 0.5 * (a[k[1:]] - a[k[:-1]]) for a, k in zip((x, y), lines, strict=True)]
-    away = cKDTree(np.column_stack([crg.x, crg.y])).query(np.stack(np.meshgrid(*centres, indexing="ij"), -1))[0]
-    near = away <= float(np.abs(crg.v[[0, -1]]).max()) + crg.u_inc + size
+    distances = cKDTree(np.column_stack([crg.x, crg.y])).query(np.stack(np.meshgrid(*centres, indexing="ij"), -1))[0]
+    near = distances <= float(np.abs(crg.v[[0, -1]]).max()) + crg.u_inc + size
     for i in range(len(near)):
         rows = slice(lines[0][i], lines[0][i + 1] + 1)
         columns = np.flatnonzero(np.repeat(near[i], np.diff(lines[1])))
@@ -100,19 +100,19 @@ def _surface_samples(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]
 
     `worst`: takes u, v of those at which the grid is farthest off, shape (k, 2).
     """
-    apart = [float(crg.u_inc), float(np.diff(crg.v).max())]
-    parts = [min(max(math.ceil(_FINER * d / min(road.spacing)), 3), _FINEST) for d in apart]
-    while math.prod(parts) > 1 and crg.nu * crg.nv * math.prod(parts) > _MOST_COMPARED:
-        parts[parts.index(max(parts))] -= 1
+    intervals = [float(crg.u_inc), float(np.diff(crg.v).max())]
+    subdivisions = [min(max(math.ceil(_FINER * d / min(road.spacing)), 3), _FINEST) for d in intervals]
+    while math.prod(subdivisions) > 1 and crg.nu * crg.nv * math.prod(subdivisions) > _MOST_COMPARED:
+        subdivisions[subdivisions.index(max(subdivisions))] -= 1
     u, v = (
         np.interp((np.arange((len(a) - 1) * n) + 0.5) / n, np.arange(len(a)), a)
-        for a, n in zip((crg.u, crg.v), parts, strict=True)
+        for a, n in zip((crg.u, crg.v), subdivisions, strict=True)
     )
-    for some in np.array_split(u, math.ceil(len(u) * len(v) / _AT_ONCE)):
-        at = np.stack([np.repeat(some, len(v)), np.tile(v, len(some))], -1)
-        positions, z = _surface(crg, at)
-        off = np.abs(grid_heights(road, np.asarray(road.heights), positions) - z)
-        worst.append(at[np.argsort(off)[-_LOOKED_INTO:]])
+    for u_batch in np.array_split(u, math.ceil(len(u) * len(v) / _AT_ONCE)):
+        uv = np.stack([np.repeat(u_batch, len(v)), np.tile(v, len(u_batch))], -1)
+        positions, z = _surface(crg, uv)
+        deviations = np.abs(grid_heights(road, np.asarray(road.heights), positions) - z)
+        worst.append(uv[np.argsort(deviations)[-_LOOKED_INTO:]])
         yield positions, z
 
 
@@ -123,15 +123,15 @@ def _largest(
     reach = np.array([crg.u_inc, float(np.diff(crg.v).max())]) / 2.0
     around = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), -1).reshape(-1, 2)
     for _ in range(_ROUNDS):
-        tried = np.clip(at[:, None] + reach * around, (crg.u[0], crg.v[0]), (crg.u[-1], crg.v[-1]))
-        positions, z = _surface(crg, tried.reshape(-1, 2))
-        off = np.abs(grid_heights(road, np.asarray(road.heights), positions) - z).reshape(tried.shape[:2])
-        best = off.argmax(axis=1)
-        k = int(off.max(axis=1).argmax())
-        if off[k, best[k]] > largest:
-            x, y = positions[k * len(around) + int(best[k])].tolist()
-            largest, place = float(off[k, best[k]]), (x, y)
-        at, reach = tried[np.arange(len(at)), best], reach / 4.0
+        candidates = np.clip(at[:, None] + reach * around, (crg.u[0], crg.v[0]), (crg.u[-1], crg.v[-1]))
+        positions, z = _surface(crg, candidates.reshape(-1, 2))
+        deviations = np.abs(grid_heights(road, np.asarray(road.heights), positions) - z).reshape(candidates.shape[:2])
+        peaks = deviations.argmax(axis=1)
+        k = int(deviations.max(axis=1).argmax())
+        if deviations[k, peaks[k]] > largest:
+            x, y = positions[k * len(around) + int(peaks[k])].tolist()
+            largest, place = float(deviations[k, peaks[k]]), (x, y)
+        at, reach = candidates[np.arange(len(at)), peaks], reach / 4.0
     return largest, place
 
 
@@ -144,15 +144,15 @@ def _read(source: str) -> pyopencrg.CrgRoad:
     try:
         import pyopencrg
 
-        with warnings.catch_warnings(record=True) as odd:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             crg = pyopencrg.read(source, apply_mods=True)
     except ModuleNotFoundError as error:
         raise RoadFileError(f"{source} cannot be read. {missing_module(error, 'roads')}") from None
     except Exception as error:  # what a reader raises on a damaged file has no common kind
         raise RoadFileError(f"{source} cannot be read as OpenCRG: {_first_fault(error, source)}.") from None
-    for what in odd:
-        warnings.warn(f"{source}: {_first_fault(what.message, source)}.", RoadWarning, stacklevel=4)
+    for warning in caught:
+        warnings.warn(f"{source}: {_first_fault(warning.message, source)}.", RoadWarning, stacklevel=4)
     return crg
 
 
@@ -160,8 +160,8 @@ def _first_fault(message: object, source: str) -> str:
     """The first fault of those that the reader lists, as one causes others, and how many more there are."""
     text, *faults = str(message).partition("\nTo open it anyway")[0].split("\n  - ")
     first = faults[0].removeprefix("(reading) ") if faults else text.removeprefix(f"{source}: ")
-    more = f", the first of {len(faults)} faults" if len(faults) > 1 else ""
-    return one_line(" ".join(first.split()).rstrip(".")) + more
+    suffix = f", the first of {len(faults)} faults" if len(faults) > 1 else ""
+    return one_line(" ".join(first.split()).rstrip(".")) + suffix
 
 
 def _checked(crg: pyopencrg.CrgRoad, source: str) -> None:
@@ -169,15 +169,15 @@ def _checked(crg: pyopencrg.CrgRoad, source: str) -> None:
     numbers = np.concatenate([np.ravel(a) for a in (crg.u, crg.v, crg.x, crg.y)])
     if min(crg.shape) < 2 or not np.all(np.abs(numbers) < 1e7):
         raise RoadFileError(f"{source} is not a road: its points, {crg.nu} x {crg.nv}, do not lie within 10 000 km.")
-    if np.any(high := np.abs(crg.surface_z()) > ROAD_HIGHEST):
-        i, j = np.argwhere(high)[0].tolist()
+    if np.any(too_high := np.abs(crg.surface_z()) > ROAD_HIGHEST):
+        i, j = np.argwhere(too_high)[0].tolist()
         raise RoadFileError(
             f"{source} has a height of {crg.surface_z()[i, j]:.3g} m at u = {crg.u[i]:g} m, v = {crg.v[j]:g} m; it "
             f"must lie between {-ROAD_HIGHEST:g} and {ROAD_HIGHEST:g} m."
         )
-    if np.any(bad := ~np.isfinite(crg.surface_z())):
-        i, j = np.argwhere(bad)[0].tolist()
+    if np.any(holes := ~np.isfinite(crg.surface_z())):
+        i, j = np.argwhere(holes)[0].tolist()
         raise RoadFileError(
-            f"{source} has no height at u = {crg.u[i]:g} m, v = {crg.v[j]:g} m, one of {int(bad.sum())} such points "
+            f"{source} has no height at u = {crg.u[i]:g} m, v = {crg.v[j]:g} m, one of {int(holes.sum())} such points "
             f"of the road; fill them, or let the modifier GRID_NAN_MODE of the file do it."
         )

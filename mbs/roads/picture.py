@@ -33,10 +33,10 @@ def draw_road(
         image = ax.pcolormesh(x, y, values.T, shading="gouraud", cmap="viridis")
         figure.colorbar(image, ax=ax, label=label)
         ax.set_ylabel("y, m (left)")
-        for at in starts.values():
-            ax.plot(*at, "r+", markersize=10, markeredgewidth=2)
-    for word, at in starts.items():
-        axes[0].annotate(word, at, (4.0, 4.0), textcoords="offset points", fontsize=7, bbox=LABEL)
+        for position in starts.values():
+            ax.plot(*position, "r+", markersize=10, markeredgewidth=2)
+    for start_name, position in starts.items():
+        axes[0].annotate(start_name, position, (4.0, 4.0), textcoords="offset points", fontsize=7, bbox=LABEL)
     for k, style in ((0, ":"), (len(y) // 2, "-"), (len(y) - 1, "--")):
         axes[2].plot(x, heights[:, k], style, color="k", linewidth=1.0, label=f"y = {y[k]:.4g} m")
     axes[2].set_xlabel("x, m (ahead); + is where a car starts")
@@ -54,11 +54,11 @@ def shown(
     if isinstance(road, GridRoad):
         heights = np.asarray(road.heights, float)
         frictions = np.broadcast_to(np.asarray(road.frictions, float) * road.friction_factor, heights.shape)
-        every = tuple(slice(None, None, -(-n // MOST)) for n in heights.shape)
+        strides = tuple(slice(None, None, -(-n // MOST)) for n in heights.shape)
         x, y = (
             np.asarray(road.origin[k] + road.spacing[k] * np.arange(heights.shape[k]), np.float64) for k in range(2)
         )
-        return x[every[0]], y[every[1]], np.asarray(heights[every]), frictions[every]
+        return x[strides[0]], y[strides[1]], np.asarray(heights[strides]), frictions[strides]
     middle = road.position if isinstance(road, KerbRoad) else 0.0
     x = middle + np.linspace(-FRAMED, FRAMED, 401)
     y = np.linspace(-FRAMED / 4.0, FRAMED / 4.0, 51)

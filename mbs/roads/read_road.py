@@ -52,11 +52,11 @@ def read_road(
         A number is outside the range of roads.
     """
     kind = Path(path).suffix.lower()
-    of_grids = {"frictions": frictions, "origin": origin, "spacing": spacing}
-    of_grids |= {"height_range": height_range, "friction_range": friction_range}
-    given = [name for name, value in of_grids.items() if value is not None]
-    if given and kind in (".road", ".toml"):
-        raise RoadFileError(f"{path} defines its whole road; {', '.join(given)} applies to a grid of heights only.")
+    grid_arguments = {"frictions": frictions, "origin": origin, "spacing": spacing}
+    grid_arguments |= {"height_range": height_range, "friction_range": friction_range}
+    options = [name for name, value in grid_arguments.items() if value is not None]
+    if options and kind in (".road", ".toml"):
+        raise RoadFileError(f"{path} defines its whole road; {', '.join(options)} applies to a grid of heights only.")
     if kind == ".road":
         return RoadFile(path).read()
     if kind not in ROADS:

@@ -106,8 +106,8 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
     file.seek(HEADER.size)
     for number in range(tiles_x * tiles_y):
         data = file.read(head.tile_bytes)
-        written, _, crc = TRAILER.unpack(data[-TRAILER.size :])
-        if written != number or crc != zlib.crc32(data[:-4]):
+        tile_number, _, crc = TRAILER.unpack(data[-TRAILER.size :])
+        if tile_number != number or crc != zlib.crc32(data[:-4]):
             raise RoadFileError(f"Part {number} of the road {name} was altered or damaged.")
         i, j = (number // tiles_y) * ROAD_TILE, (number % tiles_y) * ROAD_TILE
         block = np.frombuffer(data, "<f8", head.maps * ROAD_TILE * ROAD_TILE).reshape(head.maps, ROAD_TILE, ROAD_TILE)

@@ -99,9 +99,9 @@ def read_header(file: BinaryIO, name: object) -> Header:
     if problem := _problem(kind, nx, ny, tile, maps, real):
         raise RoadFileError(f"{name} is not a readable road file: {problem}.")
     head = Header(RoadType(kind), nx, ny, maps, tuple(real[:REALS]), contents, version, size)
-    found = file.seek(0, os.SEEK_END)
-    if not size == head.file_bytes == found:
-        raise RoadFileError(f"{name} has {found} bytes; its header says {size}: it was cut off or altered.")
+    file_size = file.seek(0, os.SEEK_END)
+    if not size == head.file_bytes == file_size:
+        raise RoadFileError(f"{name} has {file_size} bytes; its header says {size}: it was cut off or altered.")
     return head
 
 
@@ -109,8 +109,8 @@ def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[f
     """Fault in the numbers of a header, by the checks of the kernel; empty if there is none."""
     if not RoadType.PLANE <= kind <= RoadType.GRID:
         return f"{kind} is not a kind of road"
-    if wrong := [x for x in real if not abs(x) <= ROAD_FARTHEST]:
-        return f"a number in its header, {wrong[0]:g}, is not finite or beyond 1e8"
+    if invalid := [x for x in real if not abs(x) <= ROAD_FARTHEST]:
+        return f"a number in its header, {invalid[0]:g}, is not finite or beyond 1e8"
     if not 0.0 <= real[3 if kind == RoadType.PLANE else 4] <= ROAD_FRICTION:
         return f"its friction lies outside 0 to {ROAD_FRICTION:g}"
     if kind == RoadType.KERB and not (real[2] > 0.0 and real[3] in (-1.0, 1.0)):
@@ -128,16 +128,16 @@ def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[f
 
 def check_grid(heights: NDArray[np.float64], frictions: NDArray[np.float64] | None, name: object) -> None:
     """Check the values of a grid; the error is one sentence with the place of the first wrong value."""
-    for what, values, low, high, unit in (
+    for quantity, values, low, high, unit in (
         ("height", heights, -ROAD_HIGHEST, ROAD_HIGHEST, " m"),
         ("friction", frictions, 0.0, ROAD_FRICTION, ""),
     ):
         if values is None:
             continue
-        bad = ~((values >= low) & (values <= high))
-        if bad.any():
-            i, j = np.argwhere(bad)[0].tolist()
+        invalid = ~((values >= low) & (values <= high))
+        if invalid.any():
+            i, j = np.argwhere(invalid)[0].tolist()
             raise ModelError(
-                f"The {what} of {name} at point ({i}, {j}) is {values[i, j]:g}{unit}; "
+                f"The {quantity} of {name} at point ({i}, {j}) is {values[i, j]:g}{unit}; "
                 f"it must lie between {low:g} and {high:g}{unit}."
             )

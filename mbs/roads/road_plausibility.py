@@ -54,8 +54,8 @@ class Place:
 
     def distance(self, point: Start) -> float:
         """Distance of a point from the rectangle of the grid, m; 0 inside."""
-        ends = zip(point, self.origin, self.extent, strict=True)
-        return math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends))
+        intervals = zip(point, self.origin, self.extent, strict=True)
+        return math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in intervals))
 
     def scaled(self, factor: float) -> Place:
         """Position of a grid whose coordinates are in another unit. `factor`: length of that unit, m."""
@@ -160,11 +160,11 @@ def road_values(
 
 def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
     """Values of the quantities of a plane or a kerb."""
-    steep = math.hypot(road.grade_x, road.grade_y) if isinstance(road, PlaneRoad) else 0.0
+    slope = math.hypot(road.grade_x, road.grade_y) if isinstance(road, PlaneRoad) else 0.0
     step = road.step if isinstance(road, KerbRoad) else 0.0
     return [
         Value(QUANTITIES["rise"], step),
-        Value(QUANTITIES["slope"], steep),
+        Value(QUANTITIES["slope"], slope),
         *_frictions(road.friction, road.friction, road.friction_factor),
     ]
 
@@ -182,10 +182,10 @@ def height_step(z: np.ndarray) -> float:
     gaps = np.diff(levels)
     steps = gaps / gaps.min()
     # levels of a drawing are few and have any distances; those of a coarse number type are mostly one step apart
-    whole = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
+    integer_multiples = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
     step = float(gaps.min())
     mantissa = np.round(step / 10.0 ** np.floor(np.log10(step * (1.0 + 1e-6))), 3)
-    return step if whole and float(np.median(steps)) < 1.5 and mantissa in ROUND else 0.0
+    return step if integer_multiples and float(np.median(steps)) < 1.5 and mantissa in ROUND else 0.0
 
 
 def filled_up(z: np.ndarray, none: np.ndarray) -> np.ndarray:

@@ -65,11 +65,11 @@ def points_of_box(
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
     if not counts.prod() <= MOST_POINTS:
-        wider = max(spacing) * float(np.sqrt(counts.prod() / MOST_POINTS)) * 1.05
+        coarser = max(spacing) * float(np.sqrt(counts.prod() / MOST_POINTS)) * 1.05
         raise RoadFileError(
             f"{source} is {sides[0]:.4g} by {sides[1]:.4g} m, which at a spacing of {spacing[0]:g} by {spacing[1]:g} m "
-            f"is a grid of {counts.prod():.3g} points; {MOST_POINTS} are read at most. A spacing of {wider:.2g} m by "
-            f"{wider:.2g} m fits.{more}"
+            f"is a grid of {counts.prod():.3g} points; {MOST_POINTS} are read at most. A spacing of {coarser:.2g} m by "
+            f"{coarser:.2g} m fits.{more}"
         )
     x, y = (low[k] + sides[k] / (counts[k] - 1.0) * np.arange(int(counts[k])) for k in range(2))
     return x, y
@@ -90,12 +90,12 @@ def compared(road: GridRoad, samples: Iterable[tuple[Values, Values]], source: s
     heights = np.ascontiguousarray(road.heights, np.float64)
     largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
     for positions, heights_there in samples:
-        off = np.abs(grid_heights(road, heights, positions) - heights_there)
-        off = np.where(np.isnan(off), 0.0, off)
-        k = int(off.argmax())
-        if off[k] > largest:
-            largest, place = float(off[k]), (float(positions[k, 0]), float(positions[k, 1]))
-        squares, count = squares + float(off @ off), count + int(np.isfinite(heights_there).sum())
+        deviations = np.abs(grid_heights(road, heights, positions) - heights_there)
+        deviations = np.where(np.isnan(deviations), 0.0, deviations)
+        k = int(deviations.argmax())
+        if deviations[k] > largest:
+            largest, place = float(deviations[k]), (float(positions[k, 0]), float(positions[k, 1]))
+        squares, count = squares + float(deviations @ deviations), count + int(np.isfinite(heights_there).sum())
     rms = float(np.sqrt(squares / max(count, 1)))
     return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
 
@@ -116,9 +116,9 @@ def grid_heights(road: GridRoad, heights: Values, positions: Values) -> Values:
 
     `heights`: those of the road, contiguous, (nx, ny), m; `positions`: x and y, (n, 2), m.
     """
-    found = np.empty(len(positions))
+    surface_heights = np.empty(len(positions))
     grid = np.array((*road.origin, *road.spacing), np.float64)
-    where = np.ascontiguousarray(positions, np.float64)
-    pointers = [a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, where, found)]
+    points = np.ascontiguousarray(positions, np.float64)
+    pointers = [a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, points, surface_heights)]
     load_library().ali3_grid_heights(*heights.shape, *pointers[:2], len(positions), *pointers[2:])
-    return found
+    return surface_heights

@@ -44,19 +44,19 @@ def _grip(friction: float | None, factor: float) -> dict[str, Any]:
 
 def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
     """A road file; of a large grid whose equal tiles are stored once every so many points, the others unread."""
-    whole = RoadFile(file)
-    head = whole.header
-    every = max(1, math.isqrt(head.nx * head.ny // MOST_READ))
-    if head.version != ROAD_SHARED or every == 1:
-        return whole.read()
-    x, y = np.arange(0, head.nx, every), np.arange(0, head.ny, every)
+    road_file = RoadFile(file)
+    head = road_file.header
+    stride = max(1, math.isqrt(head.nx * head.ny // MOST_READ))
+    if head.version != ROAD_SHARED or stride == 1:
+        return road_file.read()
+    x, y = np.arange(0, head.nx, stride), np.arange(0, head.ny, stride)
     values = np.zeros((head.maps, len(x), len(y)))
     with open_file(file, LARGEST_IN_PARTS, RoadFileError) as opened:
         for number, tile in read_shared(opened, head, file):
             i, j = (number // head.tiles[1]) * ROAD_TILE, (number % head.tiles[1]) * ROAD_TILE
             rows, columns = (np.arange(*np.searchsorted(v, (k, k + ROAD_TILE))) for v, k in ((x, i), (y, j)))
             values[:, rows[:, None], columns] = tile[:, x[rows, None] - i, y[columns] - j]
-    spacing = (head.real[2] * every, head.real[3] * every)
+    spacing = (head.real[2] * stride, head.real[3] * stride)
     return GridRoad(head.real[:2], spacing, values[0], values[1] if head.maps == 2 else head.real[4])
 
 
@@ -97,27 +97,27 @@ def _grid(road: GridRoad) -> dict[str, Any]:
     frictions = np.broadcast_to(np.asarray(road.frictions, float), heights.shape)
     origin = np.array(road.origin, float)
     if heights.min() == heights.max() and frictions.min() != frictions.max():
-        missing = BESIDE - 0.5 * (np.array(heights.shape) - 1) * road.spacing
-        more = np.maximum(np.ceil(missing / road.spacing), 0).astype(int)
-        heights, frictions = (np.pad(values, [(n, n) for n in more], mode="edge") for values in (heights, frictions))
-        origin -= more * np.array(road.spacing, float)
-    every = [max(1, -(-(n - 1) // (MOST - 1))) for n in heights.shape]
-    part = tuple(slice(None, None, k) for k in every)
-    thin = heights[part]
-    found: dict[str, Any] = {
+        shortfall = BESIDE - 0.5 * (np.array(heights.shape) - 1) * road.spacing
+        padding = np.maximum(np.ceil(shortfall / road.spacing), 0).astype(int)
+        heights, frictions = (np.pad(values, [(n, n) for n in padding], mode="edge") for values in (heights, frictions))
+        origin -= padding * np.array(road.spacing, float)
+    strides = [max(1, -(-(n - 1) // (MOST - 1))) for n in heights.shape]
+    slices = tuple(slice(None, None, k) for k in strides)
+    grid = heights[slices]
+    entry: dict[str, Any] = {
         "kind": "grid",
         "origin": [float(x) for x in origin],
-        "spacing": [float(d) * k for d, k in zip(road.spacing, every, strict=True)],
-        "shape": list(thin.shape),
-        "heights": encoded(thin),
+        "spacing": [float(d) * k for d, k in zip(road.spacing, strides, strict=True)],
+        "shape": list(grid.shape),
+        "heights": encoded(grid),
     }
-    same = frictions.min() == frictions.max()
-    found |= _grip(float(frictions[0, 0]) if same else None, road.friction_factor)
-    if not same:
-        found["frictions"] = encoded(frictions[part])
-    if max(every) > 1:
-        found["note"] = (
-            f"the road has {heights.shape[0]} x {heights.shape[1]} points; {thin.shape[0]} x {thin.shape[1]} of them "
+    uniform = frictions.min() == frictions.max()
+    entry |= _grip(float(frictions[0, 0]) if uniform else None, road.friction_factor)
+    if not uniform:
+        entry["frictions"] = encoded(frictions[slices])
+    if max(strides) > 1:
+        entry["note"] = (
+            f"the road has {heights.shape[0]} x {heights.shape[1]} points; {grid.shape[0]} x {grid.shape[1]} of them "
             "are drawn"
         )
-    return found
+    return entry

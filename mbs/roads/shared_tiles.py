@@ -78,8 +78,8 @@ class SharedWriter:
         tiles = z.shape[1] // ROAD_TILE
         blocks = z.reshape(ROAD_TILE, tiles, ROAD_TILE).transpose(1, 0, 2)
         for k, form in enumerate(simplest(blocks, TILE_PLACES, self.tolerance)):
-            cut = None if mu is None else np.ascontiguousarray(mu[:, k * ROAD_TILE : (k + 1) * ROAD_TILE])
-            self.tile(np.ascontiguousarray(blocks[k]) if form is None else form, cut)
+            block_frictions = None if mu is None else np.ascontiguousarray(mu[:, k * ROAD_TILE : (k + 1) * ROAD_TILE])
+            self.tile(np.ascontiguousarray(blocks[k]) if form is None else form, block_frictions)
 
     def tile(self, heights: Float, frictions: Float | None) -> None:
         """Add the next tile, the values of which were checked.
@@ -90,12 +90,12 @@ class SharedWriter:
         self._add(record_bytes(heights, frictions))
 
     def _add(self, record: bytes) -> None:
-        place = self.places.get(record)
-        if place is None:
-            place = self.places[record] = self.end
+        offset = self.places.get(record)
+        if offset is None:
+            offset = self.places[record] = self.end
             self.out.write(record)
             self.end += len(record)
-        entry = ENTRY.pack(place, len(record), zlib.crc32(record), 0, 0)[:-4]
+        entry = ENTRY.pack(offset, len(record), zlib.crc32(record), 0, 0)[:-4]
         self.entries += entry + struct.pack("<I", zlib.crc32(struct.pack("<q", self.count) + entry))
         self.count += 1
 
@@ -112,8 +112,8 @@ class SharedWriter:
 
 def _whole(values: Float) -> Float:
     """Filled up to whole tiles by the values at the border."""
-    missing = [-n % ROAD_TILE for n in values.shape]
-    return np.pad(values, [(0, missing[0]), (0, missing[1])], mode="edge") if any(missing) else values
+    padding = [-n % ROAD_TILE for n in values.shape]
+    return np.pad(values, [(0, padding[0]), (0, padding[1])], mode="edge") if any(padding) else values
 
 
 def polynomial_values(c: Float) -> Float:
@@ -136,23 +136,23 @@ def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | Non
     `blocks`: heights, m, shape (tiles, n, n); `places`: where in a tile they are, -1 to 1, shape (n,); `tolerance`: in
     m; 0: only level tiles are polynomials.
     """
-    found: list[Float | None] = [None] * len(blocks)
-    first = blocks[:, :1, :1]
-    level = (blocks == first).all(axis=(1, 2))
+    forms: list[Float | None] = [None] * len(blocks)
+    first_heights = blocks[:, :1, :1]
+    level = (blocks == first_heights).all(axis=(1, 2))
     for k in np.flatnonzero(level):
-        found[k] = np.ascontiguousarray(first[k])
-    left = np.flatnonzero(~level)
+        forms[k] = np.ascontiguousarray(first_heights[k])
+    remaining = np.flatnonzero(~level)
     for order in ORDERS if tolerance > 0.0 else ():
-        if len(left) == 0:
+        if len(remaining) == 0:
             break
         power, fit = _fit(tuple(places.tolist()), order)
-        c = fit @ blocks[left] @ fit.T
-        off = np.abs(power @ c @ power.T - blocks[left]).max(axis=(1, 2))
-        good = off <= tolerance
-        for k, coefficients in zip(left[good], c[good], strict=True):
-            found[k] = np.ascontiguousarray(coefficients)
-        left = left[~good]
-    return found
+        c = fit @ blocks[remaining] @ fit.T
+        deviations = np.abs(power @ c @ power.T - blocks[remaining]).max(axis=(1, 2))
+        accepted = deviations <= tolerance
+        for k, coefficients in zip(remaining[accepted], c[accepted], strict=True):
+            forms[k] = np.ascontiguousarray(coefficients)
+        remaining = remaining[~accepted]
+    return forms
 
 
 @cache
@@ -164,20 +164,20 @@ def _fit(places: tuple[float, ...], order: int) -> tuple[Float, Float]:
 
 def record_bytes(heights: Float, frictions: Float | None) -> bytes:
     """The bytes of a tile in a file. `heights`, `frictions`: as of `SharedWriter.tile`."""
-    levels, behind = 0, b""
+    levels, friction_bytes = 0, b""
     if frictions is not None:
-        levels, behind = _friction_bytes(frictions)
-    return RECORD.pack(*heights.shape, levels, 0) + heights.astype("<f8").tobytes() + behind
+        levels, friction_bytes = _friction_bytes(frictions)
+    return RECORD.pack(*heights.shape, levels, 0) + heights.astype("<f8").tobytes() + friction_bytes
 
 
 def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
     first = frictions.flat[0]
     if (frictions == first).all():
         return 1, struct.pack("<d", first)
-    values, which = np.unique(frictions, return_inverse=True)
+    values, indices = np.unique(frictions, return_inverse=True)
     if len(values) > LEVELS:
         return _POINTS, frictions.astype("<f8").tobytes()
-    return len(values), values.astype("<f8").tobytes() + which.astype(np.uint8).tobytes()
+    return len(values), values.astype("<f8").tobytes() + indices.astype(np.uint8).tobytes()
 
 
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
@@ -197,16 +197,16 @@ def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[in
     if zlib.crc32(table) != head.contents:
         raise RoadFileError(f"The table of parts of the road {name} was altered or damaged.")
     tiles: dict[int, Float] = {}
-    for number, (place, size, crc, _, _) in enumerate(ENTRY.iter_unpack(table)):
-        if place not in tiles:
-            inside = 0 < place <= head.file_bytes - size and 0 < size <= head.file_bytes
-            file.seek(place if inside else 0)
-            record = file.read(size) if inside else b""
+    for number, (offset, size, crc, _, _) in enumerate(ENTRY.iter_unpack(table)):
+        if offset not in tiles:
+            in_file = 0 < offset <= head.file_bytes - size and 0 < size <= head.file_bytes
+            file.seek(offset if in_file else 0)
+            record = file.read(size) if in_file else b""
             if len(record) != size or crc != zlib.crc32(record):
                 raise RoadFileError(f"Part {number} of the road {name} was altered or damaged.")
             tiles = tiles if len(tiles) < 4096 else {}
-            tiles[place] = _values(record, head.maps, f"Part {number} of the road {name}")
-        yield number, tiles[place]
+            tiles[offset] = _values(record, head.maps, f"Part {number} of the road {name}")
+        yield number, tiles[offset]
 
 
 def _values(record: bytes, maps: int, name: str) -> Float:
@@ -214,17 +214,17 @@ def _values(record: bytes, maps: int, name: str) -> Float:
         rows, columns, levels, zero = RECORD.unpack(record[: RECORD.size])
         reals = np.frombuffer(record, "<f8", rows * columns + levels, RECORD.size)
         heights = reals[: rows * columns].reshape(rows, columns)
-        rest = record[RECORD.size + reals.nbytes :]
-        few = min(rows, columns) >= 1 and max(rows, columns) <= COEFFICIENTS
+        tail = record[RECORD.size + reals.nbytes :]
+        is_polynomial = min(rows, columns) >= 1 and max(rows, columns) <= COEFFICIENTS
         if levels > LEVELS and levels != _POINTS:
             raise ValueError
-        if zero or (maps == 2) != (levels > 0) or not (few or (rows, columns) == (ROAD_TILE, ROAD_TILE)):
+        if zero or (maps == 2) != (levels > 0) or not (is_polynomial or (rows, columns) == (ROAD_TILE, ROAD_TILE)):
             raise ValueError
-        values = [polynomial_values(heights) if few else heights]
+        values = [polynomial_values(heights) if is_polynomial else heights]
         if maps == 2:
             mu = reals[rows * columns :]
-            which = np.frombuffer(rest, np.uint8, _POINTS) if 1 < levels <= LEVELS else np.zeros(_POINTS, np.uint8)
-            values.append((mu if levels == _POINTS else mu[which]).reshape(ROAD_TILE, ROAD_TILE))
+            indices = np.frombuffer(tail, np.uint8, _POINTS) if 1 < levels <= LEVELS else np.zeros(_POINTS, np.uint8)
+            values.append((mu if levels == _POINTS else mu[indices]).reshape(ROAD_TILE, ROAD_TILE))
     except (ValueError, IndexError, struct.error):
         raise RoadFileError(f"{name} has a form that is not known.") from None
     return np.stack(values)

@@ -27,23 +27,23 @@ def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> st
     `name`: how the sentence calls it; `radius`: of the wheel, m.
     """
     heights = np.asarray(road.heights, float)
-    highest, place, run = radius, None, 0.0
+    highest, index, run = radius, None, 0.0
     for axis in range(2):
         points = min(max(1, int(radius / STEEPEST / road.spacing[axis])), heights.shape[axis] - 1)
         for first in range(0, max(len(heights) - points, 1), _ROWS):
-            piece = heights[first : first + _ROWS + points]
+            block = heights[first : first + _ROWS + points]
             rise = (
-                np.abs(piece[points:] - piece[:-points])
+                np.abs(block[points:] - block[:-points])
                 if axis == 0
-                else np.abs(piece[:, points:] - piece[:, :-points])
+                else np.abs(block[:, points:] - block[:, :-points])
             )
             if rise.size and rise.max() > highest:
                 highest = float(rise.max())
                 i, j = (int(k) for k in np.unravel_index(int(rise.argmax()), rise.shape))
-                place, run = (first + i, j), points * road.spacing[axis]
-    if place is None:
+                index, run = (first + i, j), points * road.spacing[axis]
+    if index is None:
         return ""
-    x, y = (road.origin[k] + road.spacing[k] * place[k] for k in range(2))
+    x, y = (road.origin[k] + road.spacing[k] * index[k] for k in range(2))
     return (
         f"{name}: at x = {x:g} m, y = {y:g} m a face of {highest:.3g} m rises within {run:g} m (points "
         f"{road.spacing[0]:g} by {road.spacing[1]:g} m apart); a wheel of {radius:.3g} m radius does not climb it, and "

@@ -25,36 +25,36 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
     p[..., :2] = (p[..., :2] - [x[0], y[0]]) / steps
     p = np.take_along_axis(p, np.argsort(p[:, :, 0], axis=1)[:, :, None], axis=1)
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (p[:, k].T for k in range(3))
-    twice = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
-    seen = np.abs(twice) > _UPRIGHT * (1.0 + np.abs(p[..., :2]).max(axis=(1, 2)))
+    doubled_areas = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
+    visible = np.abs(doubled_areas) > _UPRIGHT * (1.0 + np.abs(p[..., :2]).max(axis=(1, 2)))
     first = np.ceil(np.maximum(ax - _NEAR, 0.0)).astype(np.int64)
-    lines = np.where(seen, np.floor(np.minimum(cx + _NEAR, len(x) - 1.0)).astype(np.int64) - first + 1, 0).clip(0)
+    lines = np.where(visible, np.floor(np.minimum(cx + _NEAR, len(x) - 1.0)).astype(np.int64) - first + 1, 0).clip(0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        slope_x = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / twice
-        slope_y = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / twice
+        slope_x = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / doubled_areas
+        slope_y = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / doubled_areas
     for begin, end in _pieces(lines):
         k = np.repeat(np.arange(begin, end), lines[begin:end])
         i = first[k] + _counted(lines[begin:end])
-        whole = _part(i, ax[k], cx[k])
-        through = ay[k] + whole * (cy[k] - ay[k])
-        before = i <= bx[k]
-        broken = np.where(
-            before,
+        long_share = _part(i, ax[k], cx[k])
+        long_edge = ay[k] + long_share * (cy[k] - ay[k])
+        on_first_edge = i <= bx[k]
+        short_edges = np.where(
+            on_first_edge,
             ay[k] + _part(i, ax[k], bx[k], 1.0) * (by[k] - ay[k]),
             by[k] + _part(i, bx[k], cx[k]) * (cy[k] - by[k]),
         )
-        j = np.ceil(np.maximum(np.minimum(through, broken) - _NEAR, 0.0)).astype(np.int64)
-        last = np.floor(np.minimum(np.maximum(through, broken) + _NEAR, len(y) - 1.0)).astype(np.int64)
+        j = np.ceil(np.maximum(np.minimum(long_edge, short_edges) - _NEAR, 0.0)).astype(np.int64)
+        last = np.floor(np.minimum(np.maximum(long_edge, short_edges) + _NEAR, len(y) - 1.0)).astype(np.int64)
         points = (last - j + 1).clip(0)
-        for left, right in _pieces(points):
-            n = points[left:right]
-            at, here = np.repeat(k[left:right], n), np.repeat(i[left:right], n)
-            column = np.repeat(j[left:right], n) + _counted(n)
-            z = az[at] + slope_x[at] * (here - ax[at]) + slope_y[at] * (column - ay[at])
-            np.minimum.at(lowest, (here, column), z)
-            np.maximum.at(highest, (here, column), z)
-    none = np.isinf(highest)
-    lowest[none] = highest[none] = np.nan
+        for start, stop in _pieces(points):
+            n = points[start:stop]
+            triangle, row = np.repeat(k[start:stop], n), np.repeat(i[start:stop], n)
+            column = np.repeat(j[start:stop], n) + _counted(n)
+            z = az[triangle] + slope_x[triangle] * (row - ax[triangle]) + slope_y[triangle] * (column - ay[triangle])
+            np.minimum.at(lowest, (row, column), z)
+            np.maximum.at(highest, (row, column), z)
+    missing = np.isinf(highest)
+    lowest[missing] = highest[missing] = np.nan
     return lowest, highest
 
 

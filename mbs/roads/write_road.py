@@ -114,6 +114,6 @@ def _write_grid(road: GridRoad, out: BinaryIO, name: object) -> None:
 
 
 def _tile(values: NDArray[np.float64]) -> bytes:
-    whole = np.zeros((ROAD_TILE, ROAD_TILE), "<f8")
-    whole[: values.shape[0], : values.shape[1]] = values
-    return whole.tobytes()
+    tile = np.zeros((ROAD_TILE, ROAD_TILE), "<f8")
+    tile[: values.shape[0], : values.shape[1]] = values
+    return tile.tobytes()

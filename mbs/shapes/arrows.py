@@ -36,15 +36,15 @@ def _tyre_arrows(model: Model) -> list[Arrow]:
             outputs.setdefault((element, model.elements[element].outputs[k].name), sensor.name)
         elif sensor.type == SensorType.SIGNAL and list(sensor.reals) == [1.0]:
             vectors.setdefault(_key(sensor.signals[0]), sensor.name)
-    found = []
+    arrows = []
     for k, record in enumerate(model.elements):
         if record.type not in (ElementType.TYRE, ElementType.MAGIC_TYRE):
             continue
-        read = {part: [outputs.get((k, name)) for name in names] for part, names in TYRE.items()}
-        read["axis"] = [vectors.get(_key(record.signals[3 + i])) for i in range(3)]
-        if all(name is not None for names in read.values() for name in names):
-            found.append({"name": record.name, "unit": "N", "tyre": read})
-    return found
+        sensor_names = {part: [outputs.get((k, name)) for name in names] for part, names in TYRE.items()}
+        sensor_names["axis"] = [vectors.get(_key(record.signals[3 + i])) for i in range(3)]
+        if all(name is not None for names in sensor_names.values() for name in names):
+            arrows.append({"name": record.name, "unit": "N", "tyre": sensor_names})
+    return arrows
 
 
 def _key(signal: Affine) -> tuple[tuple[int, float], ...]:
@@ -52,15 +52,15 @@ def _key(signal: Affine) -> tuple[tuple[int, float], ...]:
 
 
 def _along_lines(model: Model, lines: Sequence[Line]) -> list[Arrow]:
-    found: dict[str, Arrow] = {}
+    arrows: dict[str, Arrow] = {}
     by_name = {line.name: line for line in lines}
     for sensor in model.sensors:
         name, tension = _tension(model, sensor)
-        if name in by_name and name not in found and tension:
+        if name in by_name and name not in arrows and tension:
             ends = [list(end) for end in by_name[name].ends]
             sign = -1 if tension > 0.0 else 1
-            found[name] = {"name": name, "unit": "N", "value": sensor.name, "between": ends, "sign": sign}
-    return list(found.values())
+            arrows[name] = {"name": name, "unit": "N", "value": sensor.name, "between": ends, "sign": sign}
+    return list(arrows.values())
 
 
 def _tension(model: Model, sensor: Sensor) -> tuple[str, float]:
@@ -85,14 +85,14 @@ def _joint_arrows(model: Model, names: FrameNames) -> list[Arrow]:
         rows = joint.force_equations
         if len(rows) == model.dimension and len(sensor.integers) == 1 and sensor.reals[0] == -joint.rows_weight:
             components.setdefault(joint.name, {}).setdefault(rows.index(sensor.integers[0]), sensor.name)
-    found, drawn = [], model.drawn()
-    for name, read in components.items():
+    arrows, drawn = [], model.drawn()
+    for name, sensor_names in components.items():
         ends = joints[name].ends
-        if len(read) < model.dimension or ends is None:
+        if len(sensor_names) < model.dimension or ends is None:
             continue
         # in the plane the third component is a place that is always 0
         moving = next(b for b in ends.bodies if not b.is_ground)
-        vector = [read.get(k) or names.columns[f"{moving.owner.name}.z"] for k in range(3)]
+        vector = [sensor_names.get(k) or names.columns[f"{moving.owner.name}.z"] for k in range(3)]
         at = list(names.anchor(ends.bodies[0], place_drawn(drawn, ends.points[0])))
-        found.append({"name": name, "unit": "N", "vector": vector, "axes": "ground", "at": at})
-    return found
+        arrows.append({"name": name, "unit": "N", "vector": vector, "axes": "ground", "at": at})
+    return arrows

@@ -50,11 +50,11 @@ class Defaults:
     @cached_property
     def _discs(self) -> dict[Body, list[RollingBody]]:
         """Discs that roll, by their body."""
-        found: dict[Body, list[RollingBody]] = {}
+        discs: dict[Body, list[RollingBody]] = {}
         for joint in self.model.joints:
             if isinstance(joint.rolls, RollingBody):
-                found.setdefault(joint.rolls.body, []).append(joint.rolls)
-        return found
+                discs.setdefault(joint.rolls.body, []).append(joint.rolls)
+        return discs
 
     @cached_property
     def _sensed(self) -> dict[Body, list[Vector]]:
@@ -68,10 +68,10 @@ class Defaults:
     @cached_property
     def _sliding(self) -> dict[str, list[Slide]]:
         """Slides by the frame that slides."""
-        found: dict[str, list[Slide]] = {}
+        slides: dict[str, list[Slide]] = {}
         for slide in self.geometry.slides:
-            found.setdefault(self.names.of_body(slide.bodies[0]), []).append(slide)
-        return found
+            slides.setdefault(self.names.of_body(slide.bodies[0]), []).append(slide)
+        return slides
 
     @cached_property
     def _middle(self) -> Vector:
@@ -80,25 +80,25 @@ class Defaults:
 
     def all(self, drawn: set[str], named: set[str]) -> list[Shape]:
         """Shapes of all frames and lines but those that are drawn by the user, by frame and by name."""
-        found: list[Shape] = []
+        shapes: list[Shape] = []
         for body in self.model.bodies:
             frame = self.names.of_body(body)
             if frame not in drawn:
                 color = COLORS[body.number % len(COLORS)]
-                found += [s | {"body": body.name, "color": s.get("color", color)} for s in self._body(body, frame)]
+                shapes += [s | {"body": body.name, "color": s.get("color", color)} for s in self._body(body, frame)]
         for spin in (s for s in self.model.spins if s.name in self.names.turns):  # what a table moves is not drawn
             if self.names.turns[spin.name] not in drawn:
-                found.append(self._wheel(spin) | {"body": spin.name})
+                shapes.append(self._wheel(spin) | {"body": spin.name})
         for line in self.geometry.lines:
             if line.name not in named:
-                found += self._line(line)
+                shapes += self._line(line)
         for pivot in self.geometry.pivots:
             if pivot.joint.name not in named:
-                found += self._pivot(pivot, drawn)
+                shapes += self._pivot(pivot, drawn)
         for slide in self.geometry.slides:
             if slide.joint.name not in named:
-                found += self._rail(slide, drawn)
-        return found
+                shapes += self._rail(slide, drawn)
+        return shapes
 
     def _body(self, body: Body, frame: str) -> list[Shape]:
         if isinstance(body, FlexibleBody):
@@ -124,8 +124,8 @@ class Defaults:
         points = apart(self.geometry.points.get(frame, []), least)
         if len(points) < 2:
             points = apart([*points, *self._sensed.get(body, [])], least)
-            ends = [p for p in points if np.linalg.norm(p - com) > least]
-            if not ends:
+            outer_points = [p for p in points if np.linalg.norm(p - com) > least]
+            if not outer_points:
                 return [self._lump(body, frame)]
             if len(points) == 1:
                 return [*self._tubes(frame, [*points, com], com), self._ball(frame)]
@@ -173,16 +173,16 @@ class Defaults:
     def _lump(self, body: Body, frame: str) -> Shape:
         """A box with the inertia of a body that nothing but its centre of mass places; a slider lies along its rail."""
         J = body.second_moment / body.mass
-        turned = not np.allclose(J, np.diag(np.diag(J)), atol=1e-9 * float(np.abs(J).max()))
+        oblique = not np.allclose(J, np.diag(np.diag(J)), atol=1e-9 * float(np.abs(J).max()))
         edges, axes = self._edges(body), np.eye(3)
-        if turned:
+        if oblique:
             values, axes = np.linalg.eigh(J)
             axes = axes * (1.0 if np.linalg.det(axes) > 0.0 else -1.0)
             edges = np.sqrt(12.0 * np.clip(values, 0.0, None))
         least = 0.02 * max(float(edges.max()), self.tube)
         size = np.clip(edges, least, 0.35 * self.extent if len(self.model.bodies) > 1 else None)
         shape: Shape = {"kind": "box", "frame": frame, "at": [0.0, 0.0, 0.0], "size": numbers(size)}
-        return shape | ({"axes": [numbers(column) for column in axes.T]} if turned else {})
+        return shape | ({"axes": [numbers(column) for column in axes.T]} if oblique else {})
 
     def _block(self, frame: str, com: Vector, slide: Slide) -> Shape:
         edge = 4.0 * self.tube
@@ -239,12 +239,12 @@ class Defaults:
         grounded = bodies[0].is_ground
         frame, local = self.names.anchor(bodies[0], pivot.place)
         radius = (1.7 if grounded else 1.25) * self.tube
-        looks: Shape = {"color": GROUND if grounded else RAIL, "name": pivot.joint.name}
+        appearance: Shape = {"color": GROUND if grounded else RAIL, "name": pivot.joint.name}
         if pivot.axis is None:
-            return [{"kind": "sphere", "frame": frame, "at": local, "radius": 1.2 * radius} | looks]
-        half = (1.8 if grounded else 1.5) * self.tube * pivot.axis / np.linalg.norm(pivot.axis)
-        ends = [numbers(np.array(local) - half), numbers(np.array(local) + half)]
-        return [{"kind": "cylinder", "frame": frame, "ends": ends, "radius": radius} | looks]
+            return [{"kind": "sphere", "frame": frame, "at": local, "radius": 1.2 * radius} | appearance]
+        half_length = (1.8 if grounded else 1.5) * self.tube * pivot.axis / np.linalg.norm(pivot.axis)
+        ends = [numbers(np.array(local) - half_length), numbers(np.array(local) + half_length)]
+        return [{"kind": "cylinder", "frame": frame, "ends": ends, "radius": radius} | appearance]
 
     def _rail(self, slide: Slide, drawn: set[str]) -> list[Shape]:
         """The line along which a body slides, on the body that has it."""
@@ -256,8 +256,8 @@ class Defaults:
         frame, local = self.names.anchor(base, middle)
         if not base.is_ground and (frame in drawn or len(self.geometry.points.get(frame, [])) > 2):
             return []
-        half = (1.2 if base.is_ground else 0.25) * self.extent * unit
-        ends = [numbers(np.array(local) - half), numbers(np.array(local) + half)]
+        half_length = (1.2 if base.is_ground else 0.25) * self.extent * unit
+        ends = [numbers(np.array(local) - half_length), numbers(np.array(local) + half_length)]
         return [
             {"kind": "cylinder", "frame": frame, "ends": ends, "radius": 0.4 * self.tube}
             | {"color": RAIL, "name": slide.joint.name}
@@ -266,14 +266,14 @@ class Defaults:
 
 def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
     """Pairs of points that join all of them with the least length."""
-    inside, pairs = [0], []
-    while len(inside) < len(points):
-        outside = [k for k in range(len(points)) if k not in inside]
+    tree, pairs = [0], []
+    while len(tree) < len(points):
+        remaining = [k for k in range(len(points)) if k not in tree]
         i, j = min(
-            ((i, j) for i in inside for j in outside), key=lambda p: float(np.linalg.norm(points[p[0]] - points[p[1]]))
+            ((i, j) for i in tree for j in remaining), key=lambda p: float(np.linalg.norm(points[p[0]] - points[p[1]]))
         )
         pairs.append((i, j))
-        inside.append(j)
+        tree.append(j)
     return pairs
 
 
@@ -286,7 +286,7 @@ def _is_beyond(com: Vector, a: Vector, b: Vector) -> bool:
 def _axes_along(axis: Vector) -> Vector:
     """Axes (3, 3), columns, of which the first goes along an axis."""
     x = axis / np.linalg.norm(axis)
-    other = np.eye(3)[int(np.argmin(np.abs(x)))]
-    y = np.cross(other, x)
+    auxiliary = np.eye(3)[int(np.argmin(np.abs(x)))]
+    y = np.cross(auxiliary, x)
     y = y / np.linalg.norm(y)
     return np.column_stack([x, y, np.cross(x, y)])

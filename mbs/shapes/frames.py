@@ -55,8 +55,8 @@ class FrameNames:
         groups += [(t.name, ("angle",)) for t in turns_of(model)]
         groups += [(b.name, modes_of(b)) for b in model.bodies if isinstance(b, FlexibleBody)]
         for name, parts in groups:
-            own = name if sensors.isdisjoint(f"{name}.{part}" for part in parts) else f"{name}.pose"
-            columns |= {f"{name}.{part}": f"{own}.{part}" for part in parts}
+            stem = name if sensors.isdisjoint(f"{name}.{part}" for part in parts) else f"{name}.pose"
+            columns |= {f"{name}.{part}": f"{stem}.{part}" for part in parts}
         return cls(bodies, turns, columns)
 
     def of_body(self, body: Body) -> str:
@@ -77,8 +77,8 @@ class FrameNames:
 
 def turns_of(model: Model) -> list[Spin | Turning]:
     """Wheels and parts that turn about an axis of a body; on a tabled body only wheels that sensors place."""
-    every: list[Spin | Turning] = [*model.spins, *model.turnings]
-    return [t for t in every if not _body_of(t).is_tabled or _outputs_of(t)]
+    turns: list[Spin | Turning] = [*model.spins, *model.turnings]
+    return [t for t in turns if not _body_of(t).is_tabled or _outputs_of(t)]
 
 
 def _outputs_of(turn: Spin | Turning) -> tuple[str, ...]:
@@ -186,26 +186,29 @@ def anchors_of_difference(
     port count as drawn.
     """
     d = model.dimension
-    found: dict[float, Anchor] = {}
-    used: set[int] = set()
+    anchors: dict[float, Anchor] = {}
+    assigned: set[int] = set()
     for body in (bodies[i] for i in sorted(gap[0].terms) if i in bodies):
         sign = gap[0].terms[body.start]
-        if abs(sign) != 1.0 or sign in found or any(gap[k].terms.get(body.start + k) != sign for k in range(d)):
+        if abs(sign) != 1.0 or sign in anchors or any(gap[k].terms.get(body.start + k) != sign for k in range(d)):
             continue
-        own = set(range(body.start, body.start + body.size))
-        own |= {
-            i for a in gap for i in a.terms if i not in own and model.coordinates[i].name.startswith(f"{body.name}.")
+        own_indices = set(range(body.start, body.start + body.size))
+        own_indices |= {
+            i
+            for a in gap
+            for i in a.terms
+            if i not in own_indices and model.coordinates[i].name.startswith(f"{body.name}.")
         }
-        part = [sum(c * drawn[i] for i, c in a.terms.items() if i in own) for a in gap[:d]]
-        found[sign] = names.anchor(body, sign * np.array(part))
-        used |= own
-    rest = {i for a in gap for i in a.terms} - used
-    if rest or not found:
+        position = [sum(c * drawn[i] for i, c in a.terms.items() if i in own_indices) for a in gap[:d]]
+        anchors[sign] = names.anchor(body, sign * np.array(position))
+        assigned |= own_indices
+    unassigned = {i for a in gap for i in a.terms} - assigned
+    if unassigned or not anchors:
         return None
-    if len(found) == 1:
-        sign = next(iter(found))
-        found[-sign] = "ground", numbers(in_space(-sign * np.array([a.constant for a in gap[:d]])))
-    return found[-1.0], found[1.0]
+    if len(anchors) == 1:
+        sign = next(iter(anchors))
+        anchors[-sign] = "ground", numbers(in_space(-sign * np.array([a.constant for a in gap[:d]])))
+    return anchors[-1.0], anchors[1.0]
 
 
 def place_drawn(drawn: Vector, point: AffineVector) -> Vector:

@@ -119,18 +119,18 @@ def _guide_sensor(model: Model, guide: int) -> str:
 def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint) -> dict[str, dict[str, Any]]:
     """Frames of a sliding point by name, each on the one before; empty if a sensor of a guide is missing."""
     parent, at = names.anchor(slide.body, place_drawn(drawn, slide.start))
-    taken = {"ground", *names.bodies.values(), *names.turns.values()}
-    name = f"end of {slide.name}" if slide.name in taken else slide.name
+    names_in_use = {"ground", *names.bodies.values(), *names.turns.values()}
+    name = f"end of {slide.name}" if slide.name in names_in_use else slide.name
     frames: dict[str, dict[str, Any]] = {}
     for k, (direction, guide) in enumerate(slide.ways):
         sensor = _guide_sensor(model, guide)
         if not sensor:
             return {}
         last = k == len(slide.ways) - 1
-        own, start = name if last else f"{name} {k + 1}", float(model.guides[guide].start)
+        frame, start = name if last else f"{name} {k + 1}", float(model.guides[guide].start)
         along = numbers(place_drawn(drawn, direction))
-        frames[own] = {"parent": parent, "at": at, "direction": along, "way": sensor, "start": start}
-        parent, at = own, [0.0, 0.0, 0.0]
+        frames[frame] = {"parent": parent, "at": at, "direction": along, "way": sensor, "start": start}
+        parent, at = frame, [0.0, 0.0, 0.0]
     return frames
 
 
@@ -173,8 +173,8 @@ def _local(body: Body, signal: Affine) -> Vector | None:
 
 def apart(points: Sequence[Vector], least: float) -> list[Vector]:
     """Points, without those within `least` (m) of an earlier one."""
-    kept: list[Vector] = []
+    distinct: list[Vector] = []
     for p in points:
-        if all(np.linalg.norm(p - q) > least for q in kept):
-            kept.append(p)
-    return kept
+        if all(np.linalg.norm(p - q) > least for q in distinct):
+            distinct.append(p)
+    return distinct

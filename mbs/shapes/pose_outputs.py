@@ -39,8 +39,8 @@ def bending_outputs(model: Model) -> None:
     `model`: not compiled yet.
     """
     sensed = {sensor.name for sensor in model.sensors}
-    for more in model.more_poses:
-        model.flexible_scene += more()
+    for add_outputs in model.more_poses:
+        model.flexible_scene += add_outputs()
     if not model.more_poses:
         for body in model.bodies:
             if isinstance(body, FlexibleBody):
@@ -69,11 +69,11 @@ def _stem(name: str, taken: set[str], parts: tuple[str, ...]) -> str:
 
 
 def _position(model: Model, called: str, body: Body, stem: str) -> None:
-    place = body.point(body.com)
+    position = body.point(body.com)
     for k, c in enumerate("xyz"):
         name, text = f"{stem}.{c}", f"{c} of the centre of mass of {called} as drawn, earth"
         if k < model.dimension:
-            model.sense_coordinate(name, place[k], unit="m", description=text)
+            model.sense_coordinate(name, position[k], unit="m", description=text)
         else:
             model.sense_constant(name, 0.0, unit="m", description=text)
 

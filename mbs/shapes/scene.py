@@ -43,13 +43,13 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         _fill(shape, defaults)
     named = {s.name for s in model.shapes} - {""}
     if model.default_shapes:
-        owned = {names.of_owner(s.owner) for s in model.shapes}
-        shapes += defaults.all(owned, named)
+        drawn_frames = {names.of_owner(s.owner) for s in model.shapes}
+        shapes += defaults.all(drawn_frames, named)
     frames = frames_of(model, names, places, q)
-    used = {frame for shape in shapes for frame in scene_parts.frames_of(shape)}
-    frames |= {name: frame for name, frame in geometry.frames.items() if name in used}
+    used_frames = {frame for shape in shapes for frame in scene_parts.frames_of(shape)}
+    frames |= {name: frame for name, frame in geometry.frames.items() if name in used_frames}
     rails = {slide.joint.name for slide in geometry.slides}
-    sized = [shape for shape in shapes if shape.get("name") not in rails]
+    measured_shapes = [shape for shape in shapes if shape.get("name") not in rails]
     scene: Scene = {
         "format": "ALi3 scene",
         "version": 1,
@@ -57,7 +57,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "description": "",
         "up": _up(model),
         "planar": model.dimension == 2,
-        "extent": _extent([*_places_of_shapes(sized, frames), *_nodes(model)]) if sized else extent,
+        "extent": _extent([*_places_of_shapes(measured_shapes, frames), *_nodes(model)]) if measured_shapes else extent,
         "focus": _focus(model, names),
         "frames": frames,
         "shapes": shapes,
@@ -75,29 +75,29 @@ def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | N
     """Entry of the scene for a shape of the user; None for one that is not drawn."""
     if shape.kind == "none":
         return None
-    found: Scene = {"kind": shape.kind}
+    entry: Scene = {"kind": shape.kind}
     frame, fields = names.of_owner(shape.owner), dict(shape.fields)
-    anchors = [[names.of_owner(of), numbers(place)] for of, place in shape.anchors]
+    anchors = [[names.of_owner(of), numbers(position)] for of, position in shape.anchors]
     if shape.kind in ("tube", "plate"):
-        found["points"] = anchors
+        entry["points"] = anchors
     elif shape.kind in ("spring", "damper"):
-        found["ends"] = anchors
+        entry["ends"] = anchors
     else:
-        found["frame"] = frame
+        entry["frame"] = frame
         if shape.kind == "cylinder":
-            found["ends"] = [place for _, place in anchors]
+            entry["ends"] = [position for _, position in anchors]
     if shape.kind == "mesh":
         name = _mesh_name(fields.pop("file"), meshes)
         meshes[name] = {
             "positions": encoded(fields.pop("positions")),
             "triangles": encoded(fields.pop("triangles"), "u"),
         }
-        found["mesh"] = name
+        entry["mesh"] = name
     if "axes" in fields:
-        found["axes"] = [numbers(column) for column in np.asarray(fields.pop("axes")).T]
-    plain = {k: numbers(v) if isinstance(v, np.ndarray) else v for k, v in fields.items()}
+        entry["axes"] = [numbers(column) for column in np.asarray(fields.pop("axes")).T]
+    plain_fields = {k: numbers(v) if isinstance(v, np.ndarray) else v for k, v in fields.items()}
     owner = getattr(shape.owner, "name", "")
-    return found | plain | ({"body": owner} if owner else {})
+    return entry | plain_fields | ({"body": owner} if owner else {})
 
 
 def _mesh_name(file: str, meshes: Mapping[str, Any]) -> str:
@@ -120,16 +120,16 @@ def _flexible(
     model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]
 ) -> tuple[Callable[[], list[Scene]], ...]:
     """Functions that make beams, modes and rows of stress of flexible bodies."""
-    found = []
+    functions = []
     bodies = [body for body in model.bodies if isinstance(body, FlexibleBody)]
     hidden = {shape.owner for shape in model.shapes if shape.kind == "none"}
-    for body, of in zip(bodies, places.amplitudes, strict=True):
+    for body, amplitudes in zip(bodies, places.amplitudes, strict=True):
         if body in hidden:
             continue
-        start = places.rows(q[None], of.row, len(of.modes))[0]
+        start = places.rows(q[None], amplitudes.row, len(amplitudes.modes))[0]
         frame = names.of_body(body)
-        found.append(partial(flexible_parts, body.reduced, frame, of.columns, axes=body.axes, start=start))
-    return tuple(found)
+        functions.append(partial(flexible_parts, body.reduced, frame, amplitudes.columns, axes=body.axes, start=start))
+    return tuple(functions)
 
 
 def _up(model: Model) -> list[float]:
@@ -148,15 +148,15 @@ def _focus(model: Model, names: FrameNames) -> str:
 
 
 def _places_of_bodies(model: Model) -> list[Vector]:
-    found: list[Vector] = []
+    positions: list[Vector] = []
     for body in model.bodies:
         nodes = body.node_positions if isinstance(body, FlexibleBody) else [body.com]
-        found += [in_space(p) for p in nodes]
-    if len(found) == 1 and not isinstance(model.bodies[0], FlexibleBody) and not model.bodies[0].is_point:
+        positions += [in_space(p) for p in nodes]
+    if len(positions) == 1 and not isinstance(model.bodies[0], FlexibleBody) and not model.bodies[0].is_point:
         body = model.bodies[0]
         radius = float(np.sqrt(np.trace(body.second_moment) / body.mass))
-        found += [found[0] - radius, found[0] + radius]
-    return found
+        positions += [positions[0] - radius, positions[0] + radius]
+    return positions
 
 
 def _nodes(model: Model) -> list[Vector]:
@@ -171,7 +171,7 @@ def _extent(places: list[Vector]) -> float:
 
 def _places_of_shapes(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Vector]:
     """Places of all shapes at the start, earth axes, m."""
-    found: list[Vector] = []
+    corners: list[Vector] = []
     starts = _starts(frames)
     for shape in shapes:
         anchors = [*shape.get("points", ()), *(shape.get("ends", ()) if "frame" not in shape else ())]
@@ -180,18 +180,18 @@ def _places_of_shapes(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Ve
             anchors = [[shape["frame"], p] for p in local]
         reach = shape["radius"] if shape["kind"] in ("sphere", "wheel") else 0.5 * max(shape.get("size", [0.0]))
         for frame, p in anchors:
-            place = _at_start(frames, starts, frame, np.array(p))
-            found += [place - reach, place + reach]
-    return found
+            position = _at_start(frames, starts, frame, np.array(p))
+            corners += [position - reach, position + reach]
+    return corners
 
 
 def _starts(frames: Mapping[str, Any]) -> dict[str, tuple[Vector, Vector]]:
     """Origin and axes of the frames of bodies at the start."""
-    placed = {name: frame["start"] for name, frame in frames.items() if "parent" not in frame}
-    if not placed:
+    initial_poses = {name: frame["start"] for name, frame in frames.items() if "parent" not in frame}
+    if not initial_poses:
         return {}
-    axes = matrices(np.array([quaternion for _, quaternion in placed.values()]))
-    return {name: (np.array(origin), R) for (name, (origin, _)), R in zip(placed.items(), axes, strict=True)}
+    axes = matrices(np.array([quaternion for _, quaternion in initial_poses.values()]))
+    return {name: (np.array(origin), R) for (name, (origin, _)), R in zip(initial_poses.items(), axes, strict=True)}
 
 
 def _at_start(frames: Mapping[str, Any], starts: Mapping[str, tuple[Vector, Vector]], name: str, at: Vector) -> Vector:

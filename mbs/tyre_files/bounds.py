@@ -46,13 +46,13 @@ def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
         if value and not least <= value <= most:
             of_unit = f" {unit}" if unit else ""
             raise text.fault(f"{key} is {value:g}{of_unit}; it must lie between {least:g} and {most:g}{of_unit}.")
-    for first, last, unit in _PAIRS:
-        least, most = (numbers.get(key, 0.0) for key in (first, last))
+    for lower, upper, unit in _PAIRS:
+        least, most = (numbers.get(key, 0.0) for key in (lower, upper))
         if most and not least < most:
-            raise text.fault(f"{first} is {least:g} {unit} and {last} {most:g} {unit}; the first must be the smaller.")
-    drop = numbers.get("DREFF", 0.0) * atan(numbers.get("BREFF", 0.0)) + numbers.get("FREFF", 0.0)
-    if not 0.0 <= drop <= 1.0:
+            raise text.fault(f"{lower} is {least:g} {unit} and {upper} {most:g} {unit}; the first must be the smaller.")
+    ratio = numbers.get("DREFF", 0.0) * atan(numbers.get("BREFF", 0.0)) + numbers.get("FREFF", 0.0)
+    if not 0.0 <= ratio <= 1.0:
         raise text.fault(
-            f"DREFF atan(BREFF) + FREFF is {drop:.3g}; under FNOMIN it is the way from the free to the rolling radius "
+            f"DREFF atan(BREFF) + FREFF is {ratio:.3g}; under FNOMIN it is the way from the free to the rolling radius "
             "over the deflection and must lie between 0 and 1."
         )

@@ -47,9 +47,11 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     nominal, alpha = tyre.nominal_load, np.arctan(TANGENT)
     along = {q: _tmeasy(tyre.longitudinal, q, KAPPA / (1.0 + KAPPA)) for q in LOADS}
     across = {q: _tmeasy(tyre.lateral, q, TANGENT) for q in LOADS}
-    most = {name: [at_load(getattr(tyre, name).max_force, q) for q in LOADS] for name in ("longitudinal", "lateral")}
-    slopes = {name: getattr(tyre, name).slope[0] / nominal for name in most}
-    peaks = {name: getattr(tyre, name).max_force[0] / nominal for name in most}
+    largest_forces = {
+        name: [at_load(getattr(tyre, name).max_force, q) for q in LOADS] for name in ("longitudinal", "lateral")
+    }
+    slopes = {name: getattr(tyre, name).slope[0] / nominal for name in largest_forces}
+    peaks = {name: getattr(tyre, name).max_force[0] / nominal for name in largest_forces}
 
     def fitted(
         names: Sequence[str], start: Sequence[float], residuals: Callable[[dict[str, float]], Array]
@@ -67,7 +69,10 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
             (magic_longitudinal, KAPPA, along) if name == "longitudinal" else (magic_lateral, alpha, across)
         )
         return np.concatenate(
-            [(law(c, nominal, q * nominal, slip) - target[q]) / m for q, m in zip(LOADS, most[name], strict=True)]
+            [
+                (law(c, nominal, q * nominal, slip) - target[q]) / m
+                for q, m in zip(LOADS, largest_forces[name], strict=True)
+            ]
         )
 
     c = fitted(
@@ -92,7 +97,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
 
     names = ("QBZ1", "QBZ2", "QCZ1", "QDZ1", "QDZ2", "QEZ1")
     c |= fitted(names, (8.0, 0.0, 1.2, 0.1, 0.0, -1.0), moment_errors)
-    largest_errors = {name: float(np.abs(errors(name, c)).max()) for name in most}
+    largest_errors = {name: float(np.abs(errors(name, c)).max()) for name in largest_forces}
     largest_errors["moment"] = float(np.abs(moment_errors(c)).max())
     stiffness = tyre.carcass_stiffness
     c["PTX1"] = c["PKX1"] * nominal / stiffness[0] / tyre.radius
@@ -133,24 +138,24 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     """
     if tyre.pressure != 0.0:
         raise ValueError(f"The pressure of the tyre is {1.0 + tyre.pressure:g} times the nominal one; it must be that.")
-    c, of_file = dict(tyre.coefficients), tyre.nominal_load
-    nominal = min(of_file, 0.5 * tyre.largest_load)
+    c, nominal_of_file = dict(tyre.coefficients), tyre.nominal_load
+    nominal = min(nominal_of_file, 0.5 * tyre.largest_load)
     c["LMUX"], c["LMUY"] = c.get("LMUX", 1.0) * tyre.lmux, c.get("LMUY", 1.0) * tyre.lmuy
     c["LKX"], c["LKY"] = c.get("LKX", 1.0) * tyre.lkx, c.get("LKY", 1.0) * tyre.lky
     alpha = TANGENT if tyre.version in ("MF61", "MF62") else np.arctan(TANGENT)
-    along = {q: magic_longitudinal(c, of_file, q * nominal, KAPPA) for q in LOADS}
-    across = {q: magic_lateral(c, of_file, q * nominal, alpha) for q in LOADS}
+    along = {q: magic_longitudinal(c, nominal_of_file, q * nominal, KAPPA) for q in LOADS}
+    across = {q: magic_lateral(c, nominal_of_file, q * nominal, alpha) for q in LOADS}
     curves = {
         "longitudinal": _curve(KAPPA / (1.0 + KAPPA), along),
         "lateral": _curve(TANGENT, across),
     }
     stiffness = 0.5 * (tyre.stiffness + sqrt(tyre.stiffness**2 + 4.0 * tyre.progression * nominal))  # to that load
-    trails = {q: magic_trail(c, of_file, tyre.radius, q * nominal, alpha) for q in LOADS}
+    trails = {q: magic_trail(c, nominal_of_file, tyre.radius, q * nominal, alpha) for q in LOADS}
     shares = {q: trails[q] / (2.0 * sqrt(tyre.radius * q * nominal / stiffness)) for q in LOADS}
     weights = {q: across[q] / across[q].max() for q in LOADS}
-    first = _three(shares[1.0], weights[1.0])
-    three = first, _three(shares[2.0], weights[2.0], first)
-    of_carcass = carcass(tyre, c)
+    nominal_trail = _three(shares[1.0], weights[1.0])
+    trail_parameters = nominal_trail, _three(shares[2.0], weights[2.0], nominal_trail)
+    carcass_stiffness = carcass(tyre, c)
     fitted_tyre = Tyre(
         radius=tyre.radius * c.get("Q_RE0", 1.0),
         bottoming_radius=tyre.bottoming_radius,
@@ -158,11 +163,11 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         damping=tyre.damping,
         longitudinal=curves["longitudinal"],
         lateral=curves["lateral"],
-        trail=(three[0][0], three[1][0]),
-        trail_zero=(three[0][1], three[1][1]),
-        trail_end=(three[0][2], three[1][2]),
-        carcass_stiffness=of_carcass,
-        carcass_damping=(tyre.settling * of_carcass[0], tyre.settling * of_carcass[1]),
+        trail=(trail_parameters[0][0], trail_parameters[1][0]),
+        trail_zero=(trail_parameters[0][1], trail_parameters[1][1]),
+        trail_end=(trail_parameters[0][2], trail_parameters[1][2]),
+        carcass_stiffness=carcass_stiffness,
+        carcass_damping=(tyre.settling * carcass_stiffness[0], tyre.settling * carcass_stiffness[1]),
         nominal_load=nominal,
         reference_friction=tyre.reference_friction,
         bottoming_stiffness=tyre.bottoming_stiffness,
@@ -190,9 +195,9 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
 
 def _tmeasy(curve: TyreCurve, q: float, slip: Array) -> Array:
     slips = (pair[0] + (pair[1] - pair[0]) * (q - 1.0) for pair in (curve.max_slip, curve.slide_slip))
-    slope, most, slides = (at_load(pair, q) for pair in (curve.slope, curve.max_force, curve.slide_force))
-    most_at, slides_at = slips
-    return tmeasy_force(slope, most, most_at, slides, slides_at, slip)
+    slope, peak, sliding = (at_load(pair, q) for pair in (curve.slope, curve.max_force, curve.slide_force))
+    peak_slip, sliding_slip = slips
+    return tmeasy_force(slope, peak, peak_slip, sliding, sliding_slip, slip)
 
 
 def _length(tyre: Tyre, q: float) -> float:
@@ -218,43 +223,43 @@ def _five(slip: Array, force: Array, first: Five | None = None) -> Five:
     peak = int(np.argmax(force))
     scale = float(force[peak])
 
-    def parts(x: Array) -> Five:
-        share, most_at, held, gap, steep = (float(v) for v in np.exp(x))
+    def parameters(x: Array) -> Five:
+        share, most_at, sliding_share, gap, excess_slope = (float(v) for v in np.exp(x))
         most = share * scale
-        return most * (1.02 + steep) / most_at, most, most_at, most * held, most_at + gap
+        return most * (1.02 + excess_slope) / most_at, most, most_at, most * sliding_share, most_at + gap
 
     low, high = [0.5, 0.01, 0.2, 0.005, 1e-3], [2.0, 2.0, 0.9999, 20.0, 20.0]
     if first is not None:
-        gap, held = first[4] - first[2], first[3] / first[1]
-        low[2], high[2] = 0.7 * held, min(1.4 * held, 0.9999)
+        gap, sliding_share = first[4] - first[2], first[3] / first[1]
+        low[2], high[2] = 0.7 * sliding_share, min(1.4 * sliding_share, 0.9999)
         low[1], high[1], low[3], high[3] = _LESS * first[2], _MORE * first[2], _LESS * gap, _MORE * gap
     start = np.clip([1.0, float(slip[peak]), 0.85, 0.5, 1.0], np.multiply(low, 1.01), np.multiply(high, 0.99))
 
     def differences(x: Array) -> Array:
-        return np.asarray((tmeasy_force(*parts(x), slip) - force) / scale)
+        return np.asarray((tmeasy_force(*parameters(x), slip) - force) / scale)
 
-    return parts(least_squares(differences, np.log(start), bounds=(np.log(low), np.log(high))).x)
+    return parameters(least_squares(differences, np.log(start), bounds=(np.log(low), np.log(high))).x)
 
 
 def _three(share: Array, weight: Array, first: Three | None = None) -> Three:
     """Trail over the length of the patch at no slip, slip of its zero, slip where it ends; `first` as of `_five`."""
 
-    def parts(x: Array) -> Three:
+    def parameters(x: Array) -> Three:
         zero = float(np.exp(x[1]))
         return float(x[0]), zero, zero + float(np.exp(x[2]))
 
     low, high = [0.02, 0.01], [3.0, 20.0]
     if first is not None:
-        ends = first[1], first[2] - first[1]
-        low, high = [_LESS * end for end in ends], [_MORE * end for end in ends]
+        slips = first[1], first[2] - first[1]
+        low, high = [_LESS * slip for slip in slips], [_MORE * slip for slip in slips]
     start = np.clip([0.2, 0.8], np.multiply(low, 1.01), np.multiply(high, 0.99))
     bounds = [-1.0, *np.log(low)], [1.0, *np.log(high)]
-    begin = [float(np.clip(share[0], -0.99, 0.99)), *np.log(start)]
+    initial = [float(np.clip(share[0], -0.99, 0.99)), *np.log(start)]
 
     def differences(x: Array) -> Array:
-        return np.asarray((tmeasy_trail(*parts(x), TANGENT) - share) * weight)
+        return np.asarray((tmeasy_trail(*parameters(x), TANGENT) - share) * weight)
 
-    return parts(least_squares(differences, begin, bounds=bounds).x)
+    return parameters(least_squares(differences, initial, bounds=bounds).x)
 
 
 def _curve(slip: Array, force: dict[float, Array]) -> TyreCurve:
@@ -264,19 +269,19 @@ def _curve(slip: Array, force: dict[float, Array]) -> TyreCurve:
 
 def _most_load(curves: Sequence[TyreCurve]) -> float:
     """Multiple of the nominal load at which a force or a slip that TMeasy extrapolates vanishes."""
-    most = [100.0]
+    limits = [100.0]
     for curve in curves:
         for first, second in (curve.slope, curve.max_force, curve.slide_force):
-            falls = first - 0.5 * second
-            most += [(2.0 * first - 0.5 * second) / falls] if falls > 0.0 else []
+            difference = first - 0.5 * second
+            limits += [(2.0 * first - 0.5 * second) / difference] if difference > 0.0 else []
         gaps = tuple(end - at for end, at in zip(curve.slide_slip, curve.max_slip, strict=True))
         for first, second in (curve.max_slip, gaps):
-            most += [1.0 + first / (first - second)] if second < first else []
-    return min(most)
+            limits += [1.0 + first / (first - second)] if second < first else []
+    return min(limits)
 
 
 def carcass(tyre: MagicTyre, c: dict[str, float]) -> tuple[float, float]:
     """Stiffness at the nominal load: of the file, or slip stiffness over relaxation length, or of assumed lengths."""
     length = c.get("PTY1", 0.0) * sin(2.0 * atan(1.0 / (c.get("PTY2", 0.0) or 1.0))) or 1.0
-    across = cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load) / (length * tyre.radius)
-    return tyre.along[1], c.get("LATERAL_STIFFNESS", 0.0) or across
+    lateral_stiffness = cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load) / (length * tyre.radius)
+    return tyre.along[1], c.get("LATERAL_STIFFNESS", 0.0) or lateral_stiffness

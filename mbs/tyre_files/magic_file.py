@@ -124,16 +124,16 @@ class TyreFile(Summarised):
                 "force has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most "
                 "files."
             )
-        given = self.pressure if pressure is None else pressure
+        inflation = self.pressure if pressure is None else pressure
         if pressure is not None and not self.nominal_pressure > 0.0:
             raise TyreFileError(f"{self.name} has no NOMPRES, so it knows nothing of a pressure of {pressure:g} Pa.")
         least, most = self.pressure_range
         if pressure is not None and not least <= pressure <= most:
             raise TyreFileError(f"{self.name}: the pressure is {pressure:g} Pa; {_pressures(least, most)}.")
-        relative = given / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and given > 0.0 else 0.0
-        harder = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
-        if not harder >= _LEAST:
-            raise TyreFileError(f"{self.name}: at {given:g} Pa PFZ1 leaves {harder:.2g} of the vertical stiffness.")
+        relative = inflation / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and inflation > 0.0 else 0.0
+        factor = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
+        if not factor >= _LEAST:
+            raise TyreFileError(f"{self.name}: at {inflation:g} Pa PFZ1 leaves {factor:.2g} of the vertical stiffness.")
         mirrored = mounted in SIDES and self.side in SIDES and mounted != self.side
         return MagicTyre(**{**self.values, **more}, signs=signs, pressure=relative, mirrored=mirrored)
 
@@ -146,12 +146,12 @@ def read_tyre(file: str | Path) -> TyreFile:
     """
     text = read_properties(file)
     notes: list[str] = []
-    found = text.numbers(_NUMBERS)
+    file_numbers = text.numbers(_NUMBERS)
     version = _version(text, notes) if "MODEL" in text.sections else ""  # first: other formats have other sections
     missing = [section for section in _SECTIONS if section not in text.sections]
     if missing:
         raise text.fault(f"it has no section [{missing[0]}]; it may be cut, or no tyre property file.")
-    entries = {_ALIASES.get(key, key): value for key, value in found.items()}
+    entries = {_ALIASES.get(key, key): value for key, value in file_numbers.items()}
     numbers = in_si(text, entries)
     lacking = [key for key in _NEEDED if not numbers.get(key)]
     if lacking:
@@ -186,8 +186,8 @@ def read_tyre(file: str | Path) -> TyreFile:
         notes.append("it has no relaxation; lengths of 0.5 and 1 free radius at the nominal load are assumed.")
     side = text.word("TYRESIDE", "MODEL").lower().removesuffix("al")
     if side not in (*SIDES, "symmetric"):
-        given_side = f"is '{side}'" if side else "is missing"
-        notes.append(f"TYRESIDE {given_side}: coefficients of a left tyre are assumed, and a right one is mirrored.")
+        fault = f"is '{side}'" if side else "is missing"
+        notes.append(f"TYRESIDE {fault}: coefficients of a left tyre are assumed, and a right one is mirrored.")
         side = "left"
     if numbers.get("USE_MODE", 4.0) < 0.0 and side in SIDES:
         side = SIDES[1 - SIDES.index(side)]
@@ -201,8 +201,8 @@ def read_tyre(file: str | Path) -> TyreFile:
 
 
 def _pressures(least: float, most: float) -> str:
-    ends = [f"from PRESMIN, {least:g} Pa"] * (least > 0.0) + [f"to PRESMAX, {most:g} Pa"] * (most < math.inf)
-    return f"the coefficients hold {', '.join(ends)}"
+    limits = [f"from PRESMIN, {least:g} Pa"] * (least > 0.0) + [f"to PRESMAX, {most:g} Pa"] * (most < math.inf)
+    return f"the coefficients hold {', '.join(limits)}"
 
 
 def one_sided(version: str) -> tuple[str, ...]:
@@ -222,12 +222,12 @@ def _version(text: PropertyText, notes: list[str]) -> str:
             return FITS[int(fit)]
         available = ", ".join(map(str, FITS))
         raise text.fault(f"FITTYP is {fit:g}; Magic Formulas that are known have {available}.")
-    plain = form.replace("-", "").replace("_", "").replace("TYRE", "")
-    if form in FORMATS or plain in FORMATS:
-        return FORMATS.get(form) or FORMATS[plain]
-    found = f"is '{form}'" if form else "is missing"
+    compact = form.replace("-", "").replace("_", "").replace("TYRE", "")
+    if form in FORMATS or compact in FORMATS:
+        return FORMATS.get(form) or FORMATS[compact]
+    fault = f"is '{form}'" if form else "is missing"
     raise text.fault(
-        f"PROPERTY_FILE_FORMAT in [MODEL] {found}; it must be PAC2002, or MF-Tyre 5.2, 6.1 or 6.2 (FITTYP 6, 61, 62)."
+        f"PROPERTY_FILE_FORMAT in [MODEL] {fault}; it must be PAC2002, or MF-Tyre 5.2, 6.1 or 6.2 (FITTYP 6, 61, 62)."
     )
 
 
@@ -297,20 +297,20 @@ def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -
 
 def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> dict[str, tuple[float, float]]:
     """Ranges of the slips; one of one side is widened to both."""
-    found = {}
-    for name, first, last, usual in (
+    ranges = {}
+    for name, first, last, default in (
         ("slip_range", "KPUMIN", "KPUMAX", 1.5),
         ("angle_range", "ALPMIN", "ALPMAX", math.pi / 2.0),
         ("camber_range", "CAMMIN", "CAMMAX", 0.5),
     ):
-        low, high = numbers.get(first, -usual), numbers.get(last, usual)
+        low, high = numbers.get(first, -default), numbers.get(last, default)
         if not low <= 0.0 <= high or high - low < _NARROW:
             raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_NARROW:g} apart.")
         if low * high == 0.0:
             notes.append(f"{first} is {low:g} and {last} {high:g}: the other side is taken as wide.")
             low, high = -max(-low, high), max(-low, high)
-        found[name] = (low, high)
-    return found
+        ranges[name] = (low, high)
+    return ranges
 
 
 def _largest_load(
@@ -340,13 +340,13 @@ def _largest_load(
 
     for k in range(1, _LOADS + 1):
         load = most * k / _LOADS
-        for what, share in shares(load).items():
+        for quantity, share in shares(load).items():
             if share >= _LEAST:
                 continue
             if load < nominal:
                 raise text.fault(
-                    f"{what} is {share:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
+                    f"{quantity} is {share:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
                 )
-            notes.append(f"{what} fades at {load:.0f} N; above it the forces stay, FZMAX is {most:.0f} N.")
+            notes.append(f"{quantity} fades at {load:.0f} N; above it the forces stay, FZMAX is {most:.0f} N.")
             return most * (k - 1) / _LOADS
     return most

@@ -47,7 +47,7 @@ class PropertyText:
         `expected`: keys whose values must be numbers. Raises `TyreFileError`: a key has two values in two sections, or
         a text where a number is expected.
         """
-        found: dict[str, float] = {}
+        numbers: dict[str, float] = {}
         for section, entries in self.sections.items():
             for key, value in entries.items():
                 if not isinstance(value, float):
@@ -57,9 +57,9 @@ class PropertyText:
                             "quotation marks."
                         )
                     continue
-                if found.setdefault(key, value) != value:
-                    raise self.fault(f"{key} is {found[key]:g} in one section and {value:g} in another.")
-        return found
+                if numbers.setdefault(key, value) != value:
+                    raise self.fault(f"{key} is {numbers[key]:g} in one section and {value:g} in another.")
+        return numbers
 
 
 def read_properties(file: str | Path) -> PropertyText:
@@ -90,8 +90,8 @@ def _parsed(text: str, name: str) -> PropertyText:
         line = _without_comment(raw)
         if not line or line.startswith("{"):
             continue
-        if found := _SECTION.fullmatch(line):
-            section = found[1].upper()
+        if heading := _SECTION.fullmatch(line):
+            section = heading[1].upper()
             if section in sections and section not in ("SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"):
                 raise TyreFileError(f"{where}: the section [{section}] stands twice.")
             sections.setdefault(section, {})
@@ -133,8 +133,8 @@ def _value(text: str, what: str) -> str | float:
             f"{what} is {brief(text)}; its decimal mark must be a point, as in {text.replace(',', '.')}."
         )
     if not _NUMBER.fullmatch(text):
-        found = f"{one_line(text, 60)}, without quotation marks" if text else "empty"
-        raise TyreFileError(f"{what} is {found}; it must be a number, or a word in quotation marks.")
+        fault = f"{one_line(text, 60)}, without quotation marks" if text else "empty"
+        raise TyreFileError(f"{what} is {fault}; it must be a number, or a word in quotation marks.")
     number = float(re.sub("[dD]", "e", text))
     if not math.isfinite(number):
         raise TyreFileError(f"{what} is {brief(text)}; it must be finite.")

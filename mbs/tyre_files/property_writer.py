@@ -50,11 +50,11 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
     if not tyre.friction_factor > 0.0:
         raise ValueError("The friction factor of the tyre is 0; a tyre property file needs a positive LMUX and LMUY.")
     one_of(side, ("LEFT", "RIGHT", "SYMMETRIC"), "The side of the tyre", ValueError)
-    lost = [name for name in one_sided(tyre.version) if tyre.coefficients.get(name)]
-    if side == "SYMMETRIC" and lost:
+    asymmetric = [name for name in one_sided(tyre.version) if tyre.coefficients.get(name)]
+    if side == "SYMMETRIC" and asymmetric:
         raise ValueError(
-            f"The tyre is not symmetric: a reader would take its {', '.join(lost)} as 0. Give the side on which it was "
-            "measured, 'LEFT' or 'RIGHT', or set them to 0."
+            f"The tyre is not symmetric: a reader would take its {', '.join(asymmetric)} as 0. Give the side "
+            "on which it was measured, 'LEFT' or 'RIGHT', or set them to 0."
         )
     write_text(file, "\n".join(f"$ {line}" for line in comment.splitlines()) + "\n".join(_lines(tyre, side)) + "\n")
 
@@ -68,11 +68,11 @@ def _lines(t: MagicTyre, side: str) -> Iterator[str]:
     yield "[MODEL]"
     yield f"PROPERTY_FILE_FORMAT = '{form}'"
     yield from [] if fit is None else [f"FITTYP = {fit}"]
-    by_ellipse = "YES" if t.combination == "ellipse" else "NO"
-    yield from ("USE_MODE = 4", f"TYRESIDE = '{side}'", f"FE_METHOD = '{by_ellipse}'")
+    ellipse_method = "YES" if t.combination == "ellipse" else "NO"
+    yield from ("USE_MODE = 4", f"TYRESIDE = '{side}'", f"FE_METHOD = '{ellipse_method}'")
     c = {**MAGIC_COEFFICIENTS, **t.coefficients}
-    grip = t.friction_factor / t.reference_friction
-    for name, factor in (("LMUX", grip * t.lmux), ("LMUY", grip * t.lmuy), ("LKX", t.lkx), ("LKY", t.lky)):
+    friction = t.friction_factor / t.reference_friction
+    for name, factor in (("LMUX", friction * t.lmux), ("LMUY", friction * t.lmuy), ("LKX", t.lkx), ("LKY", t.lky)):
         c[name] *= factor
     yield from _numbers({"LONGVL": c.pop("LONGVL")})
     yield "[DIMENSION]"
@@ -84,14 +84,14 @@ def _lines(t: MagicTyre, side: str) -> Iterator[str]:
         spring["Q_FZ1"] = t.stiffness * t.radius / t.nominal_load
         spring["Q_FZ2"] = t.progression * t.radius**2 / t.nominal_load
     yield from _numbers(spring | {"BOTTOM_STIFF": t.bottoming_stiffness})
-    for section, names, ends in (
+    for section, names, limits in (
         ("LONG_SLIP_RANGE", ("KPUMIN", "KPUMAX"), t.slip_range),
         ("SLIP_ANGLE_RANGE", ("ALPMIN", "ALPMAX"), t.angle_range),
         ("INCLINATION_ANGLE_RANGE", ("CAMMIN", "CAMMAX"), t.camber_range),
         ("VERTICAL_FORCE_RANGE", ("FZMIN", "FZMAX"), (0.0, t.largest_load)),
     ):
         yield f"[{section}]"
-        yield from _numbers(dict(zip(names, ends, strict=True)))
+        yield from _numbers(dict(zip(names, limits, strict=True)))
     factors = {name: c.pop(name) for name in list(c) if name.startswith("L") and "STIFFNESS" not in name}
     yield "[SCALING_COEFFICIENTS]"
     yield from _numbers(factors)

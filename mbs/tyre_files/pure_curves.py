@@ -28,10 +28,10 @@ def tmeasy_force(slope: float, most: float, most_at: float, slides: float, slide
     """
     s = np.abs(np.asarray(slip, float))
     x = s / most_at
-    up = slope * s / ((1.0 - x) ** 2 + slope * s / most)
-    fallen = np.clip((s - most_at) / (slides_at - most_at), 0.0, 1.0)
-    down = most - (most - slides) * fallen**2 * (3.0 - 2.0 * fallen)
-    return np.asarray(np.sign(slip) * np.where(s < most_at, up, down))
+    rising = slope * s / ((1.0 - x) ** 2 + slope * s / most)
+    progress = np.clip((s - most_at) / (slides_at - most_at), 0.0, 1.0)
+    falling = most - (most - slides) * progress**2 * (3.0 - 2.0 * progress)
+    return np.asarray(np.sign(slip) * np.where(s < most_at, rising, falling))
 
 
 def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Array:
@@ -41,14 +41,14 @@ def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Arra
     """
     s = np.abs(np.asarray(slip, float))
     w, x = zero / end, s / zero
-    rises = first * ((1.0 - w) * (1.0 - x) + w * (1.0 - (3.0 - 2.0 * x) * x * x))
-    falls = -first * (1.0 - w) * (x - 1.0) * ((end - s) / (end - zero)) ** 2
-    return np.where(s >= end, 0.0, np.where(s >= zero, falls, rises))
+    before_zero = first * ((1.0 - w) * (1.0 - x) + w * (1.0 - (3.0 - 2.0 * x) * x * x))
+    after_zero = -first * (1.0 - w) * (x - 1.0) * ((end - s) / (end - zero)) ** 2
+    return np.where(s >= end, 0.0, np.where(s >= zero, after_zero, before_zero))
 
 
 def _sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
-    turned = B * x
-    return np.asarray(D * np.sin(C * np.arctan(turned - min(E, 1.0) * (turned - np.arctan(turned)))))
+    scaled = B * x
+    return np.asarray(D * np.sin(C * np.arctan(scaled - min(E, 1.0) * (scaled - np.arctan(scaled)))))
 
 
 def magic_longitudinal(coefficients: Mapping[str, float], nominal: float, load: float, kappa: ArrayLike) -> Array:
@@ -95,5 +95,5 @@ def magic_trail(
     B = (c["QBZ1"] + c["QBZ2"] * dfz + c["QBZ3"] * dfz**2) * c["LKY"] / c["LMUY"]
     D = load * radius / (nominal * c["LFZO"]) * (c["QDZ1"] + c["QDZ2"] * dfz) * c["LTR"]
     E = min(c["QEZ1"] + c["QEZ2"] * dfz + c["QEZ3"] * dfz**2, 1.0)
-    turned = B * a
-    return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(turned - E * (turned - np.arctan(turned)))) * np.cos(a))
+    scaled = B * a
+    return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(scaled - E * (scaled - np.arctan(scaled)))) * np.cos(a))

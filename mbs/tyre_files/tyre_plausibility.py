@@ -123,12 +123,12 @@ def magic_plausibility(
         changed = {key: factor * coefficients[key] for key in keys if coefficients.get(key)}
         if not changed or all(key[0] == "L" and coefficients[key] == 1.0 for key in changed):
             continue
-        own = {key: v for key, v in changed.items() if key in tyre.coefficients}
-        ends: dict[str, Any] = {
+        changed_coefficients = {key: v for key, v in changed.items() if key in tyre.coefficients}
+        changed_ranges: dict[str, Any] = {
             f: (changed[a], changed[b]) for f, (a, b) in RANGES.items() if a in changed and b in changed
         }
-        undone = replace(tyre, coefficients={**tyre.coefficients, **own}, **ends)
-        undo = partial(values, undone, numbers={**numbers, **changed})
+        corrected = replace(tyre, coefficients={**tyre.coefficients, **changed_coefficients}, **changed_ranges)
+        undo = partial(values, corrected, numbers={**numbers, **changed})
         mistakes.append(Mistake(f"{words} {' and '.join(keys)}", frozenset(prefix + key for key in keys), undo))
     return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
@@ -165,16 +165,18 @@ def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
 def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[Value]]) -> list[Mistake]:
     """Mistakes in radii, loads and stiffness. `values`: of a tyre."""
     names = _vertical_names(tyre, prefix)
-    found = [
+    corrections = [
         (f"{unit} in place of newtons in {names[field]}", {field: factor})
         for field in ("nominal_load", "stiffness", "largest_load")
         for factor, unit in FORCES
         if hasattr(tyre, field)
     ]
-    found.append((f"the diameter in place of the radius in {names['radius']}", {"radius": 0.5}))
-    found.append((f"the load of an axle in place of that of a wheel in {names['nominal_load']}", {"nominal_load": 0.5}))
+    corrections.append((f"the diameter in place of the radius in {names['radius']}", {"radius": 0.5}))
+    corrections.append(
+        (f"the load of an axle in place of that of a wheel in {names['nominal_load']}", {"nominal_load": 0.5})
+    )
     forces = [f for f in ("nominal_load", "stiffness", "damping", "largest_load") if hasattr(tyre, f)]
-    found += [
+    corrections += [
         (f"numbers in newtons called {unit} in the unit of force", dict.fromkeys(forces, 1.0 / factor))
         for factor, unit in FORCES
         if isinstance(tyre, MagicTyre)
@@ -182,10 +184,10 @@ def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[
     return [
         Mistake(
             words,
-            frozenset(names[f] for f in change),
-            partial(values, replace(tyre, **{f: factor * getattr(tyre, f) for f, factor in change.items()})),
+            frozenset(names[f] for f in factors),
+            partial(values, replace(tyre, **{f: factor * getattr(tyre, f) for f, factor in factors.items()})),
         )
-        for words, change in found
+        for words, factors in corrections
     ]
 
 
@@ -193,16 +195,16 @@ def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) ->
     nominal = tyre.nominal_load
     c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
     coefficients = {**c, "FNOMIN": nominal}
-    keys = {name: {prefix + k: coefficients[k] for k in own if k in coefficients} for name, own in OWN.items()}
+    keys = {name: {prefix + k: coefficients[k] for k in sources if k in coefficients} for name, sources in OWN.items()}
     curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
-    found = [*_curve_values(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
+    values = [*_curve_values(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
     slips = tyre.along[0], cornering(tyre, nominal)
     lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
-    for of, slip, across, own in zip(("longitudinal", "lateral"), slips, carcass(tyre, c), lengths, strict=True):
-        if any(c[k] for k in own):
-            nonzero = {prefix + k: c[k] for k in own if c[k]}
-            found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, nonzero, of))
-    return [*found, *_vertical(tyre, prefix), *_number_values(tyre, prefix, numbers)]
+    for of, slip, across, sources in zip(("longitudinal", "lateral"), slips, carcass(tyre, c), lengths, strict=True):
+        if any(c[k] for k in sources):
+            nonzero = {prefix + k: c[k] for k in sources if c[k]}
+            values.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, nonzero, of))
+    return [*values, *_vertical(tyre, prefix), *_number_values(tyre, prefix, numbers)]
 
 
 def _number_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
@@ -216,10 +218,10 @@ def _number_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -
     for key, value in tyre.coefficients.items():
         if key in FACTORS and value:
             yield Value(QUANTITIES["factor"], value, {prefix + key: value}, key)
-    for name, ends in RANGES.items():
-        limits = {prefix + key: numbers[key] for key in ends if key in numbers}
+    for name, limit_keys in RANGES.items():
+        limits = {prefix + key: numbers[key] for key in limit_keys if key in numbers}
         yield Value(
-            QUANTITIES[name], max(map(abs, getattr(tyre, name))) / (1.0 if ends[0] == "KPUMIN" else DEG), limits
+            QUANTITIES[name], max(map(abs, getattr(tyre, name))) / (1.0 if limit_keys[0] == "KPUMIN" else DEG), limits
         )
 
 
@@ -252,53 +254,55 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
     for part in PART:
         pair = []
         for curve in (tyre.lateral, tyre.longitudinal):
-            slope, most, slides = (at_load(getattr(curve, f), part) for f in ("slope", "max_force", "slide_force"))
-            at, end = (v[0] + (part - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
+            slope, peak, sliding = (at_load(getattr(curve, f), part) for f in ("slope", "max_force", "slide_force"))
+            peak_slip, sliding_slip = (v[0] + (part - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
             # the lateral slip is the tangent of the angle
             slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
             pair.append(
                 _Curve(
-                    slope / (part * nominal), tmeasy_force(slope, most, at, slides, end, slips) / (part * nominal), 0.0
+                    slope / (part * nominal),
+                    tmeasy_force(slope, peak, peak_slip, sliding, sliding_slip, slips) / (part * nominal),
+                    0.0,
                 )
             )
         curves[part] = (pair[0], pair[1])
     keys: dict[str, dict[str, Any]] = {}
     for axis, name in (("y", "lateral"), ("x", "longitudinal")):
         curve = getattr(tyre, name)
-        own: dict[str, Any] = {
+        curve_keys: dict[str, Any] = {
             f"{prefix}{name}.{f}": list(getattr(curve, f))
             for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")
         }
-        own[f"{prefix}nominal_load"] = nominal
-        for q, used in (("k", "slope"), ("mu", "max_force"), ("peak", "max_slip"), ("zero", ""), ("left", "slide")):
+        curve_keys[f"{prefix}nominal_load"] = nominal
+        for q, stem in (("k", "slope"), ("mu", "max_force"), ("peak", "max_slip"), ("zero", ""), ("left", "slide")):
             keys[q + axis] = {
-                k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
+                k: v for k, v in curve_keys.items() if (stem and stem in k) or (q in ("k", "mu") and "nominal" in k)
             }
     keys["ratio"] = keys["muy"] | keys["mux"]
     return [*_curve_values(curves, keys), *_vertical(tyre, prefix)]
 
 
 def _curve_values(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
-    found = []
+    results = []
     for part, pair in curves.items():
         peaks: list[float] = []
         for axis, curve in zip("yx", pair, strict=True):
             to_deg, peak = 1.0 / DEG if axis == "y" else 1.0, float(np.max(curve.force))
             peaks.append(peak)
-            k, last = int(np.argmax(curve.force >= NEAR * peak)), float(np.interp(BEYOND, SLIPS, curve.force))
+            k, beyond_peak = int(np.argmax(curve.force >= NEAR * peak)), float(np.interp(BEYOND, SLIPS, curve.force))
             values = {
                 "k": curve.slope / to_deg,
                 "mu": peak,
                 "peak": float(SLIPS[k]) * to_deg,
                 "zero": abs(curve.at_zero),
-                "left": last / peak if peak > 0.0 else math.nan,
+                "left": beyond_peak / peak if peak > 0.0 else math.nan,
             }
             for name, value in values.items():
                 quantity = QUANTITIES[name + axis]
-                found.append(Value(quantity, value, keys[name + axis], PART[part]))
+                results.append(Value(quantity, value, keys[name + axis], PART[part]))
         ratio = peaks[0] / peaks[1] if peaks[1] > 0.0 else math.inf
-        found.append(Value(QUANTITIES["ratio"], ratio, keys["ratio"], PART[part]))
-    return found
+        results.append(Value(QUANTITIES["ratio"], ratio, keys["ratio"], PART[part]))
+    return results
 
 
 def _vertical(tyre: AnyTyre, prefix: str) -> Iterator[Value]:

@@ -56,17 +56,17 @@ def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
         if not unit and quantity in ("PRESSURE", "ANGLE"):
             continue
         if unit not in units:
-            given = f"is '{unit.lower()}'" if unit else "is missing"
+            fault = f"is '{unit.lower()}'" if unit else "is missing"
             words = ", ".join(word.lower() for word in units)
-            raise text.fault(f"{quantity} in [UNITS] {given}; it must be one of {words}.")
+            raise text.fault(f"{quantity} in [UNITS] {fault}; it must be one of {words}.")
         scales[quantity] = units[unit]
     length, force, time = (scales[quantity] for quantity in ("LENGTH", "FORCE", "TIME"))
     pressure = scales.get("PRESSURE", force / length**2)
-    found = dict(numbers)
+    si_numbers = dict(numbers)
     for key in numbers:
         if key in POWERS:
             of_length, of_force, of_time = POWERS[key]
-            found[key] *= length**of_length * force**of_force * time**of_time
+            si_numbers[key] *= length**of_length * force**of_force * time**of_time
         elif key in PRESSURES:
-            found[key] *= pressure
-    return found
+            si_numbers[key] *= pressure
+    return si_numbers

@@ -57,18 +57,18 @@ def crossed_hinges(
     ModelError
         A chain is neither; the message says what holds the group without mass.
     """
-    above = {group_of[joint.child]: joint for joint in moving.values()}
-    below: dict[str, list[Any]] = {}
+    joint_above = {group_of[joint.child]: joint for joint in moving.values()}
+    joints_below: dict[str, list[Any]] = {}
     for joint in moving.values():
-        below.setdefault(group_of[joint.parent], []).append(joint)
-    found, left = [], set(massless)
-    for group in sorted(massless, key=lambda g: list(above).index(g)):
-        if group not in left:
+        joints_below.setdefault(group_of[joint.parent], []).append(joint)
+    chains, pending = [], set(massless)
+    for group in sorted(massless, key=lambda g: list(joint_above).index(g)):
+        if group not in pending:
             continue
-        hinges = [above[group]]
+        hinges = [joint_above[group]]
         while group in massless:
-            left.discard(group)
-            following = below.get(group, [])
+            pending.discard(group)
+            following = joints_below.get(group, [])
             if len(following) != 1:
                 raise _no_mass(group, f"{len(following)} joints move further links against it")
             hinges.append(following[0])
@@ -86,15 +86,15 @@ def crossed_hinges(
             raise _no_mass(
                 first, f"the axes of {', '.join(repr(j.name) for j in hinges)} depend on each other as drawn"
             )
-        found.append(CrossedHinges(tuple(hinges), hinges[0].parent, hinges[-1].child, point, axes))
-    return found
+        chains.append(CrossedHinges(tuple(hinges), hinges[0].parent, hinges[-1].child, point, axes))
+    return chains
 
 
 def _meeting(points: Array, axes: Array) -> Array:
     """The point next to all lines, m."""
-    across = [np.eye(3) - np.outer(u, u) for u in axes]
+    projections = [np.eye(3) - np.outer(u, u) for u in axes]
     return np.asarray(
-        np.linalg.lstsq(np.sum(across, axis=0), sum(P @ p for P, p in zip(across, points, strict=True)))[0]
+        np.linalg.lstsq(np.sum(projections, axis=0), sum(P @ p for P, p in zip(projections, points, strict=True)))[0]
     )
 
 

@@ -34,20 +34,20 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
 
     `parts`: links with their frames, (4, 4), in earth axes. Raises `ModelError`: a link with a mass has no inertia.
     """
-    found = []
+    masses = []
     for link, pose in parts:
         inertial = link.inertial
         if inertial is None or not (inertial.mass or (inertial.inertia is not None and np.any(inertial.inertia))):
             continue
-        own = pose @ pose_of(inertial.origin)
+        frame = pose @ pose_of(inertial.origin)
         inertia = array(inertial.inertia, (3, 3), f"the inertia of the link '{link.name}'")
-        found.append((float(inertial.mass or 0.0), own[:3, 3], own[:3, :3] @ inertia @ own[:3, :3].T))
-    mass = sum(m for m, _, _ in found)
+        masses.append((float(inertial.mass or 0.0), frame[:3, 3], frame[:3, :3] @ inertia @ frame[:3, :3].T))
+    mass = sum(m for m, _, _ in masses)
     if mass <= 0.0:
-        return mass, np.zeros(3), sum((tensor for _, _, tensor in found), np.zeros((3, 3)))
-    com = sum((m * c for m, c, _ in found), np.zeros(3)) / mass
+        return mass, np.zeros(3), sum((tensor for _, _, tensor in masses), np.zeros((3, 3)))
+    com = sum((m * c for m, c, _ in masses), np.zeros(3)) / mass
     inertia = np.zeros((3, 3))
-    for m, c, tensor in found:
+    for m, c, tensor in masses:
         arm = c - com
         inertia += tensor + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
     return mass, com, inertia
@@ -69,9 +69,9 @@ def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
         if not np.max(moments) > 0.0 or np.max(np.abs(inertia - symmetric)) > SLIGHT * eigenvalues[-1]:
             raise
         moments = np.maximum(moments, THIN * np.max(moments))
-        near = np.sum(moments) - moments
-        change = float(np.max(np.abs(near - eigenvalues))) / eigenvalues[-1]
-        values, nearest = (", ".join(f"{v:.6g}" for v in principal) for principal in (eigenvalues, near))
+        corrected = np.sum(moments) - moments
+        change = float(np.max(np.abs(corrected - eigenvalues))) / eigenvalues[-1]
+        values, nearest = (", ".join(f"{v:.6g}" for v in principal) for principal in (eigenvalues, corrected))
         fault = f"{what} has the principal values {values} kg m2, which no mass distribution can have"
         if change > SLIGHT:
             raise ModelError(
@@ -79,4 +79,4 @@ def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
                 f"Correct the file, for example to those; up to {100.0 * SLIGHT:g} % are corrected here with a warning."
             ) from error
         note = f"{fault}; {nearest} are used instead, {100.0 * change:.2g} % of the largest away."
-        return np.asarray((axes * near) @ axes.T), note
+        return np.asarray((axes * corrected) @ axes.T), note

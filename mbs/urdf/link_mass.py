@@ -69,12 +69,12 @@ def link_mass(link: Element, factors: Factors) -> LinkMass:
         return LinkMass(0.0, np.zeros(3), np.zeros((3, 3)), link.line)
     mass, origin, inertia = (inertial.first(tag) for tag in ("mass", "origin", "inertia"))
     centre = np.zeros(3) if origin is None else factors.lengths * factors.centres * np.array(origin.numbers("xyz"))
-    heavy = 0.0 if mass is None else factors.masses * mass.numbers("value")[0]
+    mass_value = 0.0 if mass is None else factors.masses * mass.numbers("value")[0]
     upper = np.zeros((3, 3))
     if inertia is not None:
         upper[np.triu_indices(3)] = [factors.inertias * inertia.numbers(name)[0] for name in INERTIA]
     tensor = upper + np.triu(upper, 1).T
-    least = tensor[0, 0]
-    if factors.solid and least > 0.0 and abs(math.log10(least) % 1.0) < 1e-9 and np.all(tensor == least * np.eye(3)):
-        tensor = 0.4 * heavy * (heavy / (4.0 / 3.0 * math.pi * SOLID)) ** (2.0 / 3.0) * np.eye(3)
-    return LinkMass(heavy, centre, tensor, inertial.line)
+    moment = tensor[0, 0]
+    if factors.solid and moment > 0.0 and abs(math.log10(moment) % 1.0) < 1e-9 and np.all(tensor == moment * np.eye(3)):
+        tensor = 0.4 * mass_value * (mass_value / (4.0 / 3.0 * math.pi * SOLID)) ** (2.0 / 3.0) * np.eye(3)
+    return LinkMass(mass_value, centre, tensor, inertial.line)

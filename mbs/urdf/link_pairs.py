@@ -24,29 +24,29 @@ def pair_values(
 ) -> list[Value]:
     """Ratios of masses and of moments of left and right links, and distances of their centres from mirror images."""
     pairs = [(a, b) for a in parts if (b := other_side(a)) != a and b in parts]
-    found = []
+    values = []
     for a, b in pairs:
         left, right = parts[a], parts[b]
         of = f"links '{a}' and '{b}',"
         keys = {f"mass of '{n}' in line {parts[n].line}": parts[n].mass for n in (a, b)}
-        found.append(Value(QUANTITIES["sides"], _ratio(left.mass, right.mass), keys, of))
+        values.append(Value(QUANTITIES["sides"], _ratio(left.mass, right.mass), keys, of))
         keys = {f"inertia of '{n}' in line {parts[n].line}": parts[n].moment for n in (a, b)}
-        found.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, of))
+        values.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, of))
     if len(pairs) < FEWEST_PAIRS or scale <= SMALLEST:
-        return found
+        return values
     centres = {
         n: factors.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair
     }
     sums = np.array([centres[a] + centres[b] for a, b in pairs])
     gaps = np.array([centres[a] - centres[b] for a, b in pairs])
-    off = np.stack([np.where(np.eye(3)[k] > 0.0, sums - np.median(sums, axis=0), gaps) for k in range(3)])
-    far = np.linalg.norm(off, axis=2) / scale
-    plane = far[int(np.argmin(np.median(far, axis=1)))]
-    if np.quantile(plane, 0.4) < SAME:  # drawn as each other's image
-        for (a, b), value in zip(pairs, plane, strict=True):
+    differences = np.stack([np.where(np.eye(3)[k] > 0.0, sums - np.median(sums, axis=0), gaps) for k in range(3)])
+    distances = np.linalg.norm(differences, axis=2) / scale
+    deviations = distances[int(np.argmin(np.median(distances, axis=1)))]
+    if np.quantile(deviations, 0.4) < SAME:  # drawn as each other's image
+        for (a, b), value in zip(pairs, deviations, strict=True):
             keys = {f"place of '{n}' in line {parts[n].line}": centres[n].tolist() for n in (a, b)}
-            found.append(Value(QUANTITIES["image"], float(value), keys, f"links '{a}' and '{b}',"))
-    return found
+            values.append(Value(QUANTITIES["image"], float(value), keys, f"links '{a}' and '{b}',"))
+    return values
 
 
 def other_side(name: str) -> str:

@@ -23,27 +23,27 @@ def mimic_joints_of(joints: Mapping[str, Any], prescribed: Collection[str], what
     `prescribed`: joints that the user places or moves; `what`: the robot, for messages. Raises `ModelError`: one
     follows a joint that does not move or is not there, or itself; its multiplier is zero; it is prescribed.
     """
-    left: dict[str, MimicJoint] = {}
+    pending: dict[str, MimicJoint] = {}
     for name, joint in joints.items():
         mimic = joint.mimic
         if mimic is None:
             continue
-        says = f"{what}: the joint '{name}' follows '{mimic.joint}' (mimic)"
+        subject = f"{what}: the joint '{name}' follows '{mimic.joint}' (mimic)"
         if mimic.joint not in joints:
-            raise ModelError(f"{says}, which is not a moving joint; these are {', '.join(joints)}.")
+            raise ModelError(f"{subject}, which is not a moving joint; these are {', '.join(joints)}.")
         if name in prescribed:
-            raise ModelError(f"{says} and is given a place or a motion; give it to '{mimic.joint}'.")
+            raise ModelError(f"{subject} and is given a place or a motion; give it to '{mimic.joint}'.")
         multiplier = 1.0 if mimic.multiplier is None else float(mimic.multiplier)
         if multiplier == 0.0:
-            raise ModelError(f"{says} with a multiplier of 0; make it a fixed joint.")
-        left[name] = MimicJoint(name, mimic.joint, multiplier, float(mimic.offset or 0.0))
+            raise ModelError(f"{subject} with a multiplier of 0; make it a fixed joint.")
+        pending[name] = MimicJoint(name, mimic.joint, multiplier, float(mimic.offset or 0.0))
     ordered: dict[str, MimicJoint] = {}
-    while left:
-        ready = {n: f for n, f in left.items() if f.leader not in left}
+    while pending:
+        ready = {n: f for n, f in pending.items() if f.leader not in pending}
         if not ready:
-            raise ModelError(f"{what}: the joints {', '.join(left)} follow each other in a ring (mimic).")
+            raise ModelError(f"{what}: the joints {', '.join(pending)} follow each other in a ring (mimic).")
         ordered |= ready
-        left = {n: f for n, f in left.items() if n not in ready}
+        pending = {n: f for n, f in pending.items() if n not in ready}
     return ordered
 
 

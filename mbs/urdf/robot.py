@@ -151,8 +151,8 @@ def _read(file: Path) -> tuple[Any, Element]:
     def reader(path: Path) -> Any:
         import yourdfpy
 
-        quiet = {"build_scene_graph": False, "load_meshes": False, "load_collision_meshes": False}
-        return yourdfpy.URDF.load(str(path), **quiet).robot
+        options = {"build_scene_graph": False, "load_meshes": False, "load_collision_meshes": False}
+        return yourdfpy.URDF.load(str(path), **options).robot
 
     try:
         import yourdfpy  # noqa: F401
@@ -160,18 +160,18 @@ def _read(file: Path) -> tuple[Any, Element]:
         raise ModelError(f"URDF files are read with yourdfpy. {missing_module(error, 'urdf')}") from error
 
     source = read_source(read_bytes(file, _LARGEST, ModelError, file.name), file.name)
-    found = read_foreign(file, reader)
-    if not found.links:
+    robot = read_foreign(file, reader)
+    if not robot.links:
         raise ModelError(f"{file.name} has no links; it is not a URDF file.")
-    return found, source
+    return robot, source
 
 
 def _tree(urdf: Any, what: str) -> dict[str, Any]:
     """The joint above each link, None of the root; from the root on."""
     links = [link.name for link in urdf.links]
     for kind, names in (("links", links), ("joints", [joint.name for joint in urdf.joints])):
-        if twice := [name for name, times in Counter(names).items() if times > 1]:
-            raise ModelError(f"{what}: several {kind} are named '{twice[0]}'; names must differ.")
+        if duplicates := [name for name, times in Counter(names).items() if times > 1]:
+            raise ModelError(f"{what}: several {kind} are named '{duplicates[0]}'; names must differ.")
     above: dict[str, Any] = dict.fromkeys(links)
     for joint in urdf.joints:
         for end in (joint.parent, joint.child):
@@ -185,10 +185,10 @@ def _tree(urdf: Any, what: str) -> dict[str, Any]:
         raise ModelError(f"{what}: {len(roots)} links are no child of a joint; a robot has one root.")
     ordered: dict[str, Any] = {roots[0]: None}
     while len(ordered) < len(links):
-        more = {n: j for n, j in above.items() if n not in ordered and j is not None and j.parent in ordered}
-        if not more:
+        following = {n: j for n, j in above.items() if n not in ordered and j is not None and j.parent in ordered}
+        if not following:
             raise ModelError(f"{what}: its joints make a ring.")
-        ordered |= more
+        ordered |= following
     return ordered
 
 
@@ -198,36 +198,38 @@ def _set_poses(robot: Robot, below: Mapping[str, Any], at: Mapping[str, float]) 
         if joint is None:
             robot.poses[name] = np.eye(4)
             continue
-        moved, value = np.eye(4), at.get(joint.name, 0.0)
+        displacement, value = np.eye(4), at.get(joint.name, 0.0)
         if joint.type in TURNING:
-            moved[:3, :3] = Rotation.from_rotvec(value * _axis(joint)).as_matrix()
+            displacement[:3, :3] = Rotation.from_rotvec(value * _axis(joint)).as_matrix()
         elif joint.type == "prismatic":
-            moved[:3, 3] = value * _axis(joint)
-        robot.poses[name] = robot.poses[joint.parent] @ pose_of(joint.origin) @ moved
+            displacement[:3, 3] = value * _axis(joint)
+        robot.poses[name] = robot.poses[joint.parent] @ pose_of(joint.origin) @ displacement
 
 
 def _turning(below: Mapping[str, Any], floating: bool) -> frozenset[str]:
     """Links that can turn; the inertia of others has no effect."""
-    found: set[str] = set()
+    turning: set[str] = set()
     for name, joint in below.items():
-        if floating or (joint is not None and (joint.type in TURNING or joint.parent in found)):
-            found.add(name)
-    return frozenset(found)
+        if floating or (joint is not None and (joint.type in TURNING or joint.parent in turning)):
+            turning.add(name)
+    return frozenset(turning)
 
 
 def _free_root(urdf: Any, joints: dict[str, Any], below: dict[str, Any], floating: bool, what: str) -> None:
     """Remove a floating joint between a root without mass and the only link on it; that link becomes the root."""
-    free = next((joint for joint in joints.values() if joint.type == "floating"), None)
-    if free is None:
+    floating_joint = next((joint for joint in joints.values() if joint.type == "floating"), None)
+    if floating_joint is None:
         return
-    root, *rest = below
-    alone = [joint.name for joint in below.values() if joint is not None and joint.parent == root] == [free.name]
-    if not alone or mass_of([(link, np.eye(4)) for link in urdf.links if link.name == root])[0] > 0.0:
+    root, *descendants = below
+    is_single = [joint.name for joint in below.values() if joint is not None and joint.parent == root] == [
+        floating_joint.name
+    ]
+    if not is_single or mass_of([(link, np.eye(4)) for link in urdf.links if link.name == root])[0] > 0.0:
         return
     if not floating:
-        raise ModelError(f"{what}: the joint '{free.name}' is floating; floating=True takes it so.")
-    del joints[free.name], below[root]
-    below[rest[0]] = None
+        raise ModelError(f"{what}: the joint '{floating_joint.name}' is floating; floating=True takes it so.")
+    del joints[floating_joint.name], below[root]
+    below[descendants[0]] = None
 
 
 def _groups(below: Mapping[str, Any]) -> dict[str, str]:
@@ -243,10 +245,10 @@ def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | No
     links, massless = {link.name: link for link in urdf.links}, set()
     corrections: list[str] = []
     for group in dict.fromkeys(groups.values()):
-        own = [n for n, g in groups.items() if g == group]
+        members = [n for n, g in groups.items() if g == group]
         body = robot.model.ground
         if group != ground:
-            mass, com, inertia = mass_of([(links[n], robot.poses[n]) for n in own])
+            mass, com, inertia = mass_of([(links[n], robot.poses[n]) for n in members])
             if mass < 0.0 or (mass == 0.0 and inertia.any()):
                 raise ModelError(
                     f"{what}: the link '{group}', and what is fixed to it, moves with a mass of {mass:g} kg and an "
@@ -259,10 +261,10 @@ def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | No
             inertia, correction = possible_inertia(inertia, of)
             corrections += filter(None, [correction])
             body = robot.model.body(group, mass=mass, com=com, inertia=inertia)
-        robot.bodies |= dict.fromkeys(own, body)
+        robot.bodies |= dict.fromkeys(members, body)
     if corrections:
-        more = f" So are those of {len(corrections) - 1} more." if len(corrections) > 1 else ""
-        warnings.warn(corrections[0] + more, UrdfWarning, stacklevel=3)
+        suffix = f" So are those of {len(corrections) - 1} more." if len(corrections) > 1 else ""
+        warnings.warn(corrections[0] + suffix, UrdfWarning, stacklevel=3)
     return massless
 
 
@@ -270,8 +272,8 @@ def _cross(
     robot: Robot, crossed: CrossedHinges, guides: Mapping[str, PPoly], followers: Mapping[str, MimicJoint], what: str
 ) -> None:
     """A universal or ball joint in the place of hinges with links without mass between them."""
-    of = {joint.name for joint in crossed.hinges}
-    if prescribed := of & (set(guides) | {f.leader for f in followers.values()}):
+    names = {joint.name for joint in crossed.hinges}
+    if prescribed := names & (set(guides) | {f.leader for f in followers.values()}):
         raise ModelError(
             f"{what}: the joints {crossed.names}, with links without mass, are one joint without angles, and "
             f"'{min(prescribed)}' is given a motion or followed; give its links a small mass and inertia."
@@ -290,16 +292,16 @@ def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, drive
     first, second = robot.bodies[joint.parent], robot.bodies[joint.child]
     point, axis = frame[:3, 3], frame[:3, :3] @ _axis(joint)
     effort = float(joint.limit.effort or 0.0) if joint.limit is not None else 0.0
-    most = effort if effort > 0.0 else FREE
+    limit = effort if effort > 0.0 else FREE
     if joint.type == "prismatic":
         m.prismatic(name, second, first, axis=axis, point=point)
-        along = first.vector(axis)
+        slide_axis = first.vector(axis)
         base = robot.poses[joint.parent] @ pose_of(joint.origin)
         offset = second.point(point) - first.point(base[:3, 3])
         if driven:
-            _push(robot, joint, axis, point, most)
-        m.sense_vector(f"{name}.position", offset, [along], description=f"of the joint '{name}'")
-        m.sense_vector(f"{name}.speed", offset, [along], order=1, description=f"of the joint '{name}'")
+            _push(robot, joint, axis, point, limit)
+        m.sense_vector(f"{name}.position", offset, [slide_axis], description=f"of the joint '{name}'")
+        m.sense_vector(f"{name}.speed", offset, [slide_axis], order=1, description=f"of the joint '{name}'")
         return
     m.revolute(name, first, second, point=point, axis=axis)
     angle = robot.angles[name] = m.relative_angle(f"{name} angle", first, second, axis=axis, zero=value)
@@ -309,7 +311,7 @@ def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, drive
     elif driven:
         text = f"torque of the joint '{name}'"
         m.torque_on(
-            f"{name} motor", angle, input=m.input(f"{name}.torque", min=-most, max=most, unit="N.m", description=text)
+            f"{name} motor", angle, input=m.input(f"{name}.torque", min=-limit, max=limit, unit="N.m", description=text)
         )
     damping = _loss(joint, "damping")
     if damping:
@@ -323,10 +325,10 @@ def _push(robot: Robot, joint: Any, axis: Pose, point: Pose, most: float) -> Non
     m, name = robot.model, joint.name
     first, second = robot.bodies[joint.parent], robot.bodies[joint.child]
     force = m.input(f"{name}.force", min=-most, max=most, unit="N", description=f"force along the joint '{name}'")
-    across = perpendicular(axis)
+    normals = perpendicular(axis)
     for body, sign in ((second, 1.0), (first, -1.0)):
         if not body.is_ground:
-            axes = [first.vector(sign * axis), *(first.vector(v) for v in across)]
+            axes = [first.vector(sign * axis), *(first.vector(v) for v in normals)]
             m.add(BodyForce([force.index, None, None]).record(f"{name} on {body.name}", body.point(point), axes))
 
 
@@ -337,41 +339,46 @@ def _couple(robot: Robot, joints: Mapping[str, Any], follower: MimicJoint) -> No
     def slides(joint: Any) -> tuple[Body, Body, Pose]:
         return robot.bodies[joint.child], robot.bodies[joint.parent], robot.poses[joint.child][:3, :3] @ _axis(joint)
 
-    own, leader = joints[follower.name], joints[follower.leader]
-    if own.type in TURNING and leader.type in TURNING:
-        m.gear(name, robot.angles[own.name], robot.angles[leader.name], ratio=ratio)
-    elif own.type in TURNING:
+    driven, leader = joints[follower.name], joints[follower.leader]
+    if driven.type in TURNING and leader.type in TURNING:
+        m.gear(name, robot.angles[driven.name], robot.angles[leader.name], ratio=ratio)
+    elif driven.type in TURNING:
         body, carrier, axis = slides(leader)
-        m.rack(name, robot.angles[own.name], body, carrier=carrier, axis=axis, radius=1.0 / ratio)
+        m.rack(name, robot.angles[driven.name], body, carrier=carrier, axis=axis, radius=1.0 / ratio)
     elif leader.type in TURNING:
-        body, carrier, axis = slides(own)
+        body, carrier, axis = slides(driven)
         m.rack(name, robot.angles[leader.name], body, carrier=carrier, axis=axis, radius=ratio)
     else:
-        (a, on_a, axis_a), (b, on_b, axis_b) = slides(own), slides(leader)
+        (a, on_a, axis_a), (b, on_b, axis_b) = slides(driven), slides(leader)
         m.coupled_slides(name, a, b, carrier_1=on_a, carrier_2=on_b, axis_1=axis_a, axis_2=axis_b, ratio=ratio)
 
 
 def _report_omitted(joints: Collection[Any], crossed: Iterable[CrossedHinges], what: str) -> None:
-    left = []
-    one: set[str] = set()
+    omissions = []
+    merged: set[str] = set()
     for hinges in crossed:
         kind = "ball" if len(hinges.hinges) == 3 else "universal"
-        one |= {joint.name for joint in hinges.hinges}
-        left.append(f"angles and torques of {hinges.names}, which are one {kind} joint, their links being without mass")
+        merged |= {joint.name for joint in hinges.hinges}
+        omissions.append(
+            f"angles and torques of {hinges.names}, which are one {kind} joint, their links being without mass"
+        )
     for joint in joints:
         friction, damping = _loss(joint, "friction"), _loss(joint, "damping")
         if friction:
-            left.append(f"friction of '{joint.name}', {friction:g}")
-        if damping and (joint.type == "prismatic" or joint.name in one):
-            left.append(f"damping of '{joint.name}', {damping:g} {'N s/m' if joint.type == 'prismatic' else 'N m s'}")
-    free = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
-    if free:
+            omissions.append(f"friction of '{joint.name}', {friction:g}")
+        if damping and (joint.type == "prismatic" or joint.name in merged):
+            omissions.append(
+                f"damping of '{joint.name}', {damping:g} {'N s/m' if joint.type == 'prismatic' else 'N m s'}"
+            )
+    unlimited = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
+    if unlimited:
         warning = (
-            f"{what}: the limit of {some_of(map(repr, free), _MOST)} has no effort, or 0; {FREE:g} N m or N is taken."
+            f"{what}: the limit of {some_of(map(repr, unlimited), _MOST)} has no effort, or 0; "
+            f"{FREE:g} N m or N is taken."
         )
         warnings.warn(warning, UrdfWarning, stacklevel=3)
-    if left:
-        text = f"{what}: the model is without {some_of(left, _MOST, '; ')}. Add elements of mbs.elements for them."
+    if omissions:
+        text = f"{what}: the model is without {some_of(omissions, _MOST, '; ')}. Add elements of mbs.elements for them."
         warnings.warn(text, UrdfWarning, stacklevel=3)
 
 

@@ -69,19 +69,21 @@ def robot_plausibility(
     `turning`: links whose inertia has an effect.
     """
     values = partial(_values, root, poses, at, turning)
-    found = values(Factors())
-    keys = {key for v in found if not v.inside() for key in v.keys}
+    current = values(Factors())
+    keys = {key for v in current if not v.inside() for key in v.keys}
     mistakes = []
     for words, names, factors in UNDONE:
-        own = {key for key in keys if key.split(" of ")[0] in names and (factors not in EVERYWHERE or "'" not in key)}
-        single = {match[1] for key in own if (match := re.search("'(.*)'", key))}
-        few = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
-        if not few or len(single) > 1:
-            mistakes.append(Mistake(words, frozenset(own), partial(values, factors), guessed=few))
-        for name in sorted(single) if few else ():
-            alone = frozenset(key for key in own if f"'{name}'" in key)
-            mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, factors._replace(only=name))))
-    return Plausibility(what, found, mistakes)
+        affected = {
+            key for key in keys if key.split(" of ")[0] in names and (factors not in EVERYWHERE or "'" not in key)
+        }
+        single = {match[1] for key in affected if (match := re.search("'(.*)'", key))}
+        confined = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
+        if not confined or len(single) > 1:
+            mistakes.append(Mistake(words, frozenset(affected), partial(values, factors), guessed=confined))
+        for name in sorted(single) if confined else ():
+            link_keys = frozenset(key for key in affected if f"'{name}'" in key)
+            mistakes.append(Mistake(f"{words} of '{name}'", link_keys, partial(values, factors._replace(only=name))))
+    return Plausibility(what, current, mistakes)
 
 
 @np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
@@ -90,38 +92,43 @@ def _values(
 ) -> list[Value]:
     frames = np.array([pose[:3, 3] for pose in poses.values()]) * factors.lengths
     links = {link.attributes.get("name", ""): link for link in root.all("link")}
-    parts = {name: part for name, link in links.items() if (part := link_mass(link, factors.of(name))).mass > 0.0}
-    total, far = sum(p.mass for p in parts.values()), [float(np.linalg.norm(p.centre)) for p in parts.values()]
-    scale = max(_spread(frames), float(np.median(far or [0.0])))
-    size = max(scale, 2.0 * max(far, default=0.0))
+    link_masses = {
+        name: properties for name, link in links.items() if (properties := link_mass(link, factors.of(name))).mass > 0.0
+    }
+    total, distances = (
+        sum(p.mass for p in link_masses.values()),
+        [float(np.linalg.norm(p.centre)) for p in link_masses.values()],
+    )
+    scale = max(_spread(frames), float(np.median(distances or [0.0])))
+    size = max(scale, 2.0 * max(distances, default=0.0))
     if not total > 0.0:
         return list(_joints(root, at, factors))
     masses: dict[str, Any] = {"mass of links": total}
-    found = [Value(QUANTITIES["mass"], total, masses)]
+    values = [Value(QUANTITIES["mass"], total, masses)]
     if size > SMALLEST:
-        lengths = {"xyz of origins": scale, "centre of links": max(far)}
-        found.append(Value(QUANTITIES["size"], size, lengths))
-        found.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
-    if len(parts) > 1:
-        name = max(parts, key=lambda n: parts[n].mass)
-        heaviest, others = parts[name].mass, sum(p.mass for n, p in parts.items() if n != name)
-        found.append(Value(QUANTITIES["heaviest"], heaviest / others, {f"mass of '{name}'": heaviest}))
-    least, most = LEAST_SHARE * total, LARGE_SHARE * sum(p.moment for p in parts.values())
-    own = {n: p for n, p in parts.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
-    found += _densities({n: p for n, p in own.items() if n in turning}, masses)
-    found += _reaches(root, own, factors) + pair_values(own, poses, scale, factors)
+        lengths = {"xyz of origins": scale, "centre of links": max(distances)}
+        values.append(Value(QUANTITIES["size"], size, lengths))
+        values.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
+    if len(link_masses) > 1:
+        name = max(link_masses, key=lambda n: link_masses[n].mass)
+        heaviest, rest_mass = link_masses[name].mass, sum(p.mass for n, p in link_masses.items() if n != name)
+        values.append(Value(QUANTITIES["heaviest"], heaviest / rest_mass, {f"mass of '{name}'": heaviest}))
+    least, most = LEAST_SHARE * total, LARGE_SHARE * sum(p.moment for p in link_masses.values())
+    considered = {n: p for n, p in link_masses.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
+    values += _densities({n: p for n, p in considered.items() if n in turning}, masses)
+    values += _reaches(root, considered, factors) + pair_values(considered, poses, scale, factors)
     efforts = {
         (joint.attributes.get("name", ""), limit.line): factors.efforts * limit.numbers("effort")[0]
         for joint in root.all("joint")
         if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
         if _is_meaningful(limit.numbers("effort")[0])
     }
-    if efforts and scale > SMALLEST and all(v.inside() for v in found[:3]) and max(efforts.values()) > 0.0:
+    if efforts and scale > SMALLEST and all(v.inside() for v in values[:3]) and max(efforts.values()) > 0.0:
         name, line = max(efforts, key=efforts.__getitem__)
         most = efforts[name, line]
         keys = {f"effort of '{name}' in line {line}": most}
-        found.append(Value(QUANTITIES["effort"], most / (GRAVITY * total * scale), keys))
-    return [*found, *_joints(root, at, factors)]
+        values.append(Value(QUANTITIES["effort"], most / (GRAVITY * total * scale), keys))
+    return [*values, *_joints(root, at, factors)]
 
 
 def _is_meaningful(limit: float) -> bool:
@@ -130,37 +137,37 @@ def _is_meaningful(limit: float) -> bool:
 
 
 def _densities(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list[Value]:
-    found = []
+    values = []
     for name, p in parts.items():
         keys = {f"inertia of '{name}' in line {p.line}": p.moment, f"mass of '{name}'": p.mass}
-        found.append(Value(QUANTITIES["density"], p.density, keys, f"link '{name}',"))
-    if len(found) > 1 and all(v.inside() for v in found):  # else those outside are reported
+        values.append(Value(QUANTITIES["density"], p.density, keys, f"link '{name}',"))
+    if len(values) > 1 and all(v.inside() for v in values):  # else those outside are reported
         keys = {"inertia of links": max(p.moment for p in parts.values()), **masses}
-        found.append(Value(QUANTITIES["densities"], float(np.median([v.value for v in found])), keys))
-    return found
+        values.append(Value(QUANTITIES["densities"], float(np.median([v.value for v in values])), keys))
+    return values
 
 
 def _reaches(root: Element, parts: Mapping[str, LinkMass], factors: Factors) -> list[Value]:
     """Centres of mass and positions of joints, relative to those of their neighbours."""
-    ends: dict[str, list[float]] = {}
+    distances: dict[str, list[float]] = {}
     offsets = {}
     for joint in root.all("joint"):
-        origin, beside = joint.first("origin"), [joint.first(end) for end in ("parent", "child")]
+        origin, link_elements = joint.first("origin"), [joint.first(end) for end in ("parent", "child")]
         if origin is not None:
-            far = factors.lengths * float(np.linalg.norm(origin.numbers("xyz")))
-            for link in filter(None, beside):
-                ends.setdefault(link.attributes.get("link", ""), []).append(far)
-            offsets[f"xyz of '{joint.attributes.get('name', '')}' in line {origin.line}"] = far
-    found = []
+            distance = factors.lengths * float(np.linalg.norm(origin.numbers("xyz")))
+            for link in filter(None, link_elements):
+                distances.setdefault(link.attributes.get("link", ""), []).append(distance)
+            offsets[f"xyz of '{joint.attributes.get('name', '')}' in line {origin.line}"] = distance
+    values = []
     for name, p in parts.items():
-        reach = max(ends.get(name, []), default=0.0) + math.sqrt(p.moment / p.mass)
+        reach = max(distances.get(name, []), default=0.0) + math.sqrt(p.moment / p.mass)
         keys: dict[str, Any] = {f"centre of '{name}' in line {p.line}": p.centre.tolist()}
         keys[f"inertia of '{name}' in line {p.line}"] = p.moment
-        found.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
-    if len(offsets) > FEW and (others := sum(offsets.values()) - max(offsets.values())) > SMALLEST:
+        values.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
+    if len(offsets) > FEW and (remainder := sum(offsets.values()) - max(offsets.values())) > SMALLEST:
         key = max(offsets, key=offsets.__getitem__)
-        found.append(Value(QUANTITIES["longest"], offsets[key] / others, {key: offsets[key]}))
-    return found
+        values.append(Value(QUANTITIES["longest"], offsets[key] / remainder, {key: offsets[key]}))
+    return values
 
 
 def _joints(root: Element, at: Mapping[str, float], factors: Factors) -> Iterator[Value]:

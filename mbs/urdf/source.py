@@ -60,8 +60,8 @@ def read_source(data: bytes, what: str) -> Element:
     Raises `ModelError`: it is not XML, has macros, an element twice that may occur once, text in place of a number, or
     an inertia without a part; with the line.
     """
-    parser, top = expat.ParserCreate(), Element("", 0, {})
-    path = [top]
+    parser, document = expat.ParserCreate(), Element("", 0, {})
+    path = [document]
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         if tag.startswith("xacro:"):
@@ -75,19 +75,19 @@ def read_source(data: bytes, what: str) -> Element:
         parser.Parse(data, True)
     except expat.ExpatError as error:
         raise ModelError(f"{what} is damaged or no URDF file; as XML it ends with {error}.") from None
-    root = top.inside[0]
-    for of in root.inside:
-        if of.tag in ("link", "joint"):
-            _check(of, f"the {of.tag} {brief(of.attributes.get('name', ''))}", what)
+    root = document.inside[0]
+    for child in root.inside:
+        if child.tag in ("link", "joint"):
+            _check(child, f"the {child.tag} {brief(child.attributes.get('name', ''))}", what)
     return root
 
 
 def _check(element: Element, whose: str, what: str) -> None:
     for tag in _ONCE.get(element.tag, ()):
-        first, *more = [*element.all(tag), *[None] * 2][:2]
+        first, *following = [*element.all(tag), *[None] * 2][:2]
         if first is None:
             continue
-        if more != [None]:
+        if following != [None]:
             second = list(element.all(tag))[1]
             raise ModelError(
                 f"{what}, line {second.line}: {whose} has a second <{tag}>, after that of line {first.line}; "

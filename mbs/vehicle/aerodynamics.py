@@ -36,9 +36,16 @@ class Aerodynamics(Section):
             if area is None:
                 continue
             x, _, z = axle.wheel.centre
-            place = (x, 0.0, z)
+            position = (x, 0.0, z)
             lift = b.m.lift(
-                f"lift {name}", frame, place, forward=FORWARD, up=UP, lift_area=area, air_density=air_density, wind=wind
+                f"lift {name}",
+                frame,
+                position,
+                forward=FORWARD,
+                up=UP,
+                lift_area=area,
+                air_density=air_density,
+                wind=wind,
             )
             b.tie(self, f"lift_area_{name}", lift, "lift_area")
             b.tie(self, "air_density", lift, "air_density")

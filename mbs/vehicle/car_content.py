@@ -118,11 +118,11 @@ class CarContent(Section):
                 "ports.tyre and ports.road are both given; the road under a tyre at a port is that of the program that "
                 "has the tyre, so leave one of them out."
             )
-        for port, what in (("gear", "asks for a gear"), ("clutch", "opens the clutch")):
+        for port, action in (("gear", "asks for a gear"), ("clutch", "opens the clutch")):
             if getattr(self.ports, port) is None or (self.ports.torque is None and self.drive.kind == "automatic"):
                 continue
             why = "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
-            yield f"ports.{port} {what} of an automatic drive, and {why}; leave it out."
+            yield f"ports.{port} {action} of an automatic drive, and {why}; leave it out."
         port_of_rack = self.ports.steering
         if port_of_rack is not None and port_of_rack != self.steering.rack_port:
             yield (
@@ -134,13 +134,13 @@ class CarContent(Section):
 
     def values(self) -> dict[str, float]:
         """Numbers that a finished FMU of the car has as parameters, by key path."""
-        found: dict[str, float] = {}
+        values: dict[str, float] = {}
         for section in sections_of(self):
             for field in type(section).model_fields:
                 quantity, value = section.quantity(field), getattr(section, field)
                 if quantity is not None and quantity.change is not None and value is not None:
-                    found |= section.numbers(field)
-        return found
+                    values |= section.numbers(field)
+        return values
 
     def order(self, path: str) -> int:
         """Place of a key path in the file's type. `path`: of a number."""
@@ -177,5 +177,5 @@ class CarContent(Section):
         """Least and largest x and y of the car as drawn, with a hand's breadth around."""
         margin = 0.13
         x = self.rear.wheel.centre[0] - self.rear.tyre.radius, self.front.wheel.centre[0] + self.front.tyre.radius
-        half = 0.5 * self.vehicle.width
-        return (x[0] - margin, x[1] + margin), (-half - margin, half + margin)
+        half_width = 0.5 * self.vehicle.width
+        return (x[0] - margin, x[1] + margin), (-half_width - margin, half_width + margin)

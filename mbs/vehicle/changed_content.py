@@ -22,12 +22,12 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
     """
     if not isinstance(values, Mapping):
         raise CarFileError(f"{what}: the changes are {shown(values)}; they must be a mapping from key paths to values.")
-    new = copy.deepcopy(dict(data))
+    content = copy.deepcopy(dict(data))
     for path, value in values.items():
         if not isinstance(path, str) or not all(path.split(".")):
             raise CarFileError(f'{what}: {shown(path)} is not a key path; one is "front.spring.stiffness".')
         *tables, last = path.split(".")
-        table: Any = new
+        table: Any = content
         for k, key in enumerate(tables):
             if isinstance(table, dict):
                 of_list = k + 1 == len(tables) and last in PRODUCTS
@@ -42,15 +42,15 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
             table[_index(table, last, tables, what)] = _plain(value)
         else:
             table[last] = _plain(value)
-    return new
+    return content
 
 
 def _index(table: list[Any], key: str, tables: list[str], what: str) -> int:
     """Index of an element of a list, by its number or as parameters call it."""
     key = PARTS.get(key, key)
     if not key.isdigit() or int(key) >= len(table):
-        where = ".".join(tables)
-        raise CarFileError(f"{what}: {where}.{key} is not known; {where} is a list of {len(table)}, counted from 0.")
+        path = ".".join(tables)
+        raise CarFileError(f"{what}: {path}.{key} is not known; {path} is a list of {len(table)}, counted from 0.")
     return int(key)
 
 

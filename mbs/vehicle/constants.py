@@ -7,19 +7,19 @@ from mbs.vehicle.car_content import CarContent
 def vehicle_constants(m: Model, car: CarContent) -> None:
     """Add dimensions, steering and tyre friction as constants ``vehicle.*``, and the tables of springs and dampers."""
     drawn = ", with the ratio of the car file"  # a constant of FMI stays where a parameter changes the ratio
-    turned, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
+    wheel_angle, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
     for name, value, unit, text in (
         ("wheelbase", car.wheelbase, "m", "distance between the axles"),
         ("track_front", car.front.track, "m", "distance between the centres of the front wheels"),
         ("track_rear", car.rear.track, "m", "distance between the centres of the rear wheels"),
         ("length", car.vehicle.length, "m", "length of the outline, centred on the origin of the vehicle's axes"),
         ("width", car.vehicle.width, "m", "width of the outline without mirrors, centred on that origin too"),
-        ("steering_wheel_angle_max", turned, "rad", f"angle of the steering wheel at steering = 1{drawn}"),
+        ("steering_wheel_angle_max", wheel_angle, "rad", f"angle of the steering wheel at steering = 1{drawn}"),
         ("steering_frequency", car.steering.frequency, "Hz", "of the follower from demand to steering wheel"),
         ("front_wheel_angle_max", angle, "rad", "mean steering angle of the front wheels at steering = 1"),
         (
             "steering_ratio",
-            turned / angle,
+            wheel_angle / angle,
             "1",
             f"angle of the steering wheel over that of the front wheels, both full{drawn}",
         ),

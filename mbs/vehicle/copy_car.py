@@ -17,13 +17,13 @@ def copy_car(name: str, folder: Path) -> list[Path]:
     Raises `CarFileError`: there is no such car, or the folder exists; `FileError`: it cannot be written.
     """
     if name not in car_names():
-        near = did_you_mean(name, car_names(), f"the cars of the package are {', '.join(car_names())}", 1)
-        raise CarFileError(f"There is no car {shown(name)} to copy{near}")
+        suggestion = did_you_mean(name, car_names(), f"the cars of the package are {', '.join(car_names())}", 1)
+        raise CarFileError(f"There is no car {shown(name)} to copy{suggestion}")
     if folder.exists() or folder.is_symlink():
         raise CarFileError(f"{folder} exists; the copy of a car needs a folder that does not.")
-    with atomic_folder(folder) as made:
-        shutil.copytree(CARS / name, made, ignore=shutil.ignore_patterns("__pycache__"), dirs_exist_ok=True)
-        shutil.copy(SCHEMA_FILE, made)
-        file = made / FILE
+    with atomic_folder(folder) as target:
+        shutil.copytree(CARS / name, target, ignore=shutil.ignore_patterns("__pycache__"), dirs_exist_ok=True)
+        shutil.copy(SCHEMA_FILE, target)
+        file = target / FILE
         file.write_text(f"#:schema {SCHEMA_FILE.name}\n" + file.read_text(encoding="utf-8"), encoding="utf-8")
     return sorted(path for path in folder.rglob("*") if path.is_file())

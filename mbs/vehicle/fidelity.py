@@ -47,13 +47,13 @@ class Fidelity(IntEnum):
             A member, its number, or its name in any case.
         """
         if isinstance(value, str):
-            found = cls.__members__.get(value.upper())
+            fidelity = cls.__members__.get(value.upper())
         else:
-            found = next((member for member in cls if member == value and not isinstance(value, bool)), None)
-        if found is None:
+            fidelity = next((member for member in cls if member == value and not isinstance(value, bool)), None)
+        if fidelity is None:
             names = ", ".join(f"{member.value} {member.name.lower()}" for member in cls)
             raise ModelError(f"The fidelity of the car is {value!r}; it must be one of: {names}.")
-        return found
+        return fidelity
 
 
 OFFERED = (Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC)

@@ -15,9 +15,9 @@ def apart(points: Section, first: str, second: str, what: str, least: float = LE
 
     `what`: stands between them, as in "the tie rod"; `least`: distance, m.
     """
-    far = math.dist(getattr(points, first), getattr(points, second))
-    if far < least:
-        yield f"{points.key(first)} is {far:.3g} m from {points.key(second)}; {what} is {least:g} m long or more."
+    distance = math.dist(getattr(points, first), getattr(points, second))
+    if distance < least:
+        yield f"{points.key(first)} is {distance:.3g} m from {points.key(second)}; {what} is {least:g} m long or more."
 
 
 def off_line(
@@ -32,9 +32,9 @@ def off_line(
     length = float(np.linalg.norm(b - a))
     if length < 1e-6:
         return  # `apart` says so
-    far = float(np.linalg.norm(np.cross(point - a, (b - a) / length)))
-    if far < least:
-        yield f"{points.key(name)} is {far:.3g} m from {line}; {what} is {least:g} m long or more."
+    distance = float(np.linalg.norm(np.cross(point - a, (b - a) / length)))
+    if distance < least:
+        yield f"{points.key(name)} is {distance:.3g} m from {line}; {what} is {least:g} m long or more."
 
 
 def farther(

@@ -21,9 +21,9 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
     lever = tyre.radius**2 / inertia
     figures = (settling, fading, 1.0 / (by_slip * lever), stiffness * lever)
     channels: list[int] = []
-    for letter, (unit, largest, what) in LARGEST.items():
+    for letter, (unit, largest, quantity) in LARGEST.items():
         for c in "xyz":
-            text = f"{what} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
+            text = f"{quantity} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
             name = f"wheel_{wheel}.hub_{letter}{c}"
             watched = () if channels else (Role.HUB, f"wheel_{wheel}.earth_vx")
             channel = new_port(b, name, -largest, largest, unit, text, *watched, figures=() if channels else figures)

@@ -76,7 +76,7 @@ def _chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
             c,
             description=f"q{c} of the orientation, scalar first (qw), from vehicle to earth axes",
         )
-    for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
+    for c, direction in zip("xyz", ("forward", "left", "up"), strict=True):
         m.sense_position(
             f"chassis.v{c}",
             chassis,
@@ -84,13 +84,13 @@ def _chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
             c,
             chassis,
             order=1,
-            description=f"velocity of the reference point along the vehicle's {c} axis, {way}",
+            description=f"velocity of the reference point along the vehicle's {c} axis, {direction}",
         )
     for c in "xyz":
         m.sense_rotation(
             f"chassis.w{c}", chassis, c, order=1, description=f"angular velocity about the vehicle's {c} axis"
         )
-    for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
+    for c, direction in zip("xyz", ("forward", "left", "up"), strict=True):
         m.sense_position(
             f"chassis.a{c}",
             chassis,
@@ -98,7 +98,8 @@ def _chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
             c,
             chassis,
             order=2,
-            description=f"acceleration of the reference point along the vehicle's {c} axis, {way}, without gravity",
+            description=f"acceleration of the reference point along the vehicle's {c} axis, {direction}, "
+            "without gravity",
         )
     reference = chassis.point(origin)
     m.sense_vector("speed", reference, order=1, description="speed of the reference point")

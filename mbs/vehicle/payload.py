@@ -22,12 +22,12 @@ class Payload(Section):
 
         `fidelity`: of the chassis: a frame that may bend takes the force of the payload at several joints.
         """
-        body, share = b.chassis.frame, None
+        body, point = b.chassis.frame, None
         if not fidelity.rigid:
             origin, axes, position = b.chassis.contact_frame
             body = b.chassis.body
-            share = origin
+            point = origin
             for axis, size in zip(axes, np.subtract(self.point, position), strict=True):
-                share = share + axis * float(size)
-        payload = b.m.payload(name, body, self.point, mass=self.mass, point=share)
+                point = point + axis * float(size)
+        payload = b.m.payload(name, body, self.point, mass=self.mass, point=point)
         b.tie(self, "mass", payload, "mass")

@@ -15,7 +15,7 @@ LABEL = {"facecolor": "white", "alpha": 0.7, "linewidth": 0.0, "pad": 0.3}
 
 def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
     """Every point of a car's file by its key path, m, with the places of masses."""
-    found: dict[str, tuple[float, ...]] = {
+    points: dict[str, tuple[float, ...]] = {
         section.key(field): value
         for section in sections_of(car)
         for field in type(section).model_fields
@@ -24,7 +24,7 @@ def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
         and (q := section.quantity(field)) is not None
         and q.unit == "m"
     }
-    return found | contact_points(car)
+    return points | contact_points(car)
 
 
 def draw_car(car: CarContent, file: Path) -> None:
@@ -49,27 +49,29 @@ def draw_car(car: CarContent, file: Path) -> None:
     for k, name in enumerate(car.axles, 1):
         views.append((figure.add_subplot(grid[0, k]), (0, 2), name, f"{name} axle from the side"))
         views.append((figure.add_subplot(grid[1, k]), (1, 2), name, f"{name} axle, left, from ahead"))
-    for axes, (i, j), which, title in views:
+    for axes, (i, j), axle_filter, title in views:
         for name, axle in car.axles.items():
             centre, r = axle.wheel.centre, axle.tyre.radius
-            half = (r, 0.5 * TYRE_WIDTH, r)
-            for left in (1.0, -1.0) if not which else (1.0,) * (name == which):
-                mid = (centre[0], left * centre[1], centre[2])
-                corner = (mid[i] - half[i], mid[j] - half[j])
+            half_size = (r, 0.5 * TYRE_WIDTH, r)
+            for sign in (1.0, -1.0) if not axle_filter else (1.0,) * (name == axle_filter):
+                mid = (centre[0], sign * centre[1], centre[2])
+                corner = (mid[i] - half_size[i], mid[j] - half_size[j])
                 wheel = (
-                    Circle((mid[0], mid[2]), r) if j == 2 and i == 0 else Rectangle(corner, 2 * half[i], 2 * half[j])
+                    Circle((mid[0], mid[2]), r)
+                    if j == 2 and i == 0
+                    else Rectangle(corner, 2 * half_size[i], 2 * half_size[j])
                 )
                 wheel.set(fill=False, edgecolor=COLOURS[name])
                 axes.add_patch(wheel)
         for number, (key, point) in enumerate(points.items(), 1):
             owner = key.split(".", 1)[0]
-            if which not in ("", owner):
+            if axle_filter not in ("", owner):
                 continue
-            at, colour = (point[i], point[j]), COLOURS.get(owner, OTHERS)
-            axes.plot(*at, "o", color=colour, markersize=4)
-            if which or owner not in COLOURS:
-                axes.annotate(str(number), at, (3.0, 3.0), textcoords="offset points", fontsize=8, bbox=LABEL)
-            if not which and j == 1 and point[1] and (owner in COLOURS or "ground_contact" in key):
+            position, colour = (point[i], point[j]), COLOURS.get(owner, OTHERS)
+            axes.plot(*position, "o", color=colour, markersize=4)
+            if axle_filter or owner not in COLOURS:
+                axes.annotate(str(number), position, (3.0, 3.0), textcoords="offset points", fontsize=8, bbox=LABEL)
+            if not axle_filter and j == 1 and point[1] and (owner in COLOURS or "ground_contact" in key):
                 axes.plot(point[0], -point[1], "o", color=colour, markersize=4, fillstyle="none")
         axes.set(aspect="equal", xlabel=WORDS[i], ylabel=WORDS[j], title=title)
         axes.grid(True, alpha=0.3)
@@ -78,9 +80,9 @@ def draw_car(car: CarContent, file: Path) -> None:
     names = figure.add_subplot(grid[:, 3])
     for number, key in enumerate(points, 1):
         column, row = divmod(number - 1, ROWS)
-        place = (column / columns, 1.0 - (row + 1.0) / (ROWS + 1.0))
+        text_position = (column / columns, 1.0 - (row + 1.0) / (ROWS + 1.0))
         colour = COLOURS.get(key.split(".", 1)[0], OTHERS)
-        names.text(*place, f"{number:2d} {_short(key)}", fontsize=8, color=colour, va="center")
+        names.text(*text_position, f"{number:2d} {_short(key)}", fontsize=8, color=colour, va="center")
     names.set_axis_off()
     figure.savefig(file, dpi=110, metadata=png_metadata(figure) if file.suffix.lower() == ".png" else None)
 

@@ -55,22 +55,22 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
     """
     m = b.m
     frame = [AffineVector.constant(v) for v in np.eye(3)] if axes == "earth" else b.chassis.contact_frame[1]
-    for name, place in (car.ports.force_points or {"reference": car.vehicle.reference_point}).items():
-        point = b.chassis.place(place)
+    for name, position in (car.ports.force_points or {"reference": car.vehicle.reference_point}).items():
+        point = b.chassis.place(position)
         sets = []
-        for letter, unit, largest, what in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
+        for letter, unit, largest, kind in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
             for c in "xyz":
-                text = f"{what} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
+                text = f"{kind} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
                 sets.append(new_port(b, f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
         m.add(BodyForce(sets[:3]).record(f"port force {name}", point, frame))
-        turned = BodyTorque(sets[3:], "earth" if axes == "earth" else "body")
-        m.add(turned.record(f"port torque {name}", b.chassis.contact_frame[1]))
-        for order, prefix, what in ((0, "", "place"), (1, "v", "velocity")):
+        torque = BodyTorque(sets[3:], "earth" if axes == "earth" else "body")
+        m.add(torque.record(f"port torque {name}", b.chassis.contact_frame[1]))
+        for order, prefix, kind in ((0, "", "place"), (1, "v", "velocity")):
             for k, c in enumerate("xyz"):
-                text = f"{what} of the point '{name}' of the chassis along the earth's {c} axis"
+                text = f"{kind} of the point '{name}' of the chassis along the earth's {c} axis"
                 unit = "m/s" if order else "m"
-                named = partial(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k])
-                b.port_senses.append(partial(named, order=order, unit=unit, description=text))
+                sense = partial(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k])
+                b.port_senses.append(partial(sense, order=order, unit=unit, description=text))
 
 
 def wind_port(b: CarBuilder) -> Wind | None:
@@ -97,9 +97,9 @@ def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
         Those under the wheels.
     """
     friction = road.friction * road.friction_factor
-    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
-    under = {w: m.road(PortRoad([k])) for w, k in first.items()}
-    return m.road(PortRoad(list(first.values()))), under
+    answers = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
+    under = {w: m.road(PortRoad([k])) for w, k in answers.items()}
+    return m.road(PortRoad(list(answers.values()))), under
 
 
 def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
@@ -139,8 +139,8 @@ def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, S
             m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)
         for c in "xy" if car.ports.road is not None else "":
             text = f"{c} of the contact point ports.road_lead steps of communication later, if they are like the last"
-            place, rate = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
-            m.ahead.append(Ahead(f"wheel_{w}.road_ahead_{c}", "m", text, place, rate))
+            position_name, rate_name = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
+            m.ahead.append(Ahead(f"wheel_{w}.road_ahead_{c}", "m", text, position_name, rate_name))
         damper = f"damper {w}" if f"damper {w}" in named else f"spring {w}"
         text = "rate of the length of the damper, positive in rebound"
         m.sense_element(f"damper_{w}.speed", damper, "rate", description=text)

@@ -59,10 +59,10 @@ class Quantity:
 
 def quantities_in(annotation: Any) -> list[Quantity]:
     """Quantities of a type, each once: of a number, or of the elements of a list."""
-    found: dict[Quantity, None] = {}
+    quantities: dict[Quantity, None] = {}
     for item in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
-        found |= dict.fromkeys([item] if isinstance(item, Quantity) else quantities_in(item))
-    return list(found)
+        quantities |= dict.fromkeys([item] if isinstance(item, Quantity) else quantities_in(item))
+    return list(quantities)
 
 
 Coordinate = Annotated[float, Quantity("m", -9.0, 9.0)]

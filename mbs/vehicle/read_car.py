@@ -30,11 +30,11 @@ def read_car(kind: type[C], car: str | Path) -> C:
     path = file_of(car)
     if path.suffix.lower() == ".fmu":
         raise CarFileError(f"{path} is an FMU; a car is the name of one, a folder with a file {FILE}, or such a file.")
-    found = checked_car(kind, read_toml(path, CarFileError), path.parent, str(path), warn=True)
-    if found.front.suspension.stop_left_out or None in (found.front.stops, found.rear.stops):
-        for sentence in notes_without_stops(found):
+    loaded_car = checked_car(kind, read_toml(path, CarFileError), path.parent, str(path), warn=True)
+    if loaded_car.front.suspension.stop_left_out or None in (loaded_car.front.stops, loaded_car.rear.stops):
+        for sentence in notes_without_stops(loaded_car):
             warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=3)
-    return found
+    return loaded_car
 
 
 def file_of(car: str | Path) -> Path:
@@ -49,8 +49,8 @@ def file_of(car: str | Path) -> Path:
     if not str(car) or not exists:
         names = car_names()
         file = "" if "\0" in str(car) else f": no file {path}"
-        near = did_you_mean(str(car), names, f"the cars of the package are {', '.join(names)}", 1)
-        raise CarFileError(f"There is no car {shown(str(car))}{file}{near}")
+        suggestion = did_you_mean(str(car), names, f"the cars of the package are {', '.join(names)}", 1)
+        raise CarFileError(f"There is no car {shown(str(car))}{file}{suggestion}")
     return path
 
 
@@ -59,5 +59,5 @@ def _shipped_car(kind: type[C], name: str) -> C:
     path = CARS / name / FILE
     content = read_toml(path, CarFileError)
     # a test holds that they stand as drawn
-    found: C = checked_car(kind, content, path.parent, str(path), at_rest=False)
-    return found
+    shipped: C = checked_car(kind, content, path.parent, str(path), at_rest=False)
+    return shipped

@@ -22,10 +22,10 @@ COLUMNS = ("key", "value", "unit", "range", "default", "FMU", "what it is")
 
 def tables() -> str:
     """A heading and a table of keys for each table of the file."""
-    parts = []
-    for table, places in _tables().items():
-        paths = list(dict.fromkeys(path for path, _ in places))
-        kinds = list(dict.fromkeys(kind for _, kind in places if kind))
+    sections = []
+    for table, locations in _tables().items():
+        paths = list(dict.fromkeys(path for path, _ in locations))
+        kinds = list(dict.fromkeys(kind for _, kind in locations if kind))
         text = inspect.cleandoc(table.__doc__ or "").replace("``", "`")
         blocks = [textwrap.fill(" ".join(p.split()), WIDTH) for p in text.split("\n\n")]
         quoted = [f"`{path}`" for path in paths]
@@ -37,8 +37,8 @@ def tables() -> str:
             heading = (TOP if paths == [""] else " and ".join(quoted)) + kind
         rows = [_row(key, field) for key, field in keys_of(table).items()]
         blocks.append("\n".join(_line(row) for row in [COLUMNS, ("---",) * len(COLUMNS), *rows]))
-        parts.append("\n\n".join([f"## {heading}", *blocks]) + "\n")
-    return "\n".join(parts)
+        sections.append("\n\n".join([f"## {heading}", *blocks]) + "\n")
+    return "\n".join(sections)
 
 
 def _name(table: Table) -> str:
@@ -48,12 +48,12 @@ def _name(table: Table) -> str:
 
 def _tables() -> dict[Table, list[tuple[str, str]]]:
     """Tables with the places and templates where they stand, in the order of the file."""
-    found: dict[Table, list[tuple[str, str]]] = {}
+    locations: dict[Table, list[tuple[str, str]]] = {}
     for table, path, kind in _walk(Car, "", ""):
-        head, dot, rest = path.partition(".")
-        place = f"{AXLE}{dot}{rest}" if head in ("front", "rear") else path
-        found.setdefault(table, []).append((place, kind))
-    return found
+        head, dot, tail = path.partition(".")
+        location = f"{AXLE}{dot}{tail}" if head in ("front", "rear") else path
+        locations.setdefault(table, []).append((location, kind))
+    return locations
 
 
 def _walk(table: Table, path: str, kind: str) -> Iterator[tuple[Table, str, str]]:
@@ -61,10 +61,10 @@ def _walk(table: Table, path: str, kind: str) -> Iterator[tuple[Table, str, str]
     kind = ", ".join(kinds_of(table)) or kind
     yield table, path, kind
     for key, field in keys_of(table).items():
-        place = f"{path}.{key}" if path else key
+        key_path = f"{path}.{key}" if path else key
         named = value_type_of(field.annotation)
         for inner in templates(field.annotation if named is None else named):
-            yield from _walk(inner, place if named is None else f"{place}.{NAME}", kind)
+            yield from _walk(inner, key_path if named is None else f"{key_path}.{NAME}", kind)
 
 
 def _row(key: str, field: FieldInfo) -> tuple[str, ...]:

@@ -46,13 +46,13 @@ class RoadSection(Section):
         `road`: under it; None: `default`; `hold_at`: the frictions at which the curves of the tyres hold, for the
         description; `works`: by key path, between which values the car works.
         """
-        own = self.default() if road is None else road.road if isinstance(road, RoadOfFile) else road
+        base_road = self.default() if road is None else road.road if isinstance(road, RoadOfFile) else road
         target = ("road", ground)
-        assert not isinstance(own, PortRoad), "a car with its road at ports has no parameters of one"
-        if isinstance(own, KerbRoad | PlaneRoad):
+        assert not isinstance(base_road, PortRoad), "a car with its road at ports has no parameters of one"
+        if isinstance(base_road, KerbRoad | PlaneRoad):
             m.parameter(
                 "road.friction",
-                own.friction,
+                base_road.friction,
                 *_range(self, "friction"),
                 f"friction of the road; the curves of the tyres hold at {hold_at}; {BUILT_IN}",
                 targets=[(target, "friction", 1.0)],
@@ -62,7 +62,7 @@ class RoadSection(Section):
             self._kerb(m, ground)
         m.parameter(
             "road.friction_factor",
-            own.friction_factor,
+            base_road.friction_factor,
             *_range(self, "friction_factor"),
             "factor on the friction of the road, also of one from a file",
             targets=[(target, "friction_factor", 1.0)],

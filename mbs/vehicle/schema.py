@@ -44,11 +44,11 @@ class _Generator(GenerateJsonSchema):
         items = schema["items_schema"]
         inner = [self.generate_inner(item) for item in items]
         alike = all(item == inner[0] for item in inner)
-        found: JsonSchemaValue = {"type": "array", "items": inner[0] if alike else inner}
+        array_schema: JsonSchemaValue = {"type": "array", "items": inner[0] if alike else inner}
         if schema.get("variadic_item_index") is None:
-            return found | {"minItems": len(items), "maxItems": len(items)}
+            return array_schema | {"minItems": len(items), "maxItems": len(items)}
         limits = {"minItems": schema.get("min_length"), "maxItems": schema.get("max_length")}
-        return found | {key: value for key, value in limits.items() if value is not None}
+        return array_schema | {key: value for key, value in limits.items() if value is not None}
 
 
 def _plain(schema: Any) -> Any:
@@ -57,20 +57,20 @@ def _plain(schema: Any) -> Any:
         return [_plain(item) for item in schema]
     if not isinstance(schema, dict):
         return schema
-    kept = {key: value for key, value in schema.items() if key not in ("title", "discriminator", "definitions")}
-    choices = [choice for choice in kept.get("anyOf", []) if choice != NULL]
-    if "anyOf" in kept and len(choices) < len(kept["anyOf"]):
-        del kept["anyOf"]
-        kept = ({"anyOf": choices} if len(choices) > 1 else choices[0]) | kept
-        if kept.get("default", 0) is None:
-            del kept["default"]
-    if "patternProperties" in kept:
-        kept["additionalProperties"] = False
-    made = {
+    plain = {key: value for key, value in schema.items() if key not in ("title", "discriminator", "definitions")}
+    choices = [choice for choice in plain.get("anyOf", []) if choice != NULL]
+    if "anyOf" in plain and len(choices) < len(plain["anyOf"]):
+        del plain["anyOf"]
+        plain = ({"anyOf": choices} if len(choices) > 1 else choices[0]) | plain
+        if plain.get("default", 0) is None:
+            del plain["default"]
+    if "patternProperties" in plain:
+        plain["additionalProperties"] = False
+    converted = {
         key: {name: _field(_plain(value)) for name, value in inner.items()} if key == "properties" else _plain(inner)
-        for key, inner in kept.items()
+        for key, inner in plain.items()
     }
-    return made | ({"definitions": schema["definitions"]} if "definitions" in schema else {})
+    return converted | ({"definitions": schema["definitions"]} if "definitions" in schema else {})
 
 
 def _field(schema: Any) -> Any:

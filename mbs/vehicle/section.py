@@ -45,8 +45,8 @@ class Section(BaseModel):
 
         `kind`: its class; `more`: its other fields, and those that are not as in the file.
         """
-        own = {name: getattr(self, name) for name in signature(kind).parameters if name in type(self).model_fields}
-        return kind(**(own | more))
+        fields = {name: getattr(self, name) for name in signature(kind).parameters if name in type(self).model_fields}
+        return kind(**(fields | more))
 
     @property
     def path(self) -> str:
@@ -69,8 +69,8 @@ class Section(BaseModel):
     def quantity(cls, field: str) -> Quantity | None:
         """Unit and range of a field, None where it is not a single number."""
         info = cls.model_fields[field]
-        for found in (info.metadata, *(getattr(a, "__metadata__", ()) for a in get_args(info.annotation))):
-            for item in found:
+        for metadata in (info.metadata, *(getattr(a, "__metadata__", ()) for a in get_args(info.annotation))):
+            for item in metadata:
                 if isinstance(item, Quantity):
                     return item
         return None
@@ -83,8 +83,8 @@ class Section(BaseModel):
         value, path = getattr(self, field), self.key(field)
         if not isinstance(value, tuple):
             return {path: float(value)}
-        parts = PRODUCTS if field == "products" else AXES
-        return {f"{path}.{part}": float(number) for part, number in zip(parts, value, strict=True)}
+        components = PRODUCTS if field == "products" else AXES
+        return {f"{path}.{component}": float(number) for component, number in zip(components, value, strict=True)}
 
     def locate(self, path: str) -> None:
         """Tell this section and those in it where they stand; done once by the reader.

@@ -249,8 +249,8 @@ def spring_of_length(
 
     `spring`: length and the same as drawn, m; `damper`: of a damper beside it.
     """
-    both = ((spring, springs),) if damper is None else zip((spring, damper), springs.beside_damper, strict=True)
-    for name, ((length, drawn), alone) in zip(("spring", "damper"), both, strict=False):
+    pairs = ((spring, springs),) if damper is None else zip((spring, damper), springs.beside_damper, strict=True)
+    for name, ((length, drawn), alone) in zip(("spring", "damper"), pairs, strict=False):
         _add_along_line(b, f"{name} {wheel}", AffineVector((Affine(), Affine(), length)), drawn, alone)
 
 
@@ -261,13 +261,13 @@ def _add_along_line(
     spring, damper, stops = springs.spring, springs.damper, springs.stops
     stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law
     factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor
-    ends = None if stops is None else stops.around(drawn)
+    end_stops = None if stops is None else stops.around(drawn)
     length = drawn if spring is None else spring.free_length
     law: SpringDamper | SpringDamperTable
     if isinstance(stiffness, float) and isinstance(damping, float):
-        law = SpringDamper(stiffness, damping, length, ends, *factors)
+        law = SpringDamper(stiffness, damping, length, end_stops, *factors)
     else:
-        law = SpringDamperTable(stiffness, damping, length, ends, *factors)
+        law = SpringDamperTable(stiffness, damping, length, end_stops, *factors)
     element = b.m.add(law.record(name, difference))
     if spring is not None:
         b.tie_numbers(spring, element)

@@ -53,8 +53,8 @@ class TabledParts:
 
         `name`: of the part, which ends with the name of the wheel; `mass`, `com`, `inertia`: as in `Model.body`.
         """
-        (part,) = (b for b in self._grid.linkage.model.bodies if b.name == name)
-        poses = self._grid.full(part.start, 12)
+        (linkage_body,) = (b for b in self._grid.linkage.model.bodies if b.name == name)
+        poses = self._grid.full(linkage_body.start, 12)
         parameters, axes, poses = self._table_of(name, poses)
         rotations = np.swapaxes(poses[..., 3:].reshape(*poses.shape[:-1], 3, 3), -1, -2)
         return self._m.tabled_body(
@@ -87,11 +87,11 @@ class TabledParts:
         grid = self._grid
         if grid.coupled:
             return list(self._compressions.values()), [grid.compression] * 2, values
-        own = self._compressions[name[-2:]]
+        compression = self._compressions[name[-2:]]
         if self._rack is not None and depends_on_second(values):
-            return [own, self._rack], [grid.compression, grid.rack], values
+            return [compression, self._rack], [grid.compression, grid.rack], values
         middle = int(np.argmin(np.abs(grid.rack)))
-        return [own], [grid.compression], values[:, middle]
+        return [compression], [grid.compression], values[:, middle]
 
 
 def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | None, brakes: Brakes) -> dict[str, Spin]:

@@ -65,26 +65,26 @@ class CentreLine:
             return s, offset, np.hypot(offset, along - s)
         s = guess
         for _ in range(ITERATIONS):
-            p, first, second = self.at(s)
-            away = p - np.stack([x, y])
-            slope = np.maximum((first * first).sum(axis=0) + (away * second).sum(axis=0), LEAST_SLOPE)
-            s = self._within(s - np.clip((away * first).sum(axis=0) / slope, -LONGEST, LONGEST))
-        p, first, _ = self.at(s)
+            p, tangent, tangent_rate = self.at(s)
+            difference = p - np.stack([x, y])
+            slope = np.maximum((tangent * tangent).sum(axis=0) + (difference * tangent_rate).sum(axis=0), LEAST_SLOPE)
+            s = self._within(s - np.clip((difference * tangent).sum(axis=0) / slope, -LONGEST, LONGEST))
+        p, tangent, _ = self.at(s)
         dx, dy = x - p[0], y - p[1]
-        size = np.hypot(first[0], first[1])
-        return s, (first[0] * dy - first[1] * dx) / size, np.hypot(dx, dy)
+        norm = np.hypot(tangent[0], tangent[1])
+        return s, (tangent[0] * dy - tangent[1] * dx) / norm, np.hypot(dx, dy)
 
     def _within(self, s: Float) -> Float:
         return np.asarray(np.mod(s, self.length) if self.closed else np.clip(s, 0.0, self.length))
 
     def place(self, s: float, offset: float = 0.0) -> tuple[float, float, float]:
         """x, y and yaw beside a station, m and rad."""
-        p, first, _ = self.at(np.array(self._within(np.array(s))))
-        size = math.hypot(first[0], first[1])
+        p, tangent, _ = self.at(np.array(self._within(np.array(s))))
+        norm = math.hypot(tangent[0], tangent[1])
         return (
-            float(p[0] - offset * first[1] / size),
-            float(p[1] + offset * first[0] / size),
-            math.atan2(first[1], first[0]),
+            float(p[0] - offset * tangent[1] / norm),
+            float(p[1] + offset * tangent[0] / norm),
+            math.atan2(tangent[1], tangent[0]),
         )
 
 
@@ -108,11 +108,11 @@ def through(points: Float, closed: bool, name: str) -> CentreLine:
     curve, u = curve_through(points, closed, name)
     if len(u) == 2:
         return _equal(points, closed)
-    fine = np.linspace(0.0, u[-1], max(20 * len(u), int(u[-1] / 0.05)))
-    dense = curve(fine)
-    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
+    parameters = np.linspace(0.0, u[-1], max(20 * len(u), int(u[-1] / 0.05)))
+    samples = curve(parameters)
+    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(samples, axis=0).T))])
     n = max(4, math.ceil(s[-1] / STEP))
-    return _equal(curve(np.interp(np.linspace(0.0, s[-1], n + 1), s, fine)), closed, s[-1])
+    return _equal(curve(np.interp(np.linspace(0.0, s[-1], n + 1), s, parameters)), closed, s[-1])
 
 
 def of_segments(start: tuple[float, float, float], segments: Sequence[Segment], closed: bool, name: str) -> CentreLine:
@@ -162,8 +162,8 @@ def _arc(x: float, y: float, yaw: float, curvature: float, s: Float) -> tuple[Fl
 def _equal(points: Float, closed: bool, length: float | None = None) -> CentreLine:
     chord = points[-1] - points[0]
     size = float(np.hypot(*chord))
-    off = np.abs(chord[0] * (points[:, 1] - points[0, 1]) - chord[1] * (points[:, 0] - points[0, 0]))
-    straight = not closed and bool((off <= 1e-9 * size * max(size, 1.0)).all())
+    deviations = np.abs(chord[0] * (points[:, 1] - points[0, 1]) - chord[1] * (points[:, 0] - points[0, 0]))
+    straight = not closed and bool((deviations <= 1e-9 * size * max(size, 1.0)).all())
     if straight:
         points = np.linspace(points[0], points[-1], max(5, math.ceil(size / STEP) + 1))
         length = size

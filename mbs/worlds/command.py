@@ -96,7 +96,7 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         if options.out is not None:
             raise UserError("--out needs --world; name a road file as OUTPUT.road.")
         return make_road(options)
-    given = given_of(parser, options, _OF_ROADS)
-    if given:
-        raise UserError(f"{given[0]} cannot be combined with --world.")
+    road_options = given_of(parser, options, _OF_ROADS)
+    if road_options:
+        raise UserError(f"{road_options[0]} cannot be combined with --world.")
     return world(options.world, options.out or Path("out", "worlds"), options.picture, options.thin, options.json)

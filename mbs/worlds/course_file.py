@@ -52,8 +52,8 @@ def course_layer(
     course: Course, folder: Path, bounds: tuple[float, float, float, float], ground: HeightOf
 ) -> CourseLayer:
     """Layer of a course on the ground. Raises `RoadFileError` with the fault of the course."""
-    given = [name for name in ("segments", "points") if getattr(course, name) is not None]
-    if len(given) != 1:
+    sources = [name for name in ("segments", "points") if getattr(course, name) is not None]
+    if len(sources) != 1:
         raise RoadFileError(f"The course '{course.name}' must have segments or points, one of them.")
     if course.segments is not None:
         if course.start is None:
@@ -64,15 +64,15 @@ def course_layer(
         table = _table(course, folder)
         line = through(np.stack([table["x"], table["y"]], axis=1), course.closed, course.name)
     _inside(line, course, bounds)
-    along = _along(line, table)
-    _crossings(line, course, along.get("width", np.full(len(line.points), course.width)))
+    columns = _along(line, table)
+    _crossings(line, course, columns.get("width", np.full(len(line.points), course.width)))
     if course.heights is not None:
         _rising([s for s, _ in course.heights], course, "heights")
     if course.bank is not None:
         _rising([s for s, _ in course.bank.grades], course, "bank.grades")
-    layer = CourseLayer(course, line, ground, *(along.get(name) for name in ("z", "width", "bank")))
-    if steep := _climb(layer):
-        warnings.warn(steep, RoadWarning, stacklevel=2)
+    layer = CourseLayer(course, line, ground, *(columns.get(name) for name in ("z", "width", "bank")))
+    if warning := _climb(layer):
+        warnings.warn(warning, RoadWarning, stacklevel=2)
     return layer
 
 
@@ -132,14 +132,14 @@ def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
                 "of the file to the edge."
             )
     points = np.stack([table["x"], table["y"]], axis=1)
-    aside = 0.5 * (left - right)  # to the left
+    offset = 0.5 * (left - right)  # to the left
     curve, stations = curve_through(points, closed, name)
-    along = curve(stations[: len(points)], 1)
-    normal = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
-    middle = points + aside[:, None] * normal
-    turned = (np.diff(points, axis=0) * np.diff(middle, axis=0)).sum(axis=1) <= 0.0
-    if turned.any():
-        k = int(np.argmax(turned))
+    tangents = curve(stations[: len(points)], 1)
+    normal = np.stack([-tangents[:, 1], tangents[:, 0]], axis=1) / np.hypot(*tangents.T)[:, None]
+    middle = points + offset[:, None] * normal
+    reversal = (np.diff(points, axis=0) * np.diff(middle, axis=0)).sum(axis=1) <= 0.0
+    if reversal.any():
+        k = int(np.argmax(reversal))
         raise RoadFileError(
             f"{name}: with widths of {right[k]:g} m to the right and {left[k]:g} m to the left at point {k + 1} the "
             f"middle of the road turns back before point {k + 2}; widths must change slowly along it and be less than "
@@ -147,7 +147,7 @@ def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
         )
     table["x"], table["y"] = middle.T
     if "bank" in table and "z" in table:
-        table["z"] = table["z"] - table["bank"] * aside
+        table["z"] = table["z"] - table["bank"] * offset
 
 
 def _climb(layer: CourseLayer) -> str:
@@ -199,9 +199,9 @@ def _column(heading: str) -> str:
 def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float, float]) -> None:
     x0, y0, x1, y1 = bounds
     x, y = line.points.T
-    out = (x < x0) | (x > x1) | (y < y0) | (y > y1)
-    if out.any():
-        k = int(np.argmax(out))
+    outside = (x < x0) | (x > x1) | (y < y0) | (y > y1)
+    if outside.any():
+        k = int(np.argmax(outside))
         raise RoadFileError(
             f"The course '{course.name}' leaves the world at station {k * line.step:.0f} m, x = {x[k]:.6g}, y = "
             f"{y[k]:.6g}; the world reaches from ({x0:g}, {y0:g}) to ({x1:g}, {y1:g}) m."
@@ -216,13 +216,13 @@ def _crossings(line: CentreLine, course: Course, width: Float) -> None:
     if len(pairs) == 0:
         return
     mean = 0.5 * (width[pairs[:, 0]] + width[pairs[:, 1]])
-    near = np.hypot(*(points[pairs[:, 1]] - points[pairs[:, 0]]).T[:2]) < 0.9 * mean
-    apart = np.abs(s[pairs[:, 1]] - s[pairs[:, 0]])
+    close = np.hypot(*(points[pairs[:, 1]] - points[pairs[:, 0]]).T[:2]) < 0.9 * mean
+    separation = np.abs(s[pairs[:, 1]] - s[pairs[:, 0]])
     if line.closed:
-        apart = np.minimum(apart, line.length - apart)
-    back = pairs[near & (apart > 3.2 * mean)]
-    if len(back):
-        a, b = back[0]
+        separation = np.minimum(separation, line.length - separation)
+    crossings = pairs[close & (separation > 3.2 * mean)]
+    if len(crossings):
+        a, b = crossings[0]
         raise RoadFileError(
             f"The course '{course.name}' crosses or touches itself at x = {points[a][0]:.5g}, y = {points[a][1]:.5g} "
             f"(stations {s[a]:.0f} and {s[b]:.0f} m); split it into courses, of which the later one lies on top."

@@ -37,33 +37,33 @@ class Surface:
         rows = np.zeros((len(x), self._weights.shape[1]))
         for k in range(4):
             rows += a[k][:, None] * self._weights[i[k]]
-        found = np.zeros((len(x), len(y)))
+        heights = np.zeros((len(x), len(y)))
         for k in range(4):
-            found += b[k] * rows[:, j[k]]
-        return found
+            heights += b[k] * rows[:, j[k]]
+        return heights
 
     def _basis(self, values: Float, axis: int) -> tuple[list[NDArray[np.int64]], list[Float]]:
         """Four points about each value, mirrored at the border, and the weights of cubic B-splines."""
         n = self._weights.shape[axis]
-        place = np.clip((values - (self.x, self.y)[axis][0]) / self._steps[axis], 0.0, n - 1.0)
-        first = np.minimum(np.floor(place), n - 2.0)
-        t = place - first
+        position = np.clip((values - (self.x, self.y)[axis][0]) / self._steps[axis], 0.0, n - 1.0)
+        first = np.minimum(np.floor(position), n - 2.0)
+        t = position - first
         weights = [
             (1.0 - t) ** 3 / 6.0,
             (3.0 * t**3 - 6.0 * t**2 + 4.0) / 6.0,
             (3.0 * (1.0 - t) ** 3 - 6.0 * (1.0 - t) ** 2 + 4.0) / 6.0,
             t**3 / 6.0,
         ]
-        near = [np.abs(np.asarray(first, np.int64) + k) for k in (-1, 0, 1, 2)]
-        return [np.where(k > n - 1, 2 * (n - 1) - k, k) for k in near], weights
+        neighbours = [np.abs(np.asarray(first, np.int64) + k) for k in (-1, 0, 1, 2)]
+        return [np.where(k > n - 1, 2 * (n - 1) - k, k) for k in neighbours], weights
 
     def at(self, x: Float, y: Float) -> Float:
         """Heights at places."""
         if self._level is not None:
             return np.full(np.shape(x), self._level)
-        place = [(v - (self.x, self.y)[k][0]) / self._steps[k] for k, v in enumerate((x, y))]
-        inside = [np.clip(place[k], 0.0, self._weights.shape[k] - 1.0) for k in range(2)]
-        return np.asarray(map_coordinates(self._weights, inside, order=3, mode="mirror", prefilter=False))
+        positions = [(v - (self.x, self.y)[k][0]) / self._steps[k] for k, v in enumerate((x, y))]
+        clipped = [np.clip(positions[k], 0.0, self._weights.shape[k] - 1.0) for k in range(2)]
+        return np.asarray(map_coordinates(self._weights, clipped, order=3, mode="mirror", prefilter=False))
 
 
 def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:

@@ -118,11 +118,11 @@ class CourseLayer:
 def _smoothed(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:
     """A spline through heights at the points of a line, smoothed by a Gaussian whose deviation is so many points."""
     if not line.closed:
-        found = CubicSpline(line.stations, gaussian_filter1d(heights, width, mode="nearest"), bc_type="natural")
+        spline = CubicSpline(line.stations, gaussian_filter1d(heights, width, mode="nearest"), bc_type="natural")
     else:
         smooth = gaussian_filter1d(heights[:-1], width, mode="wrap")
-        found = CubicSpline(line.stations, np.append(smooth, smooth[0]), bc_type="periodic")
-    return lambda s: np.asarray(found(s), np.float64)
+        spline = CubicSpline(line.stations, np.append(smooth, smooth[0]), bc_type="periodic")
+    return lambda s: np.asarray(spline(s), np.float64)
 
 
 class AreaLayer:

@@ -53,8 +53,8 @@ def read_world(file: Path) -> WorldDescription:
 
 def described(file: Path) -> WorldDescription | None:
     """The checked description where a file is one of a world, and none where it is a road."""
-    is_one = file.suffix.lower() == ".toml" and is_world(read_toml(file, RoadFileError))
-    return read_world(file) if is_one else None
+    of_world = file.suffix.lower() == ".toml" and is_world(read_toml(file, RoadFileError))
+    return read_world(file) if of_world else None
 
 
 def make_world(
@@ -74,12 +74,12 @@ def make_world(
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)
-            record = world_record(terrain, lambda part: tell("drawing", part), STEP if thin else 0.0)
+            record = world_record(terrain, lambda share: tell("drawing", share), STEP if thin else 0.0)
         except RoadFileError as error:
             raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
-        write_world_road(terrain, road, lambda part: tell("road", part), thin)
-        off = {"thin": off_by(terrain, road).sentence} if thin else {}
-        return record | {"checksum": checksum_of(road)} | off
+        write_world_road(terrain, road, lambda share: tell("road", share), thin)
+        deviation = {"thin": off_by(terrain, road).sentence} if thin else {}
+        return record | {"checksum": checksum_of(road)} | deviation
     return _road_record(file, name, road)
 
 
@@ -129,8 +129,8 @@ def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
         shutil.copyfile(file, target)
     else:
         write_road(road, target)
-    bounds, drawn = (-PLAIN, -PLAIN, PLAIN, PLAIN), scene_part(road)
-    if drawn["kind"] == "grid":  # which goes on beside a level strip of frictions
-        (x, y), (dx, dy), (nx, ny) = drawn["origin"], drawn["spacing"], drawn["shape"]
+    bounds, entry = (-PLAIN, -PLAIN, PLAIN, PLAIN), scene_part(road)
+    if entry["kind"] == "grid":  # which goes on beside a level strip of frictions
+        (x, y), (dx, dy), (nx, ny) = entry["origin"], entry["spacing"], entry["shape"]
         bounds = (x, y, x + dx * (nx - 1), y + dy * (ny - 1))
-    return record_of(name, bounds, [], [drawn], []) | {"checksum": checksum_of(target)}
+    return record_of(name, bounds, [], [entry], []) | {"checksum": checksum_of(target)}

@@ -48,8 +48,8 @@ def draw_map(record: dict[str, Any], file: Path) -> None:
             light = 0.6 + 0.6 * shade.T[np.ix_(rows, columns)]
             image = np.clip(colours[classes] * light[:, :, None], 0.0, 1.0)
             axes.imshow(image.transpose(1, 0, 2), origin="lower", extent=(x0, x1, y0, y1), interpolation="antialiased")
-    for part in record["scenery"]:
-        _scenery(axes, part)
+    for item in record["scenery"]:
+        _scenery(axes, item)
     for place in record["places"]:
         axes.annotate(
             "",
@@ -71,23 +71,24 @@ def _heights(road: dict[str, Any], bounds: list[float]) -> np.ndarray[Any, np.dt
     """Heights about every 2 m, from the patches."""
     x0, y0, x1, y1 = bounds
     n = [max(2, math.ceil(side / 2.0)) for side in (x1 - x0, y1 - y0)]
-    found = np.zeros(n)
+    heights = np.zeros(n)
     step = [(x1 - x0) / n[0], (y1 - y0) / n[1]]
     for patch in road["patches"]:
         z = decoded(patch["heights"], "f").reshape(patch["shape"])
-        ends = [(patch["origin"][k] - bounds[k]) / step[k] for k in range(2)]
+        corner = [(patch["origin"][k] - bounds[k]) / step[k] for k in range(2)]
         size = [patch["spacing"][k] * (patch["shape"][k] - 1) / step[k] for k in range(2)]
         ranges = [
-            np.arange(max(0, math.ceil(ends[k] - 0.5)), min(n[k], math.ceil(ends[k] + size[k] - 0.5))) for k in range(2)
+            np.arange(max(0, math.ceil(corner[k] - 0.5)), min(n[k], math.ceil(corner[k] + size[k] - 0.5)))
+            for k in range(2)
         ]
         if min(map(len, ranges)) == 0:
             continue
         index = [
-            np.clip(((ranges[k] + 0.5 - ends[k]) / size[k] * (patch["shape"][k] - 1)).round().astype(int), 0, 16)
+            np.clip(((ranges[k] + 0.5 - corner[k]) / size[k] * (patch["shape"][k] - 1)).round().astype(int), 0, 16)
             for k in range(2)
         ]
-        found[np.ix_(*ranges)] = z[np.ix_(*index)]
-    return found
+        heights[np.ix_(*ranges)] = z[np.ix_(*index)]
+    return heights
 
 
 def _scenery(axes: Any, part: dict[str, Any]) -> None:

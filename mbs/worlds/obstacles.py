@@ -89,6 +89,6 @@ def added(part: Kerb | Ramp | Washboard, x: Float, y: Float) -> Float:
         return part.height * table(u, base.length, part.face) * across
     if isinstance(part, Ramp):
         return np.asarray(vertical_curve(u, _ramp_lines(part), part.roundings) * across)
-    grown = np.clip(u / part.wavelength, 0.0, 1.0) * np.clip((base.length - u) / part.wavelength, 0.0, 1.0)
+    envelope = np.clip(u / part.wavelength, 0.0, 1.0) * np.clip((base.length - u) / part.wavelength, 0.0, 1.0)
     waves = 0.5 * part.height * np.sin(2.0 * np.pi * u / part.wavelength)
-    return np.asarray(waves * rise(grown) * across)
+    return np.asarray(waves * rise(envelope) * across)

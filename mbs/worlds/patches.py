@@ -44,24 +44,24 @@ def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: No
     nx, ny = (max(1, round(side / (CELLS * COARSEST))) for side in (x1 - x0, y1 - y0))
     sx, sy = (x1 - x0) / nx, (y1 - y0) / ny
     waiting = [(x0 + i * sx, y0 + j * sy, sx, sy) for i in range(nx) for j in range(ny)]
-    whole, done = (x1 - x0) * (y1 - y0), 0.0
-    found: list[DrawnPatch] = []
+    area, completed_area = (x1 - x0) * (y1 - y0), 0.0
+    patches: list[DrawnPatch] = []
     while waiting:
         batch, waiting = waiting[-BATCH:], waiting[:-BATCH]
         fine = _sampled(terrain, np.array(batch))
         for (x, y, a, b), z in zip(batch, fine, strict=True):
-            cut = _cut(terrain, (x, y, a, b), z)
-            if cut == "x":
+            axis = _cut(terrain, (x, y, a, b), z)
+            if axis == "x":
                 waiting += [(x, y, 0.5 * a, b), (x + 0.5 * a, y, 0.5 * a, b)]
-            elif cut == "y":
+            elif axis == "y":
                 waiting += [(x, y, a, 0.5 * b), (x, y + 0.5 * b, a, 0.5 * b)]
             else:
-                found.append(DrawnPatch(x, y, a / CELLS, b / CELLS, z[::2, ::2].copy()))
-                done += a * b
-        tell(done / whole)
-    found.sort(key=lambda patch: (patch.x, patch.y))
-    _close(found)
-    return found
+                patches.append(DrawnPatch(x, y, a / CELLS, b / CELLS, z[::2, ::2].copy()))
+                completed_area += a * b
+        tell(completed_area / area)
+    patches.sort(key=lambda patch: (patch.x, patch.y))
+    _close(patches)
+    return patches
 
 
 def _sampled(terrain: Terrain, rectangles: Float) -> Float:
@@ -76,14 +76,14 @@ def _cut(terrain: Terrain, rectangle: tuple[float, float, float, float], z: Floa
     """The side that is cut in two, "x" or "y"; "" where the patch is good."""
     _, _, a, b = rectangle
     dx, dy = a / CELLS, b / CELLS
-    if (cut := _detail(terrain, rectangle, dx, dy)) != "":
-        return cut
+    if (axis := _detail(terrain, rectangle, dx, dy)) != "":
+        return axis
     along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > FINEST else 0.0
     along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > FINEST else 0.0
     middle = z[1::2, 1::2]
-    one = 0.5 * (z[:-1:2, :-1:2] + z[2::2, 2::2])
-    other = 0.5 * (z[:-1:2, 2::2] + z[2::2, :-1:2])
-    across = np.maximum(np.abs(middle - one), np.abs(middle - other)).max() if max(dx, dy) > FINEST else 0.0
+    rising = 0.5 * (z[:-1:2, :-1:2] + z[2::2, 2::2])
+    falling = 0.5 * (z[:-1:2, 2::2] + z[2::2, :-1:2])
+    across = np.maximum(np.abs(middle - rising), np.abs(middle - falling)).max() if max(dx, dy) > FINEST else 0.0
     if max(along_x, along_y, across) <= TOLERANCE:
         return ""
     if max(along_x, along_y) > TOLERANCE:
@@ -94,17 +94,17 @@ def _cut(terrain: Terrain, rectangle: tuple[float, float, float, float], z: Floa
 def _detail(terrain: Terrain, rectangle: tuple[float, float, float, float], dx: float, dy: float) -> str:
     """Axis along which a patch is cut so that its points cannot miss an obstacle; empty if it is fine enough."""
     x, y, a, b = rectangle
-    for base, part in terrain.obstacles:
+    for base, obstacle in terrain.obstacles:
         x0, y0, x1, y1 = base.box()
         if x >= x1 or y >= y1 or x + a <= x0 or y + b <= y0:
             continue
-        along = {"kerb": "face", "washboard": "wavelength"}.get(part.kind)
-        least = getattr(part, along) / 4.0 if along else part.roundings[1] / 2.0  # type: ignore[union-attr]
-        inside = x >= x0 and y >= y0 and x + a <= x1 and y + b <= y1
-        if part.kind == "kerb" and inside and _level(base, part.face, part.flank, rectangle):
+        along = {"kerb": "face", "washboard": "wavelength"}.get(obstacle.kind)
+        detail = getattr(obstacle, along) / 4.0 if along else obstacle.roundings[1] / 2.0  # type: ignore[union-attr]
+        contained = x >= x0 and y >= y0 and x + a <= x1 and y + b <= y1
+        if obstacle.kind == "kerb" and contained and _level(base, obstacle.face, obstacle.flank, rectangle):
             continue
-        turned = abs(np.sin(base.yaw)) > 1e-9, abs(np.cos(base.yaw)) > 1e-9
-        limit = [least if along_x else part.flank / 2.0 for along_x in (turned[1], turned[0])]
+        oblique = abs(np.sin(base.yaw)) > 1e-9, abs(np.cos(base.yaw)) > 1e-9
+        limit = [detail if along_x else obstacle.flank / 2.0 for along_x in (oblique[1], oblique[0])]
         if dx > limit[0] or dy > limit[1]:
             return "x" if dx / limit[0] >= dy / limit[1] else "y"
     return ""
@@ -128,21 +128,21 @@ def _close(patches: list[DrawnPatch]) -> None:
             edges.setdefault(("x", _key(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
             edges.setdefault(("y", _key(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
     for _ in range(4):
-        moved = 0.0
-        for (side, _at), parts in edges.items():
-            parts.sort(key=lambda part: -part[0])
-            for n, (step, low, high, k, last) in enumerate(parts):
-                mine = _edge(patches[k].heights, side, last)
+        largest_shift = 0.0
+        for (side, _at), neighbours in edges.items():
+            neighbours.sort(key=lambda edge: -edge[0])
+            for n, (step, low, high, k, last) in enumerate(neighbours):
+                fine_heights = _edge(patches[k].heights, side, last)
                 t = low + step * np.arange(CELLS + 1)
-                for coarse, low2, high2, other, last2 in parts[:n]:
+                for coarse, low2, high2, other, last2 in neighbours[:n]:
                     if coarse <= step * 1.0001 or high2 <= low + 1e-9 or low2 >= high - 1e-9:
                         continue
-                    on = (t >= low2 - 1e-9) & (t <= high2 + 1e-9)
-                    theirs = _edge(patches[other].heights, side, last2)
-                    value = np.interp(t[on], low2 + coarse * np.arange(CELLS + 1), theirs)
-                    moved = max(moved, float(np.abs(mine[on] - value).max()))
-                    mine[on] = value
-        if moved < 1e-7:
+                    overlap = (t >= low2 - 1e-9) & (t <= high2 + 1e-9)
+                    coarse_heights = _edge(patches[other].heights, side, last2)
+                    value = np.interp(t[overlap], low2 + coarse * np.arange(CELLS + 1), coarse_heights)
+                    largest_shift = max(largest_shift, float(np.abs(fine_heights[overlap] - value).max()))
+                    fine_heights[overlap] = value
+        if largest_shift < 1e-7:
             return
 
 

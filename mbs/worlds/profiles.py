@@ -35,9 +35,9 @@ def vertical_curve(s: Float, vertices: Sequence[tuple[float, float]], roundings:
     at = np.array(vertices, float)
     grades = np.concatenate([[0.0], np.diff(at[:, 1]) / np.diff(at[:, 0]), [0.0]])
     z = np.full(np.shape(s), at[0, 1])
-    for place, change, length in zip(at[:, 0], np.diff(grades), roundings, strict=True):
+    for station, change, length in zip(at[:, 0], np.diff(grades), roundings, strict=True):
         if change != 0.0:
-            t = np.asarray(s) - place
+            t = np.asarray(s) - station
             inside = np.clip(t + 0.5 * length, 0.0, length)
             z += change * (inside**2 / (2.0 * length) + np.maximum(t - 0.5 * length, 0.0))
     return np.asarray(z)

@@ -33,12 +33,12 @@ def make_road(options: argparse.Namespace) -> int:
         raise UserError(f"{output} would be a road file; give it the suffix .road.")
     arguments = _grid_arguments(options)
     only_part = options.part is not None and output is None and options.picture is None
-    if only_part and (part := part_of_world(options.input)) is not None:
-        write_text(options.part, json.dumps(part, allow_nan=False))
+    if only_part and (entry := part_of_world(options.input)) is not None:
+        write_text(options.part, json.dumps(entry, allow_nan=False))
         print(f"written: {options.part}, as the world beside {options.input} draws it")
         return 0
-    others = (output, options.picture, options.part)
-    if options.start is not None and options.input.suffix.lower() == ".road" and not any(others):
+    outputs = (output, options.picture, options.part)
+    if options.start is not None and options.input.suffix.lower() == ".road" and not any(outputs):
         (plausibility,) = file_plausibility(
             RoadFile(options.input), tuple(options.start), most=0
         )  # a large road is not read for it
@@ -91,27 +91,27 @@ def _grid_arguments(options: argparse.Namespace) -> dict[str, Any]:
         "height_range": options.range,
         "friction_range": options.friction_range,
     }
-    found: dict[str, Any] = {name: tuple(value) for name, value in arguments.items() if value is not None}
+    grid_arguments: dict[str, Any] = {name: tuple(value) for name, value in arguments.items() if value is not None}
     if options.frictions is not None:
         try:
-            found["frictions"] = float(options.frictions)
+            grid_arguments["frictions"] = float(options.frictions)
         except ValueError:
-            found["frictions"] = Path(options.frictions)
-    if found and options.input.suffix.lower() in (".road", ".toml"):
-        name = next(iter(found)).replace("height_", "").replace("_", "-")
+            grid_arguments["frictions"] = Path(options.frictions)
+    if grid_arguments and options.input.suffix.lower() in (".road", ".toml"):
+        name = next(iter(grid_arguments)).replace("height_", "").replace("_", "-")
         raise UserError(f"{options.input} defines its whole road; --{name} applies only to inputs that become a grid.")
-    return found
+    return grid_arguments
 
 
 def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
     """Lines that describe the kind and extent of a road."""
     if not isinstance(road, GridRoad):
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
-        words = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))
-        return [f"{kind}: {', '.join(words)}"]
-    place = place_of(road)
-    lines = [f"grid of {place.shape[0]} x {place.shape[1]} points"]
-    for name, first, side, step in zip("xy", place.origin, place.extent, place.spacing, strict=True):
+        numbers = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))
+        return [f"{kind}: {', '.join(numbers)}"]
+    position = place_of(road)
+    lines = [f"grid of {position.shape[0]} x {position.shape[1]} points"]
+    for name, first, side, step in zip("xy", position.origin, position.extent, position.spacing, strict=True):
         lines.append(f"{name}: {first:.9g} to {first + side:.9g} m, every {step:g} m")
     if isinstance(road, SampledRoad):
         lines.append(f"the grid {road.sentence}")

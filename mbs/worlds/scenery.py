@@ -28,26 +28,26 @@ def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:
     """Entries of the list `scenery` of a scene."""
     world = terrain.world
     courses = [layer for layer in terrain.layers if isinstance(layer, CourseLayer)]
-    found: list[dict[str, Any]] = []
+    entries: list[dict[str, Any]] = []
     for layer in courses:
-        found += _course_lines(terrain, layer)
-        found += _posts(terrain, layer)
+        entries += _course_lines(terrain, layer)
+        entries += _posts(terrain, layer)
     for line in world.lines:
-        found += _painted(terrain, line)
+        entries += _painted(terrain, line)
     for cones in world.cones:
         positions = np.array(cone_places(cones), float)
-        found += [
+        entries += [
             {"kind": "cone", "at": at, "height": cones.height, "colour": cones.colour}
             for at in _on_ground(terrain, positions)
         ]
-    for kind, parts in (("sign", world.signs), ("arrow", world.arrows), ("building", world.buildings)):
-        for part in parts:
-            (at,) = _on_ground(terrain, np.array([part.at[:2]]))
-            rest = part.model_dump(exclude={"at"})
-            found.append({"kind": kind, "at": at, "yaw": math.radians(part.at[2])} | rest)
+    for kind, objects in (("sign", world.signs), ("arrow", world.arrows), ("building", world.buildings)):
+        for item in objects:
+            (at,) = _on_ground(terrain, np.array([item.at[:2]]))
+            fields = item.model_dump(exclude={"at"})
+            entries.append({"kind": kind, "at": at, "yaw": math.radians(item.at[2])} | fields)
     for barrier in world.barriers:
-        found.append({"kind": "barrier", "points": _barrier(terrain, barrier, courses), "height": barrier.height})
-    return [*found, *_trees(terrain)]
+        entries.append({"kind": "barrier", "points": _barrier(terrain, barrier, courses), "height": barrier.height})
+    return [*entries, *_trees(terrain)]
 
 
 def cone_places(cones: Cones) -> list[tuple[float, float]]:
@@ -76,8 +76,8 @@ def _on_ground(terrain: Terrain, positions: Float) -> list[list[float]]:
 def draped(terrain: Terrain, x: Float, y: Float) -> list[list[float]]:
     """A line on the ground through dense places: points between which straight lines are near enough."""
     points = np.stack([x, y, terrain.at(x, y)], axis=1)
-    needed = _thinned(points)
-    return [[round(float(v), 4) for v in point] for point in points[needed]]
+    indices = _thinned(points)
+    return [[round(float(v), 4) for v in point] for point in points[indices]]
 
 
 def _thinned(points: Float) -> list[int]:
@@ -98,27 +98,27 @@ def _dense(points: Sequence[tuple[float, float]]) -> tuple[Float, Float]:
     """Places along a polyline."""
     at = np.array(points, float)
     s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(at, axis=0).T))])
-    fine = np.unique(np.concatenate([np.arange(0.0, s[-1], SAMPLE), s]))
-    return np.interp(fine, s, at[:, 0]), np.interp(fine, s, at[:, 1])
+    stations = np.unique(np.concatenate([np.arange(0.0, s[-1], SAMPLE), s]))
+    return np.interp(stations, s, at[:, 0]), np.interp(stations, s, at[:, 1])
 
 
 def _beside(layer: CourseLayer, s: Float, offset: Float) -> tuple[Float, Float]:
     p, first, _ = layer.line.at(s)
-    size = np.hypot(first[0], first[1])
-    return p[0] - offset * first[1] / size, p[1] + offset * first[0] / size
+    norm = np.hypot(first[0], first[1])
+    return p[0] - offset * first[1] / norm, p[1] + offset * first[0] / norm
 
 
 def _stretches(terrain: Terrain, layer: CourseLayer, s: Float, offset: Float) -> Iterator[tuple[Float, Float]]:
     """Parts of a line beside a course that do not lie on later layers."""
     x, y = _beside(layer, s, offset)
-    free = np.ones(len(x), bool)
+    visible = np.ones(len(x), bool)
     for other in terrain.layers:
         if other is not layer:
             excess, station = other.near(x, y)
             close = np.flatnonzero(excess < 3.0)
             if len(close):
-                free[close] &= other.at(x[close], y[close], station[close]).excess > 0.1
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], free.astype(int), [0]])))
+                visible[close] &= other.at(x[close], y[close], station[close]).excess > 0.1
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], visible.astype(int), [0]])))
     for a, b in zip(edges[::2], edges[1::2], strict=True):
         if b - a > 4:
             yield x[a:b], y[a:b]

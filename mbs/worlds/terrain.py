@@ -42,8 +42,8 @@ class Terrain:
         names = [world.ground.surface, *(layer.surface for layer in self.layers)]
         names += [part.surface for part in (*world.bands, *world.obstacles)]
         self.names = list(dict.fromkeys(names))
-        given = {str(name): value for name, value in world.frictions.items()}
-        self.frictions = np.array([given.get(name, FRICTIONS[name]) for name in self.names])
+        frictions = {str(name): value for name, value in world.frictions.items()}
+        self.frictions = np.array([frictions.get(name, FRICTIONS[name]) for name in self.names])
         self.obstacles = [(footprint(part), part) for part in world.obstacles]
         self.bands = [(footprint(part), part) for part in world.bands]
         self._lattice(map_step)
@@ -65,11 +65,11 @@ class Terrain:
             excess, station = layer.near(x, y)
             self.excess[k], self.station[k] = excess, station
             self.nearest = np.minimum(self.nearest, self.excess[k] - np.float32(layer.shoulder))
-            part = excess < layer.shoulder + layer.blend + step
-            found = layer.at(x[part], y[part], station[part])
-            share = weight(layer, found.excess)
-            z[part] += share * (found.height - z[part])
-            self._steps(layer, part, share, found.height)
+            mask = excess < layer.shoulder + layer.blend + step
+            points = layer.at(x[mask], y[mask], station[mask])
+            share = weight(layer, points.excess)
+            z[mask] += share * (points.height - z[mask])
+            self._steps(layer, mask, share, points.height)
         self.carved = Surface(self.x, self.y, z)
 
     def _steps(self, layer: Layer, part: NDArray[np.bool_], share: Float, height: Float) -> None:
@@ -78,15 +78,15 @@ class Terrain:
         level[part], shares[part] = height, share
         for axis in (0, 1):
             rise = np.abs(np.diff(level, axis=axis))
-            both = np.minimum(*(np.delete(shares, k, axis=axis) for k in (0, -1)))
-            step = rise * both
+            smaller_share = np.minimum(*(np.delete(shares, k, axis=axis) for k in (0, -1)))
+            step = rise * smaller_share
             if step.size and step.max() > STEEPEST * self.step:
                 i, j = np.unravel_index(int(np.argmax(step)), step.shape)
-                other = (i + 1, j) if axis == 0 else (i, j + 1)
+                neighbour = (i + 1, j) if axis == 0 else (i, j + 1)
                 raise RoadFileError(
                     f"The course '{layer.name}' comes so near to itself at x = {self.x[i]:.5g}, y = {self.y[j]:.5g} m "
-                    f"that its heights there, {level[i, j]:.3g} and {level[other]:.3g} m, leave a step; make its blend "
-                    "smaller or move it."
+                    f"that its heights there, {level[i, j]:.3g} and {level[neighbour]:.3g} m, leave a step; make its "
+                    "blend smaller or move it."
                 )
 
     def _node(self, values: Float, first: Float) -> NDArray[np.int64]:
@@ -111,17 +111,19 @@ class Terrain:
         i, j = self._node(x, self.x), self._node(y, self.y)
         rows, columns = np.nonzero(self.nearest[np.ix_(i, j)] < EDGE + self.step)
         if len(rows):
-            part = (rows, columns)
-            z[part], surfaces[part], same[part] = self._with_layers(x[rows], y[columns], i[rows], j[columns], z[part])
+            indices = (rows, columns)
+            z[indices], surfaces[indices], same[indices] = self._with_layers(
+                x[rows], y[columns], i[rows], j[columns], z[indices]
+            )
         for base, band in self.bands:
             if (block := _block(base, x, y)) is not None:
                 inside = base.inside(x[block[0], None], y[None, block[1]])
                 surfaces[block][inside] = self.names.index(band.surface)
-        for base, part_ in self.obstacles:
+        for base, obstacle in self.obstacles:
             if (block := _block(base, x, y)) is not None:
                 px, py = x[block[0], None], y[None, block[1]]
-                z[block] += added(part_, px, py)
-                surfaces[block][base.inside(px, py)] = self.names.index(part_.surface)
+                z[block] += added(obstacle, px, py)
+                surfaces[block][base.inside(px, py)] = self.names.index(obstacle.surface)
         return z, surfaces, same
 
     def at(self, x: Float, y: Float) -> Float:
@@ -129,9 +131,9 @@ class Terrain:
         shape, x, y = np.shape(x), np.ravel(x), np.ravel(y)
         z = self.carved.at(x, y)
         i, j = self._node(x, self.x), self._node(y, self.y)
-        part = np.flatnonzero(self.nearest[i, j] < EDGE + self.step)
-        if len(part):
-            z[part] = self._with_layers(x[part], y[part], i[part], j[part], z[part])[0]
+        indices = np.flatnonzero(self.nearest[i, j] < EDGE + self.step)
+        if len(indices):
+            z[indices] = self._with_layers(x[indices], y[indices], i[indices], j[indices], z[indices])[0]
         for base, obstacle in self.obstacles:
             inside = np.flatnonzero(base.inside(x, y))
             if len(inside):
@@ -140,13 +142,13 @@ class Terrain:
 
     def has_borders(self, x: Float, first: Float, last: Float) -> NDArray[np.bool_]:
         """Whether rectangles meet an obstacle or the border of a band: from x[0] to x[-1], from first to last in y."""
-        found = np.zeros(len(first), bool)
+        meets = np.zeros(len(first), bool)
         for base, _ in (*self.bands, *self.obstacles):
             x0, y0, x1, y1 = base.box()
             if x[-1] < x0 or x[0] > x1:
                 continue
-            found |= (last >= y0) & (first <= y1)
-        return found
+            meets |= (last >= y0) & (first <= y1)
+        return meets
 
     def nearest_layer(self, x: Float, y: Float) -> Float:
         """Approximate distances of points from the nearest course or area and its shoulder, m; 1e6 beyond its reach."""
@@ -160,15 +162,15 @@ class Terrain:
         surfaces = np.zeros(len(x), np.uint8)
         nearest, same = np.full(len(x), FAR), np.full(len(x), FAR)
         for k, layer in enumerate(self.layers):
-            part = np.flatnonzero(self.excess[k][i, j] < layer.shoulder + layer.blend + self.step)
-            if len(part) == 0:
+            indices = np.flatnonzero(self.excess[k][i, j] < layer.shoulder + layer.blend + self.step)
+            if len(indices) == 0:
                 continue
-            guess = self.station[k][i[part], j[part]].astype(float)
-            found = layer.at(x[part], y[part], guess)
-            z[part] += weight(layer, found.excess) * (found.height - z[part])
-            surfaces[part[found.excess <= 0.0]] = self.names.index(layer.surface)
-            same[part] = np.minimum(same[part], np.abs(found.excess))
-            nearest[part] = np.minimum(nearest[part], found.excess - layer.shoulder)
+            guess = self.station[k][i[indices], j[indices]].astype(float)
+            points = layer.at(x[indices], y[indices], guess)
+            z[indices] += weight(layer, points.excess) * (points.height - z[indices])
+            surfaces[indices[points.excess <= 0.0]] = self.names.index(layer.surface)
+            same[indices] = np.minimum(same[indices], np.abs(points.excess))
+            nearest[indices] = np.minimum(nearest[indices], points.excess - layer.shoulder)
         return carved + (1.0 - soft_rise(nearest / EDGE)) * (z - carved), surfaces, same
 
 

@@ -48,18 +48,18 @@ def off_by(terrain: Terrain, road: Path) -> Deviation:
 
     `road`: as it lies on the disk.
     """
-    chance = np.random.default_rng(1)
+    generator = np.random.default_rng(1)
     differences = []
     with open_file(road, LARGEST_IN_PARTS, RoadFileError) as file:
         head = read_header(file, road)
         x0, y0, dx, dy = head.real[:4]
-        columns = head.tiles[1]
+        tile_columns = head.tiles[1]
         for number, (z, *_) in read_shared(file, head, road):
-            i, j = chance.integers(0, ROAD_TILE - 1, (2, LOOKED_AT))
-            rows, places = (number // columns) * ROAD_TILE + i, (number % columns) * ROAD_TILE + j
-            inside = (rows < head.nx - 1) & (places < head.ny - 1)
+            i, j = generator.integers(0, ROAD_TILE - 1, (2, LOOKED_AT))
+            rows, columns = (number // tile_columns) * ROAD_TILE + i, (number % tile_columns) * ROAD_TILE + j
+            inside = (rows < head.nx - 1) & (columns < head.ny - 1)
             middle = 0.25 * (z[i, j] + z[i + 1, j] + z[i, j + 1] + z[i + 1, j + 1])
-            x, y = x0 + (rows + 0.5) * dx, y0 + (places + 0.5) * dy
+            x, y = x0 + (rows + 0.5) * dx, y0 + (columns + 0.5) * dy
             differences.append(np.abs(middle - terrain.at(x, y))[inside])
-    found = np.concatenate(differences)
-    return Deviation(float(found.max()), float(np.quantile(found, 0.999)), len(found))
+    deviations = np.concatenate(differences)
+    return Deviation(float(deviations.max()), float(np.quantile(deviations, 0.999)), len(deviations))

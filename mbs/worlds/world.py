@@ -37,8 +37,8 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     name = file.stem
     files = [file]
     if file.suffix.lower() == ".toml":
-        name, others = named_files(file)
-        files += others
+        name, source_files = named_files(file)
+        files += source_files
     key = key_of(files) + ("-thin" if thin else "")
     paths, cached = world_files(key, lambda folder: _make(file, name, folder, thin), out)
     if picture is not None:
@@ -54,16 +54,16 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     record = read_json(out / f"{name}.json")
     for warning in record.get("warnings", []) if cached else []:
         print(f"warning: {warning}", file=sys.stderr)
-    if (off := record.get("thin")) is not None:
-        print(off)
+    if (deviation := record.get("thin")) is not None:
+        print(deviation)
     print(f"{'kept from before' if cached else 'made'}: {time.perf_counter() - begin:.2f} s")
     return 0
 
 
 def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
     """Plausibility of the description of a world, and of the road made from it."""
-    found = described(file)
-    return [*(plausibility_of(found) if found is not None else []), *plausibility_of(RoadFile(road))]
+    description = described(file)
+    return [*(plausibility_of(description) if description is not None else []), *plausibility_of(RoadFile(road))]
 
 
 def _file(name_or_file: str) -> Path:
@@ -79,8 +79,8 @@ def _file(name_or_file: str) -> Path:
         if is_file(candidate) and Path(name_or_file).name == name_or_file:
             return candidate
     worlds = shipped_worlds()
-    near = did_you_mean(name_or_file, worlds, f"worlds are {', '.join(worlds)}", 1)
-    raise UserError(f"There is no world '{name_or_file}' and no such file{near}")
+    suggestion = did_you_mean(name_or_file, worlds, f"worlds are {', '.join(worlds)}", 1)
+    raise UserError(f"There is no world '{name_or_file}' and no such file{suggestion}")
 
 
 def _make(file: Path, name: str, folder: Path, thin: bool) -> None:

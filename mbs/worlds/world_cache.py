@@ -54,8 +54,8 @@ def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list
         Whether they had been made before.
     """
     make_folder(out)
-    home = cache_folder("worlds")
-    entry = home / key
+    cache = cache_folder("worlds")
+    entry = cache / key
     if cached := (entry / MADE).is_file():
         try:
             os.utime(entry)  # used now
@@ -64,7 +64,7 @@ def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list
             pass
     with temporary_folder(out) as folder:
         make(folder)
-        _keep(folder, home, entry)
+        _keep(folder, cache, entry)
         return _copied(folder, out), False
 
 

@@ -16,14 +16,14 @@ def is_world(table: Mapping[str, Any]) -> bool:
 def named_files(file: Path) -> tuple[str, list[Path]]:
     """The name of a world, and the existing files that its description names."""
     table = read_toml(file, RoadFileError)
-    found = []
+    entries = []
     if is_world(table):
         ground = table.get("ground")
         courses = table.get("courses")
-        found = [ground.get("heights")] if isinstance(ground, dict) else []
-        found += [c.get("points") for c in courses if isinstance(c, dict)] if isinstance(courses, list) else []
+        entries = [ground.get("heights")] if isinstance(ground, dict) else []
+        entries += [c.get("points") for c in courses if isinstance(c, dict)] if isinstance(courses, list) else []
     else:
-        found = [table.get("heights"), table.get("frictions")]
+        entries = [table.get("heights"), table.get("frictions")]
     name = table.get("name") if is_world(table) else None
-    paths = [file.parent / item for item in found if isinstance(item, str)]
+    paths = [file.parent / item for item in entries if isinstance(item, str)]
     return name if isinstance(name, str) else file.stem, [path for path in paths if is_file(path)]

@@ -77,15 +77,15 @@ def _ground(world: WorldDescription) -> Iterator[Value]:
         key, places = f"courses.{k}", _line(course)
         if places:
             yield _outside(world, key, places)
-            long = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
+            length = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
             for j, barrier in enumerate(world.barriers):
                 if barrier.course == course.name:
                     keys = {f"barriers.{j}.begin": barrier.begin, f"barriers.{j}.end": barrier.end}
-                    yield Value(QUANTITIES["stretch"], (barrier.end - barrier.begin) / long, keys, f"barriers.{j}")
+                    yield Value(QUANTITIES["stretch"], (barrier.end - barrier.begin) / length, keys, f"barriers.{j}")
         if course.heights:
             s, z = np.array(course.heights, float).T
-            steep = float(np.abs(np.diff(z) / np.maximum(np.diff(s), FELT)).max(initial=0.0))
-            yield Value(QUANTITIES["grade"], steep, {f"{key}.heights": course.heights}, key)
+            grade = float(np.abs(np.diff(z) / np.maximum(np.diff(s), FELT)).max(initial=0.0))
+            yield Value(QUANTITIES["grade"], grade, {f"{key}.heights": course.heights}, key)
 
 
 def _line(course: Course) -> Places:
@@ -108,39 +108,41 @@ def _objects(world: WorldDescription) -> Iterator[Value]:
         for name, quantity in ON_ROADS.items():
             for k, feature in enumerate(getattr(world, name)):
                 at = np.array(feature.at[:2])
-                off = [
+                distances = [
                     _distance(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)
                 ]
-                off += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
-                yield Value(QUANTITIES[quantity], min(off), {f"{name}.{k}.at": list(feature.at)}, f"{name}.{k}")
+                distances += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
+                yield Value(QUANTITIES[quantity], min(distances), {f"{name}.{k}.at": list(feature.at)}, f"{name}.{k}")
     for k, course in enumerate(world.courses):
         yield Value(QUANTITIES["width"], course.width, {f"courses.{k}.width": course.width}, f"courses.{k}")
     strips = [(f"courses.{k}.shoulder", course.shoulder) for k, course in enumerate(world.courses)]
-    for key, wide in [*strips, *((f"barriers.{k}.offset", b.offset) for k, b in enumerate(world.barriers))]:
-        yield Value(QUANTITIES["strip"], wide, {key: wide}, key)
+    for key, width in [*strips, *((f"barriers.{k}.offset", b.offset) for k, b in enumerate(world.barriers))]:
+        yield Value(QUANTITIES["strip"], width, {key: width}, key)
     hills = 3.0 * world.ground.variation.height if world.ground.variation is not None else 0.0
     for k, area in enumerate(world.areas) if world.ground.heights is None else ():
-        over = max(abs(area.height - world.ground.height) - hills, 0.0)
+        height = max(abs(area.height - world.ground.height) - hills, 0.0)
         keys = {f"areas.{k}.height": area.height, f"areas.{k}.blend": area.blend}
-        yield Value(QUANTITIES["slope"], over / area.blend, keys, f"areas.{k}")
+        yield Value(QUANTITIES["slope"], height / area.blend, keys, f"areas.{k}")
     for k, house in enumerate(world.buildings):
         for side, axis in zip(house.size, ("length", "width", "height"), strict=True):
             yield Value(QUANTITIES["house"], side, {f"buildings.{k}.size": list(house.size)}, f"buildings.{k} {axis}")
     for k, feature in enumerate(world.obstacles):
         name = "wavelength" if isinstance(feature, Washboard) else "face"
         if not isinstance(feature, Ramp):
-            given, spacing = getattr(feature, name), list(world.spacing)
-            fine: dict[str, Any] = {f"obstacles.{k}.{name}": given, "spacing": spacing}
-            yield Value(QUANTITIES["fine"], given / max(spacing), fine, f"obstacles.{k}")
+            detail, spacing = getattr(feature, name), list(world.spacing)
+            detail_keys: dict[str, Any] = {f"obstacles.{k}.{name}": detail, "spacing": spacing}
+            yield Value(QUANTITIES["fine"], detail / max(spacing), detail_keys, f"obstacles.{k}")
     if world.trees is not None:
         x0, y0, x1, y1 = world.bounds
-        least: dict[str, Any] = {"trees.distance": world.trees.distance, "bounds": list(world.bounds)}
-        yield Value(QUANTITIES["trees"], world.trees.distance / min(x1 - x0, y1 - y0), least)
+        tree_keys: dict[str, Any] = {"trees.distance": world.trees.distance, "bounds": list(world.bounds)}
+        yield Value(QUANTITIES["trees"], world.trees.distance / min(x1 - x0, y1 - y0), tree_keys)
     for name in ("courses", "obstacles", "areas", "bands", "places", "signs", "buildings"):
         features = getattr(world, name)
-        twice = [k for k, feature in enumerate(features) if feature in features[:k]]
+        duplicates = [k for k, feature in enumerate(features) if feature in features[:k]]
         if features:
-            yield Value(QUANTITIES["twice"], float(len(twice)), {f"{name}.{k}": "as before" for k in twice}, name)
+            yield Value(
+                QUANTITIES["twice"], float(len(duplicates)), {f"{name}.{k}": "as before" for k in duplicates}, name
+            )
 
 
 def _distance(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
@@ -153,8 +155,8 @@ def _distance(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
 def _outside(world: WorldDescription, key: str, places: Sequence[tuple[float, float]]) -> Value:
     """Distance of the farthest of some points outside the world."""
     x0, y0, x1, y1 = world.bounds
-    off, x, y = max((float(np.hypot(max(x0 - x, x - x1, 0.0), max(y0 - y, y - y1, 0.0))), x, y) for x, y in places)
-    return Value(QUANTITIES["outside"], off, {key: [x, y], "bounds": list(world.bounds)}, key)
+    distance, x, y = max((float(np.hypot(max(x0 - x, x - x1, 0.0), max(y0 - y, y - y1, 0.0))), x, y) for x, y in places)
+    return Value(QUANTITIES["outside"], distance, {key: [x, y], "bounds": list(world.bounds)}, key)
 
 
 def _altered_values(world: WorldDescription, key: str, feature: Feature) -> list[Value]:
@@ -175,13 +177,13 @@ def _features(world: WorldDescription) -> Iterator[tuple[str, Feature]]:
 
 
 def _points(world: WorldDescription, key: str, feature: Feature) -> Value:
-    found = changed_points(world, feature)
+    count = changed_points(world, feature)
     keys = {
         f"{key}.{n}": getattr(feature, n)
         for n in ("at", "left", "right", "length", "width", "radius")
         if hasattr(feature, n)
     }
-    return Value(QUANTITIES["points"], float(found), {**keys, "spacing": list(world.spacing)}, key)
+    return Value(QUANTITIES["points"], float(count), {**keys, "spacing": list(world.spacing)}, key)
 
 
 def _box(feature: Feature) -> tuple[float, float, float, float]:
@@ -233,15 +235,17 @@ def _scenery_points(world: WorldDescription) -> Iterator[tuple[str, Places]]:
             yield f"{key}.size", [(x0, y0), (x1, y1)]
     for k, line in enumerate(world.lines):
         if line.centre is not None and line.radius is not None:
-            (x, y), far = line.centre, line.radius
-            yield f"lines.{k}.radius", [(x - far, y - far), (x + far, y + far)]
+            (x, y), reach = line.centre, line.radius
+            yield f"lines.{k}.radius", [(x - reach, y - reach), (x + reach, y + reach)]
     for k, cones in enumerate(world.cones):
         if cones.start is not None and cones.slalom is not None:
-            (x, y, yaw), far = cones.start, cones.distance * (cones.slalom - 1)
-            yield f"cones.{k}.distance", [(x + far * np.cos(np.radians(yaw)), y + far * np.sin(np.radians(yaw)))]
+            (x, y, yaw), reach = cones.start, cones.distance * (cones.slalom - 1)
+            yield f"cones.{k}.distance", [(x + reach * np.cos(np.radians(yaw)), y + reach * np.sin(np.radians(yaw)))]
     for name in ("cones", "lines", "signs", "arrows", "barriers", "buildings"):
         for k, feature in enumerate(getattr(world, name)):
-            given = [p for n in ("at", "points", "start", "centre") if (p := getattr(feature, n, None))]
-            places = [p[:2] for one in given for p in (one if isinstance(one[0], tuple) else (one,))]
+            positions = [p for n in ("at", "points", "start", "centre") if (p := getattr(feature, n, None))]
+            places = [
+                p[:2] for position in positions for p in (position if isinstance(position[0], tuple) else (position,))
+            ]
             if places and getattr(feature, "course", None) is None:
                 yield f"{name}.{k}", places

@@ -50,24 +50,24 @@ def attachments(b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) 
     """
     noted = _Noted(b.chassis.body, b.chassis.origin)
     b.chassis = replace(b.chassis, body=noted)
-    at = []
+    counts = []
     for _ in parts(b):
-        at.append(len(noted.points))
+        counts.append(len(noted.points))
     points = list(noted.points)
-    found = (points[: at[0]], points[at[0] : at[1]])
-    axles = tuple(tuple(p for p in part if p[1] >= 0.0) for part in found)
+    axle_points = (points[: counts[0]], points[counts[0] : counts[1]])
+    axles = tuple(tuple(p for p in part if p[1] >= 0.0) for part in axle_points)
     return Attachments((axles[0], axles[1]), tuple(_joint_pairs(noted, b.m.joints)))
 
 
 def _joint_pairs(chassis: Body, joints: list[Joint]) -> Iterator[tuple[Point, Point]]:
     """Pairs of points of which no other is the image, at which one part is joined to the chassis."""
-    found: dict[Body, list[Point]] = {}
+    points_by_body: dict[Body, list[Point]] = {}
     for joint in joints:
         if joint.places is not None and chassis in joint.places.bodies:
             number = joint.places.bodies.index(chassis)
             x, y, z = (float(v) for v in np.asarray(joint.places.points[number]))
-            found.setdefault(joint.places.bodies[1 - number], []).append((x, y, z))
-    for points in found.values():
+            points_by_body.setdefault(joint.places.bodies[1 - number], []).append((x, y, z))
+    for points in points_by_body.values():
         for a, b in combinations(points, 2):
             if a[1] + b[1] >= 0.0:
                 yield a, b

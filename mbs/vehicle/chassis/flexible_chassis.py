@@ -61,10 +61,10 @@ def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, Affi
     length = float(p_front[0] - p_rear[0])
     share = float(p_top[0] - p_rear[0]) / length  # of the front joints in the place under the top ones
     x = (front[0] + front[1] - rear[0] - rear[1]) * (0.5 / length)
-    below = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
+    base = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
     slope = float(p_front[2] - p_rear[2])
     height = float(p_top[2] - p_front[2]) + (1.0 - share) * slope
-    z = ((top[0] + top[1]) * 0.5 - below) * (1.0 / height)
+    z = ((top[0] + top[1]) * 0.5 - base) * (1.0 / height)
     return z, x - z * (slope / length) if slope else x
 
 
@@ -74,11 +74,11 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
     What acts on them loads the frame as forces at these joints. At the floating frame itself, one node, it would bend
     the floor; a quasi-static chassis would miss it.
     """
-    named = [flexible.place(joint) for joint in flexible.carrying]
-    origin = np.mean(named, axis=0)
+    positions = [flexible.place(joint) for joint in flexible.carrying]
+    origin = np.mean(positions, axis=0)
 
     def combination(sums: np.ndarray) -> AffineVector:
-        terms = [body.point(p) * float(w) for p, w in zip(named, flexible.shares(sums), strict=True)]
+        terms = [body.point(p) * float(w) for p, w in zip(positions, flexible.shares(sums), strict=True)]
         return sum(terms[1:], terms[0])
 
     axes = [combination(np.append(e, 0.0)) for e in np.eye(3)]

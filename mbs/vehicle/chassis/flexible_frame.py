@@ -69,8 +69,8 @@ class FlexibleFrame:
 
     def plausibility(self) -> list[Plausibility]:
         """Plausibility of the frame with the masses it carries, and held at its interfaces."""
-        held = [self.model.reference_freedoms(self.reference), *map(self.model.freedoms, self.interfaces)]
-        return model_plausibility(self.model, held=np.concatenate(held))
+        freedoms = [self.model.reference_freedoms(self.reference), *map(self.model.freedoms, self.interfaces)]
+        return model_plausibility(self.model, held=np.concatenate(freedoms))
 
     def place(self, joint: str) -> np.ndarray:
         """Position of a joint, m, shape (3,)."""
@@ -93,10 +93,10 @@ class FlexibleFrame:
 
     def reduced(self, fidelity: Fidelity | int | str) -> ReducedBody:
         """The frame reduced to the modes of a fidelity, cached. `fidelity`: LOAD_PATHS or a finer one."""
-        which = Fidelity.of(fidelity)
-        if which not in self._reduced:
-            self._reduced[which] = self._reduce(which).carrying(self._riding())
-        return self._reduced[which]
+        level = Fidelity.of(fidelity)
+        if level not in self._reduced:
+            self._reduced[level] = self._reduce(level).carrying(self._riding())
+        return self._reduced[level]
 
     def _reduce(self, fidelity: Fidelity) -> ReducedBody:
         s, model = self.section, self._bare
@@ -109,14 +109,14 @@ class FlexibleFrame:
         # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
         # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
         loads, pairs = self.recorded_loads(), self._relief_with_stretch[1]
-        every = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
-        guided = np.zeros((6, every.shape[1]))
+        all_loads = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
+        guided = np.zeros((6, all_loads.shape[1]))
         guided[:3, -3:] = np.eye(3)
-        deformation = load_path_deformations(body, every, guided)
-        size = np.sqrt(np.einsum("ik,ij,jk->k", deformation, body.K, deformation))
-        scale = np.ones(every.shape[1])
-        scale[loads.shape[1] :] = size[: loads.shape[1]].max() / size[loads.shape[1] :]
-        return load_path_modes(body, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
+        deformation = load_path_deformations(body, all_loads, guided)
+        norms = np.sqrt(np.einsum("ik,ij,jk->k", deformation, body.K, deformation))
+        scale = np.ones(all_loads.shape[1])
+        scale[loads.shape[1] :] = norms[: loads.shape[1]].max() / norms[loads.shape[1] :]
+        return load_path_modes(body, all_loads * scale, LOAD_PATH_TOLERANCE, guided * scale)
 
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
@@ -239,6 +239,6 @@ def _settled(relief: InertiaRelief, pairs: np.ndarray, n: int) -> InertiaRelief:
 def _at_hard_points(model: FiniteElementModel, joints: FrameJoints) -> FiniteElementModel:
     """The model with its joints exactly at the points of the car file, as files of matrices have fewer digits."""
     positions = model.positions.copy()
-    for name, place in (*joints.accelerometers.items(), *joints.interfaces.items()):
-        positions[model.node(name)] = place
+    for name, position in (*joints.accelerometers.items(), *joints.interfaces.items()):
+        positions[model.node(name)] = position
     return replace(model, positions=positions)

@@ -74,9 +74,9 @@ class JointFinder:
         return FrameJoints(interfaces, tuple(arms), drive, ground, self._reference(chassis.reference), accelerometers)
 
     def _drive(self, driven: int) -> tuple[Pair, ...]:
-        named = self._named("drive_mounts")
-        if named:
-            return named
+        named_pairs = self._named("drive_mounts")
+        if named_pairs:
+            return named_pairs
         points = self._axles[driven]
         arms = [pair for pair in self._held if set(pair) <= set(points)]
         if not arms:
@@ -105,22 +105,22 @@ class JointFinder:
 
     def _named(self, field: str) -> tuple[Pair, ...]:
         """Joints that the file names, with their images."""
-        found = []
+        pairs = []
         for name in getattr(self._section, field) or ():
             if name not in self._names:
                 raise ModelError(f"{self._section.key(field)} names {name!r}; the frame has no such joint.")
             x, y, z = (float(v) for v in self._structure.joints[name])
-            what = f"{self._section.key(field)}: the image of {name}"
-            found.append((name, self._nearest((x, -y, z), what)) if y else (name,))
-        return tuple(found)
+            label = f"{self._section.key(field)}: the image of {name}"
+            pairs.append((name, self._nearest((x, -y, z), label)) if y else (name,))
+        return tuple(pairs)
 
     def _pair(self, point: Point) -> Pair:
         return tuple(dict.fromkeys((self._joint_at(point), self._joint_at(_image(point), point))))
 
     def _joint_at(self, position: Point, point: Point | None = None) -> str:
         """Joint at a hard point, or at the image of one."""
-        what = self._keys.get(point or position, "A point of the suspension on the chassis")
-        return self._nearest(position, what if point in (None, position) else f"The image of {what}")
+        key = self._keys.get(point or position, "A point of the suspension on the chassis")
+        return self._nearest(position, key if point in (None, position) else f"The image of {key}")
 
     def _nearest(self, position: Point, what: str) -> str:
         gaps = np.linalg.norm(self._places - position, axis=1)

@@ -36,8 +36,8 @@ def check_mass(structure: Structure, chassis: Chassis) -> None:
         )
     arms = positions - centre
     second = (masses[:, None] * arms).T @ arms
-    tensor, given = np.trace(second) * np.eye(3) - second, np.array(chassis.tensor)
-    if np.abs(tensor - given).max() > INERTIA * given.max():
+    tensor, chassis_tensor = np.trace(second) * np.eye(3) - second, np.array(chassis.tensor)
+    if np.abs(tensor - chassis_tensor).max() > INERTIA * chassis_tensor.max():
         (x, xy, xz), (_, y, yz), (_, _, z) = tensor
         raise ModelError(
             f"{chassis.key('inertia')} is {list(chassis.inertia)} kg.m2 and products {list(chassis.products)}, but the "

@@ -31,8 +31,8 @@ def ground_contact(
         radius=data.radius,
         gravity=GRAVITY,
     )
-    left = [_position(data, point, joints) for point in data.points]
-    points = np.array([(x, sign * y, z) for x, y, z in left for sign in ((1.0, -1.0) if y else (1.0,))])
+    left_points = [_position(data, point, joints) for point in data.points]
+    points = np.array([(x, sign * y, z) for x, y, z in left_points for sign in ((1.0, -1.0) if y else (1.0,))])
     origin, axes, position = b.chassis.contact_frame
     b.m.add(contact.record(NAME, origin, axes, points - position, b.road))
 

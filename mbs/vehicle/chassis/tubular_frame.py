@@ -42,8 +42,8 @@ class TubularFrame:
     @property
     def material(self) -> Material:
         """Material of all tubes."""
-        given = self.section.material
-        return Material(given.E, given.nu, given.rho, given.yield_strength)
+        material = self.section.material
+        return Material(material.E, material.nu, material.rho, material.yield_strength)
 
     @property
     def tube_sections(self) -> dict[str, Section]:
@@ -96,20 +96,20 @@ class TubularFrame:
         """
         joints, gauges = self.joint_places(), []
         for name, gauge in self.section.gauges.items():
-            found = _tube_of(gauge, tubes)
-            ends = joints[found.start], joints[found.end]
-            radius = 0.5 * self.section.sections[found.section].diameter
-            gauges.append(gauge.strain_gauge(name, ends, radius, found.elements))
+            frame_tube = _tube_of(gauge, tubes)
+            ends = joints[frame_tube.start], joints[frame_tube.end]
+            radius = 0.5 * self.section.sections[frame_tube.section].diameter
+            gauges.append(gauge.strain_gauge(name, ends, radius, frame_tube.elements))
         return tuple(gauges)
 
     def joint_places(self) -> dict[str, np.ndarray]:
         """Joints by name with their images, m."""
         joints: dict[str, np.ndarray] = {}
-        seen: set[str] = set()
+        names: set[str] = set()
         for row in read_table(self.folder, self.section.joints, self.section.key("joints"), ("joint", "x", "y", "z")):
             name = row["joint"]
             position = np.array([row.number(axis, -REACH, REACH, "m") for axis in "xyz"])
-            _check_joint(row, name, float(position[1]), seen)
+            _check_joint(row, name, float(position[1]), names)
             joints[name] = position
             joints.setdefault(mirrored(name), position * [1.0, -1.0, 1.0])
         return joints
@@ -164,15 +164,15 @@ def _loaded_joints(row: Row, wanted: str) -> tuple[str, ...]:
 
 
 def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
-    found = {(t.start, t.end): t for t in tubes}
-    if gauge.tube in found:
-        return found[gauge.tube]
+    tubes_by_ends = {(t.start, t.end): t for t in tubes}
+    if gauge.tube in tubes_by_ends:
+        return tubes_by_ends[gauge.tube]
     start, end = gauge.tube
-    if (end, start) in found:
+    if (end, start) in tubes_by_ends:
         hint = f"the tube runs from {end} to {start}, and place counts from {end}"
     else:
-        at = sorted({b if a == start else a for a, b in found if start in (a, b)})
-        hint = f"tubes lead from {start} to {', '.join(at)}" if at else f"no tube ends at {start}"
+        neighbours = sorted({b if a == start else a for a, b in tubes_by_ends if start in (a, b)})
+        hint = f"tubes lead from {start} to {', '.join(neighbours)}" if neighbours else f"no tube ends at {start}"
     raise ModelError(f"{gauge.key('tube')} is {list(gauge.tube)}, which is not a tube of the frame: {hint}.")
 
 

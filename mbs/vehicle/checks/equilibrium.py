@@ -46,12 +46,12 @@ class Rest:
         """A sentence for each difference from the drawing."""
         yield from self._moved(car)
         for name, axle in car.axles.items():
-            drawn, found = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
-            if abs(found - drawn) > ODD_DEFLECTION:
+            drawn, deflection = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
+            if abs(deflection - drawn) > ODD_DEFLECTION:
                 yield (
                     f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
-                    f"{self.load[name]:.0f} N compresses the tyre by {found:.3g} m, but {axle.tyre.key('radius')} less "
-                    f"the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
+                    f"{self.load[name]:.0f} N compresses the tyre by {deflection:.3g} m, but {axle.tyre.key('radius')} "
+                    f"less the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
                 )
         if abs(self.lean) > ODD_LEAN:
             yield (
@@ -61,12 +61,12 @@ class Rest:
             )
 
     def _moved(self, car: CarContent) -> Iterator[str]:
-        off = [name for name, travel in self.travel.items() if abs(travel) > ODD]
-        fitting = _fitting(self, car, off) if off else {}
+        displaced = [name for name, travel in self.travel.items() if abs(travel) > ODD]
+        fitting = _fitting(self, car, displaced) if displaced else {}
         for name, axle in car.axles.items():
             travel = self.travel[name]
             if abs(travel) > ODD:
-                fits = f": with {axle.spring.key('free_length')} = {fitting[name]:.6g} it is" if fitting else ""
+                remedy = f": with {axle.spring.key('free_length')} = {fitting[name]:.6g} it is" if fitting else ""
                 spring = axle.spring
                 values = [f"{spring.key('free_length')} {spring.free_length:g} m"]
                 values += [f"stiffness {spring.stiffness:g} N/m"] if spring.stiffness is not None else []
@@ -74,7 +74,7 @@ class Rest:
                     f"at rest the {name} wheels stand {abs(travel):.3g} m {'higher' if travel > 0.0 else 'lower'} "
                     f"in the chassis than {axle.wheel.key('centre')} is drawn, at a load of {self.load[name]:.0f} N "
                     f"each and {abs(self.spring_force[name]):.0f} N in each spring ({', '.join(values)}); a car is "
-                    f"drawn in its equilibrium{fits}."
+                    f"drawn in its equilibrium{remedy}."
                 )
 
 
@@ -118,12 +118,12 @@ def _fitting(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, flo
     try:
         for name in (*axles, *(axles if len(axles) > 1 else ())):  # one axle moves the other a little
             begin = lengths[keys[name]]
-            off = travel(begin, name)
-            ends = [begin + 2.0**k * off for k in range(WIDER)]  # too low: shorter
-            end = next((x for x in ends if travel(x, name) * off < 0.0), None)
-            if end is None:
+            offset = travel(begin, name)
+            candidates = [begin + 2.0**k * offset for k in range(WIDER)]  # too low: shorter
+            bound = next((x for x in candidates if travel(x, name) * offset < 0.0), None)
+            if bound is None:
                 return {}
-            lengths[keys[name]] = float(brentq(travel, begin, end, args=(name,), xtol=FITTED))
+            lengths[keys[name]] = float(brentq(travel, begin, bound, args=(name,), xtol=FITTED))
     except ModelError:
         return {}
     return {name: lengths[keys[name]] for name in axles}

@@ -25,27 +25,27 @@ def mass_faults(car: CarContent) -> Iterator[str]:
 
 def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[float, float, float]]]:
     """Masses with their places as drawn, of both sides."""
-    found = [(car.chassis.mass, car.chassis.com)]
-    found += [(load.mass, load.point) for load in car.payload.values() if payloads]
+    weighed = [(car.chassis.mass, car.chassis.com)]
+    weighed += [(load.mass, load.point) for load in car.payload.values() if payloads]
     points = car.front.suspension.points
     x, _, z = getattr(points, "tie_rod_inner", car.front.wheel.centre)
-    found.append((car.steering.moving_mass, (x, 0.0, z)))
-    left = [(part.mass, part.com) for part in parts_of(car)]
-    left += [(axle.wheel.mass, axle.wheel.centre) for axle in (car.front, car.rear)]
-    return found + [(mass, (x, side * y, z)) for mass, (x, y, z) in left for side in (1.0, -1.0)]
+    weighed.append((car.steering.moving_mass, (x, 0.0, z)))
+    left_masses = [(part.mass, part.com) for part in parts_of(car)]
+    left_masses += [(axle.wheel.mass, axle.wheel.centre) for axle in (car.front, car.rear)]
+    return weighed + [(mass, (x, side * y, z)) for mass, (x, y, z) in left_masses for side in (1.0, -1.0)]
 
 
 def _sum(car: CarContent) -> Iterator[str]:
     total = sum(mass for mass, _ in weighed_points(car, payloads=False))
-    given = car.vehicle.mass
-    if abs(total - given) > MASS_TOLERANCE * given:
-        yield f"{car.vehicle.key('mass')} is {given:g} kg, but the masses of all parts add up to {total:g} kg."
+    declared = car.vehicle.mass
+    if abs(total - declared) > MASS_TOLERANCE * declared:
+        yield f"{car.vehicle.key('mass')} is {declared:g} kg, but the masses of all parts add up to {total:g} kg."
         return
     centre, loaded = centre_of(car, payloads=False), centre_of(car, payloads=True)
-    off = math.dist(centre, car.vehicle.reference_point)
-    if min(off, math.dist(loaded, car.vehicle.reference_point)) > REFERENCE_TOLERANCE:
+    offset = math.dist(centre, car.vehicle.reference_point)
+    if min(offset, math.dist(loaded, car.vehicle.reference_point)) > REFERENCE_TOLERANCE:
         yield (
-            f"{car.vehicle.key('reference_point')} is {list(car.vehicle.reference_point)} m, {off:.3g} m from the "
+            f"{car.vehicle.key('reference_point')} is {list(car.vehicle.reference_point)} m, {offset:.3g} m from the "
             f"centre of mass of all parts, {[round(c, 4) for c in centre]} m, which it is."
         )
 
@@ -60,7 +60,7 @@ def centre_of(car: CarContent, payloads: bool) -> list[float]:
     """Centre of mass, m."""
     weighed = weighed_points(car, payloads)
     total = sum(mass for mass, _ in weighed)
-    return [sum(mass * place[k] for mass, place in weighed) / total for k in range(3)]
+    return [sum(mass * position[k] for mass, position in weighed) / total for k in range(3)]
 
 
 def _tensor(key: str, inertia: tuple[float, float, float]) -> Iterator[str]:

@@ -21,20 +21,20 @@ def place_faults(car: CarContent) -> Iterator[str]:
             yield f"{key} has y = {point[1]:g} m; points are given for the left side and are mirrored: y is 0 or more."
         for axle in (car.front, car.rear):
             centre = axle.wheel.centre
-            away = math.hypot(point[0] - centre[0], point[2] - centre[2])
-            if away < axle.tyre.radius and abs(point[1] - centre[1]) < TYRE:
-                yield f"{key} lies in the tyre of {axle.wheel.key('centre')}, {away:.3g} m from the wheel's axis."
+            distance = math.hypot(point[0] - centre[0], point[2] - centre[2])
+            if distance < axle.tyre.radius and abs(point[1] - centre[1]) < TYRE:
+                yield f"{key} lies in the tyre of {axle.wheel.key('centre')}, {distance:.3g} m from the wheel's axis."
 
 
 def place_oddities(car: CarContent) -> Iterator[str]:
     """A sentence for each thing that is odd."""
-    named = car.chassis.accelerometers
-    for name, (x, y, z) in named.items():
-        other = named.get(f"{name[:-1]}R") if name.endswith("L") else None
-        if other is not None and other != (x, -y, z):
+    points = car.chassis.accelerometers
+    for name, (x, y, z) in points.items():
+        mirrored = points.get(f"{name[:-1]}R") if name.endswith("L") else None
+        if mirrored is not None and mirrored != (x, -y, z):
             yield (
-                f"{car.chassis.key('accelerometers')}.{name} and {name[:-1]}R, {[x, y, z]} and {list(other)} m, are no "
-                "mirror images."
+                f"{car.chassis.key('accelerometers')}.{name} and {name[:-1]}R, {[x, y, z]} and {list(mirrored)} m, are "
+                "no mirror images."
             )
 
 

@@ -33,7 +33,7 @@ def working_ranges(car: CarContent) -> Ranges:
     The load of a tyre is that which presses it in as drawn. A spring is taken to carry the load of its wheel less the
     unsprung weight, as with a motion ratio of 1; one of a table is stiff as it is under that load.
     """
-    found: Ranges = {}
+    ranges: Ranges = {}
     loads: dict[str, tuple[float, float]] = {}
     radii: list[float] = []
     for name, axle in car.axles.items():
@@ -42,35 +42,35 @@ def working_ranges(car: CarContent) -> Ranges:
         if load <= 0.0:
             continue
         low, high = (load / (part * tyre.radius) for part in reversed(PRESSED))
-        _put(found, tyre, "stiffness", low, high)
+        _put(ranges, tyre, "stiffness", low, high)
         room = PRESSED[1] * tyre.radius * tyre.stiffness - load
         carried = weight_on_spring(axle, load)
         if carried > 0.0:
-            room = min(room, _add_suspension(found, axle, carried))
+            room = min(room, _add_suspension(ranges, axle, carried))
         loads[name], radii = (2.0 * load, 2.0 * max(room, 0.0)), [*radii, tyre.radius]
     if len(radii) == 2:
-        weight, more = (sum(part) for part in zip(*loads.values(), strict=True))
+        weight, reserve = (sum(part) for part in zip(*loads.values(), strict=True))
         torque = weight * sum(radii) / 2.0  # of all wheels together that brakes or drives with 1 g
-        _put(found, car.brakes, "torque", *(0.5 * part * torque for part in BRAKED))  # that of one side
+        _put(ranges, car.brakes, "torque", *(0.5 * part * torque for part in BRAKED))  # that of one side
         if driven := car.drive.torque_ratio * car.drive.max_torque:  # none with an efficiency of 0
             for name in {"max_torque", "ratio", "ratio_factor"} & set(type(car.drive).model_fields):
                 value = getattr(car.drive, name)
-                _put(found, car.drive, name, *(value * part * torque / driven for part in DRIVEN))
-        _add_air(found, car.aerodynamics, loads)
-        _put(found, car.chassis, "mass", 0.0, car.chassis.mass + more / GRAVITY)
+                _put(ranges, car.drive, name, *(value * part * torque / driven for part in DRIVEN))
+        _add_air(ranges, car.aerodynamics, loads)
+        _put(ranges, car.chassis, "mass", 0.0, car.chassis.mass + reserve / GRAVITY)
         for payload in car.payload.values():
-            _put(found, payload, "mass", 0.0, payload.mass + more / GRAVITY)
-    _add_mass_centre(found, car)
-    _add_grip(found, car)
-    return found
+            _put(ranges, payload, "mass", 0.0, payload.mass + reserve / GRAVITY)
+    _add_mass_centre(ranges, car)
+    _add_grip(ranges, car)
+    return ranges
 
 
 def _add_mass_centre(found: Ranges, car: CarContent) -> None:
     """Add the range of the chassis' centre of mass that keeps the car's within `centre_ranges`."""
     lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
     centre, spans = centre_of(car, payloads=False), centre_ranges(car)
-    for (path, value), now, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
-        low, high = (value + (end - now) / lever for end in span)
+    for (path, value), position, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
+        low, high = (value + (end - position) / lever for end in span)
         found[path] = min(low, value), max(high, value)
 
 
@@ -81,10 +81,10 @@ def _add_grip(found: Ranges, car: CarContent) -> None:
     """
     road = car.road
     for axle in (car.front, car.rear):
-        reached = min(axle.tyre.friction) / axle.tyre.reference_friction
-        _least(found, axle.tyre, "grip", reached * road.friction * road.friction_factor)
-        _least(found, road, "friction", reached * axle.tyre.grip * road.friction_factor)
-        _least(found, road, "friction_factor", reached * axle.tyre.grip * road.friction)
+        friction_ratio = min(axle.tyre.friction) / axle.tyre.reference_friction
+        _least(found, axle.tyre, "grip", friction_ratio * road.friction * road.friction_factor)
+        _least(found, road, "friction", friction_ratio * axle.tyre.grip * road.friction_factor)
+        _least(found, road, "friction_factor", friction_ratio * axle.tyre.grip * road.friction)
 
 
 def weight_on_spring(axle: Axle, load: float) -> float:
@@ -122,11 +122,11 @@ def _add_suspension(found: Ranges, axle: Axle, carried: float) -> float:
     if not spring.factor > 0.0:
         return math.inf
     pressed, slope = under_load(spring, carried)
-    deep = pressed + SUNK
-    last = float((force[-1] - force[-2]) / (x[-1] - x[-2]))
-    most = float(np.interp(deep, x, force)) + last * max(deep - float(x[-1]), 0.0)
+    sunk = pressed + SUNK
+    end_slope = float((force[-1] - force[-2]) / (x[-1] - x[-2]))
+    largest_force = float(np.interp(sunk, x, force)) + end_slope * max(sunk - float(x[-1]), 0.0)
     k, stiffest = slope * spring.factor, STIFFEST**2 * carried / GRAVITY
-    softest, hardest = carried / most, max(stiffest / slope, spring.factor)
+    softest, hardest = carried / largest_force, max(stiffest / slope, spring.factor)
     _put(found, spring, "factor", softest, hardest)
     if spring.stiffness is not None:
         _put(found, spring, "stiffness", *(spring.stiffness * part / spring.factor for part in (softest, hardest)))
@@ -137,7 +137,7 @@ def _add_suspension(found: Ranges, axle: Axle, carried: float) -> float:
         _put(found, damper, "factor", *(part * critical / of_one for part in DAMPED))
     if damper.damping is not None and damper.factor > 0.0:
         _put(found, damper, "damping", *(part * critical / damper.factor for part in DAMPED))
-    return spring.factor * most - carried
+    return spring.factor * largest_force - carried
 
 
 def _rows(spring: Spring) -> tuple[np.ndarray, np.ndarray]:

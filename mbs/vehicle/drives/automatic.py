@@ -59,8 +59,8 @@ class Automatic(Section, of=AutomaticDrive):
 
     def faults(self) -> Iterator[str]:
         """Faults in the order of gears and speeds."""
-        for field, wrong in self.element(AutomaticDrive).faults():
-            yield f"{self.key(field)} {wrong}."
+        for field, fault in self.element(AutomaticDrive).faults():
+            yield f"{self.key(field)} {fault}."
 
     @property
     def torque_ratio(self) -> float:

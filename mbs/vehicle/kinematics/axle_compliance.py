@@ -63,8 +63,8 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     V, soft = held_car.flexibility(held_car.wheel_rows())
     values = {axle: _responses(held_car, axle, V, soft) for axle in car.linked_axles}
     free, springs = held_car.flexibility(np.zeros((0, len(held_car.q))))
-    for axle, found in values.items():
-        found |= _rates(held_car, axle, free, springs)
+    for axle, responses in values.items():
+        responses |= _rates(held_car, axle, free, springs)
     return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _note(car, chosen))
 
 
@@ -101,13 +101,13 @@ def _note(car: Car, fidelity: Fidelity) -> str:
 
 def _responses(held_car: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
     left, right = (held_car.wheels[axle[0].upper() + side] for side in "LR")
-    found = {}
+    responses = {}
     for load in LOADS:
         for sense, sign in DIRECTIONS.items():
-            moved = V @ (soft @ (V.T @ (_load(left, load) + sign * _load(right, load))))
+            displacement = V @ (soft @ (V.T @ (_load(left, load) + sign * _load(right, load))))
             for name, row in _responding(left).items():
-                found[f"{load}.{sense}.{name}"] = float(row @ moved) + 0.0
-    return found
+                responses[f"{load}.{sense}.{name}"] = float(row @ displacement) + 0.0
+    return responses
 
 
 def _load(wheel: HeldWheel, load: str) -> Array:
@@ -134,8 +134,8 @@ def _responding(wheel: HeldWheel) -> dict[str, Array]:
 def _rates(held_car: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
     """Load of a wheel per its rise, both wheels alike and against each other."""
     left, right = (held_car.wheels[axle[0].upper() + side] for side in "LR")
-    found = {}
+    rates = {}
     for name, sign in (("wheel_rate", 1.0), ("roll_wheel_rate", -1.0)):
-        moved = V @ (soft @ (V.T @ (left.contact[2] + sign * right.contact[2])))
-        found[name] = 1.0 / float(left.contact[2] @ moved)
-    return found
+        displacement = V @ (soft @ (V.T @ (left.contact[2] + sign * right.contact[2])))
+        rates[name] = 1.0 / float(left.contact[2] @ displacement)
+    return rates

@@ -48,21 +48,21 @@ class Kinematics:
         if (axle, "parallel") not in self.curves:
             return {}
         parallel = self.curves[axle, "parallel"].drawn()
-        found = {n.removesuffix("_left"): v for n, v in parallel.items() if not n.endswith("_right")}
+        drawn_values = {n.removesuffix("_left"): v for n, v in parallel.items() if not n.endswith("_right")}
         for name in ("toe_angle", "camber_angle"):
-            if abs(parallel[f"{name}_right"] - found[name]) > SAME_ANGLE:
-                found[f"right_{name}"] = parallel[f"{name}_right"]
+            if abs(parallel[f"{name}_right"] - drawn_values[name]) > SAME_ANGLE:
+                drawn_values[f"right_{name}"] = parallel[f"{name}_right"]
         opposite = self.curves[axle, "opposite"].drawn()
-        found |= {n: v for n, v in opposite.items() if n in ("roll_steer", "roll_camber", "roll_stiffness")}
-        found["roll_wheel_rate"] = opposite["wheel_rate_left"]
+        drawn_values |= {n: v for n, v in opposite.items() if n in ("roll_steer", "roll_camber", "roll_stiffness")}
+        drawn_values["roll_wheel_rate"] = opposite["wheel_rate_left"]
         steer = self.curves.get((axle, "steer"))
         if steer is not None:
-            found["steering_ratio"] = steer.drawn()["steering_ratio"]
+            drawn_values["steering_ratio"] = steer.drawn()["steering_ratio"]
             lock = {name: float(values[-1]) for name, values in steer.columns.items()}
-            found["lock_steering_wheel_angle"] = lock["steering_wheel_angle"]
-            found["lock_inner"], found["lock_outer"] = lock["steer_angle_left"], lock["steer_angle_right"]
-            found |= {f"lock_{name}": lock[name] for name in ("ackermann", "ackermann_error", "turning_circle")}
-        return found
+            drawn_values["lock_steering_wheel_angle"] = lock["steering_wheel_angle"]
+            drawn_values["lock_inner"], drawn_values["lock_outer"] = lock["steer_angle_left"], lock["steer_angle_right"]
+            drawn_values |= {f"lock_{name}": lock[name] for name in ("ackermann", "ackermann_error", "turning_circle")}
+        return drawn_values
 
 
 def kinematics(
@@ -91,7 +91,7 @@ def kinematics(
     low, high = checked_travel(travel)
     if not isinstance(points, int) or isinstance(points, bool) or not 3 <= points <= MOST_POINTS:
         raise ModelError(f"points = {shown(points)}; it must be a whole number between 3 and {MOST_POINTS}.")
-    both = min(-low, high)
+    common_range = min(-low, high)
     curves: dict[tuple[str, str], Curve] = {}
     notes: list[str] = []
     if not car.linked_axles:
@@ -99,7 +99,7 @@ def kinematics(
     for axle in car.linked_axles:
         linkage = Linkage(car, axle)
         for motion in MOTIONS:
-            ends = (-both, both) if motion == "opposite" else (low, high)
+            ends = (-common_range, common_range) if motion == "opposite" else (low, high)
             curves[axle, motion] = travel_curve(linkage, motion, _grid(*ends, points))
             _report(progress, len(curves))
         if axle == "front":
@@ -139,9 +139,9 @@ def checked_travel(travel: object) -> tuple[float, float]:
 def _grid(low: float, high: float, points: int) -> Array:
     """Equal steps with the drawing among them."""
     grid = np.linspace(low, high, points)
-    near = int(np.argmin(np.abs(grid)))
-    if abs(grid[near]) < 1e-9 * (high - low):
-        grid[near] = 0.0
+    nearest = int(np.argmin(np.abs(grid)))
+    if abs(grid[nearest]) < 1e-9 * (high - low):
+        grid[nearest] = 0.0
         return grid
     return np.sort(np.append(grid, 0.0))
 

@@ -71,8 +71,8 @@ def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
     direction = DIRECTIONS[motion]
 
     def measures(at: Position) -> dict[str, float]:
-        found = wheel_measures(linkage, at) | travel_measures(linkage, at, direction)
-        return found | (roll_measures(linkage, at) if motion == "opposite" else {})
+        values = wheel_measures(linkage, at) | travel_measures(linkage, at, direction)
+        return values | (roll_measures(linkage, at) if motion == "opposite" else {})
 
     return _curve(linkage, motion, travel, measures)
 
@@ -111,7 +111,7 @@ def _curve(linkage: Linkage, motion: str, values: Array, measures: Callable[[Pos
     columns = {name: np.array([row[name] for row in rows]) + 0.0 for name in rows[0]}  # no -0.0
     (x, y), (other_x, other_y) = ([columns[f"contact_centre_{c}_{side}"] for c in "xy"] for side in SIDES)
     columns["track_change"] = y - other_y - linkage.data.track
-    ahead = 0.5 * (x + other_x) - linkage.data.wheel.centre[0]
-    columns["wheelbase_change"] = ahead if linkage.name == "front" else -ahead
+    shift = 0.5 * (x + other_x) - linkage.data.wheel.centre[0]
+    columns["wheelbase_change"] = shift if linkage.name == "front" else -shift
     order = [n for name in BY_NAME for n in (name, f"{name}_left", f"{name}_right") if n in columns]
     return Curve(linkage.name, motion, {name: columns[name] for name in order}, tuple(notes))

@@ -81,15 +81,15 @@ class HeldCar(StandingModel):
     def __init__(self, car: Car, fidelity: Fidelity) -> None:
         m, b, carriers = held_model(car, fidelity)
         super().__init__(m)
-        as_set = {
+        alignment_axes = {
             side.wheel: tuple(data.alignment.axes(side))
             for axle, data in car.linked_axles.items()
             for side in sides(axle)
         }
         self._carriers = {
             name: (
-                _to_ground(centre, as_set[name][2]),
-                [self.linear(v) for v in (carrier.point(centre), *map(carrier.vector, as_set[name]))],
+                _to_ground(centre, alignment_axes[name][2]),
+                [self.linear(v) for v in (carrier.point(centre), *map(carrier.vector, alignment_axes[name]))],
             )
             for name, (carrier, centre) in carriers.items()
         }
@@ -125,8 +125,8 @@ class HeldCar(StandingModel):
             Their flexibility.
         """
         jacobian = self.rows(self.q)
-        every = np.vstack([jacobian, self.wheel_rows()])
-        lam = np.linalg.lstsq(every.T, self.force(self.q), rcond=RANK_TOLERANCE)[0]
+        all_rows = np.vstack([jacobian, self.wheel_rows()])
+        lam = np.linalg.lstsq(all_rows.T, self.force(self.q), rcond=RANK_TOLERANCE)[0]
         V = scipy.linalg.null_space(np.vstack([jacobian, held]), rcond=RANK_TOLERANCE)
         if not V.shape[1]:
             return V, np.zeros((0, 0))
@@ -144,25 +144,25 @@ class HeldCar(StandingModel):
     def _settle(self) -> None:
         """Go to where the frame holds the springs, by Newton's method on the motions that the rows allow."""
         still = np.zeros(len(self.q))
-        held = np.vstack([self._pins, np.array([parts[0][0][2] for _, parts in self._carriers.values()])])
-        places = held @ self.q
+        fixed_rows = np.vstack([self._pins, np.array([parts[0][0][2] for _, parts in self._carriers.values()])])
+        fixed_values = fixed_rows @ self.q
         for _ in range(MOST_ITERATIONS):
             V, soft = self.flexibility(self.wheel_rows())
             change = V @ (soft @ (V.T @ self.force(self.q)))
             self.q = self.q + change
             for _ in range(5):
                 phi, jacobian, _ = self.evaluator.constraints(self.q, still)
-                off = np.concatenate([phi, held @ self.q - places])
-                self.q = self.q - np.linalg.lstsq(np.vstack([jacobian, held]), off, rcond=RANK_TOLERANCE)[0]
+                residuals = np.concatenate([phi, fixed_rows @ self.q - fixed_values])
+                self.q = self.q - np.linalg.lstsq(np.vstack([jacobian, fixed_rows]), residuals, rcond=RANK_TOLERANCE)[0]
             if not np.abs(change).max(initial=0.0) > SETTLED:
                 return
         raise ModelError("The frame of the held car finds no equilibrium with its springs.")
 
     def _wheel(self, down: Array, parts: list[tuple[Array, Array]]) -> HeldWheel:
-        place, *axes = parts
+        centre, *axes = parts
         turn = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
-        contact = place[0] + np.cross(turn, down, axisa=0).T
-        return HeldWheel(float(np.linalg.norm(down)), place[0], axes[1][0], turn, contact)
+        contact = centre[0] + np.cross(turn, down, axisa=0).T
+        return HeldWheel(float(np.linalg.norm(down)), centre[0], axes[1][0], turn, contact)
 
 
 def _to_ground(centre: Point, up: Point) -> Array:

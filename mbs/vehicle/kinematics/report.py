@@ -39,19 +39,19 @@ def report(options: argparse.Namespace) -> int:
         )
     with warning_lines():
         car = load(options.car)
-    asked = options.fidelity
-    fidelity = fidelity_of(car, int(asked) if asked is not None and asked == asked // 1 else asked)
+    requested = options.fidelity
+    fidelity = fidelity_of(car, int(requested) if requested is not None and requested == requested // 1 else requested)
     folder = options.out or Path("out", "kinematics", car.name)
     names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in (*MOTIONS, "table")]
     for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):
         check_writable(file)
     with progress_for(None) as bar:
-        found = kinematics(car, (low, high), POINTS if options.points is None else options.points, bar.update)
-    gives = compliance(car, fidelity)
-    print(text([*rows(found), *compliance_rows(gives)]))
-    for note in filter(None, (*found.notes, gives.sentence)):
+        car_kinematics = kinematics(car, (low, high), POINTS if options.points is None else options.points, bar.update)
+    car_compliance = compliance(car, fidelity)
+    print(text([*rows(car_kinematics), *compliance_rows(car_compliance)]))
+    for note in filter(None, (*car_kinematics.notes, car_compliance.sentence)):
         print(f"note: {note}", file=sys.stderr)
-    for curve in found.curves.values():
+    for curve in car_kinematics.curves.values():
         write_curve(curve, folder / curve_file(curve))
     tables = []
     for axle in car.linked_axles:
@@ -65,13 +65,13 @@ def report(options: argparse.Namespace) -> int:
             tables.append(f"{axle}_table.csv")
         except NotReachedError as error:
             print(f"note: no {axle}_table.csv, as the links end before their stops: {error}.", file=sys.stderr)
-    write_text(folder / "kinematics.html", page(found, gives))
+    write_text(folder / "kinematics.html", page(car_kinematics, car_compliance))
     if options.json:
-        write_json(options.json, _content(found, gives))
-    print(f"\n{folder / 'kinematics.html'} and {len(found.curves)} CSV files beside it", flush=True)
+        write_json(options.json, _content(car_kinematics, car_compliance))
+    print(f"\n{folder / 'kinematics.html'} and {len(car_kinematics.curves)} CSV files beside it", flush=True)
     if tables:
         print(f'{", ".join(tables)}: where the wheels stand, as kind = "curves" reads it', flush=True)
-    return 1 if any(curve.notes for curve in found.curves.values()) else 0
+    return 1 if any(curve.notes for curve in car_kinematics.curves.values()) else 0
 
 
 def _content(found: Any, gives: Any) -> dict[str, Any]:

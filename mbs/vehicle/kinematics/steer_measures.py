@@ -28,7 +28,7 @@ def steer_measures(linkage: Linkage, at: Position, wheel_by_rack: WheelByRack) -
     mean = 0.5 * sum(steers)
     rate = 0.5 * float((wheels[0].steer_rate + wheels[1].steer_rate)[2])
     angle, wheel_per_rack = wheel_by_rack(at.rack)
-    found = {
+    measures = {
         "steering_wheel_angle": angle,
         linkage.car.steering.motion: at.rack,
         "mean_steer_angle": mean,
@@ -36,18 +36,18 @@ def steer_measures(linkage: Linkage, at: Position, wheel_by_rack: WheelByRack) -
         **dict.fromkeys(("ackermann_steer_angle", "ackermann_error", "ackermann", "turning_circle"), math.nan),
     }
     if min(abs(s) for s in steers) < STRAIGHT or steers[0] * steers[1] < 0.0:
-        return found
+        return measures
     inner, outer = wheels if mean > 0.0 else wheels[::-1]
     axle_x = linkage.car.rear.wheel.centre[0]
 
     def centre(w_contact: np.ndarray, steer: float) -> float:
         return float(w_contact[1] + (w_contact[0] - axle_x) / math.tan(steer))
 
-    own = centre(inner.contact, inner.steer)
-    wanted = math.atan((outer.contact[0] - axle_x) / (own - outer.contact[1]))
-    middle = 0.5 * (own + centre(outer.contact, outer.steer))
-    found["ackermann_steer_angle"] = wanted
-    found["ackermann_error"] = abs(outer.steer) - abs(wanted)
-    found["ackermann"] = 100.0 * (inner.steer - outer.steer) / (inner.steer - wanted)
-    found["turning_circle"] = 2.0 * math.hypot(outer.contact[0] - axle_x, outer.contact[1] - middle)
-    return found
+    inner_centre = centre(inner.contact, inner.steer)
+    ackermann_angle = math.atan((outer.contact[0] - axle_x) / (inner_centre - outer.contact[1]))
+    middle = 0.5 * (inner_centre + centre(outer.contact, outer.steer))
+    measures["ackermann_steer_angle"] = ackermann_angle
+    measures["ackermann_error"] = abs(outer.steer) - abs(ackermann_angle)
+    measures["ackermann"] = 100.0 * (inner.steer - outer.steer) / (inner.steer - ackermann_angle)
+    measures["turning_circle"] = 2.0 * math.hypot(outer.contact[0] - axle_x, outer.contact[1] - middle)
+    return measures

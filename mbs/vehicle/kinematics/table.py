@@ -47,16 +47,16 @@ def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
     drawn = {axle: found.drawn(axle) for axle in ("front", "rear")}
     lines = []
     for heading, names in SECTIONS:
-        part = []
+        section_lines = []
         for name in names:
             values = [drawn[axle].get(name, math.nan) for axle in drawn]
             if all(math.isnan(v) for v in values):
                 continue
             quantity, title = named(name)
             front, rear = (shown_number(v * quantity.factor) for v in values)
-            part.append((title, front, rear, quantity.shown, quantity.meaning))
-        if part:
-            lines += [(heading, "", "", "", ""), *part]
+            section_lines.append((title, front, rear, quantity.shown, quantity.meaning))
+        if section_lines:
+            lines += [(heading, "", "", "", ""), *section_lines]
     return lines
 
 

@@ -53,23 +53,23 @@ def own_drives(system: System) -> list[Drive]:
     constants = {entry["name"]: float(entry["value"]) for entry in system.meta["constants"]}
     inputs = {entry["name"] for entry in system.meta["inputs"]}
     parameters = {entry["name"] for entry in system.meta["parameters"]}
-    found = []
+    drives = []
     if "steering" in inputs:
         angle = constants["vehicle.wheelbase"] * ACCELERATION / SPEED**2
         t = np.linspace(0.0, SLALOM, round(SLALOM / 0.01) + 1)
         turns = np.sin(2.0 * math.pi * FREQUENCY * t) * np.minimum(t / 2.0, 1.0) ** 2
-        part = min(angle / constants["vehicle.front_wheel_angle_max"], 1.0)
-        found.append(Drive("slalom", SLALOM, {"steering": (t, part * turns)}, speed=SPEED))
+        amplitude = min(angle / constants["vehicle.front_wheel_angle_max"], 1.0)
+        drives.append(Drive("slalom", SLALOM, {"steering": (t, amplitude * turns)}, speed=SPEED))
     if "brake" in inputs:
         times = np.array([0.0, 0.5, 0.7, BRAKE_TIME])
         pressed = np.array([0.0, 0.0, BRAKE, BRAKE])
-        found.append(Drive("braking", BRAKE_TIME, {"brake": (times, pressed)}, speed=BRAKING))
+        drives.append(Drive("braking", BRAKE_TIME, {"brake": (times, pressed)}, speed=BRAKING))
     if {"road.kerb_x", "road.kerb_height"} <= parameters:
-        ahead = {"road.kerb_x": KERB_AT, "road.kerb_height": KERB}
-        found.append(Drive("kerb", KERB_TIME, {}, ahead, KERB_SPEED))
-    if not found:
+        kerb_values = {"road.kerb_x": KERB_AT, "road.kerb_height": KERB}
+        drives.append(Drive("kerb", KERB_TIME, {}, kerb_values, KERB_SPEED))
+    if not drives:
         raise ModelError("The car has no input for its steering or brake and no kerb; give a drive of your own.")
-    return found
+    return drives
 
 
 def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:

@@ -47,15 +47,15 @@ def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Le
     none.
     """
     names = {row["manoeuvre"] for row in rows}
-    found: list[LevelChoice] = []
+    choices: list[LevelChoice] = []
     for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
         fidelity = Fidelity.of(name)
         level_rows = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
         complete = all(row[output] is not None for row in level_rows for output in outputs)
         if fidelity in LEFT_OUT and complete and {row["manoeuvre"] for row in level_rows} == names:
             errors = {output: max(row[output] for row in level_rows) for output in outputs}
-            found.append(LevelChoice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in level_rows)))
-    return found
+            choices.append(LevelChoice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in level_rows)))
+    return choices
 
 
 def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> LevelChoice:
@@ -67,18 +67,18 @@ def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float])
     for output, tolerance in tolerances.items():
         if not tolerance > 0.0:
             raise ValueError(f"The tolerance on {output} is {tolerance:g}; it must be positive.")
-    found = levels(rows, list(tolerances))
-    good = [c for c in found if all(c.errors[output] <= most for output, most in tolerances.items())]
-    if good:
-        return min(good, key=lambda c: c.ms_per_second)
+    choices = levels(rows, list(tolerances))
+    suitable = [c for c in choices if all(c.errors[output] <= most for output, most in tolerances.items())]
+    if suitable:
+        return min(suitable, key=lambda c: c.ms_per_second)
     limits = " and ".join(f"{output} right to {most:g}" for output, most in tolerances.items())
-    if not found:
+    if not choices:
         raise ValueError(
             f"No fidelity that was measured has {limits}: none has all of these outputs in all manoeuvres."
         )
-    near = nearest(found, tolerances).errors
-    named = [f"{output} {error:.2g}" if len(near) > 1 else f"{error:.2g}" for output, error in near.items()]
-    raise ValueError(f"No fidelity that was measured has {limits}; the best is {' and '.join(named)} away.")
+    errors = nearest(choices, tolerances).errors
+    error_texts = [f"{output} {error:.2g}" if len(errors) > 1 else f"{error:.2g}" for output, error in errors.items()]
+    raise ValueError(f"No fidelity that was measured has {limits}; the best is {' and '.join(error_texts)} away.")
 
 
 def nearest(found: Sequence[LevelChoice], tolerances: Mapping[str, float]) -> LevelChoice:

@@ -33,13 +33,13 @@ def systems_of(car: Car) -> dict[Fidelity, System]:
     """
     if car.ports.tyre is not None:
         raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it cannot drive.")
-    found = {}
+    systems = {}
     if car.front.suspension.linked or car.rear.suspension.linked:  # else it is by tables as it is
         try:
-            found[Fidelity.TABLE] = compile(car.model(fidelity=Fidelity.TABLE))
+            systems[Fidelity.TABLE] = compile(car.model(fidelity=Fidelity.TABLE))
         except ModelError as error:
             warnings.warn(str(error), RuntimeWarning, stacklevel=2)
-    return found | {fidelity: compile(model()) for fidelity, model in car.fidelities().items()}
+    return systems | {fidelity: compile(model()) for fidelity, model in car.fidelities().items()}
 
 
 def measure(
@@ -77,26 +77,26 @@ def measure(
     todo = sum(drive.duration for drive in drives) * (
         1.0 / FINE + len(systems) * (1 + repeats) * sum(1 / h for h in steps)
     )
-    done, rows = 0.0, []
+    simulated, rows = 0.0, []
     for drive in drives:
         fine = _run(systems[finest], drive, FINE, grid, stresses=not finest.rigid)
         distance = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
-        done += drive.duration / FINE
-        mine: list[tuple[System, dict[str, Any]]] = []
+        simulated += drive.duration / FINE
+        timed_rows: list[tuple[System, dict[str, Any]]] = []
         for fidelity, system in systems.items():
             for h in steps:
-                tell(min(done / todo, 1.0))
+                tell(min(simulated / todo, 1.0))
                 row: dict[str, Any] = {"manoeuvre": drive.name, "fidelity": fidelity.name.lower(), "h_s": h}
-                mine.append((system, row | _errors(fidelity, system, drive, h, fine, max(distance, 1.0), grid)))
-                done += drive.duration / h
+                timed_rows.append((system, row | _errors(fidelity, system, drive, h, fine, max(distance, 1.0), grid)))
+                simulated += drive.duration / h
         for _ in range(repeats):
-            for system, row in mine:
-                tell(min(done / todo, 1.0))
+            for system, row in timed_rows:
+                tell(min(simulated / todo, 1.0))
                 if not row["failed"]:
                     us = _cost(system, drive, row["h_s"], grid)
                     row["us_per_step"] = min(us, row["us_per_step"] or us)
-                done += drive.duration / row["h_s"]
-        rows += [row for _, row in mine]
+                simulated += drive.duration / row["h_s"]
+        rows += [row for _, row in timed_rows]
     tell(1.0)
     return rows
 
@@ -109,14 +109,14 @@ def _errors(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # how far a run is off is measured here
-            found = _run(system, drive, h, grid, stresses=not fidelity.rigid)
+            signals = _run(system, drive, h, grid, stresses=not fidelity.rigid)
     except SimulationError as error:
         return row | {"failed": str(error)}
-    moments = [name for name in found if name not in (*POSITION, *LOADS)]
+    moments = [name for name in signals if name not in (*POSITION, *LOADS)]
     return row | {
-        "path": path_error(found, fine) / way,
-        "load": load_error(found, fine),
-        "moment": error_of_change(found, fine, moments) if moments else None,
+        "path": path_error(signals, fine) / way,
+        "load": load_error(signals, fine),
+        "moment": error_of_change(signals, fine, moments) if moments else None,
         "failed": "",
     }
 
@@ -124,8 +124,8 @@ def _errors(
 def _cost(system: System, drive: Drive, h: float, grid: float) -> float:
     """Processor time of a step, us."""
     end = _end(drive, grid)
-    clock, given = time.process_time, (drive.inputs, drive.parameters, drive.pose)
-    return 1e6 * step_time(system, end, h, 1, clock, *given, warm_up=0) * h / end
+    clock, settings = time.process_time, (drive.inputs, drive.parameters, drive.pose)
+    return 1e6 * step_time(system, end, h, 1, clock, *settings, warm_up=0) * h / end
 
 
 def _end(drive: Drive, grid: float) -> float:
@@ -145,8 +145,8 @@ def _run(system: System, drive: Drive, h: float, grid: float, *, stresses: bool)
         progress=False,
         estimate_error=False,
     )
-    every = round(grid / h)
-    values = {s: np.asarray(run[s])[::every] for s in (*POSITION, *LOADS)}
+    decimation = round(grid / h)
+    values = {s: np.asarray(run[s])[::decimation] for s in (*POSITION, *LOADS)}
     sensors = [entry["name"] for entry in system.meta["sensors"]] if stresses else []
     moments = [name for name in sensors if name.startswith("bending_moment.")]
-    return values | {s: low_pass(run[s], h, FREQUENCY)[::every] for s in moments}
+    return values | {s: low_pass(run[s], h, FREQUENCY)[::decimation] for s in moments}

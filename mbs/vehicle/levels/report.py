@@ -74,8 +74,8 @@ def _print_rows(title: str, drives: Sequence[str], rows: Sequence[Mapping[str, A
     print("\n".join(table(rows)))
     for row in rows:
         if row["failed"]:
-            what = f"{row['manoeuvre']}, fidelity {Fidelity.of(row['fidelity']).value}, {1e3 * row['h_s']:g} ms"
-            print(f"note: {what}: {row['failed']}", file=sys.stderr)
+            label = f"{row['manoeuvre']}, fidelity {Fidelity.of(row['fidelity']).value}, {1e3 * row['h_s']:g} ms"
+            print(f"note: {label}: {row['failed']}", file=sys.stderr)
 
 
 def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path | None, float]:
@@ -83,8 +83,8 @@ def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path |
 
     Raises `UserError`: a name is not known, or a value cannot be used.
     """
-    given = dict(words)
-    numbers = {name: text for name, text in given.items() if name != "drive"}
+    options = dict(words)
+    numbers = {name: text for name, text in options.items() if name != "drive"}
     unknown = [name for name in numbers if name not in (*OUTPUTS, "speed")]
     if unknown:
         raise UserError(
@@ -99,11 +99,11 @@ def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path |
             raise UserError(f"{name} of --cheapest: {error}.") from None
         if name != "speed" and not values[name] > 0.0:
             raise UserError(f"{name} of --cheapest is {values[name]:g}; it is in percent and must be positive.")
-    if "speed" in values and "drive" not in given:
+    if "speed" in values and "drive" not in options:
         raise UserError("speed of --cheapest is that at the start of a drive; give drive=FILE too.")
     speed = values.pop("speed", 0.0)
     tolerances = {OUTPUTS[name]: 0.01 * percent for name, percent in values.items()}
-    return tolerances, Path(given["drive"]) if "drive" in given else None, speed
+    return tolerances, Path(options["drive"]) if "drive" in options else None, speed
 
 
 def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -126,8 +126,8 @@ def _largest_text(rows: Sequence[Mapping[str, Any]], key: str, factor: float, fo
 
 
 def _tolerance_text(tolerances: Mapping[str, float]) -> str:
-    words = [f"{100.0 * most:g} % {TITLES[output]}" for output, most in tolerances.items()]
-    return ", ".join(words[:-1]) + (" and " if len(words) > 1 else "") + words[-1]
+    limits = [f"{100.0 * most:g} % {TITLES[output]}" for output, most in tolerances.items()]
+    return ", ".join(limits[:-1]) + (" and " if len(limits) > 1 else "") + limits[-1]
 
 
 def _sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:
@@ -139,15 +139,15 @@ def _sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:
 
 
 def _none(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> str:
-    found = levels(rows, list(tolerances))
-    if not found:
+    measured = levels(rows, list(tolerances))
+    if not measured:
         return (
             f"No level is within {_tolerance_text(tolerances)}: no run of a level with these outputs reached its end."
         )
-    near = nearest(found, tolerances)
-    errors = ", ".join(f"{100.0 * near.errors[output]:.2g} % {TITLES[output]}" for output in tolerances)
+    closest = nearest(measured, tolerances)
+    errors = ", ".join(f"{100.0 * closest.errors[output]:.2g} % {TITLES[output]}" for output in tolerances)
     return (
-        f"No level is within {_tolerance_text(tolerances)}; the nearest is fidelity {near.fidelity.value} with steps "
-        f"of {1e3 * near.h:g} ms, {errors}. Give a larger tolerance, or take steps shorter than "
-        f"{1e3 * min(c.h for c in found):g} ms."
+        f"No level is within {_tolerance_text(tolerances)}; the nearest is fidelity {closest.fidelity.value} with "
+        f"steps of {1e3 * closest.h:g} ms, {errors}. Give a larger tolerance, or take steps shorter than "
+        f"{1e3 * min(c.h for c in measured):g} ms."
     )

@@ -24,30 +24,30 @@ def reached(
     list of Position, float or None
         As many as can be reached, and where the linkage ends if that is before the last value.
     """
-    found: list[Position] = []
+    positions: list[Position] = []
     at = start = start or linkage.drawn
-    now = 0.0
+    current = 0.0
     for value in values:
         step = STEP
-        while now != value:
-            ahead = value if abs(value - now) <= step else now + np.sign(value - now) * step
+        while current != value:
+            target = value if abs(value - current) <= step else current + np.sign(value - current) * step
             try:
-                there = _next(linkage, start, at, direction, now, float(ahead))
+                next_position = _next(linkage, start, at, direction, current, float(target))
             except NotReachedError:
-                step = 0.5 * min(step, abs(float(ahead) - now))
+                step = 0.5 * min(step, abs(float(target) - current))
                 if step < LEAST_STEP:
-                    return found, now
+                    return positions, current
                 continue
-            at, now, step = there, float(ahead), min(STEP, 2.0 * step)
-        found.append(at)
-    return found, None
+            at, current, step = next_position, float(target), min(STEP, 2.0 * step)
+        positions.append(at)
+    return positions, None
 
 
 def _next(linkage: Linkage, start: Position, at: Position, direction: Array, now: float, ahead: float) -> Position:
     """The position at the next value, near the tangent."""
     change = at.tangent @ direction * (ahead - now)
     travel, rack = start.travel + ahead * direction[:2], start.rack + ahead * float(direction[2])
-    there = linkage.solve(at.q + change, travel, rack)
-    if np.linalg.norm(there.q - at.q - change) > STRAY * np.linalg.norm(change) + ROUND_OFF:
+    position = linkage.solve(at.q + change, travel, rack)
+    if np.linalg.norm(position.q - at.q - change) > STRAY * np.linalg.norm(change) + ROUND_OFF:
         raise NotReachedError(f"the position at {ahead:g} m is not near the tangent")
-    return there
+    return position

@@ -29,8 +29,8 @@ def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
     rows: list[dict[str, float]] = []
     for t in travel:
         for u in second:
-            place = (np.array([t, u]), 0.0) if coupled else (np.array([t, t]), float(u))
-            q = _reached(linkage, *place)
+            position = (np.array([t, u]), 0.0) if coupled else (np.array([t, t]), float(u))
+            q = _reached(linkage, *position)
             rows.append({TRAVEL: float(t), **({name: float(u)} if name else {}), **_measures(linkage, q)})
     return {column: np.array([row[column] for row in rows]) + 0.0 for column in rows[0]}
 
@@ -47,16 +47,17 @@ def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike
 def _travels(linkage: Linkage, coupled: bool) -> Array:
     """Travels (n,) of a wheel, m, from beyond one stop to beyond the other at any position of the other wheel."""
     extended, compressed = compression_range(linkage)
-    ends = []
+    limits = []
     for direction, most in ((-1.0, extended), (1.0, compressed)):
         t = 0.0
-        others = (1.0, -1.0) if coupled else (1.0,)
+        directions = (1.0, -1.0) if coupled else (1.0,)
         while (
-            min(direction * _compression(linkage, _reached(linkage, np.array([t, o * t]), 0.0)) for o in others) < most
+            min(direction * _compression(linkage, _reached(linkage, np.array([t, o * t]), 0.0)) for o in directions)
+            < most
         ):
             t += direction * 0.5 * SPACING[0]
-        ends.append(t)
-    return even_points(ends[0], ends[1], SPACING[0])
+        limits.append(t)
+    return even_points(limits[0], limits[1], SPACING[0])
 
 
 def _compression(linkage: Linkage, q: Array) -> float:
@@ -66,11 +67,11 @@ def _compression(linkage: Linkage, q: Array) -> float:
 
 def _reached(linkage: Linkage, travel: Array, rack: float) -> Array:
     """Coordinates at a position, solved in 1, 4, 16 or 64 steps from the drawing."""
-    for parts in (1, 4, 16, 64):
+    for step_count in (1, 4, 16, 64):
         at = linkage.drawn
         try:
-            for k in range(parts):
-                share = (k + 1) / parts
+            for k in range(step_count):
+                share = (k + 1) / step_count
                 at = linkage.solve(at.q, share * travel, share * rack)
         except NotReachedError:
             continue
@@ -85,7 +86,7 @@ def _measures(linkage: Linkage, q: Array) -> dict[str, float]:
     axis = triad[1]
     steer, inclination = np.arctan2(-axis[0], axis[1]), np.arcsin(axis[2])
     level = axes_of(steer, inclination)
-    found = {
+    measures = {
         "wheel_centre_x": float(x),
         "wheel_centre_y": float(y),
         "toe_angle": -float(steer),
@@ -94,10 +95,10 @@ def _measures(linkage: Linkage, q: Array) -> dict[str, float]:
     }
     for name, lines in (("spring_length", linkage.springs), ("damper_length", linkage.dampers)):
         D, d = linkage.linear(lines[0])
-        found[name] = float(np.linalg.norm(D @ q + d))
+        measures[name] = float(np.linalg.norm(D @ q + d))
     if linkage.dampers[0] == linkage.springs[0]:
-        del found["damper_length"]  # one with the spring
+        del measures["damper_length"]  # one with the spring
     if linkage.levers:
         row, constant = linkage.full(linkage.levers[0])
-        found["anti_roll_bar_angle"] = float(row @ q + constant)
-    return found
+        measures["anti_roll_bar_angle"] = float(row @ q + constant)
+    return measures

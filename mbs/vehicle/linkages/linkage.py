@@ -140,22 +140,22 @@ class Linkage(StandingModel):
         travel of the rack, m. Raises `NotReachedError`: the iteration does not end: links are too short or too long for
         it.
         """
-        q, still, wanted = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
+        q, still, heights = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
         offset = np.array([centre[1][2] for centre in self._centres])
         for _ in range(MOST_ITERATIONS):
             phi, jacobian, ahead = self.evaluator.constraints(q, still, rack)
             rows = np.vstack([jacobian, self._heights])
-            off = np.concatenate([phi, self._heights @ q + offset - wanted])
-            step = np.linalg.lstsq(rows, off, rcond=RANK_TOLERANCE)[0]
+            residuals = np.concatenate([phi, self._heights @ q + offset - heights])
+            step = np.linalg.lstsq(rows, residuals, rcond=RANK_TOLERANCE)[0]
             q = q - step
             if not np.abs(step).max() < 0.5:
                 break
-            if np.abs(step).max() < CLOSE and np.abs(off).max() < LEFT_OVER:
-                right = np.zeros((len(off), 3))
-                right[-2, 0] = right[-1, 1] = 1.0
-                right[: len(phi), 2] = -ahead
-                tangent = np.linalg.lstsq(rows, right, rcond=RANK_TOLERANCE)[0]
-                if np.abs(rows @ tangent - right).max() > 1e-6:
+            if np.abs(step).max() < CLOSE and np.abs(residuals).max() < LEFT_OVER:
+                right_side = np.zeros((len(residuals), 3))
+                right_side[-2, 0] = right_side[-1, 1] = 1.0
+                right_side[: len(phi), 2] = -ahead
+                tangent = np.linalg.lstsq(rows, right_side, rcond=RANK_TOLERANCE)[0]
+                if np.abs(rows @ tangent - right_side).max() > 1e-6:
                     break  # at a dead point the wheels cannot go on
                 return Position(travel, rack, q, tangent)
         raise NotReachedError(f"no position with travels of {travel[0]:g} and {travel[1]:g} m and a rack at {rack:g} m")
@@ -171,14 +171,14 @@ class Linkage(StandingModel):
             return self.evaluator.convective(at.q, qd, at.rack)
 
         # the guide's own rate is 1: gamma(v, s') = a(v, v) + b(v) s' + c s'^2
-        alone, right = rate(still), []
+        alone, right_sides = rate(still), []
         for direction in directions.T:
             ahead, back = (rate(sign * (at.tangent @ direction)) for sign in (1.0, -1.0))
             s = direction[2]
             gamma = 0.5 * (ahead + back) - alone + 0.5 * s * (ahead - back) + s**2 * alone
-            right.append(np.concatenate([-gamma, np.zeros(2)]))
+            right_sides.append(np.concatenate([-gamma, np.zeros(2)]))
         rows = np.vstack([self.evaluator.jacobian(at.q, at.rack), self._heights])
-        return np.asarray(np.linalg.lstsq(rows, np.transpose(right), rcond=RANK_TOLERANCE)[0])
+        return np.asarray(np.linalg.lstsq(rows, np.transpose(right_sides), rcond=RANK_TOLERANCE)[0])
 
     def steering_motion(self, at: Position) -> Array:
         """Rates (nq,) of the coordinates per travel of the rack with springs of constant length.
@@ -192,8 +192,8 @@ class Linkage(StandingModel):
             D, d = self.linear(spring)
             line_vector = D @ at.q + d
             rows.append((line_vector @ D / np.linalg.norm(line_vector))[None])
-        right = np.concatenate([-ahead, np.zeros(2)])
-        return np.asarray(np.linalg.lstsq(np.vstack(rows), right, rcond=RANK_TOLERANCE)[0])
+        right_side = np.concatenate([-ahead, np.zeros(2)])
+        return np.asarray(np.linalg.lstsq(np.vstack(rows), right_side, rcond=RANK_TOLERANCE)[0])
 
 
 def _fixed_chassis(m: Model, car: CarContent) -> Mount:

@@ -91,18 +91,18 @@ def _march(
 ) -> Array:
     """Coordinates at places along a line, from the one nearest to the drawing (or `begin`) to both ends."""
     first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points])) if begin is None else begin
-    found = np.zeros((len(points), len(start)))
-    found[first] = at_springs(linkage, start, *points[first])
+    coordinates = np.zeros((len(points), len(start)))
+    coordinates[first] = at_springs(linkage, start, *points[first])
     for direction, end in ((1, len(points)), (-1, -1)):
         for k in range(first + direction, end, direction):
-            before = found[k - direction]
+            previous = coordinates[k - direction]
             guess = (
-                2.0 * before - found[k - 2 * direction]
+                2.0 * previous - coordinates[k - 2 * direction]
                 if 0 <= k - 2 * direction < len(points) and k != first + direction
-                else before
+                else previous
             )
-            found[k] = at_springs(linkage, guess, *points[k])
-    return found
+            coordinates[k] = at_springs(linkage, guess, *points[k])
+    return coordinates
 
 
 def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float], rack: float) -> Array:
@@ -121,12 +121,12 @@ def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float],
         rows = np.vstack(
             [jacobian, *(vector @ D / size for (D, _), vector, size in zip(lines, vectors, lengths, strict=True))]
         )
-        off = np.concatenate([phi, lengths - drawn + compression])
-        step = np.linalg.lstsq(rows, off, rcond=RANK_TOLERANCE)[0]
+        residuals = np.concatenate([phi, lengths - drawn + compression])
+        step = np.linalg.lstsq(rows, residuals, rcond=RANK_TOLERANCE)[0]
         q = q - step
         if not np.abs(step).max() < 0.5:
             break
-        if np.abs(step).max() < CLOSE and np.abs(off).max() < LEFT_OVER:
+        if np.abs(step).max() < CLOSE and np.abs(residuals).max() < LEFT_OVER:
             return np.asarray(q)
     raise NotReachedError(
         f"no position with springs compressed by {compression[0]:g} and {compression[1]:g} m and a rack at {rack:g} m"
@@ -136,8 +136,8 @@ def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float],
 def is_coupled(linkage: Linkage) -> bool:
     """Whether the compression of the right spring moves the left wheel."""
     C, _ = linkage.centre(0)
-    alone = at_springs(linkage, linkage.drawn.q, (0.0, 0.01), 0.0)
-    return bool(np.max(np.abs(C @ (alone - linkage.drawn.q))) > SAME)
+    displaced = at_springs(linkage, linkage.drawn.q, (0.0, 0.01), 0.0)
+    return bool(np.max(np.abs(C @ (displaced - linkage.drawn.q))) > SAME)
 
 
 def depends_on_second(values: Array) -> bool:

@@ -27,9 +27,9 @@ class StandingModel:
         system = compiled(model)
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
-        there = SystemInstance(system, LoadedSystem(system.kernel_bytes(modes=False)), system.meta)
-        start(there.instance, system.meta)
-        self.evaluator = Evaluator(there)
+        system_instance = SystemInstance(system, LoadedSystem(system.kernel_bytes(modes=False)), system.meta)
+        start(system_instance.instance, system.meta)
+        self.evaluator = Evaluator(system_instance)
 
     def linear(self, v: AffineVector) -> tuple[Array, Array]:
         """Matrix (n, nq) and constant (n,) of a point or vector over the coordinates."""

@@ -74,9 +74,9 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
     for key, point in drawn_points(axle).items():
         if key.endswith("ball_joint"):
             of = f"{name} {key.rsplit('.', 1)[1].removesuffix('_ball_joint')}"
-            away = math.hypot(point[0] - centre[0], point[2] - centre[2])
+            distance = math.hypot(point[0] - centre[0], point[2] - centre[2])
             yield Value(CAR["joint"], centre[1] - point[1], {key: list(point), **y}, of)
-            yield Value(CAR["joint_radius"], away / axle.tyre.radius, {key: list(point), **y}, of)
+            yield Value(CAR["joint_radius"], distance / axle.tyre.radius, {key: list(point), **y}, of)
     yield from _distances(axle, name)
     yield from _alignment(axle, name)
     yield Value(
@@ -105,19 +105,19 @@ def _distances(axle: Axle, name: str) -> Iterator[Value]:
     points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
     if not axle.suspension.linked:
         points = parts
-    near = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if axle.suspension.linked else set()
-    for quantity, keys in (("carrier", points.keys() & near), ("reach", points.keys() - near)):
+    hub_keys = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if axle.suspension.linked else set()
+    for quantity, keys in (("carrier", points.keys() & hub_keys), ("reach", points.keys() - hub_keys)):
         if keys:
             key = max(sorted(keys), key=lambda k: math.dist(points[k], centre))
             yield Value(CAR[quantity], math.dist(points[key], centre), {key: list(points[key])}, name)
-    around = np.array([*points.values(), centre])
-    beyond = {
-        key: float(max((around.min(axis=0) - com).max(), (com - around.max(axis=0)).max(), 0.0))
+    box_points = np.array([*points.values(), centre])
+    overhangs = {
+        key: float(max((box_points.min(axis=0) - com).max(), (com - box_points.max(axis=0)).max(), 0.0))
         for key, com in parts.items()
     }
-    if beyond and axle.suspension.linked:
-        key = max(beyond, key=beyond.__getitem__)
-        yield Value(CAR["part"], beyond[key], {key: list(parts[key])}, name)
+    if overhangs and axle.suspension.linked:
+        key = max(overhangs, key=overhangs.__getitem__)
+        yield Value(CAR["part"], overhangs[key], {key: list(parts[key])}, name)
 
 
 def _points(axle: Axle) -> dict[str, Any]:

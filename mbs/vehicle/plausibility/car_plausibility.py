@@ -42,8 +42,8 @@ def car_plausibility(what: str, car: CarContent, rest: Rest, data: Data, remake:
         Mistake(words, frozenset(keys), partial(_altered_values, undo, data, remake))
         for words, keys, undo in _mistakes(car)
     ]
-    whole = Plausibility(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
-    return [whole, *(tyre_plausibility(what, a, kind) for a in car.axles.values())]
+    plausibility = Plausibility(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
+    return [plausibility, *(tyre_plausibility(what, a, kind) for a in car.axles.values())]
 
 
 def tyre_plausibility(what: str, axle: Axle, kind: str) -> Plausibility:
@@ -58,9 +58,9 @@ def tyre_plausibility(what: str, axle: Axle, kind: str) -> Plausibility:
 def car_values(car: CarContent, rest: Rest) -> list[Value]:
     """Values of all quantities of a car."""
     rates = {name: axle_rates(car, name, rest) for name in car.axles}
-    found = [*_dimension_values(car), *_mass_values(car)]
+    values = [*_dimension_values(car), *_mass_values(car)]
     for name in car.axles:
-        found += axle_values(car, name, rest, rates[name])
+        values += axle_values(car, name, rest, rates[name])
     linked = [r for r in rates.values() if r is not None]
     if len(linked) == len(rates) and car.linked:
         stiffness = [r.roll_stiffness for r in linked]
@@ -68,12 +68,12 @@ def car_values(car: CarContent, rest: Rest) -> list[Value]:
         keys: dict[str, Any] = {}
         for spring in (axle.spring for axle in car.axles.values()):
             keys |= spring.given | {spring.key("factor"): spring.factor}
-        found.append(Value(CAR["roll"], total / DEG, keys))
+        values.append(Value(CAR["roll"], total / DEG, keys))
         if total > 0.0:
             lean = _mass(car) * GRAVITY * centre_of(car, payloads=True)[2] / total
-            found.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
-            found.append(Value(CAR["split"], stiffness[0] / total, keys))
-    return [*found, *_driving_values(car, rest)]
+            values.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
+            values.append(Value(CAR["split"], stiffness[0] / total, keys))
+    return [*values, *_driving_values(car, rest)]
 
 
 def _centre_key(car: CarContent) -> dict[str, Any]:
@@ -107,19 +107,19 @@ def _point_values(car: CarContent) -> Iterator[Value]:
     """Extreme points: farthest outside the body's outline, nearest to the front axle, smallest coordinate but 0."""
     points, body = points_of_the_body(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
-    beyond = {
+    overhangs = {
         key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - HEIGHT, -z, 0.0)
         for key, (x, y, z) in points.items()
     }
-    key = max(beyond, key=beyond.__getitem__)
-    yield Value(CAR["outline"], beyond[key], {key: list(points[key])})
-    ahead = {key: abs(point[0]) or math.inf for key, point in points.items()}
-    key = min(ahead, key=ahead.__getitem__)
-    yield Value(CAR["ahead"], ahead[key], {key: list(points[key])})
+    key = max(overhangs, key=overhangs.__getitem__)
+    yield Value(CAR["outline"], overhangs[key], {key: list(points[key])})
+    distances = {key: abs(point[0]) or math.inf for key, point in points.items()}
+    key = min(distances, key=distances.__getitem__)
+    yield Value(CAR["ahead"], distances[key], {key: list(points[key])})
     points |= drawn_points(car.front) | drawn_points(car.rear) | centres_of(car)
-    nearest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
-    key = min(nearest, key=nearest.__getitem__)
-    yield Value(CAR["nearest"], nearest[key], {key: list(points[key])})
+    smallest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
+    key = min(smallest, key=smallest.__getitem__)
+    yield Value(CAR["nearest"], smallest[key], {key: list(points[key])})
 
 
 def _mass_values(car: CarContent) -> Iterator[Value]:
@@ -131,8 +131,8 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
     yield Value(CAR["aside"], y / track, _centre_key(car))
     products = [abs(p) for p in chassis.products if p]
     if products:
-        least = {chassis.key("products"): list(chassis.products)}
-        yield Value(CAR["products"], min(products) / max(chassis.inertia), least)
+        product_key = {chassis.key("products"): list(chassis.products)}
+        yield Value(CAR["products"], min(products) / max(chassis.inertia), product_key)
     weighed = weighed_points(car, payloads=True)
     inertia = chassis.inertia[2] + sum(m * ((px - x) ** 2 + (py - y) ** 2) for m, (px, py, _) in weighed)
     before, behind = car.wheelbase * (1.0 - share), car.wheelbase * share
@@ -228,13 +228,13 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         if damper.table is not None:
             key = damper.key("table")
             yield f"bump and rebound exchanged in {key}", {key}, partial(_mirror, key)
-        for key, what in zip((*spring.given, *damper.given), ("springs", "dampers"), strict=True):
-            yield from _scales(key, (f"both {what} of the axle in place of one", 0.5))
-            yield from _scales(key, (f"half of one of the {what}", 2.0), *POUNDS, KILOGRAMS)
+        for key, parts in zip((*spring.given, *damper.given), ("springs", "dampers"), strict=True):
+            yield from _scales(key, (f"both {parts} of the axle in place of one", 0.5))
+            yield from _scales(key, (f"half of one of the {parts}", 2.0), *POUNDS, KILOGRAMS)
         key = axle.wheel.key("spin_inertia")
         yield from _scales(key, ("both wheels in place of one", 0.5), ("half of the wheel", 2.0))
-        other = axle.wheel.key("diametral_inertia")
-        yield f"{key} and {other} exchanged", {key, other}, partial(_exchange, key, other)
+        other_key = axle.wheel.key("diametral_inertia")
+        yield f"{key} and {other_key} exchanged", {key, other_key}, partial(_exchange, key, other_key)
     chassis, drive, steering = car.chassis, car.drive, car.steering
     gears, limit = drive.key("ratios" if isinstance(drive, Automatic) else "ratio"), drive.key("limit_speed")
     yield from _scales(gears, (f"ratios without a final drive, of about {FINAL_DRIVE:g},", FINAL_DRIVE))
@@ -283,8 +283,8 @@ def _scaled(value: Any, factor: float) -> Any:
 def _container(data: Data, key: str) -> tuple[Any, Any]:
     *path, last = key.split(".")
     holder: Any = data
-    for part in path:
-        holder = holder[part]
+    for name in path:
+        holder = holder[name]
     if isinstance(holder, Mapping):
         holder[last]  # a key that is missing has nothing to undo
         return holder, last

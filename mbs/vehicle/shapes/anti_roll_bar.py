@@ -19,13 +19,13 @@ def anti_roll_bar_shapes(looks: Looks, name: str, axle: Axle) -> None:
         pivot, lever_end, link_end = (
             side.point(point) for point in (bar.points.pivot, bar.points.lever_end, bar.points.link_end)
         )
-        part = looks.body(f"{BODIES.get(bar.part, bar.part.replace('_', ' '))} {w}")
+        link_body = looks.body(f"{BODIES.get(bar.part, bar.part.replace('_', ' '))} {w}")
         lever = looks.m.turning(
             f"anti-roll lever {w}", looks.chassis, at=pivot, axis=LEFT, angle=f"anti_roll_bar_{w}.angle"
         )
         looks.tube((lever, pivot), (lever, lever_end), radius=0.010, **BARE)
-        looks.tube((lever, lever_end), (part, link_end), radius=0.006, name=f"anti-roll link {w}", **CAST)
-        for of, place in ((lever, lever_end), (part, link_end), (looks.chassis, pivot)):
-            looks.ball((of, place), 0.013)
+        looks.tube((lever, lever_end), (link_body, link_end), radius=0.006, name=f"anti-roll link {w}", **CAST)
+        for owner, position in ((lever, lever_end), (link_body, link_end), (looks.chassis, pivot)):
+            looks.ball((owner, position), 0.013)
         pivots.append((looks.chassis, pivot))
     looks.tube(*pivots, radius=0.010, name=f"anti-roll bar {name}", **BARE)

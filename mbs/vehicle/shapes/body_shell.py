@@ -144,16 +144,16 @@ class BodyShell:
     def sill(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of sills and bumpers, m."""
         sill, share = SILL * self.car.front.tyre.radius, self.share(x)
-        ends = 0.10 * np.clip((0.06 - share) / 0.06, 0.0, 1.0) + 0.04 * np.clip((share - 0.95) / 0.05, 0.0, 1.0)
-        return np.asarray(sill + ends)
+        end_rise = 0.10 * np.clip((0.06 - share) / 0.06, 0.0, 1.0) + 0.04 * np.clip((share - 0.95) / 0.05, 0.0, 1.0)
+        return np.asarray(sill + end_rise)
 
     def lower_edge(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of sills, bumpers and arches, m."""
         edge = self.sill(x)
         for axle in (self.car.front, self.car.rear):
             cx, _, cz = axle.wheel.centre
-            inside = (axle.tyre.radius + ARCH) ** 2 - (x - cx) ** 2
-            edge = np.where(inside > 0.0, np.maximum(edge, cz + np.sqrt(np.maximum(inside, 0.0))), edge)
+            squared_height = (axle.tyre.radius + ARCH) ** 2 - (x - cx) ** 2
+            edge = np.where(squared_height > 0.0, np.maximum(edge, cz + np.sqrt(np.maximum(squared_height, 0.0))), edge)
         return np.asarray(edge)
 
     def stations(self) -> NDArray[np.float64]:
@@ -253,13 +253,13 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
     m.mesh_shape(chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
     m.mesh_shape(chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
-    half = 0.5 * car.vehicle.width
+    half_width = 0.5 * car.vehicle.width
     x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
     floor = SILL * car.front.tyre.radius + 0.03
-    looks.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
+    looks.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half_width, 0.05), **DARK)
     dash, size = shell.dashboard(steering_wheel_place(car)[0] + DASHBOARD[0])
     looks.shape(chassis, "box", at=dash, size=size, **GREY)
-    pillar, place, height = shell.outline.details.tolist()
+    pillar, mirror_position, height = shell.outline.details.tolist()
     panel, rear = shell.outline.panel.tolist(), float(shell.outline.roof[0, 0])
     lower, upper = shell.edge(
         np.concatenate([np.linspace(panel[1], shell.windscreen, 7), [pillar], np.linspace(rear + 0.01, panel[0], 7)])
@@ -270,12 +270,12 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
         lines = [upper[:7] * mirror, np.array([lower[7], upper[7]]) * mirror, upper[8:] * mirror, rail * mirror]
         for line in lines:
             looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **ACCENT)
-        _details(looks, shell, side, (*LAMPS, *TRIM, (place, 1.06, height, (0.10, 0.16, 0.10), ACCENT)))
+        _details(looks, shell, side, (*LAMPS, *TRIM, (mirror_position, 1.06, height, (0.10, 0.16, 0.10), ACCENT)))
 
 
 def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:
     """Draw boxes on one side of the car: lamps, grille, mirror. `side`: 1 left, -1 right."""
     chassis, half = looks.chassis, 0.5 * looks.car.vehicle.width
     for share, across, height, size, paint in details:
-        place = float(shell.place(share)), side * across * half, height * shell.height
-        looks.shape(chassis, "box", at=place, size=size, **paint)
+        position = float(shell.place(share)), side * across * half, height * shell.height
+        looks.shape(chassis, "box", at=position, size=size, **paint)

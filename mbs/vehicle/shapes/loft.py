@@ -21,19 +21,19 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
     positions, triangles : array of shape (m, 3), array of shape (k, 3)
         The triangles are seen from outside counter-clockwise.
     """
-    left = [np.asarray(section, float) for section in sections]
-    whole = [np.vstack([section, section[-2::-1] * [1.0, -1.0, 1.0]]) for section in left]
-    n = len(whole[0])
-    positions = [np.vstack(whole)]
+    halves = [np.asarray(section, float) for section in sections]
+    outlines = [np.vstack([section, section[-2::-1] * [1.0, -1.0, 1.0]]) for section in halves]
+    n = len(outlines[0])
+    positions = [np.vstack(outlines)]
     triangles = [
         t
-        for k in range(len(whole) - 1)
+        for k in range(len(outlines) - 1)
         for i in range(n - 1)
         for a in [k * n + i]
         for t in ((a, a + n + 1, a + n), (a, a + 1, a + n + 1))
     ]
     if ends:
-        for section, flip in ((whole[0], False), (whole[-1], True)):
+        for section, flip in ((outlines[0], False), (outlines[-1], True)):
             first = sum(map(len, positions))
             positions += [section, section.mean(axis=0, keepdims=True)]
             middle = first + n

@@ -9,7 +9,7 @@ from mbs.vehicle.side import sides
 
 def twist_beam_shapes(looks: Looks, name: str, axle: Axle) -> None:
     """Draw trailing arms and cross-beam."""
-    ends = []
+    beam_ends = []
     for side in sides(name):
         w = side.wheel
         p = {key: side.point(point) for key, point in axle.suspension.points}
@@ -23,5 +23,5 @@ def twist_beam_shapes(looks: Looks, name: str, axle: Axle) -> None:
         knuckle(looks, side, half, [(half, spindle)], None)
         coil(looks, f"spring {w}", (half, p["spring_lower"]), (looks.chassis, p["spring_upper"]))
         damper(looks, (half, p["damper_lower"]), (looks.chassis, p["damper_upper"]))
-        ends.append((half, p["cross_beam"]))
-    looks.tube(*ends, radius=0.030, name=f"cross-beam {name}", **BARE)
+        beam_ends.append((half, p["cross_beam"]))
+    looks.tube(*beam_ends, radius=0.030, name=f"cross-beam {name}", **BARE)

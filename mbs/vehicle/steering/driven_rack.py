@@ -32,6 +32,6 @@ def column_friction(m: Model, held: Guide, per_radian: float, torque: float) -> 
 
 def travel(m: Model, rack: Guide) -> Coordinate:
     """A coordinate that is driven to the travel of the rack, m."""
-    way = m.travel(RACK)
-    m.drive(RACK, way.affine, rack)
-    return way
+    coordinate = m.travel(RACK)
+    m.drive(RACK, coordinate.affine, rack)
+    return coordinate

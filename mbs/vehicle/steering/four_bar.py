@@ -43,10 +43,10 @@ class FourBar:
         along = (abs(link) ** 2 - abs(idler) ** 2 + np.abs(gap) ** 2) / (2.0 * np.abs(gap))
         with np.errstate(invalid="ignore"):
             across = np.sign(_cross(self.idler_pivot - self.joint, link)) * np.sqrt(abs(link) ** 2 - along**2)
-            now = gap / np.abs(gap) * (along + 1j * across)
-            turn = np.angle(now / link)
-            end = joint + now - self.idler_pivot
-            rate = -_cross(end, joint - self.pivot) / _cross(end, now)
+            turned_link = gap / np.abs(gap) * (along + 1j * across)
+            turn = np.angle(turned_link / link)
+            idler_arm = joint + turned_link - self.idler_pivot
+            rate = -_cross(idler_arm, joint - self.pivot) / _cross(idler_arm, turned_link)
         return joint, turn, rate
 
     def lever(self, phi: Array) -> Array:
@@ -65,8 +65,8 @@ class FourBar:
         joint, turn, _ = self.turned(phi)
         link = (self.idler_joint - self.joint) * np.exp(1j * turn)
         idler = joint + link - self.idler_pivot
-        drawn = np.sign(_cross(self.idler_joint - self.joint, self.idler_joint - self.idler_pivot))
-        return np.asarray(drawn * _cross(link, idler) / np.abs(link * idler))
+        drawn_sign = np.sign(_cross(self.idler_joint - self.joint, self.idler_joint - self.idler_pivot))
+        return np.asarray(drawn_sign * _cross(link, idler) / np.abs(link * idler))
 
     def carried(self, point: complex, phi: Array) -> tuple[Array, Array]:
         """Way (n,) of a point of the link from the drawing, m, and its rate per angle of the arm, both complex.

@@ -90,24 +90,24 @@ class PitmanArm(SteeringSection):
             ("idler_joint", bar.joint, bar.idler_joint, LEAST_LINK),
         ):
             if not abs(b - a) >= least:
-                other = "arm_joint" if least == LEAST_LINK else name.replace("joint", "pivot")
+                other_name = "arm_joint" if least == LEAST_LINK else name.replace("joint", "pivot")
                 yield (
-                    f"{self.key(name)} is {abs(b - a):.3g} m from {self.key(other)} across the axes; it must be "
+                    f"{self.key(name)} is {abs(b - a):.3g} m from {self.key(other_name)} across the axes; it must be "
                     f"{least:g} m or more."
                 )
                 return
         for sign in (1.0, -1.0):
             phi = sign * np.linspace(0.0, self.arm_angle_max, 400)
-            for ahead, what in (
+            for margin, limit in (
                 (bar.lever(phi), "the arm points aside, where it moves the link to the side no more"),
                 (bar.transmission(phi), "link and idler arm are in one line, in which they lock"),
             ):
-                near = ~(ahead >= LEAST_SINE)
-                if near.any():
+                locking = ~(margin >= LEAST_SINE)
+                if locking.any():
                     yield (
                         f"{self.key('arm_angle_max')} is {self.arm_angle_max:g} rad, but at "
-                        f"{abs(phi[int(np.argmax(near))]):.3g} rad to one side of the drawing less than 10 deg are "
-                        f"left to where {what}; turn the arm less, or move the joints."
+                        f"{abs(phi[int(np.argmax(locking))]):.3g} rad to one side of the drawing less than 10 deg are "
+                        f"left to where {limit}; turn the arm less, or move the joints."
                     )
                     return
 
@@ -177,19 +177,19 @@ class PitmanArm(SteeringSection):
         angles, turn = self._angles, self.turn(way)
 
         def end(side: Side, point: Coordinates) -> End:
-            place = f"steering link {side.wheel}"
-            moved, rate = self.four_bar.carried(self.in_plane(point), turn * angles)
+            prefix = f"steering link {side.wheel}"
+            link_motion, rate = self.four_bar.carried(self.in_plane(point), turn * angles)
             ways = [
                 b.m.guide_table(
-                    f"{place} {name}",
+                    f"{prefix} {name}",
                     guide,
-                    np.column_stack([angles, part(moved)]),
+                    np.column_stack([angles, part(link_motion)]),
                     slopes=turn * part(rate),
                     unit="m",
                 )
                 for name, part in (("x", np.real), ("y", np.imag))
             ]
-            return b.m.slide(place, b.chassis.body, point=point, direction=np.array(self.plane), guide=ways)
+            return b.m.slide(prefix, b.chassis.body, point=point, direction=np.array(self.plane), guide=ways)
 
         return end
 
@@ -236,13 +236,13 @@ class PitmanArm(SteeringSection):
     def _link_outputs(self, m: Model, arm: Guide, way: float) -> None:
         """Outputs for the place of the centre link."""
         turn, angles = self.turn(way), self._angles
-        _, turned, rate = self.four_bar.turned(turn * angles)
-        turned = np.column_stack([angles, turned])
-        link = m.guide_table("steering link", arm, turned, slopes=turn * rate, unit="rad")
+        _, rotation, rate = self.four_bar.turned(turn * angles)
+        rotation = np.column_stack([angles, rotation])
+        link = m.guide_table("steering link", arm, rotation, slopes=turn * rate, unit="rad")
         slide = _rods(m)[0].slide
         assert slide is not None, "such are the rods"
         (_, ahead), (_, aside) = slide[1].ways
-        for name, guide, what in (
+        for name, guide, text in (
             (LINK[0], m.guides[ahead], "way ahead of the left tie rod's end in the plane of the steering linkage"),
             (
                 LINK[1],
@@ -251,7 +251,7 @@ class PitmanArm(SteeringSection):
             ),
             (LINK[2], link, "turn of the centre link in the plane of the steering linkage, positive to the left"),
         ):
-            m.sense_guide(name, guide, description=what)
+            m.sense_guide(name, guide, description=text)
 
 
 def _rods(m: Model) -> list[Joint]:

@@ -36,15 +36,15 @@ class LinkPoints(Section):
     def foot(self) -> Array:
         """Point about which the link turns, m: its inner end, or the point of its axis nearest to its outer end."""
         inner = np.array(self.inner)
-        along = np.subtract(self.second_inner or self.inner, inner)
-        return np.asarray(inner + along * (along @ (np.array(self.outer) - inner)) / max(along @ along, SHORTEST**2))
+        axis = np.subtract(self.second_inner or self.inner, inner)
+        return np.asarray(inner + axis * (axis @ (np.array(self.outer) - inner)) / max(axis @ axis, SHORTEST**2))
 
     def faults(self) -> Iterator[str]:
         """Fault of a link that is too short."""
         length = float(np.linalg.norm(np.array(self.outer) - self.foot()))
         if length < SHORTEST:
-            what = "the axis of both inner ends" if self.second_inner else self.key("inner")
-            yield f"{self.key('outer')} is {length:.3g} m from {what}; it must be {SHORTEST:g} m or more."
+            reference = "the axis of both inner ends" if self.second_inner else self.key("inner")
+            yield f"{self.key('outer')} is {length:.3g} m from {reference}; it must be {SHORTEST:g} m or more."
 
 
 class CurveLink(Part):
@@ -69,13 +69,13 @@ class CurveLink(Part):
         over : sequence of Coordinate
             Variables of the curves.
         """
-        drawn = self.points.foot().tolist(), self.points.outer, self.com
-        foot, outer, com = np.array([side.point(point) for point in drawn])
-        to = curves.centres + curves.rotations @ (outer - centre) - foot
-        to = to if len(over) == 2 else to[:, 0]
-        lengths = np.linalg.norm(outer - foot) * np.linalg.norm(to, axis=-1)
-        shortest = np.concatenate([np.cross(outer - foot, to), (lengths + to @ (outer - foot))[..., None]], axis=-1)
-        rotations = Rotation.from_quat(shortest.reshape(-1, 4)).as_matrix().reshape(*to.shape, 3)
+        left_points = self.points.foot().tolist(), self.points.outer, self.com
+        foot, outer, com = np.array([side.point(point) for point in left_points])
+        arms = curves.centres + curves.rotations @ (outer - centre) - foot
+        arms = arms if len(over) == 2 else arms[:, 0]
+        lengths = np.linalg.norm(outer - foot) * np.linalg.norm(arms, axis=-1)
+        shortest = np.concatenate([np.cross(outer - foot, arms), (lengths + arms @ (outer - foot))[..., None]], axis=-1)
+        rotations = Rotation.from_quat(shortest.reshape(-1, 4)).as_matrix().reshape(*arms.shape, 3)
         b.m.tabled_body(
             f"{name} {side.wheel}",
             base=b.chassis.frame,

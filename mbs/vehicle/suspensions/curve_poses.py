@@ -53,11 +53,11 @@ def axes_of(steer: Array, inclination: Array) -> Array:
 
 def pitched(pitch: Array) -> Array:
     """Turn of a carrier about its wheel's axis in those axes, positive with the top forward, shape (..., 3, 3)."""
-    found = np.zeros((*pitch.shape, 3, 3))
-    found[..., 1, 1] = 1.0
-    found[..., 0, 0] = found[..., 2, 2] = np.cos(pitch)
-    found[..., 0, 2], found[..., 2, 0] = np.sin(pitch), -np.sin(pitch)
-    return found
+    matrices = np.zeros((*pitch.shape, 3, 3))
+    matrices[..., 1, 1] = 1.0
+    matrices[..., 0, 0] = matrices[..., 2, 2] = np.cos(pitch)
+    matrices[..., 0, 2], matrices[..., 2, 0] = np.sin(pitch), -np.sin(pitch)
+    return matrices
 
 
 def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
@@ -67,17 +67,17 @@ def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
 
     `hub`: the left wheel as drawn.
     """
-    own = table.both and side.name == "right"
-    if own and table.second_name == OTHER:  # whose rows are places of the axle: the left wheel's travel comes first
+    has_own = table.both and side.name == "right"
+    if has_own and table.second_name == OTHER:  # whose rows are places of the axle: the left wheel's travel comes first
         table = table.exchanged()
-    sign = -1.0 if own else 1.0
-    centres, rotations = _motion(table, "right" if own else "left", sign, hub)
+    sign = -1.0 if has_own else 1.0
+    centres, rotations = _motion(table, "right" if has_own else "left", sign, hub)
     lengths = {
         name: values
         for name in ("spring_length", "damper_length", "anti_roll_bar_angle")
-        if (values := table.of(name, "right" if own else "left")) is not None
+        if (values := table.of(name, "right" if has_own else "left")) is not None
     }
-    if side.name == "left" or own:
+    if side.name == "left" or has_own:
         return WheelCurves(table.travel, table.second, centres, rotations, lengths)
     mirror = np.array([1.0, -1.0, 1.0])
     centres, rotations = centres * mirror, mirror[:, None] * rotations * mirror
@@ -94,12 +94,12 @@ def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array,
         return table.of(column, name)
 
     def angle(outwards: str, absolute: str) -> Array:
-        found = of(outwards)
-        if found is not None:
-            return -sign * found
-        found = of(absolute)
-        assert found is not None, "checked by the reader"
-        return found
+        angles = of(outwards)
+        if angles is not None:
+            return -sign * angles
+        angles = of(absolute)
+        assert angles is not None, "checked by the reader"
+        return angles
 
     i = int(np.argmin(np.abs(table.travel)))
     k = int(np.argmin(np.abs(table.second)))
@@ -118,12 +118,12 @@ def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array,
     centres = np.zeros((*steer.shape, 3))
     centres[..., 2] = np.broadcast_to(table.travel[:, None], steer.shape)
     for column, c, change, scale in ((0, "x", "wheelbase_change", hub.ahead), (1, "y", "track_change", 0.5 * sign)):
-        for given, factor, below in (
+        for column_name, factor, below in (
             (f"wheel_centre_{c}", 1.0, 0.0),
             (f"contact_centre_{c}", 1.0, 1.0),
             (change, scale, 1.0),
         ):
-            values = of(given)
+            values = of(column_name)
             if values is not None:
                 centres[..., column] = factor * (values - values[i, k]) - below * contact[..., column]
                 break

@@ -77,8 +77,8 @@ class CurveTable:
 
     def of(self, name: str, side: str) -> Array | None:
         """A column of a wheel: with the side behind its name, or without, which is of the left wheel."""
-        found = self.columns.get(f"{name}_{side}")
-        return self.columns.get(name) if found is None and side == "left" else found
+        values = self.columns.get(f"{name}_{side}")
+        return self.columns.get(name) if values is None and side == "left" else values
 
     @property
     def both(self) -> bool:
@@ -165,16 +165,16 @@ def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array
             f"{what} has the heading '{f'{name} [{unit}]' if unit else name}'; it must be '{name} [UNIT]' with "
             f"{' or '.join(available)}."
         )
-    found = values * UNITS[unit][1]
+    si_values = values * UNITS[unit][1]
     if COLUMNS[base] == "m":  # whose origin is that of the rig
-        if not (change := float(np.ptp(found))) <= size:
+        if not (change := float(np.ptp(si_values))) <= size:
             raise CarFileError(
                 f"{what}, column {name} changes by {change:g} m from its least to its largest value; it must be less "
                 f"than {size:.3g} m, the way from the middle of the axle on the ground to the wheel centre."
             )
-    elif not (far := float(np.max(np.abs(found), initial=0.0))) <= LARGEST:
-        raise CarFileError(f"{what}, column {name} reaches {far:g} rad; it must be within {LARGEST:g} rad.")
-    return np.asarray(found)
+    elif not (largest := float(np.max(np.abs(si_values), initial=0.0))) <= LARGEST:
+        raise CarFileError(f"{what}, column {name} reaches {largest:g} rad; it must be within {LARGEST:g} rad.")
+    return np.asarray(si_values)
 
 
 def _grid(what: str, travel: Array, second: Array | None, second_name: str, columns: Mapping[str, Array]) -> CurveTable:
@@ -207,16 +207,16 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
             f"there must be one for each pair, {size}, or of a rack those where one of both is 0."
         )
     order = np.argsort(pairs)
-    one, other = order[at[order] == k], order[place[order] == i]  # rows of both sweeps through the drawing
-    evens, found = (_even(along, COARSEST[TRAVEL]), _even(across, COARSEST[second_name])), {}
+    travel_rows, other_rows = order[at[order] == k], order[place[order] == i]  # rows of both sweeps through the drawing
+    evens, resampled = (_even(along, COARSEST[TRAVEL]), _even(across, COARSEST[second_name])), {}
     for name, values in columns.items():
         if cross:
-            changes = _resampled(across, evens[1], values[other][None] - values[one[i]], 1)
-            found[name] = _resampled(along, evens[0], values[one][:, None], 0) + changes
+            changes = _resampled(across, evens[1], values[other_rows][None] - values[travel_rows[i]], 1)
+            resampled[name] = _resampled(along, evens[0], values[travel_rows][:, None], 0) + changes
         else:
             grid = values[order].reshape(len(along), len(across))
-            found[name] = _resampled(across, evens[1], _resampled(along, evens[0], grid, 0), 1)
-    return CurveTable(*evens, second_name, found)
+            resampled[name] = _resampled(across, evens[1], _resampled(along, evens[0], grid, 0), 1)
+    return CurveTable(*evens, second_name, resampled)
 
 
 def _check_rates(what: str, table: CurveTable) -> None:
@@ -239,8 +239,8 @@ def _check_rates(what: str, table: CurveTable) -> None:
 
 def _points(values: Array) -> Array:
     """Different values, rising; of those that are one, the least."""
-    found = np.unique(values)
-    return np.asarray(found[np.concatenate([[True], np.diff(found) > SAME])])
+    distinct = np.unique(values)
+    return np.asarray(distinct[np.concatenate([[True], np.diff(distinct) > SAME])])
 
 
 def _check_axis(what: str, name: str, points: Array) -> None:
@@ -267,11 +267,11 @@ def _even(points: Array, coarsest: float) -> Array:
     Places and rotations are splines through these points, angles of coarse ones are splines before.
     """
     steps = np.diff(points)
-    near = int(np.argmin(np.abs(points)))
-    if np.ptp(steps) <= UNIFORM * steps.max() and abs(points[near]) < SAME and len(steps) <= FINEST:
-        parts = math.ceil(steps.max() / coarsest)
-        step = steps.mean() / parts
-        return points if parts == 1 else step * np.arange(-near * parts, (len(points) - 1 - near) * parts + 1)
+    zero = int(np.argmin(np.abs(points)))
+    if np.ptp(steps) <= UNIFORM * steps.max() and abs(points[zero]) < SAME and len(steps) <= FINEST:
+        count = math.ceil(steps.max() / coarsest)
+        step = steps.mean() / count
+        return points if count == 1 else step * np.arange(-zero * count, (len(points) - 1 - zero) * count + 1)
     span = points[-1] - points[0]
     step = max(min(float(steps.min()), coarsest), span / FINEST, SAME)
     step = -points[0] / max(1, round(-points[0] / step))

@@ -143,13 +143,13 @@ class Curves(SuspensionSection):
 
     def faults(self) -> Iterator[str]:
         """Faults of an anti-roll bar without levers, and of columns that the table lacks."""
-        found = self.of(Side("front", "left", 1.0)).lengths
-        if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in found):
-            both = "is there too" if self.bar.lever is not None else "is not there"
+        lengths = self.of(Side("front", "left", 1.0)).lengths
+        if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in lengths):
+            presence = "is there too" if self.bar.lever is not None else "is not there"
             lever = "missing" if self.bar.lever is None else f"{self.bar.lever:g} m"
             yield (
                 f"{self.bar.key('lever')} is {lever}, and the "
-                f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; give one of them."
+                f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {presence}; give one of them."
             )
         if self.compliance is not None:
             yield from self.compliance.fits(self.table.second_name)
@@ -186,11 +186,12 @@ class Curves(SuspensionSection):
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
         """Sentence on an angle of the file that is not that of the table."""
-        found, given = self.steered_angle(steering.full), steering.front_wheel_angle_max
-        if abs(found - given) > CURVES_MISS * given:
+        table_angle, declared = self.steered_angle(steering.full), steering.front_wheel_angle_max
+        if abs(table_angle - declared) > CURVES_MISS * declared:
             yield (
-                f"{steering.key('front_wheel_angle_max')} is {given:g} rad, but at full travel of the rack, "
-                f"{steering.full:.3g} m, the wheels of {self.key('file')} ({self.file}) are turned by {found:.3g} rad; "
+                f"{steering.key('front_wheel_angle_max')} is {declared:g} rad, but at full travel of the rack, "
+                f"{steering.full:.3g} m, the wheels of {self.key('file')} ({self.file}) are turned by "
+                f"{table_angle:.3g} rad; "
                 "are the units of its headings right?"
             )
 
@@ -202,7 +203,7 @@ class Curves(SuspensionSection):
         travels = {side.name: b.m.travel(f"wheel travel {side.wheel}") for side in sides(axle)}
         levers = []
         for side in sides(axle):
-            own, w = travels[side.name], side.wheel
+            travel, w = travels[side.name], side.wheel
             rigid = self.of(side)
             over, curves = self._table_variables(b, side, rigid, travels)
             part = self.bodies.carrier
@@ -223,14 +224,14 @@ class Curves(SuspensionSection):
                 inertia=[share * value for value in part.inertia],
             )
             for name, link in self.bodies.links.items():
-                link.build(b, side, name, centre, rigid, over if self.table.second_name else [own])
-            plain = own.affine * -1.0 + self.spring_length, self.spring_length
+                link.build(b, side, name, centre, rigid, over if self.table.second_name else [travel])
+            plain = travel.affine * -1.0 + self.spring_length, self.spring_length
             spring = _number(b, curves, over, "spring_length", f"length of spring {w}") or plain
             damper = _number(b, curves, over, "damper_length", f"length of damper {w}")
             spring_of_length(b, w, spring, damper, springs)
             lever = _number(b, curves, over, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
             if self.bar is not None:
-                levers.append(lever[0] if lever is not None else own.affine * (1.0 / (self.bar.lever or 1.0)))
+                levers.append(lever[0] if lever is not None else travel.affine * (1.0 / (self.bar.lever or 1.0)))
             yield Corner(side, carrier, {"carrier": carrier})
         if self.bar is not None:
             law = ScalarSpringDamper(self.bar.stiffness, stiffness_factor=self.bar.factor)
@@ -240,19 +241,19 @@ class Curves(SuspensionSection):
         self, b: CarBuilder, side: Side, curves: WheelCurves, travels: Mapping[str, Coordinate]
     ) -> tuple[list[Coordinate], WheelCurves]:
         """Coordinates over which a wheel is tabled, and its curves over them."""
-        own = travels[side.name]
+        travel = travels[side.name]
         if self.table.second_name == RACK:
             assert b.rack is not None, "the front axle steers"
             rack = b.rack
             if self.compliance is not None:
                 rack = self.compliance.rack_end(b, side, rack, self._steer_per_rack(curves))
-            return [own, rack], curves
+            return [travel, rack], curves
         if self.table.second_name == OTHER:
-            return [own, travels["right" if side.name == "left" else "left"]], curves
+            return [travel, travels["right" if side.name == "left" else "left"]], curves
         if self.compliance is not None:
             turn = self.compliance.turn(b, side)
-            return [own, turn], self.compliance.turned(curves, side)
-        return [own], curves
+            return [travel, turn], self.compliance.turned(curves, side)
+        return [travel], curves
 
     def _steer_per_rack(self, curves: WheelCurves) -> float:
         """Steer angle of a wheel per travel of the rack at the drawing, rad/m."""
@@ -272,8 +273,8 @@ def _number(
     if values is None:
         return None
     axes = _axes(curves, over)
-    found = b.m.tabled_number(name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)
-    return found.affine, float(found.table.value(*[0.0] * len(over))[0])
+    number = b.m.tabled_number(name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)
+    return number.affine, float(number.table.value(*[0.0] * len(over))[0])
 
 
 def _axes(curves: WheelCurves, over: Sequence[Coordinate]) -> list[Array]:

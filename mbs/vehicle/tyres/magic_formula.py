@@ -110,9 +110,9 @@ class MagicFormula(TyreSection, of=MagicTyre):
     def stiffness(self) -> float:
         """Radial stiffness at the nominal load and pressure of the car, N/m."""
         t = self._left_tyre
-        first = t.stiffness * (1.0 + t.coefficients.get("PFZ1", 0.0) * t.pressure)
-        second = t.progression * first / t.stiffness
-        return sqrt(first**2 + 4.0 * second * t.nominal_load)
+        linear = t.stiffness * (1.0 + t.coefficients.get("PFZ1", 0.0) * t.pressure)
+        quadratic = t.progression * linear / t.stiffness
+        return sqrt(linear**2 + 4.0 * quadratic * t.nominal_load)
 
     @property
     def nominal_load(self) -> float:
@@ -157,5 +157,5 @@ class MagicFormula(TyreSection, of=MagicTyre):
         if not (c.get("DREFF") or c.get("FREFF")):
             return free - depth / 3.0
         load = inflated * (t.stiffness + t.progression * depth) * depth / t.nominal_load
-        part = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * load) + c.get("FREFF", 0.0) * load
-        return free - t.nominal_load / (inflated * sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)) * part
+        drop = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * load) + c.get("FREFF", 0.0) * load
+        return free - t.nominal_load / (inflated * sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)) * drop

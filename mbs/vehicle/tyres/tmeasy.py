@@ -91,16 +91,16 @@ class TMeasy(TyreSection, of=Tyre):
 
     def faults(self) -> Iterator[str]:
         """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too."""
-        found = [
+        faults = [
             f"{self.key('trail_end')}.{k} is {self.trail_end[k]:g}; it must be larger than "
             f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
             for k in range(2)
             if self.trail_end[k] <= self.trail_zero[k]
         ]
-        yield from found
-        if not found and not any(True for curve in (self.longitudinal, self.lateral) for _ in curve.faults()):
-            for field, _, wrong in self.tyre().faults_over_loads():
-                yield f"{self.key(field)} {wrong}; its two numbers are continued to this load."
+        yield from faults
+        if not faults and not any(True for curve in (self.longitudinal, self.lateral) for _ in curve.faults()):
+            for field, _, fault in self.tyre().faults_over_loads():
+                yield f"{self.key(field)} {fault}; its two numbers are continued to this load."
 
     @property
     def largest_load(self) -> tuple[float, str]:

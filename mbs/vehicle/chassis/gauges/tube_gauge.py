@@ -60,10 +60,10 @@ class TubeGauge(Section):
         `ends`: first and last joint of the tube, m, shape (3,); `radius`: outer radius of the tube, m; `elements`: of
         the tube, first joint first. Raises `ModelError`: the fibre is named by a direction in which the tube runs.
         """
-        along = self.place * len(elements)
-        number = min(int(along), len(elements) - 1)
+        position = self.place * len(elements)
+        number = min(int(position), len(elements) - 1)
         y, z = self._direction(beam_axes(*ends)[1])
-        return StrainGauge(name, elements[number], along - number, (radius * y, radius * z))
+        return StrainGauge(name, elements[number], position - number, (radius * y, radius * z))
 
     def readings(self, gauge: StrainGauge, frame: Frame) -> Iterator[Reading]:
         """Readings of the gauge.
@@ -72,14 +72,14 @@ class TubeGauge(Section):
         """
         name = gauge.name
         fibre = self.fibre if isinstance(self.fibre, str) else f"{self.fibre:g} deg"
-        one, other = ("upper", "lower") if self.fibre == "top" else (fibre, "opposite")
+        plus, minus = ("upper", "lower") if self.fibre == "top" else (fibre, "opposite")
         direction_text = "right-handed about the tube from its first to its last joint"
         rows = {
             "half": (
-                ("bending_moment", "N.m", f"bending moment at gauge {name}, positive: {one} fibre pulled"),
-                (STRESS, "Pa", f"half-bridge {name}, {one} minus {other} fibre"),
+                ("bending_moment", "N.m", f"bending moment at gauge {name}, positive: {plus} fibre pulled"),
+                (STRESS, "Pa", f"half-bridge {name}, {plus} minus {minus} fibre"),
             ),
-            "quarter": ((STRESS, "Pa", f"normal stress of the {one} fibre at gauge {name}, positive: pulled"),),
+            "quarter": ((STRESS, "Pa", f"normal stress of the {plus} fibre at gauge {name}, positive: pulled"),),
             "axial": (
                 ("axial_force", "N", f"axial force at gauge {name}, positive: pulled"),
                 (STRESS, "Pa", f"mean normal stress at gauge {name}, positive: pulled"),
@@ -106,10 +106,10 @@ class TubeGauge(Section):
             angle = math.radians(self.fibre)
             return -math.sin(angle), math.cos(angle)
         _, y, z = axes @ np.array(WAYS[self.fibre])
-        size = math.hypot(y, z)
-        if size < ALONG:
+        norm = math.hypot(y, z)
+        if norm < ALONG:
             raise ModelError(
                 f"{self.key('fibre')} is '{self.fibre}', but the tube from {self.tube[0]} to {self.tube[1]} runs in "
                 "that direction; name another fibre or its angle."
             )
-        return y / size, z / size
+        return y / norm, z / norm
