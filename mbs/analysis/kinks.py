@@ -33,8 +33,8 @@ def smooth_side(evaluator: Evaluator, side: int | None) -> State:
     names = evaluator.system.meta["coordinates"]
     diagonal = evaluator.mass().diagonal()
     kinks: list[str] = []
-    while (found := _worst_kink(evaluator, state)) is not None and len(kinks) < len(names):
-        i, ahead, behind = found
+    while (kink := _worst_kink(evaluator, state)) is not None and len(kinks) < len(names):
+        i, ahead, behind = kink
         if names[i] in kinks:
             raise ValueError(
                 f"The forces have several kinks by the velocity of {names[i]!r} at the state; it has no linear model. "
@@ -59,15 +59,15 @@ def smooth_side(evaluator: Evaluator, side: int | None) -> State:
 
 def _worst_kink(evaluator: Evaluator, state: State) -> tuple[int, float, float] | None:
     """Coordinate whose slopes ahead and behind differ most, with both, N s/m; None where all agree."""
-    here = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
-    noise = 1e-13 * np.abs(here).max(initial=0.0) / SHIFT
-    worst, found = 0.0, None
+    forces = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
+    noise = 1e-13 * np.abs(forces).max(initial=0.0) / SHIFT
+    worst, worst_kink = 0.0, None
     for i in range(len(state.q)):
-        ahead, behind = (_slope(evaluator, state, i, s * SHIFT, here) for s in (1.0, -1.0))
+        ahead, behind = (_slope(evaluator, state, i, s * SHIFT, forces) for s in (1.0, -1.0))
         difference = np.abs(ahead - behind).max()
         if difference > max(worst, KINK * max(np.abs(ahead).max(), np.abs(behind).max()) + 10.0 * noise):
-            worst, found = difference, (i, float(ahead[i]), float(behind[i]))
-    return found
+            worst, worst_kink = difference, (i, float(ahead[i]), float(behind[i]))
+    return worst_kink
 
 
 def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
@@ -77,9 +77,9 @@ def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
     bends = []
     for i, name in enumerate(evaluator.system.meta["coordinates"]):
         narrow = _slope(evaluator, state, i, SHIFT, rates)
-        both = [_slope(evaluator, state, i, s * WIDE * SHIFT, rates) for s in (1.0, -1.0)]
-        gaps = [float(np.abs(slope - narrow).max()) for slope in both]
-        wide = both[int(np.argmin(gaps))]  # away from a kink next to the state
+        wide_slopes = [_slope(evaluator, state, i, s * WIDE * SHIFT, rates) for s in (1.0, -1.0)]
+        gaps = [float(np.abs(slope - narrow).max()) for slope in wide_slopes]
+        wide = wide_slopes[int(np.argmin(gaps))]  # away from a kink next to the state
         if np.abs(narrow - wide).max() > BEND * max(np.abs(narrow).max(), np.abs(wide).max()) + 10.0 * noise:
             bends.append(f"{name!r} {narrow[i]:.4g} and {wide[i]:.4g} N s/m")
     if bends:

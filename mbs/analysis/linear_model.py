@@ -95,17 +95,17 @@ class LinearModel:
 
     def oscillating_modes(self) -> tuple[Mode, ...]:
         """The modes with a complex eigenvalue."""
-        held = (m for m in self.modes if not m.is_free)
-        return tuple(m for m in held if abs(m.eigenvalue.imag) > OSCILLATION_TOLERANCE * abs(m.eigenvalue))
+        bound_modes = (m for m in self.modes if not m.is_free)
+        return tuple(m for m in bound_modes if abs(m.eigenvalue.imag) > OSCILLATION_TOLERANCE * abs(m.eigenvalue))
 
     def __str__(self) -> str:
         lines = [f"{self.degrees_of_freedom} degrees of freedom, {len(self.slots)} element states"]
         for mode in self.modes:
             main = np.argsort(-np.abs(mode.shape), kind="stable")[:3]
-            parts = ", ".join(
+            components = ", ".join(
                 f"{self.coordinates[i]} {mode.shape[i].real:+.2f}{mode.shape[i].imag:+.2f}j" for i in main
             )
-            lines.append(f"{mode.frequency_hz:10.4f} Hz  damping {mode.damping_ratio:+.4f}  {parts}")
+            lines.append(f"{mode.frequency_hz:10.4f} Hz  damping {mode.damping_ratio:+.4f}  {components}")
         return "\n".join(lines)
 
 
@@ -147,10 +147,10 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     V, W, P = admissible_motions(M, jacobian, simulation.system)
     frame = steady_frame(evaluator, P)
     _check_steady(evaluator, frame, M)
-    n, places = V.shape[1], P.shape[1]
+    n, n_positions = V.shape[1], P.shape[1]
     N = np.zeros_like(P)
     HV = np.zeros_like(P)
-    for j in range(places):
+    for j in range(n_positions):
         _, ahead, drift_ahead = evaluator.constraints(state.q + SHIFT * P[:, j], state.qd)
         _, behind, drift_behind = evaluator.constraints(state.q - SHIFT * P[:, j], state.qd)
         drift = (drift_ahead - drift_behind) / (2 * SHIFT)
@@ -160,22 +160,22 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     base = smooth_side(evaluator, side)
     unit = np.eye(len(state.y))
     columns = (
-        [_difference(evaluator.rates, base, dq=P[:, j], dqd=N[:, j]) for j in range(places)]
+        [_difference(evaluator.rates, base, dq=P[:, j], dqd=N[:, j]) for j in range(n_positions)]
         + [_difference(evaluator.rates, base, dqd=V[:, j]) for j in range(n)]
         + [_difference(evaluator.rates, base, dy=unit[k]) for k in slots]
     )
-    slope = np.array(columns).T  # (nq + len(slots), both + len(slots)): of forces and of slot rates
-    both = places + n
+    slope = np.array(columns).T  # (nq + len(slots), n_motion + len(slots)): of forces and of slot rates
+    n_motion = n_positions + n
     velocities = np.hstack([N, V])
-    A: Array = np.zeros((both + len(slots), both + len(slots)))
-    A[:places, :both] = P.T @ M @ velocities
-    A[:places, :places] -= P.T @ M @ frame.G @ P
-    A[places:both] = V.T @ slope[: len(state.q)]
-    A[places:both, :places] -= V.T @ HV
-    A[places:both, :both] -= V.T @ M @ frame.G @ velocities
-    A[both:] = slope[len(state.q) :]
-    lively = [i for i in range(len(slots)) if np.abs(A[both + i]).max() > STATE_TOLERANCE]
-    chosen = [*range(both), *(both + i for i in lively)]
+    A: Array = np.zeros((n_motion + len(slots), n_motion + len(slots)))
+    A[:n_positions, :n_motion] = P.T @ M @ velocities
+    A[:n_positions, :n_positions] -= P.T @ M @ frame.G @ P
+    A[n_positions:n_motion] = V.T @ slope[: len(state.q)]
+    A[n_positions:n_motion, :n_positions] -= V.T @ HV
+    A[n_positions:n_motion, :n_motion] -= V.T @ M @ frame.G @ velocities
+    A[n_motion:] = slope[len(state.q) :]
+    lively = [i for i in range(len(slots)) if np.abs(A[n_motion + i]).max() > STATE_TOLERANCE]
+    chosen = [*range(n_motion), *(n_motion + i for i in lively)]
     A = A[np.ix_(chosen, chosen)]
     names = tuple(simulation.system.meta["coordinates"])
     return LinearModel(A, P, tuple(slots[i] for i in lively), names, _modes(A, P), tuple(frame.turning.tolist()))

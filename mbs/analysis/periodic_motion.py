@@ -94,13 +94,13 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
     _check_closed(simulation, evaluator, end, period)
     before: list[Array] = []
     later: list[Array] = []
-    for basis, place in ((P, True), (V, False)):
+    for basis, positional in ((P, True), (V, False)):
         for direction in basis.T:
             shift = DISTURBANCE / np.abs(direction).max() * direction
             size = np.linalg.norm(shift) / np.linalg.norm(direction)
             starts = [
                 evaluator.admissible(state.q + s * shift, state.qd)
-                if place
+                if positional
                 else evaluator.admissible(state.q, state.qd + s * shift / period)
                 for s in (1.0, -1.0)
             ]
@@ -108,8 +108,8 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
                 dq, dqd = ((a - b) / (2.0 * size) for a, b in zip(*pair, strict=True))
                 column_list.append(np.concatenate([P.T @ M @ dq, period * (V.T @ M @ dqd)]))
     monodromy: Array = np.linalg.solve(np.array(before), np.array(later)).T
-    found = np.asarray(np.linalg.eigvals(monodromy), complex)
-    return FloquetModel(period, monodromy, found[np.argsort(-np.abs(found), kind="stable")])
+    multipliers = np.asarray(np.linalg.eigvals(monodromy), complex)
+    return FloquetModel(period, monodromy, multipliers[np.argsort(-np.abs(multipliers), kind="stable")])
 
 
 def _copy_at(simulation: Simulation, q: Array, qd: Array) -> Simulation:

@@ -82,23 +82,23 @@ def _scene(frames: Frames) -> list[_Candidate]:
     d = frames.dimension
     turns = SKEW if d == 3 else SKEW[2:, :2, :2]
     n = frames.T.shape[0]
-    found = []
+    candidates = []
     for turn in turns:
         L = np.zeros((n, n))
         for i in (*frames.points, *frames.vectors):
             L[i : i + d, i : i + d] = turn
-        found.append(_pulled_back("turn", L, np.zeros(n), frames))
+        candidates.append(_pulled_back("turn", L, np.zeros(n), frames))
     for k in range(d):
         shift = np.zeros(n)
         shift[[i + k for i in frames.points]] = 1.0
-        found.append(_pulled_back("shift", np.zeros((n, n)), shift, frames))
-    return found
+        candidates.append(_pulled_back("shift", np.zeros((n, n)), shift, frames))
+    return candidates
 
 
 def _own_turns(frames: Frames) -> list[_Candidate]:
     """Turns of each rigid body about its centre of mass, along its own axes."""
     d, n = frames.dimension, frames.T.shape[0]
-    found = []
+    candidates = []
     for start in frames.bodies:
         for turn in SKEW if d == 3 else SKEW[2:]:
             L = np.zeros((n, n))
@@ -109,8 +109,8 @@ def _own_turns(frames: Frames) -> list[_Candidate]:
                     block = slice(start + 3 * (j + 1), start + 3 * (j + 2))
                     from_block = slice(start + 3 * (i + 1), start + 3 * (i + 2))
                     L[block, from_block] += turn[i, j] * np.eye(3)
-            found.append(_pulled_back("own turn", L, np.zeros(n), frames))
-    return found
+            candidates.append(_pulled_back("own turn", L, np.zeros(n), frames))
+    return candidates
 
 
 def _angles(frames: Frames) -> list[_Candidate]:
@@ -149,11 +149,11 @@ def _scales(evaluator: Evaluator, frames: Frames, q: Array, qd: Array) -> _Scale
     length = max(spread, 1.0 if frames.vectors else 0.0) or 1.0
     speed = float(np.abs(each * qd).max())
     motion = evaluator.motion(q, qd)
-    here = motion[: len(each)]
-    acceleration = max(float(np.abs(each * here).max()), speed**2 / length)
+    nominal_rates = motion[: len(each)]
+    acceleration = max(float(np.abs(each * nominal_rates).max()), speed**2 / length)
     random = np.random.default_rng(1)
     rounded = [q * (1.0 + ROUND_OFF * random.choice([-1.0, 1.0], len(each))) for _ in range(2)]
-    changes = [np.abs(each * (evaluator.motion(near, qd)[: len(each)] - here)) for near in rounded]
+    changes = [np.abs(each * (evaluator.motion(near, qd)[: len(each)] - nominal_rates)) for near in rounded]
     return _Scales(motion, each, length, speed, acceleration, np.max(changes, axis=0) / STEP)
 
 
@@ -161,7 +161,7 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
     """Basis (candidates, k) of the combinations that leave rows, accelerations and element rates as they are."""
     state, each = evaluator.state, scales.each
     random = np.random.default_rng(0)
-    parts = []
+    blocks = []
     for k in range(1 + NEIGHBOURS):
         q, qd = state.q, state.qd
         if k:
@@ -169,10 +169,10 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
             dq *= NEAR * scales.length / np.abs(each * dq).max()
             dqd *= NEAR * scales.speed / np.abs(each * dqd).max()
             q, qd = evaluator.admissible(q + dq, qd + dqd)
-        here = _scales(evaluator, frames, q, qd)  # stiff parts accelerate by far more where they are displaced
+        local_scales = _scales(evaluator, frames, q, qd)  # stiff parts accelerate by far more where they are displaced
         rows = evaluator.constraints(q, qd)
-        parts.append(np.array([_defect(evaluator, c, q, qd, here, rows) for c in candidates]).T)
-    defects = np.vstack(parts)
+        blocks.append(np.array([_defect(evaluator, c, q, qd, local_scales, rows) for c in candidates]).T)
+    defects = np.vstack(blocks)
     _, values, right = scipy.linalg.svd(defects, full_matrices=True)
     rank = int(np.sum(values > SAME * np.sqrt(len(defects))))
     basis: Array = right[rank:].T
@@ -192,11 +192,15 @@ def _defect(
     holding = np.delete(measure * (jacobian @ dq + dt * (rate - jacobian @ qd)), evaluator.arrays["velocity_row"])
     rates = measure * (stencil[1] @ np.array([evaluator.constraints(*p)[2] for p in states])) / STEP
     motion = stencil[1] @ np.array([evaluator.motion(*p) for p in states]) / STEP
-    here = scales.motion
-    accelerations = scales.each * (motion[:n] - c.G @ here[:n]) / (scales.acceleration + scales.round_off / SAME)
-    slots = motion[n:] / np.maximum(np.abs(here[n:]), scales.speed)
-    left = c.left[0] @ q + c.left[1]
-    return np.concatenate([left / scales.length, holding / scales.length, rates / scales.speed, accelerations, slots])
+    state_motion = scales.motion
+    accelerations = (
+        scales.each * (motion[:n] - c.G @ state_motion[:n]) / (scales.acceleration + scales.round_off / SAME)
+    )
+    slots = motion[n:] / np.maximum(np.abs(state_motion[n:]), scales.speed)
+    deviation = c.left[0] @ q + c.left[1]
+    return np.concatenate(
+        [deviation / scales.length, holding / scales.length, rates / scales.speed, accelerations, slots]
+    )
 
 
 def _fit(
@@ -213,10 +217,10 @@ def _fit(
         start, free = np.zeros(len(candidates)), symmetries
     A = fields.T @ free
     chosen = start + free @ np.linalg.lstsq(A, goal - fields.T @ start, rcond=SAME)[0]
-    rest = free @ scipy.linalg.null_space(A, rcond=SAME)
-    if rest.shape[1]:
+    null_basis = free @ scipy.linalg.null_space(A, rcond=SAME)
+    if null_basis.shape[1]:
         weight = np.array([1.0 if c.kind == "turn" else LESS for c in candidates])
-        chosen = chosen - rest @ np.linalg.lstsq(weight[:, None] * rest, weight * chosen, rcond=None)[0]
+        chosen = chosen - null_basis @ np.linalg.lstsq(weight[:, None] * null_basis, weight * chosen, rcond=None)[0]
     chosen = np.where(np.abs(chosen) > 10.0 * SAME * np.abs(chosen).max(), chosen, 0.0)
     G = sum((x * c.G for x, c in zip(chosen, candidates, strict=True)), np.zeros((len(each),) * 2))
     off = goal - fields.T @ chosen

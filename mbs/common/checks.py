@@ -202,19 +202,21 @@ def array(
     if type(few) in (list, tuple) and shape == (len(few),) and all(map(_is_plain, few)):
         return np.array(few)  # nearly all are points and directions
     wanted = wanted or _shape_text(shape)
-    found = numbers(value, what, error, wanted)
-    if not found.shape:
+    floats = numbers(value, what, error, wanted)
+    if not floats.shape:
         raise error(f"{capital(what)} is {shown(value)}; it must be {wanted}.")
-    if len(found.shape) != len(shape) or any(n is not None and n != m for n, m in zip(shape, found.shape, strict=True)):
-        raise error(f"{capital(what)} has shape {found.shape}; it must be {wanted}.")
-    good = np.abs(found) < LARGEST
+    if len(floats.shape) != len(shape) or any(
+        n is not None and n != m for n, m in zip(shape, floats.shape, strict=True)
+    ):
+        raise error(f"{capital(what)} has shape {floats.shape}; it must be {wanted}.")
+    good = np.abs(floats) < LARGEST
     if not good.all():
-        x = float(found[~good][0])
-        content = found.tolist() if found.size <= 4 else f"an array with the entry {x:g}"
+        x = float(floats[~good][0])
+        content = floats.tolist() if floats.size <= 4 else f"an array with the entry {x:g}"
         if math.isfinite(x):
             raise error(f"{capital(what)} is {content}; all numbers must be of a size below {LARGEST:g}.")
         raise error(f"{capital(what)} is {content}, which is not finite; all numbers must be finite.")
-    return found
+    return floats
 
 
 def _is_plain(x: object) -> bool:
@@ -232,12 +234,12 @@ def numbers(
     try:
         entries = np.array(value, dtype=object)
         good = all(is_number(entry) for entry in entries.ravel())
-        found = np.array(value, dtype=float) if good else None
+        floats = np.array(value, dtype=float) if good else None
     except (TypeError, ValueError, OverflowError):
-        found = None
-    if found is None:
+        floats = None
+    if floats is None:
         raise error(f"{capital(what)} must be {wanted}, not {shown(value)}.")
-    return found
+    return floats
 
 
 def _shape_text(shape: Sequence[int | None]) -> str:

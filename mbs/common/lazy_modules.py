@@ -12,11 +12,11 @@ def lazy_modules(package: str, names: Iterable[str], homes: Mapping[str, str] | 
 
     `homes`: functions, classes and others by name, with the full name of the module that each is in.
     """
-    modules, places = frozenset(names), dict(homes or {})
+    modules, sources = frozenset(names), dict(homes or {})
 
     def attribute(name: str) -> Any:
-        if name in places:
-            return getattr(import_module(places[name]), name)
+        if name in sources:
+            return getattr(import_module(sources[name]), name)
         if name in modules:
             return import_module(f"{package}.{name}")
         raise AttributeError(f"module {package!r} has no attribute {name!r}")

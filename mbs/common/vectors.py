@@ -15,7 +15,7 @@ def cross(a: Array, b: Array) -> Array:
 
 def in_space(v: ArrayLike) -> Array:
     """A new vector of three components, of two or three; a plane is z = 0."""
-    found = np.zeros(3)
+    vector = np.zeros(3)
     components = np.asarray(v, dtype=float)
-    found[: len(components)] = components
-    return found
+    vector[: len(components)] = components
+    return vector

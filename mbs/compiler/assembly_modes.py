@@ -84,9 +84,9 @@ def _modes(
         return []
     hinges = _frame_hinges(block, full, q)
     traced = [*block_triads, *hinges]
-    parts = np.array([affine_of(c, full, part.coordinates, q) for t in traced for c in t.components])
+    components = np.array([affine_of(c, full, part.coordinates, q) for t in traced for c in t.components])
     mirrored = np.array([t.turned for t in traced])
-    path = trace(quadratics(part, q, guides), parts[:, 0], parts[:, 1:], mirrored, q[part.coordinates])
+    path = trace(quadratics(part, q, guides), components[:, 0], components[:, 1:], mirrored, q[part.coordinates])
     if path is None:
         return []
     n = len(block_triads)

@@ -23,7 +23,7 @@ def blocks_of(around: Mapping[V, Iterable[tuple[E, V]]]) -> list[list[E]]:
     """
     order: dict[V, int] = {}
     lowest: dict[V, int] = {}
-    used: set[E] = set()
+    visited: set[E] = set()
     blocks: list[list[E]] = []
     for root in around:
         if root in order:
@@ -32,16 +32,16 @@ def blocks_of(around: Mapping[V, Iterable[tuple[E, V]]]) -> list[list[E]]:
         path, edges = [(root, iter(around[root]), 0)], list[E]()
         while path:
             vertex, remaining, first_edge = path[-1]
-            for edge, other in remaining:
-                if edge in used:
+            for edge, neighbour in remaining:
+                if edge in visited:
                     continue
-                used.add(edge)
+                visited.add(edge)
                 edges.append(edge)
-                if other in order:
-                    lowest[vertex] = min(lowest[vertex], order[other])
+                if neighbour in order:
+                    lowest[vertex] = min(lowest[vertex], order[neighbour])
                     continue
-                order[other] = lowest[other] = len(order)
-                path.append((other, iter(around[other]), len(edges) - 1))
+                order[neighbour] = lowest[neighbour] = len(order)
+                path.append((neighbour, iter(around[neighbour]), len(edges) - 1))
                 break
             else:
                 path.pop()

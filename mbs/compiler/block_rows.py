@@ -82,8 +82,8 @@ def _sprung(model: Model, moving: set[int], full: Sequence[Affine]) -> bool:
 
 def _coordinates(bodies: Iterable[Body], full: Sequence[Affine], deformation: bool = False) -> set[int]:
     """Coordinates of z on which the positions of bodies depend, or with `deformation` their deformations."""
-    parts = [range(b.start + RIGID, b.start + b.size) if deformation else _rigid_coordinates(b) for b in bodies]
-    return {j for part in parts for i in part for j in full[i].terms}
+    ranges = [range(b.start + RIGID, b.start + b.size) if deformation else _rigid_coordinates(b) for b in bodies]
+    return {j for coordinates in ranges for i in coordinates for j in full[i].terms}
 
 
 def _rigid_coordinates(body: Body) -> range:
@@ -92,15 +92,15 @@ def _rigid_coordinates(body: Body) -> range:
 
 def _with_carried(own: set[int], other: set[int], carrying: Sequence[tuple[set[int], int]]) -> set[int]:
     """`own` and the coordinates of nodes and ports that the rows in `carrying` tie to it, none of `other`."""
-    found, grew = set(own), True
+    coordinates, grew = set(own), True
     while grew:
         grew = False
         for columns, most in carrying:
-            new = columns - found - other
-            if 0 < len(new) <= most and columns & found:
-                found |= new
+            new = columns - coordinates - other
+            if 0 < len(new) <= most and columns & coordinates:
+                coordinates |= new
                 grew = True
-    return found
+    return coordinates
 
 
 def quadratics(part: MovingPart, q: Array, guides: Array) -> Quadratics:

@@ -61,10 +61,10 @@ def _must_vanish(rows: list[RowTerms], constant: float, joints: Mapping[str, Seq
         return
     bodies = sorted({r.name for r in rows if r.joint < 0})
     names = sorted({r.name for r in rows if r.joint >= 0} | {j for body in bodies for j in joints.get(body, ())})
-    parts = [f"joints {', '.join(map(repr, names))}"] if names else []
-    parts += [f"shape of {', '.join(map(repr, bodies))}"] if bodies else []
+    subjects = [f"joints {', '.join(map(repr, names))}"] if names else []
+    subjects += [f"shape of {', '.join(map(repr, bodies))}"] if bodies else []
     raise ModelError(
-        f"The {' and the '.join(parts)} contradict each other by {abs(constant):.3g}; no position can satisfy them."
+        f"The {' and the '.join(subjects)} contradict each other by {abs(constant):.3g}; no position can satisfy them."
     )
 
 
@@ -148,10 +148,10 @@ def _independent(
     chosen = sorted(int(k) for k in order[:rank])
     for k in order[rank:]:
         weights, *_ = np.linalg.lstsq(A[chosen].T, A[k], rcond=None)
-        parts = [rows[group[c]] for c, w in zip(chosen, weights, strict=True) if abs(w) > 1e-6]
+        combined = [rows[group[c]] for c, w in zip(chosen, weights, strict=True) if abs(w) > 1e-6]
         remainder = float(np.linalg.norm(A[k] - weights @ A[chosen]))
         constant = float(constants[k] - weights @ constants[chosen])
         least = (CONTRADICTION + 10.0 * remainder) * min(1.0, length**degree)
         least += ROUND_OFF * (length**2 + unit * float(np.max(np.abs(constants))))
-        _must_vanish([rows[group[k]], *parts], unit * constant, joints, least)
+        _must_vanish([rows[group[k]], *combined], unit * constant, joints, least)
     return [group[k] for k in chosen]

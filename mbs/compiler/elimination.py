@@ -98,14 +98,14 @@ def eliminate(
 
     def offer(i: int) -> bool:
         """Queue an unsolved row; an empty one is checked. True if it was redundant."""
-        now = _sizes(rows[i], first, length)
-        largest[i] = tuple(map(max, largest[i], now))
-        if rows[i] and all(size <= VANISHED * most for size, most in zip(now, largest[i], strict=True)):
+        current = _sizes(rows[i], first, length)
+        largest[i] = tuple(map(max, largest[i], current))
+        if rows[i] and all(size <= VANISHED * most for size, most in zip(current, largest[i], strict=True)):
             for j in rows[i]:
                 users[j].discard(i)
             rows[i].clear()
         if rows[i] and stay.issuperset(rows[i]):
-            left.add(i)
+            leftover_rows.add(i)
             return False
         if rows[i]:
             heapq.heappush(heap, (*best(i)[:3], i))
@@ -117,14 +117,14 @@ def eliminate(
             )
         return True
 
-    left: set[int] = set()
+    leftover_rows: set[int] = set()
     empty = {i for i in range(len(rows)) if offer(i)}
     while heap:
         *cost, i = heapq.heappop(heap)
-        if i in solved or i in empty or i in left:
+        if i in solved or i in empty or i in leftover_rows:
             continue
-        *now, pivot = best(i)
-        if now > cost:
+        *current, pivot = best(i)
+        if current > cost:
             offer(i)
             continue
         row = rows[i]
@@ -167,7 +167,7 @@ def eliminate(
             expressions.append(
                 Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0)
             )
-    over = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(left)]
+    over = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(leftover_rows)]
     return Elimination(remaining, expressions, redundant, over)
 
 

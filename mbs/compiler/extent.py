@@ -35,8 +35,8 @@ def drawn_length(model: Model) -> float:
     extent = float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
     mass = sum(body.mass for body in model.bodies)
     polar = sum(body.mass * _gyration(body) ** 2 for body in model.bodies)
-    found = max(extent, 2.0 * float(np.sqrt(polar / mass))) if mass else extent
-    return found if found > 0.0 else 1.0
+    length = max(extent, 2.0 * float(np.sqrt(polar / mass))) if mass else extent
+    return length if length > 0.0 else 1.0
 
 
 def check_near(model: Model, rows: Sequence[RowTerms], kinds: Sequence[str], length: float) -> None:
@@ -86,8 +86,8 @@ def _all_points(model: Model) -> list[Vector]:
 def _points(body: Body) -> list[Vector]:
     if body.flexibility is not None:
         return list(body.flexibility.nodes)
-    own = [] if body.is_ground else [body.com]
-    return own + [body.com + p for p in body.joint_points]
+    centre = [] if body.is_ground else [body.com]
+    return centre + [body.com + p for p in body.joint_points]
 
 
 def _gyration(body: Body) -> float:

@@ -31,9 +31,9 @@ def row_fronts(arrays: RowArrays, locate: Locate) -> dict[str, Any]:
     """The arrays `row_front` and `row_loc`."""
     fronts, local = [], []
     for columns in arrays.cliques():
-        s, places = locate(columns.tolist())
+        s, indices = locate(columns.tolist())
         fronts.append(s)
-        local += places
+        local += indices
     return {"row_front": np.array(fronts, dtype=np.int64), "row_loc": np.array(local, dtype=np.int64)}
 
 
@@ -43,10 +43,10 @@ def front_arrays(fronts: Fronts) -> dict[str, Any]:
     maps = []
     for s, index in enumerate(fronts.index):
         pivots = int(fronts.col[s + 1] - fronts.col[s])
-        rest = index[pivots:]
+        border = index[pivots:]
         maps.append(np.full(pivots, -1))
-        if len(rest):
-            maps.append(np.searchsorted(fronts.index[fronts.parent[s]], rest))
+        if len(border):
+            maps.append(np.searchsorted(fronts.index[fronts.parent[s]], border))
     return {
         "front_col": fronts.col,
         "front_ptr": np.concatenate([[0], np.cumsum(sizes)]),
@@ -63,10 +63,10 @@ def mass_positions(mass: sparse.csr_matrix, fronts: Fronts) -> Index:
     offset = np.concatenate([[0], np.cumsum(sizes * sizes)])
     front_of = np.repeat(np.arange(len(fronts.index)), np.diff(fronts.col))
     row = np.repeat(np.arange(mass.shape[0]), np.diff(mass.indptr))
-    found = np.full(mass.nnz, -1, dtype=np.int64)
+    positions = np.full(mass.nnz, -1, dtype=np.int64)
     for n in np.flatnonzero(row >= mass.indices):
         j = int(mass.indices[n])
         s = int(front_of[j])
         i_local = int(np.searchsorted(fronts.index[s], row[n]))
-        found[n] = offset[s] + (j - fronts.col[s]) * sizes[s] + i_local
-    return found
+        positions[n] = offset[s] + (j - fronts.col[s]) * sizes[s] + i_local
+    return positions

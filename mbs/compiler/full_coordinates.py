@@ -71,15 +71,15 @@ def _difference_coordinates(
     uses = {i: sum(k in e.terms for e in solution.expressions) for k, i in enumerate(solution.remaining)}
     points = [i for i in solution.remaining if info[i].kind == "point" and info[i].component == 0]
     base = max(points, key=lambda i: (i in stay, uses[i]), default=-1)
-    found: list[tuple[CoordinateInfo, Affine]] = []
+    differences: list[tuple[CoordinateInfo, Affine]] = []
     for i in points:
         if i == base or i in stay:
             continue
         for k in range(dimension):
-            to, start, new = info[i + k], info[base + k], len(info) + len(found)
+            to, start, new = info[i + k], info[base + k], len(info) + len(differences)
             difference = CoordinateInfo(f"{to.name} - {start.name}", "vector", k, to.reference - start.reference)
-            found.append((difference, Affine({i + k: 1.0, base + k: -1.0, new: -1.0})))
-    return found
+            differences.append((difference, Affine({i + k: 1.0, base + k: -1.0, new: -1.0})))
+    return differences
 
 
 def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, Array]:
@@ -102,9 +102,9 @@ def full_mass(model: Model, weights: Mapping[int, Array] | None = None) -> spars
         columns.append(j + body.start)
         values.append(block[i, j])
     if weights is None:
-        own = np.array(list(model.inertias), dtype=np.int64)
-        rows.append(own)
-        columns.append(own)
+        coordinates = np.array(list(model.inertias), dtype=np.int64)
+        rows.append(coordinates)
+        columns.append(coordinates)
         values.append(np.array(list(model.inertias.values()), dtype=float))
     n = len(model.coordinates)
     empty = np.zeros(0)

@@ -75,32 +75,32 @@ def locked_parts(
     elimination in those of z; `new`: places of these in `Phiq`.
     """
     lasting = [i for i, row in enumerate(rows) if row.switch < 0 and not row.guides and not row.rates]
-    held = Phiq[lasting].tocsr()
-    ties = [held.indices[held.indptr[i] : held.indptr[i + 1]] for i in range(len(lasting))]  # of zeros too
+    jacobian = Phiq[lasting].tocsr()
+    ties = [jacobian.indices[jacobian.indptr[i] : jacobian.indptr[i + 1]] for i in range(len(lasting))]  # of zeros too
     owner = {i: body.name for body in model.bodies for i in range(body.start, body.start + body.size)}
-    parts: dict[str, set[int]] = {}
+    columns_by_name: dict[str, set[int]] = {}
     for i, expression in enumerate(full):
         name = owner.get(i, model.coordinates[i].name)
-        parts.setdefault(name, set()).update(int(new[k]) for k in expression.terms)
-    ties += [np.array(sorted(columns), dtype=held.indices.dtype) for columns in parts.values()]
+        columns_by_name.setdefault(name, set()).update(int(new[k]) for k in expression.terms)
+    ties += [np.array(sorted(columns), dtype=jacobian.indices.dtype) for columns in columns_by_name.values()]
     pattern = np.ones(sum(map(len, ties))), np.concatenate([*ties, []]), np.cumsum([0, *map(len, ties)])
-    together = sparse.csr_matrix(pattern, shape=(len(ties), held.shape[1]))
+    together = sparse.csr_matrix(pattern, shape=(len(ties), jacobian.shape[1]))
     count, group = connected_components(together.T @ together, directed=False)
     locked = []
     for number in range(count):
         columns = np.flatnonzero(group == number)
-        within = np.flatnonzero(np.diff(held[:, columns].indptr))
+        within = np.flatnonzero(np.diff(jacobian[:, columns].indptr))
         light = not mass_diagonal[columns].any()  # an angle that is measured
         if (
             light
             or len(within) < len(columns)
-            or rank_at(held[within][:, columns], mass_diagonal[columns]) != len(columns)
+            or rank_at(jacobian[within][:, columns], mass_diagonal[columns]) != len(columns)
         ):
             continue
-        locked.append([name for name, own in parts.items() if own and group[min(own)] == number])
+        locked.append([name for name, indices in columns_by_name.items() if indices and group[min(indices)] == number])
     if not locked or len(locked) == count:
         return ""
-    names = ", ".join(f"'{name}'" for found in locked for name in found)
+    names = ", ".join(f"'{name}'" for group_names in locked for name in group_names)
     return f"Parts that cannot move, as their joints leave them no freedom: {names}."
 
 

@@ -24,11 +24,11 @@ def body_length(body: Body) -> float:
 
 def distinct(vectors: Sequence[Vector], opposites: bool = False) -> list[Vector]:
     """Without repetitions (of directions: nor opposites), in order of first use."""
-    found: list[Vector] = []
-    seen: list[list[float]] = []
+    unique: list[Vector] = []
+    unique_components: list[list[float]] = []
     for v in vectors:
         components, opposite = v.tolist(), (-v).tolist()
-        if all(dist(components, w) > SAME and not (opposites and dist(opposite, w) <= SAME) for w in seen):
-            found.append(v)
-            seen.append(components)
-    return found
+        if all(dist(components, w) > SAME and not (opposites and dist(opposite, w) <= SAME) for w in unique_components):
+            unique.append(v)
+            unique_components.append(components)
+    return unique

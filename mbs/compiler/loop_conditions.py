@@ -94,8 +94,8 @@ class Loops:
         self.bodies = _bodies(joints, welded)
         self._welded = welded
         number = {id(body): k for k, body in enumerate(self.bodies)}
-        drawn = [in_space(p) for joint in joints for p in _drawing(joint).points]
-        extent = np.ptp(np.array(drawn), axis=0) if drawn else np.zeros(3)
+        points = [in_space(p) for joint in joints for p in _drawing(joint).points]
+        extent = np.ptp(np.array(points), axis=0) if points else np.zeros(3)
         self.size = float(np.linalg.norm(extent)) or 1.0
         self.constants = 0
         self.conditions: list[Condition] = []
@@ -133,19 +133,19 @@ class Loops:
         as_drawn = places is self._drawn and g is None
         for k, c in enumerate(self.conditions):
             values, G, arms = self._rows_drawn[k] if as_drawn else self._rows(c, places, g, frames)
-            part = slice(row, row + len(values))
-            r[part] = values
+            row_slice = slice(row, row + len(values))
+            r[row_slice] = values
             for side, end in enumerate(c.ends):
                 by_point, by_turn = G[:, 6 * side : 6 * side + 3], G[:, 6 * side + 3 : 6 * side + 6]
                 if end.body >= 0:
-                    Jx[part, 6 * end.body : 6 * end.body + 3] += by_point
-                    Jx[part, 6 * end.body + 3 : 6 * end.body + 6] += by_turn + cross(arms[side], by_point)
+                    Jx[row_slice, 6 * end.body : 6 * end.body + 3] += by_point
+                    Jx[row_slice, 6 * end.body + 3 : 6 * end.body + 6] += by_turn + cross(arms[side], by_point)
                 if constants:
                     R = places.axes[end.body] if end.body >= 0 else np.eye(3)
-                    Jg[part, end.shift : end.shift + 3] += by_point @ R
-                    Jg[part, end.turn : end.turn + 3] += by_turn @ R
+                    Jg[row_slice, end.shift : end.shift + 3] += by_point @ R
+                    Jg[row_slice, end.turn : end.turn + 3] += by_turn @ R
             if constants and c.constant >= 0:
-                Jg[part, c.constant] -= 1.0
+                Jg[row_slice, c.constant] -= 1.0
             row += len(values)
         return r, Jx[:, self.columns], Jg
 
@@ -153,7 +153,7 @@ class Loops:
         self, c: Condition, places: Places, g: Array | None, frames: dict[int, Array] | None = None
     ) -> list[tuple[Array, Array]]:
         """Point (m) and frame of both ends of a joint in earth axes."""
-        found = []
+        poses = []
         frames = self._turned(g) if frames is None else frames
         for end in c.ends:
             p, E = end.point, frames[id(end)]
@@ -162,8 +162,8 @@ class Loops:
             if end.body >= 0:
                 R = places.axes[end.body]
                 p, E = places.centres[end.body] + R @ p, R @ E
-            found.append((p, E))
-        return found
+            poses.append((p, E))
+        return poses
 
     def _turned(self, g: Array | None) -> dict[int, Array]:
         """Frames of all ends with the constants g, by the identity of the end."""
@@ -174,35 +174,35 @@ class Loops:
         return {id(end): turn @ end.frame for end, turn in zip(ends, turns, strict=True)}
 
     def _condition(self, joint: Joint, number: dict[int, int]) -> Condition:
-        given = _drawing(joint)
+        drawing = _drawing(joint)
         ends = []
         for side in (0, 1):
-            body = _whole(given.bodies[side], self._welded)
-            axis = None if given.axes is None else given.axes[side]
+            body = _whole(drawing.bodies[side], self._welded)
+            axis = None if drawing.axes is None else drawing.axes[side]
             frame = np.eye(3) if axis is None else frame_along(axis)
             if self.planar and axis is not None:
                 frame = np.roll(frame_along(axis), 1, axis=1)  # the axis first, its normal second
                 frame[:, 1], frame[:, 2] = np.cross([0.0, 0.0, 1.0], frame[:, 0]), [0.0, 0.0, 1.0]
             k = number.get(id(body), -1)
-            point = in_space(given.points[side]) - (in_space(body.com) if k >= 0 else 0.0)
+            point = in_space(drawing.points[side]) - (in_space(body.com) if k >= 0 else 0.0)
             ends.append(End(k, point, frame, self._shift(k, point), -1))
             ends[-1].turn = self._new(3)
-        length = self._new(1) if "distance" in given.conditions else -1
+        length = self._new(1) if "distance" in drawing.conditions else -1
         cosine = float(ends[0].frame[:, 2] @ ends[1].frame[:, 2])
-        return Condition(joint, (ends[0], ends[1]), given.conditions, given.length, length, cosine)
+        return Condition(joint, (ends[0], ends[1]), drawing.conditions, drawing.length, length, cosine)
 
     def _hinges(self) -> int:
         pairs: dict[frozenset[int], list[Condition]] = {}
         for c in self.conditions:
             pairs.setdefault(frozenset(end.body for end in c.ends), []).append(c)
-        found = 0
+        hinges = 0
         for joints in pairs.values():
             if [c.conditions for c in joints] != [("point",), ("point",)]:
                 continue
             ends = [{end.body: end.point for end in c.ends} for c in joints]
-            one, other = (float(np.linalg.norm(ends[1][body] - ends[0][body])) for body in ends[0])
-            found += one > SAME_POINT * self.size and abs(one - other) <= EXACT * self.size
-        return found
+            distance_1, distance_2 = (float(np.linalg.norm(ends[1][body] - ends[0][body])) for body in ends[0])
+            hinges += distance_1 > SAME_POINT * self.size and abs(distance_1 - distance_2) <= EXACT * self.size
+        return hinges
 
     def _shift(self, body: int, point: Array) -> int:
         """First constant of the shift of a point; joints at one point of a body share it."""
@@ -303,11 +303,11 @@ def _sides(bodies: Iterable[Body], welded: Welded) -> list[Body]:
 
 def _bodies(joints: Iterable[Joint], welded: Welded) -> list[Body]:
     """The bodies of a block without the one at rest."""
-    found: dict[int, Body] = {}
+    bodies: dict[int, Body] = {}
     count: dict[int, int] = {}
     for joint in joints:
         for body in _sides(_drawing(joint).bodies, welded):
-            found[id(body)] = body
+            bodies[id(body)] = body
             count[id(body)] = count.get(id(body), 0) + 1
-    rest = next((b for b in found.values() if b.is_ground), None) or max(found.values(), key=lambda b: count[id(b)])
-    return [body for body in found.values() if body is not rest]
+    base = next((b for b in bodies.values() if b.is_ground), None) or max(bodies.values(), key=lambda b: count[id(b)])
+    return [body for body in bodies.values() if body is not base]

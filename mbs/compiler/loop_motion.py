@@ -57,12 +57,12 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
     def angles(at: Array) -> tuple[Array, Array]:
         return sine_cosine((offset + slope @ at).reshape(-1, 3, 3), turned)
 
-    found = _first_direction(phi.at(x)[1], slope)
-    if found is None:
+    direction = _first_direction(phi.at(x)[1], slope)
+    if direction is None:
         return None
     vectors = (offset + slope @ x).reshape(-1, 3, 3)
     size = float(np.max(np.linalg.norm(vectors[:, 1], axis=1)))  # of the longest arm
-    first, t_first, t, step, travelled = x, found, found, 0.05 * size, 0.0
+    first, t_first, t, step, travelled = x, direction, direction, 0.05 * size, 0.0
     sine, cosine = angles(x)
     sines, cosines, steps, seconds = [sine], [cosine], [], []
     for _ in range(MOST_STEPS):
@@ -77,18 +77,18 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
             if step < 1e-6 * size:
                 return None
             continue
-        went = y - x
-        length = math.sqrt(went @ went)
-        new = _next_direction(J, went / length)
+        chord = y - x
+        length = math.sqrt(chord @ chord)
+        new = _next_direction(J, chord / length)
         if new is None:
             return None
         sines.append(s)
         cosines.append(c)
         steps.append(turn)
         seconds.append(new[1])
-        along = float((first - x) @ went) / length**2
+        along = float((first - x) @ chord) / length**2
         passes = travelled > 2.0 * length and 0.0 <= along <= 1.0 and t @ t_first > 0.0
-        if passes and np.linalg.norm(first - x - along * went) < 0.3 * length:
+        if passes and np.linalg.norm(first - x - along * chord) < 0.3 * length:
             crossed = bool(np.min(seconds) < NEAR * np.median(seconds))
             return BlockMotion(np.array(sines), np.array(cosines), np.array(steps), crossed)
         travelled += length

@@ -67,25 +67,25 @@ class Block:
 
 def blocks_of_loops(model: Model) -> list[Block]:
     """The blocks that close a ring; joints with a switch are left out, they are not always closed."""
-    found = []
+    blocks = []
     for edges in blocks_of({v: [(e, w) for w, e in v.edges.items()] for v in _graph(model)}):
         vertices = list(dict.fromkeys(v for e in edges for v in e.ends))
         if len(vertices) < 3:
             continue
-        held = next((v for v in vertices if v.is_ground), None)
-        if held is None:
+        reference = next((v for v in vertices if v.is_ground), None)
+        if reference is None:
             with_bodies = [v for v in vertices if not v.is_rod]
-            held = max(with_bodies, key=lambda v: len(v.edges))  # the first of equals
-        found.append(Block(vertices, edges, held))
-    return found
+            reference = max(with_bodies, key=lambda v: len(v.edges))  # the first of equals
+        blocks.append(Block(vertices, edges, reference))
+    return blocks
 
 
 def rings(block: Block) -> list[list[Vertex]]:
     """The shortest ring through each edge of a block, each once, as its vertices in order: of equally short ones one of
     bodies alone, and these first.
     """
-    mine = set(map(id, block.edges))
-    found: dict[frozenset[int], list[Vertex]] = {}
+    block_edges = set(map(id, block.edges))
+    shortest: dict[frozenset[int], list[Vertex]] = {}
     for edge in block.edges:
         start, goal = edge.ends
         before: dict[int, Vertex] = {id(start): start}
@@ -94,7 +94,7 @@ def rings(block: Block) -> list[list[Vertex]]:
             reached = []
             for v in front:
                 for w, e in sorted(v.edges.items(), key=lambda item: item[0].is_rod):
-                    if id(e) in mine and e is not edge and id(w) not in before:
+                    if id(e) in block_edges and e is not edge and id(w) not in before:
                         before[id(w)] = v
                         reached.append(w)
             front = reached
@@ -103,8 +103,8 @@ def rings(block: Block) -> list[list[Vertex]]:
         ring = [goal]
         while ring[-1] is not start:
             ring.append(before[id(ring[-1])])
-        found.setdefault(frozenset(map(id, ring)), ring)
-    return sorted(found.values(), key=lambda ring: any(v.is_rod for v in ring))
+        shortest.setdefault(frozenset(map(id, ring)), ring)
+    return sorted(shortest.values(), key=lambda ring: any(v.is_rod for v in ring))
 
 
 def _graph(model: Model) -> list[Vertex]:

@@ -14,12 +14,12 @@ from mbs.model.records import Parameter
 def _built_in_road(model: Model, parameter: Parameter) -> dict[str, int]:
     """The road whose own form a parameter sets, so that it says nothing of a road from a file."""
     roads = {road for family, road, *_ in parameter.targets if family == ParameterTarget.ROAD}
-    others = any(
+    other_targets = any(
         family != ParameterTarget.ROAD or model.roads[owner].real_names[real] == "friction_factor"
         for family, owner, real, *_ in parameter.targets
     )
     files = {f.road for f in model.road_files}
-    return {"road": roads.pop()} if len(roads) == 1 and not others and roads <= files else {}
+    return {"road": roads.pop()} if len(roads) == 1 and not other_targets and roads <= files else {}
 
 
 def metadata(

@@ -58,8 +58,8 @@ def close(loops: Loops, places: Places, tolerance: float, g: Array | None = None
         size = float(np.max(np.abs(dx), initial=0.0))
         values = np.zeros(J.shape[1])
         values[: len(s)] = s / s[0]
-        done = size <= CONVERGED or (size < 1e-11 and size > 0.3 * last)
-        if done or k == ITERATIONS - 1 or size > 2.0:
+        stopped = size <= CONVERGED or (size < 1e-11 and size > 0.3 * last)
+        if stopped or k == ITERATIONS - 1 or size > 2.0:
             good = size < 1e-11
             return Closed(places, rank, values, U[:, rank:], Vt[rank:].T, U[:, rank:].T @ r, good)
         places, last = loops.move(places, dx), size
@@ -70,27 +70,27 @@ def motion(loops: Loops, start: Closed, tolerance: float, g: Array | None = None
     """Positions along the motions that start at a position, those where the rank falls left out."""
     random = np.random.default_rng(seed)
     free = start.right.shape[1]
-    found = [start]
+    positions = [start]
     for _ in range(1 if free == 1 else free + 1):
         direction = start.right @ random.standard_normal(free)
         for sign in (1.0, -1.0):
-            found += _ray(loops, start, sign * direction, tolerance, g)
-    rank = max(c.rank for c in found)
-    return [c for c in found if c.rank == rank and (rank == 0 or c.values[rank - 1] > CLEAR * tolerance)]
+            positions += _ray(loops, start, sign * direction, tolerance, g)
+    rank = max(c.rank for c in positions)
+    return [c for c in positions if c.rank == rank and (rank == 0 or c.values[rank - 1] > CLEAR * tolerance)]
 
 
 def _ray(loops: Loops, start: Closed, direction: Array, tolerance: float, g: Array | None) -> list[Closed]:
-    found: list[Closed] = []
-    here, step = start, STEP
-    while len(found) < POSITIONS and step > STEP / 10.0:
-        along = here.right @ (here.right.T @ direction)
+    positions: list[Closed] = []
+    current, step = start, STEP
+    while len(positions) < POSITIONS and step > STEP / 10.0:
+        along = current.right @ (current.right.T @ direction)
         if not np.max(np.abs(along), initial=0.0) > 1e-3 * np.max(np.abs(direction)):
             break
         along /= np.max(np.abs(along))
-        there = close(loops, loops.move(here.places, step * along), tolerance, g)
-        if not there.good or there.open > 0.1 * step:
+        closed = close(loops, loops.move(current.places, step * along), tolerance, g)
+        if not closed.good or closed.open > 0.1 * step:
             step *= 0.5
             continue
-        found.append(there)
-        here, direction, step = there, along, min(STEP, 2.0 * step)
-    return found
+        positions.append(closed)
+        current, direction, step = closed, along, min(STEP, 2.0 * step)
+    return positions

@@ -122,18 +122,18 @@ class _Reduced:
 
 def _reduced(model: Model, closed: Corrections) -> _Reduced:
     """Eliminate linear equations; the other ones become rows, without those that follow from others."""
-    linear, others = _equations(model)
+    linear, row_equations = _equations(model)
     natural = natural_coordinates(model)
-    held = {*tabled_coordinates(model)}
+    tabled = {*tabled_coordinates(model)}
     for equation in linear:
-        if not held.isdisjoint(equation.linear_form().terms):
+        if not tabled.isdisjoint(equation.linear_form().terms):
             raise refuse_joint(equation.name)
     length, size = model_length(model), drawn_length(model)
     stay = flexible_coordinates(model) | base_coordinates(model)
     natural, remaining, full, of_z, redundant, left = reduce_coordinates(model, natural, linear, stay, size)
     dependents = distinguish(model, remaining, full, of_z, left)
     error = max((max(distance / size, angle) for distance, angle in closed.values()), default=0.0)
-    candidates = [row_terms(e, j, k, dependents.seen, size, error) for j, k, e in others]
+    candidates = [row_terms(e, j, k, dependents.seen, size, error) for j, k, e in row_equations]
     for row in candidates:
         if row.columns() and row.columns()[-1] >= len(dependents.remaining):
             raise refuse_joint(row.name)
@@ -206,10 +206,10 @@ def _start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
     placing = [row for row in holding if not row.rates]
     shape = arrays if len(placing) == len(holding) else RowArrays(placing, new)
     stiffness = deformation_metric(model, dependents.full, new)
-    drawn = reference_position(model, reduced.natural, dependents.remaining, T, z0, ordered.M_full)[order]
+    q_drawn = reference_position(model, reduced.natural, dependents.remaining, T, z0, ordered.M_full)[order]
     fine = fineness(reduced.size)
     q = close_position(
-        placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fine
+        placing, shape, mass, stiffness, q_drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fine
     )
     qd, contradiction = velocity(
         model, dependents.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size
@@ -243,9 +243,9 @@ def _tables(
     arrays.scale(scale)
 
     gravity = full_gravity(model)
-    behind = [[int(new[j]) for j in places] for places in columns_of(model, seen)]
-    places = np.concatenate([new, np.arange(nz, nz + len(behind))])
-    signals = Signals(seen, places, axis_room(model, seen))
+    behind = [[int(new[j]) for j in columns] for columns in columns_of(model, seen)]
+    columns = np.concatenate([new, np.arange(nz, nz + len(behind))])
+    signals = Signals(seen, columns, axis_room(model, seen))
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = trees(model, signals, remaining, new) if trees else ({}, "nobody asked for one")
@@ -315,7 +315,7 @@ def _metadata(
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
     """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
-    linear, others = [], []
+    linear, row_equations = [], []
     for j, joint in enumerate(model.joints):
         as_rows = {*(joint.force_equations if joint.as_rows else []), *joint.turning_equations}
         replaced = set(joint.replaced_equations)
@@ -325,8 +325,8 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
             if equation.is_linear and k not in as_rows:
                 linear.append(equation)
             else:
-                others.append((j, k, equation))
-    return linear, others
+                row_equations.append((j, k, equation))
+    return linear, row_equations
 
 
 def _added_mass(model: Model, full: Sequence[Affine]) -> list[list[int]]:
@@ -351,10 +351,10 @@ def _symbolic(
             nz, cliques + [spread(c, behind, nz) for c in element_cliques(model, dependents.seen, room)]
         )
 
-    drawn = pattern_with({})  # columns of modes lie side by side:
-    late = {c: k for k, places in enumerate(modes, 1) for c in places[12:]}
+    pattern = pattern_with({})  # columns of modes lie side by side:
+    late = {c: k for k, columns in enumerate(modes, 1) for c in columns[12:]}
     if not model.written_axes:
-        return build_fronts(drawn, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2
+        return build_fronts(pattern, fill_reducing_order(pattern), late), (pattern.nnz + nz) // 2
     cliques += axis_cliques(model, full)  # what turns the axes of wheels has room; the order is that without
     room = pattern_with(axis_room(model, dependents.seen))
-    return build_fronts(room, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2
+    return build_fronts(room, fill_reducing_order(pattern), late), (pattern.nnz + nz) // 2

@@ -19,8 +19,8 @@ def joint_gaps(model: Model, q_full: Array) -> dict[str, float]:
     for body in model.bodies:
         if not body.is_point:
             frame = 12 if body.is_flexible else body.size
-            part = slice(body.start + body.dimension, body.start + frame)
-            rigid[part] = _rigid_axes(body, rigid[part])
+            axes = slice(body.start + body.dimension, body.start + frame)
+            rigid[axes] = _rigid_axes(body, rigid[axes])
     gaps = {}
     for joint in model.joints:
         if joint.switch is not None and not joint.switch.on:
@@ -33,7 +33,7 @@ def joint_gaps(model: Model, q_full: Array) -> dict[str, float]:
 def joints_of_bodies(model: Model) -> dict[str, list[str]]:
     """Names of the joints at each body, by its name."""
     owner = {i: body.name for body in model.bodies for i in range(body.start, body.start + body.size)}
-    found: dict[str, list[str]] = {body.name: [] for body in model.bodies}
+    joint_names: dict[str, list[str]] = {body.name: [] for body in model.bodies}
     for joint in model.joints:
         terms = {
             i
@@ -42,8 +42,8 @@ def joints_of_bodies(model: Model) -> dict[str, list[str]]:
             for i in expression.terms
         }
         for name in sorted({owner[i] for i in terms if i in owner}):
-            found[name].append(joint.name)
-    return found
+            joint_names[name].append(joint.name)
+    return joint_names
 
 
 def _rigid_axes(body: Body, axes: Array) -> Array:
@@ -51,6 +51,6 @@ def _rigid_axes(body: Body, axes: Array) -> Array:
     if body.dimension == 2:
         length = float(np.linalg.norm(axes))
         return axes / length if length > 0.0 else np.array([1.0, 0.0])
-    left, _, right = np.linalg.svd(axes.reshape(3, 3))
-    left[:, 2] *= np.sign(np.linalg.det(left @ right))
-    return np.array(left @ right).ravel()
+    U, _, Vt = np.linalg.svd(axes.reshape(3, 3))
+    U[:, 2] *= np.sign(np.linalg.det(U @ Vt))
+    return np.array(U @ Vt).ravel()

@@ -112,17 +112,17 @@ def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]
         By joint how far it was corrected, m and rad.
     """
     bodies = {id(b): b for j in joints if j.joint.drawing for b in j.joint.drawing.bodies}.values()
-    drawn = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
-    old = [(j.joint, {name: getattr(j.joint, name) for name in REDRAWN}) for j in joints]
+    joint_geometry = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
+    original = [(j.joint, {name: getattr(j.joint, name) for name in REDRAWN}) for j in joints]
     try:
         for corrected in joints:
             _redraw(corrected)
         yield {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
     finally:
-        for joint, attributes in old:
+        for joint, attributes in original:
             for name, value in attributes.items():
                 setattr(joint, name, value)
-        for body, points, axes in drawn:
+        for body, points, axes in joint_geometry:
             body.joint_points, body.joint_axes = points, axes
 
 
@@ -155,11 +155,11 @@ def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
         # axes next to parallel first made so: there the conditions of a plane loop and of a Bennett loop cross
         angles = (max(4.0 * tolerance, 0.2 * share), share, 0.0)
         starts = {g.tobytes(): g for g in (_parallel(loops, positions[0], angle) for angle in angles)}.values()
-        found = next(filter(None, (_constants(loops, positions, share, g) for g in starts)), None)
-        if found is None:
+        constants = next(filter(None, (_constants(loops, positions, share, g) for g in starts)), None)
+        if constants is None:
             nearly = nearly or positions
             continue
-        joints = _joints(loops, found, tolerance)
+        joints = _joints(loops, constants, tolerance)
         if _largest(loops, joints) <= tolerance:
             return joints
         larger = larger or joints
@@ -235,12 +235,12 @@ def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) ->
         start = close(loops, start.places, TIGHT, g)
         if not start.good or start.open > EXACT:
             return None
-        more = motion(loops, close(loops, start.places, share, g), share, g, seed)
-        if not more:
+        further = motion(loops, close(loops, start.places, share, g), share, g, seed)
+        if not further:
             return None
-        if max(c.open for c in more) <= EXACT:
+        if max(c.open for c in further) <= EXACT:
             return MovableConstants(g, start)
-        positions = positions + more
+        positions = positions + further
     return None
 
 
@@ -272,8 +272,8 @@ def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) ->
 
 def _explaining_count(parts: Array, size: float, s: Array) -> int:
     """Number of most sensitive directions that explain the misfit up to `REMAINDER`; more would fit noise."""
-    rest = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(parts**2)))
-    enough = int(np.argmax(rest <= max(REMAINDER * size, 3e-16 * np.sqrt(len(parts))))) + 1
+    residuals = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(parts**2)))
+    enough = int(np.argmax(residuals <= max(REMAINDER * size, 3e-16 * np.sqrt(len(parts))))) + 1
     return max(1, min(enough, int(np.sum(s > 1e-11 * s[0]))))
 
 
@@ -337,13 +337,17 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
     )
     allowed = f"{tolerance * loops.size:.3g} m and {tolerance:.3g} rad are allowed. Draw it more exactly"
     stay = "; with tolerance=0 it is taken as drawn and stands still."
-    needed = _largest(loops, larger) if larger else np.inf
-    if larger and needed <= NEAR:
+    needed_tolerance = _largest(loops, larger) if larger else np.inf
+    if larger and needed_tolerance <= NEAR:
         worst = max(larger, key=lambda j: j.correction.size(loops.size))
-        more = f", or allow compile more: tolerance={_round_up(needed):g}" if needed <= MOST_TOLERANCE else ""
+        advice = (
+            f", or allow compile more: tolerance={_round_up(needed_tolerance):g}"
+            if needed_tolerance <= MOST_TOLERANCE
+            else ""
+        )
         raise ModelError(
             f"{start}it would move if its joints closed, '{worst.joint.name}' by {worst.correction.distance:.3g} m and "
-            f"{worst.correction.angle:.3g} rad, where {allowed}{more}{stay}"
+            f"{worst.correction.angle:.3g} rad, where {allowed}{advice}{stay}"
         )
     if len(nearly) >= MOVES and max(c.open for c in nearly) <= NEARLY:
         at = max(nearly, key=lambda c: c.open)
@@ -384,8 +388,8 @@ def _redraw(corrected: Corrected) -> None:
 
 
 def _replaced(items: list[Array], old: list[Array], new: list[Array]) -> list[Array]:
-    found = []
+    arrays = []
     for item in items:
         at = next((k for k, v in enumerate(old) if np.array_equal(v, item)), -1)
-        found.append(item if at < 0 else new[at])
-    return found
+        arrays.append(item if at < 0 else new[at])
+    return arrays

@@ -18,11 +18,11 @@ ROUND = 1e-12
 
 def axis_room(model: Model, full: Sequence[Affine]) -> dict[int, frozenset[int]]:
     """Coordinates of z, before ordering, that components of the vectors of such wheels may have, by their identity."""
-    found: dict[int, frozenset[int]] = {}
+    rooms: dict[int, frozenset[int]] = {}
     for axis in model.written_axes:
         for k in range(3):
-            found |= dict.fromkeys((id(v.components[k]) for v in axis.vectors), _room(axis, k, full))
-    return found
+            rooms |= dict.fromkeys((id(v.components[k]) for v in axis.vectors), _room(axis, k, full))
+    return rooms
 
 
 def axis_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
@@ -61,13 +61,13 @@ def _reals(model: Model) -> list[float]:
 
     An instance compares with these to see whether a parameter has changed an axis.
     """
-    found = [list(a.reals) for a in model.written_axes]
+    reals = [list(a.reals) for a in model.written_axes]
     for p in model.parameters:
         for family, k, i, scale, offset, _ in p.targets:
             written = p.value * scale + offset
-            if family == ParameterTarget.AXIS and abs(written - found[k][i]) < ROUND:
-                found[k][i] = written
-    return [r for pair in found for r in pair]
+            if family == ParameterTarget.AXIS and abs(written - reals[k][i]) < ROUND:
+                reals[k][i] = written
+    return [r for pair in reals for r in pair]
 
 
 def _drawn(axis: WrittenAxis) -> list[float]:

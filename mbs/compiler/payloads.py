@@ -50,9 +50,9 @@ def _check_ports(model: Model) -> None:
             continue
         turning: set[int] = {i for s in sensor.signals[3:12] for i in s.terms}
         for payload in model.payloads:
-            own = set(range(payload.body.start, payload.body.start + payload.body.size))
-            on_body = {i for s in payload.point.components for i in s.terms} <= own
-            if on_body and turning <= own:
+            body_coordinates = set(range(payload.body.start, payload.body.start + payload.body.size))
+            on_body = {i for s in payload.point.components for i in s.terms} <= body_coordinates
+            if on_body and turning <= body_coordinates:
                 body = payload.body.name.removesuffix(" with ports")
                 raise ModelError(
                     f"The sensor '{sensor.name}' follows the forces at the ports of body '{body}', where the payload "

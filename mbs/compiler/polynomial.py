@@ -52,11 +52,11 @@ class RowTerms:
 
     def columns(self) -> list[int]:
         """Coordinates it depends on, ascending."""
-        parts = (self.main, self.cosine, self.sine, self.rates, *(g[2] for g in self.guides))
-        found = {*chain.from_iterable(chain.from_iterable(parts))}
-        found.add(self.theta)
-        found.discard(-1)
-        return sorted(found)
+        polynomials = (self.main, self.cosine, self.sine, self.rates, *(g[2] for g in self.guides))
+        columns = {*chain.from_iterable(chain.from_iterable(polynomials))}
+        columns.add(self.theta)
+        columns.discard(-1)
+        return sorted(columns)
 
 
 def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
@@ -67,17 +67,17 @@ def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
     for i, c in expression.terms.items():
         of_z = full[i]
         if of_z.constant:
-            part = c * of_z.constant
-            constant += part
-            biggest = max(biggest, abs(part))
+            product = c * of_z.constant
+            constant += product
+            biggest = max(biggest, abs(product))
         for j, v in of_z.terms.items():
-            part = c * v
+            product = c * v
             before = terms.get(j)
             if before is None:
-                terms[j] = part
+                terms[j] = product
             else:
-                largest[j] = max(largest.get(j, abs(before)), abs(part))
-                terms[j] = before + part
+                largest[j] = max(largest.get(j, abs(before)), abs(product))
+                terms[j] = before + product
     if largest or 0.0 in terms.values():
         terms = {j: v for j, v in terms.items() if abs(v) > DROP * largest.get(j, 0.0)}
     return Affine(terms, constant if abs(constant) > DROP * biggest else 0.0)
@@ -87,10 +87,10 @@ def add_product(into: Polynomial, factor: float, a: Affine, b: Affine, largest: 
     """Add ``factor * a * b``, expressions of z, and keep in `largest` what no added term of each degree exceeds."""
     if factor == 0.0:
         return
-    left = [*a.terms.items(), (-1, a.constant)] if a.constant else list(a.terms.items())
-    right = [*b.terms.items(), (-1, b.constant)] if b.constant else list(b.terms.items())
-    for i, u in left:
-        for j, v in right:
+    terms_a = [*a.terms.items(), (-1, a.constant)] if a.constant else list(a.terms.items())
+    terms_b = [*b.terms.items(), (-1, b.constant)] if b.constant else list(b.terms.items())
+    for i, u in terms_a:
+        for j, v in terms_b:
             m = (i, j) if i >= j else (j, i)
             into[m] = into.get(m, 0.0) + factor * u * v
     p, q = (max(map(abs, e.terms.values()), default=0.0) for e in (a, b))
@@ -107,16 +107,16 @@ def cleaned(
     `largest`: largest summed term of each degree; the remainder of the sum may be round-off of it, or, in a drawing
     that was corrected by `error`, parts of its size, a remainder of the correction.
     """
-    kept: set[Monomial] = set()
+    significant: set[Monomial] = set()
     vanished = max(VANISHED, OF_ERROR * error)
     for unit in {1.0, size}:
         by_degree = (1.0, unit, unit * unit)
         sizes = {m: abs(v) * by_degree[(m[0] >= 0) + (m[1] >= 0)] for m, v in p.items()}
-        left = max(sizes.values(), default=0.0)
+        largest_size = max(sizes.values(), default=0.0)
         added = max(min(1.0, size) * min(by_degree), *(v * w for v, w in zip(largest, by_degree, strict=True)))
-        if left > vanished * added:
-            kept.update(m for m, v in sizes.items() if v > DROP * left)
-    return {m: v for m, v in p.items() if m in kept}
+        if largest_size > vanished * added:
+            significant.update(m for m, v in sizes.items() if v > DROP * largest_size)
+    return {m: v for m, v in p.items() if m in significant}
 
 
 def expand(
@@ -128,10 +128,10 @@ def expand(
     cache: dict[int, Affine] = {}
 
     def of_z(a: Affine) -> Affine:
-        found = cache.get(id(a))
-        if found is None:
-            found = cache[id(a)] = substitute(a, full)
-        return found
+        expression = cache.get(id(a))
+        if expression is None:
+            expression = cache[id(a)] = substitute(a, full)
+        return expression
 
     for factor, a, b in products:
         add_product(p, factor, of_z(a), of_z(b), largest)
@@ -141,14 +141,14 @@ def expand(
 
 def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:
     """The terms of a sum of ``c * A * dB/dt``."""
-    found: RateTerms = {}
+    terms: RateTerms = {}
     for factor, a, b in products:
         value, rate = substitute(a, full), substitute(b, full)
         for i, u in [*value.terms.items(), (-1, value.constant)]:
             for j, v in rate.terms.items():
-                found[i, j] = found.get((i, j), 0.0) + factor * u * v
-    least = DROP * max((abs(v) for v in found.values()), default=0.0)
-    return {m: v for m, v in found.items() if abs(v) > least}
+                terms[i, j] = terms.get((i, j), 0.0) + factor * u * v
+    least = DROP * max((abs(v) for v in terms.values()), default=0.0)
+    return {m: v for m, v in terms.items() if abs(v) > least}
 
 
 def row_terms(

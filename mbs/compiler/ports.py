@@ -30,16 +30,22 @@ def with_ports_of(ported: System, without: System) -> System | None:
     Result: with the arrays ``ported_``; None where the two are not one model, or were read from files and so do not
     know their full coordinates.
     """
-    one, other = ported.frames, without.frames
-    if one is None or other is None or one.flexible or other.flexible or not _same_forces(ported, without):
+    ported_frames, plain_frames = ported.frames, without.frames
+    if (
+        ported_frames is None
+        or plain_frames is None
+        or ported_frames.flexible
+        or plain_frames.flexible
+        or not _same_forces(ported, without)
+    ):
         return None
     rows, ports, constants = _port_rows(ported)
-    mine, theirs = _shared(one), _shared(other)
-    if not len(constants) or len(mine) != len(theirs):
+    ported_indices, plain_indices = _shared(ported_frames), _shared(plain_frames)
+    if not len(constants) or len(ported_indices) != len(plain_indices):
         return None
-    known_rows = np.vstack([one.T[mine].toarray(), ports])
-    right = np.vstack([other.T[theirs].toarray(), np.zeros((len(ports), without.nq))])
-    offset = np.concatenate([other.constant[theirs] - one.constant[mine], -constants])
+    known_rows = np.vstack([ported_frames.T[ported_indices].toarray(), ports])
+    right = np.vstack([plain_frames.T[plain_indices].toarray(), np.zeros((len(ports), without.nq))])
+    offset = np.concatenate([plain_frames.constant[plain_indices] - ported_frames.constant[ported_indices], -constants])
     T, _, rank, _ = np.linalg.lstsq(known_rows, np.column_stack([right, offset]), rcond=None)
     if rank < ported.nq or np.max(np.abs(known_rows @ T - np.column_stack([right, offset]))) > CLOSED:
         return None
@@ -74,13 +80,18 @@ def _shares(ported: System, without: System, T: sparse.csc_matrix, constant: Arr
     """
     random = np.random.Generator(np.random.PCG64(0))
     positions = [without.arrays["q0"] + _FAR * random.standard_normal(without.nq) for _ in range(_PLACES + 1)]
-    theirs, mine = Instance(LoadedSystem(without.kernel_bytes())), Instance(LoadedSystem(ported.kernel_bytes()))
-    expected = [_gradients(without, theirs, q) for q in positions]
-    gradients = [_gradients(ported, mine, T @ q + constant) @ T for q in positions]
-    found, *_ = np.linalg.lstsq(np.hstack(gradients[:-1]).T, np.hstack(expected[:-1]).T, rcond=CLOSED)
-    found[np.abs(found) < CLOSED * np.max(np.abs(found))] = 0.0
-    gaps = (np.max(np.abs(g.T @ found - w.T)) / np.max(np.abs(w)) for g, w in zip(gradients, expected, strict=True))
-    return sparse.csc_matrix(found) if max(gaps) < CLOSED else None
+    instance_plain, instance_ported = (
+        Instance(LoadedSystem(without.kernel_bytes())),
+        Instance(LoadedSystem(ported.kernel_bytes())),
+    )
+    expected = [_gradients(without, instance_plain, q) for q in positions]
+    gradients = [_gradients(ported, instance_ported, T @ q + constant) @ T for q in positions]
+    multiplier_map, *_ = np.linalg.lstsq(np.hstack(gradients[:-1]).T, np.hstack(expected[:-1]).T, rcond=CLOSED)
+    multiplier_map[np.abs(multiplier_map) < CLOSED * np.max(np.abs(multiplier_map))] = 0.0
+    gaps = (
+        np.max(np.abs(g.T @ multiplier_map - w.T)) / np.max(np.abs(w)) for g, w in zip(gradients, expected, strict=True)
+    )
+    return sparse.csc_matrix(multiplier_map) if max(gaps) < CLOSED else None
 
 
 def _gradients(system: System, instance: Instance, q: Array) -> Array:
@@ -117,19 +128,19 @@ def following(systems: list[System]) -> tuple[list[System], list[int]]:
     list of int
         For each System the number of the one that follows it and computes its omitted sensors; -1: none.
     """
-    found, followers = list(systems), []
+    mapped_systems, followers = list(systems), []
     left_out = [[k for k, s in enumerate(system.meta["sensors"]) if not s.get("computed", True)] for system in systems]
-    for system, missing in zip(systems, left_out, strict=True):
+    for system, omitted in zip(systems, left_out, strict=True):
         follower = -1
-        for k, other in enumerate(found):
-            if not missing or set(missing) & set(left_out[k]):
+        for k, candidate in enumerate(mapped_systems):
+            if not omitted or set(omitted) & set(left_out[k]):
                 continue
-            mapped = with_ports_of(other, system)
+            mapped = with_ports_of(candidate, system)
             if mapped is not None:
-                found[k], follower = mapped, k
+                mapped_systems[k], follower = mapped, k
                 break
         followers.append(follower)
-    return found, followers
+    return mapped_systems, followers
 
 
 def _same_forces(ported: System, without: System) -> bool:
@@ -143,8 +154,8 @@ def _shared(frames: Frames) -> list[int]:
     """Full coordinates of rigid bodies, of particles, angles and spins: all but those of ports, free vectors."""
     size = frames.dimension * (frames.dimension + 1) if frames.dimension == 3 else 4
     rigid = [i for start in frames.bodies for i in range(start, start + size)]
-    own = set(rigid)
-    lone = [i + k for i in frames.points if i not in own for k in range(frames.dimension)]
+    rigid_set = set(rigid)
+    lone = [i + k for i in frames.points if i not in rigid_set for k in range(frames.dimension)]
     return [*rigid, *lone, *frames.scalars]
 
 

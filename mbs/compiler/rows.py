@@ -29,11 +29,11 @@ def candidates(body: Body) -> list[Vector]:
     if body.is_flexible:
         return list(np.eye(3))
     size = body_length(body)
-    found: list[Vector] = [size * e for e in np.eye(body.dimension)]
-    found += [size * u for u in body.joint_axes]
+    vectors: list[Vector] = [size * e for e in np.eye(body.dimension)]
+    vectors += [size * u for u in body.joint_axes]
     points = distinct([np.zeros(body.dimension), *body.joint_points])[:MOST_POINTS]
-    found += [p - q for k, p in enumerate(points) for q in points[:k]]
-    return [w for w in found if hypot(*w.tolist()) > SHORT * size]
+    vectors += [p - q for k, p in enumerate(points) for q in points[:k]]
+    return [w for w in vectors if hypot(*w.tolist()) > SHORT * size]
 
 
 def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[RowTerms]:
@@ -44,7 +44,7 @@ def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[R
     """
     if body.is_point:
         return []
-    needed = 1 if body.dimension == 2 else 3
+    count = 1 if body.dimension == 2 else 3
     ranked = []
     for order, w in enumerate(candidates(body)):
         expression = in_z(body.vector(w), full)
@@ -58,7 +58,7 @@ def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[R
         if len(trial) == 1 or np.linalg.svd(np.array(trial), compute_uv=False)[-1] > INDEPENDENT:
             chosen.append((w, expression))
             units = trial
-        if len(chosen) == needed:
+        if len(chosen) == count:
             break
     rows = []
     for i, (w_i, v_i) in enumerate(chosen):

@@ -146,17 +146,17 @@ def turning(groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     axis = np.array([0.0, 0.0, 1.0]) if joint.turn.axis is None else in_space(joint.turn.axis)
     axis = axis / np.linalg.norm(axis)
     owner = {id(body): group for group in groups for body in group.bodies}
-    found: dict[int, float] = {}
+    signs: dict[int, float] = {}
     for body, sign in zip(joint.turn.bodies, (-1.0, 1.0), strict=True):
         group = owner[id(body)]
         while group.parent is not None:
-            if not group.slides and found.pop(group.number, None) is None:
-                found[group.number] = sign * float(np.sign(group.axes[:, 2] @ axis))
+            if not group.slides and signs.pop(group.number, None) is None:
+                signs[group.number] = sign * float(np.sign(group.axes[:, 2] @ axis))
             group = group.parent
-    for number in found:
+    for number in signs:
         if np.linalg.norm(np.cross(groups[number].axes[:, 2], axis)) > PARALLEL:
             raise NoTreeError(f"not all joints between the bodies of relative angle '{joint.name}' turn about its axis")
-    return sorted(found.items())
+    return sorted(signs.items())
 
 
 def rows_of(model: Model, cut: Cut) -> tuple[int, int]:
@@ -198,10 +198,10 @@ def _ends(places: JointPlaces, group_of: dict[int, Group]) -> tuple[Group, Group
 
 def _attach(group: Group, parent: Group, places: JointPlaces, side: int, slides: bool) -> None:
     """The frames of a joint on both bodies; `side` is the group's."""
-    own, other = (None, None) if places.axes is None else (places.axes[side], places.axes[1 - side])
+    own_axis, parent_axis = (None, None) if places.axes is None else (places.axes[side], places.axes[1 - side])
     group.parent, group.depth, group.slides = parent, parent.depth + 1, slides
-    group.origin, group.axes = in_space(places.points[side]), frame_along(own)
-    turned = parent.axes.T @ frame_along(other)
+    group.origin, group.axes = in_space(places.points[side]), frame_along(own_axis)
+    turned = parent.axes.T @ frame_along(parent_axis)
     group.base = np.concatenate([parent.local(in_space(places.points[1 - side])), turned.T.ravel()])
     parent.children.append(group)
 

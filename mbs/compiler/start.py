@@ -78,24 +78,24 @@ def velocity(
     weights, partly = {}, False
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]
-        part = slice(body.start, body.start + body.size)
+        coordinates = slice(body.start, body.start + body.size)
         none = np.zeros(model.dimension), np.zeros(1 if model.dimension == 2 else 3)
         v, w = (at_rest if given is None else given for given, at_rest in zip((linear, angular), none, strict=True))
-        rates[part] = body.velocity(v, w, position[part])
+        rates[coordinates] = body.velocity(v, w, position[coordinates])
         weights[k] = body.velocity_weight(linear is not None, angular is not None or body.is_point)
         partly = partly or (linear is None) != (angular is None)
     M_given = full_mass(model, weights)
     mean = float(np.mean(mass.diagonal())) * max(1.0, ARM * length) ** 2
-    own = np.zeros(len(full))
+    added_mass = np.zeros(len(full))
     for i, rate in model.coordinate_rates.items():
-        own[i] = max(mean, model.inertias.get(i, 0.0))
+        added_mass[i] = max(mean, model.inertias.get(i, 0.0))
         rates[i] = rate
 
     def solved(M_given: sparse.csr_matrix, rates: Array, partly: bool) -> Array:
-        given = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
+        weighted_mass = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
         aim = (T.T @ (M_given @ rates))[order]
         near = (T.T @ (full_mass(model) @ rates))[order] if partly else None
-        return start_velocity(arrays, mass, stiffness, given, aim, z[order], guides, guide_rates, near)
+        return start_velocity(arrays, mass, stiffness, weighted_mass, aim, z[order], guides, guide_rates, near)
 
     def full_rates(v: Array) -> Array:
         of_z = np.empty_like(v)
@@ -107,5 +107,5 @@ def velocity(
         only[g.part] = g.rates
         return full_rates(solved(g.matrix(len(full)), only, False))
 
-    found = solved(M_given + sparse.diags(own), rates, partly)
-    return found, contradiction(model, list(given_velocities(model, position, mean)), full_rates(found), alone)
+    qd = solved(M_given + sparse.diags(added_mass), rates, partly)
+    return qd, contradiction(model, list(given_velocities(model, position, mean)), full_rates(qd), alone)

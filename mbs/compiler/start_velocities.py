@@ -58,16 +58,16 @@ def given_velocities(model: Model, position: Array, mass: float) -> Iterator[Giv
     d, turns = model.dimension, 1 if model.dimension == 2 else 3
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]
-        part, none = slice(body.start, body.start + body.size), np.zeros((0, d))
+        coordinates, none = slice(body.start, body.start + body.size), np.zeros((0, d))
         v, w = (np.zeros(n) if x is None else x for x, n in ((linear, d), (angular, turns)))
-        rates = body.velocity(v, w, position[part])
+        rates = body.velocity(v, w, position[coordinates])
         if linear is not None:
             weight = body.velocity_weight(True, False)
-            yield GivenVelocity(f"the velocity of '{body.name}'", "m/s", part, weight, rates, none)
+            yield GivenVelocity(f"the velocity of '{body.name}'", "m/s", coordinates, weight, rates, none)
         if angular is not None and not body.is_point:
-            axes = position[part][d : 4 if d == 2 else 12].reshape(-1, d)
+            axes = position[coordinates][d : 4 if d == 2 else 12].reshape(-1, d)
             weight = body.velocity_weight(False, True)
-            yield GivenVelocity(f"the angular velocity of '{body.name}'", "rad/s", part, weight, rates, axes)
+            yield GivenVelocity(f"the angular velocity of '{body.name}'", "rad/s", coordinates, weight, rates, axes)
     for i, rate in model.coordinate_rates.items():
         weight = np.array([[max(mass, model.inertias.get(i, 0.0))]])
         name = f"the rate of '{model.coordinates[i].name}'"

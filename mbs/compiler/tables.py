@@ -35,12 +35,12 @@ class Signals:
 
     def number(self, expression: Affine) -> int:
         """Number of the signal of an expression of full coordinates."""
-        seen = self._seen.get(id(expression))
-        if seen is None:
+        entry = self._seen.get(id(expression))
+        if entry is None:
             z, room = substitute(expression, self._full), self._room.get(id(expression))
             number = self.number_of_z(z) if room is None else self._alone(z, room)
-            seen = self._seen[id(expression)] = expression, number
-        return seen[1]
+            entry = self._seen[id(expression)] = expression, number
+        return entry[1]
 
     def number_of_z(self, z: Affine) -> int:
         """Number of the signal of an expression of z."""
@@ -79,21 +79,21 @@ def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type) -> Arrays:
 
 def element_cliques(model: Model, full: Sequence[Affine], room: Mapping[int, frozenset[int]]) -> list[list[int]]:
     """Coordinates (before ordering) that each element couples in the tangent; `room` as that of `Signals`."""
-    found = []
+    cliques = []
     for element in model.elements:
         if not element.tangent:
             continue
-        found.append(sorted({j for s in element.signals for j in room.get(id(s)) or substitute(s, full).terms}))
-    return found
+        cliques.append(sorted({j for s in element.signals for j in room.get(id(s)) or substitute(s, full).terms}))
+    return cliques
 
 
 def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
     """The `el_` arrays and `y0`; `front_of(columns)` returns the front and the local indices of columns."""
     numbers, fronts, locals_ = [], [], []
     for element in model.elements:
-        mine = [signals.number(s) for s in element.signals]
-        numbers.append(mine)
-        entries = [c for n in mine for c in signals.rows[n][0]]
+        element_signals = [signals.number(s) for s in element.signals]
+        numbers.append(element_signals)
+        entries = [c for n in element_signals for c in signals.rows[n][0]]
         if not element.tangent or not entries:
             fronts.append(-1)
             locals_.append([0] * len(entries))
@@ -123,13 +123,13 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
 
     def row(sensor: Sensor, joint: Joint | None, equation: int) -> int:
         assert joint is not None
-        found = row_of.get((joints[id(joint)], equation))
-        if found is None:
+        row_number = row_of.get((joints[id(joint)], equation))
+        if row_number is None:
             raise ModelError(
                 f"The sensor '{sensor.name}' has no value: an equation of joint '{joint.name}' follows from the others "
                 "and was left out, so how the load is shared is not determined. Let a body bend, or loosen a joint."
             )
-        return found
+        return row_number
 
     for sensor in model.sensors:
         # the bodies are all known only now

@@ -119,15 +119,15 @@ def _principal(J: Array) -> Array:
 def _frame_signals(group: Group, signals: Signals) -> list[int]:
     """Numbers of the signals of the origin, then of the axes of a frame."""
     body = group.bodies[0]
-    parts = [_components(body, group.origin, True), *(_components(body, axis, False) for axis in group.axes.T)]
-    return [signals.number(component) for part in parts for component in part.components]
+    vectors = [_components(body, group.origin, True), *(_components(body, axis, False) for axis in group.axes.T)]
+    return [signals.number(component) for vector in vectors for component in vector.components]
 
 
 def _components(body: Body, drawn: Array, is_point: bool) -> AffineVector:
     """Three components of a drawn point or vector of a body."""
     v = drawn[: body.dimension]
-    part = body.point(v) if is_point else body.vector(v)
-    return AffineVector((*part.components, *(Affine({}, float(x)) for x in drawn[body.dimension :])))
+    vector = body.point(v) if is_point else body.vector(v)
+    return AffineVector((*vector.components, *(Affine({}, float(x)) for x in drawn[body.dimension :])))
 
 
 def _coordinates(
@@ -140,15 +140,15 @@ def _coordinates(
     for body in model.bodies:
         group, d = owner[id(body)], body.dimension
         for n, (_, o, w) in enumerate(choose(body)):
-            mine = [index.get(body.start + d * n + k, -1) for k in range(d)]
-            if max(mine) < 0:
+            component_columns = [index.get(body.start + d * n + k, -1) for k in range(d)]
+            if max(component_columns) < 0:
                 continue
             if group.number == 0:
                 raise NoTreeError(f"body '{body.name}' is welded to the ground")
-            drawn = in_space(o * body.com + w)
+            drawn_vector = in_space(o * body.com + w)
             bodies.append(group.number)
-            locals_.append(np.array([o, *(group.local(drawn) if o else group.axes.T @ drawn)]))
-            columns += mine + [-1] * (3 - d)
+            locals_.append(np.array([o, *(group.local(drawn_vector) if o else group.axes.T @ drawn_vector)]))
+            columns += component_columns + [-1] * (3 - d)
     return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
 
 
@@ -172,13 +172,13 @@ def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new
     for joint in model.joints:
         if joint.turn is None:
             continue
-        parts = turning(list(groups), joint)
+        signed_joints = turning(list(groups), joint)
         inertia = model.inertias.get(joint.turn.coordinate, 0.0)
-        if inertia > 0.0 and not _one_path(groups, [number for number, _ in parts]):
+        if inertia > 0.0 and not _one_path(groups, [number for number, _ in signed_joints]):
             raise NoTreeError(f"the armature of relative angle '{joint.name}' couples two branches of the tree")
         arrays["col"].append(index[joint.turn.coordinate])
-        arrays["joint"] += [number for number, _ in parts]
-        arrays["sign"] += [sign for _, sign in parts]
+        arrays["joint"] += [number for number, _ in signed_joints]
+        arrays["sign"] += [sign for _, sign in signed_joints]
         arrays["ptr"].append(len(arrays["joint"]))
         arrays["inertia"].append(inertia)
     if len(arrays["col"]) > MOST_JOINTS:
@@ -199,7 +199,7 @@ def _cut_arrays(model: Model, cuts: Sequence[Cut]) -> dict[str, Any]:
     """Bodies, numbers of rows, point and normals of the axis on the first body, point and axis on the second."""
     bodies: list[int] = []
     rows: list[int] = []
-    places: list[Array] = []
+    geometry: list[Array] = []
     for cut in cuts:
         first, second = cut.groups
         points = [g.local(in_space(p)) for g, p in zip(cut.groups, cut.places.points, strict=True)]
@@ -207,5 +207,5 @@ def _cut_arrays(model: Model, cuts: Sequence[Cut]) -> dict[str, Any]:
         bodies += [first.number, second.number]
         rows += rows_of(model, cut)
         normals = (first.axes.T @ frames[0])[:, :2]
-        places += [points[0], normals.T.ravel(), points[1], second.axes.T @ frames[1][:, 2]]
-    return {"cut_body": bodies, "cut_rows": rows, "cut_place": _joined(places)}
+        geometry += [points[0], normals.T.ravel(), points[1], second.axes.T @ frames[1][:, 2]]
+    return {"cut_body": bodies, "cut_rows": rows, "cut_place": _joined(geometry)}

@@ -36,7 +36,7 @@ def triads(block: Block) -> list[Triad]:
 
     The length of a rod is no condition on two bodies that are connected by a ring without it.
     """
-    found = {}
+    by_edges = {}
     tied: set[int] = set()
     for number, ring in enumerate(rings(block)):
         has_rod = any(v.is_rod for v in ring)
@@ -53,8 +53,8 @@ def triads(block: Block) -> list[Triad]:
             after = w.edges[ring[(k + 2) % len(ring)]]
             new = _triad(edge, (v, before), (w, after), block, number)
             if new is not None:
-                found[(id(edge), id(before), id(after))] = new
-    return list(found.values())
+                by_edges[(id(edge), id(before), id(after))] = new
+    return list(by_edges.values())
 
 
 def _triad(
@@ -82,10 +82,10 @@ def _axis(edge: Edge, first: tuple[Vertex, Edge], second: tuple[Vertex, Edge], b
     for candidate in (edge, first[1], second[1]):
         if candidate.axis is not None and not candidate.slides:
             return candidate.axis
-    mine = {id(e) for e in block.edges}
+    block_edges = {id(e) for e in block.edges}
     for vertex, end in (first, second):
         for third in vertex.edges.values():
-            if id(third) in mine and third is not edge and third is not end:
+            if id(third) in block_edges and third is not edge and third is not end:
                 return third.point - end.point
     return None
 

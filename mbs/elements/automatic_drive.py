@@ -104,8 +104,8 @@ class AutomaticDrive(Element):
             yield "ratios", f"are {ratios}; they must fall from first gear on, with at least one"
             return
         if not 0.0 < self.idle_speed <= self.stall_speed < self.limit_speed:
-            others = f"stall_speed {self.stall_speed:g} and limit_speed {self.limit_speed:g}"
-            yield "idle_speed", f"is {self.idle_speed:g} rad/s, {others}; they must rise in this order, from above 0"
+            speeds = f"stall_speed {self.stall_speed:g} and limit_speed {self.limit_speed:g}"
+            yield "idle_speed", f"is {self.idle_speed:g} rad/s, {speeds}; they must rise in this order, from above 0"
         if self.dwell < self.ramp:
             yield "dwell", f"is {self.dwell:g} s; it must not be less than ramp, {self.ramp:g} s"
         for throttle in ("closed", "open"):

@@ -39,8 +39,8 @@ class BodyForce(Element):
         size(point, (2, 3), f"The point of {what}")
         dimension = len(point)
         if len(axes) != (3 if dimension == 3 else 1) or any(len(a) != dimension for a in axes):
-            wanted = "three vectors" if dimension == 3 else "one vector"
-            raise ModelError(f"The axes of {what} must be {wanted} of {dimension} components.")
+            expected = "three vectors" if dimension == 3 else "one vector"
+            raise ModelError(f"The axes of {what} must be {expected} of {dimension} components.")
         numbers = channels(self.inputs, dimension, what)
         signals = [s for vector in (point, *axes) for s in vector.components]
         return self._record(name, signals, (*numbers, None)[:3])

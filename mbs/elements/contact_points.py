@@ -120,12 +120,12 @@ class ContactPoints(Element):
         what = self._what(name)
         for vector in (origin, *axes):
             size(vector, (3,), f"The origin and each axis of {what}")
-        places = array(points, (None, 3), f"the points of {what}")
-        if len(axes) != 3 or not len(places):
-            raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
-        box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
+        positions = array(points, (None, 3), f"the points of {what}")
+        if len(axes) != 3 or not len(positions):
+            raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {positions.shape}.")
+        box = (*positions.min(axis=0).tolist(), *positions.max(axis=0).tolist())
         signals = (*origin.components, *(s for axis in axes for s in axis.components))
-        return self._record(name, signals, (road, len(places)), behind=[*box, *places.ravel().tolist()])
+        return self._record(name, signals, (road, len(positions)), behind=[*box, *positions.ravel().tolist()])
 
 
 def _loss(e: float) -> float:

@@ -82,23 +82,23 @@ class Element:
         it has these, where no optional integer says it.
         """
         what = self._what(name)
-        given = list(integer)
-        while given and given[-1] is None and self._integers[len(given) - 1].optional:
-            given.pop()
-        integers = [of.checked(value, what) for of, value in zip(self._integers, given, strict=False)]
+        present = list(integer)
+        while present and present[-1] is None and self._integers[len(present) - 1].optional:
+            present.pop()
+        integers = [of.checked(value, what) for of, value in zip(self._integers, present, strict=False)]
         extended = len(integers) > sum(not of.optional for of in self._integers)
         if any(of.optional for of in self._integers):
             more = extended
-        reals, others = reals_of(self, what, values), self._numbers()[1]
+        reals, optional_names = reals_of(self, what, values), self._numbers()[1]
         named, plain = (behind, ()) if isinstance(behind, dict) else ({}, behind)
-        last = {key: real for key, real in reals.items() if key in others} if more else {}
+        last = {key: real for key, real in reals.items() if key in optional_names} if more else {}
         counted = sum(of.states * n for of, n in zip(self._integers, integers, strict=False))
         slots = (*self._states, *(self._more_states if extended else ()), *([0.0] * counted))
         return ElementRecord(
             name,
             self._type(),
             signals,
-            *columns({k: r for k, r in reals.items() if k not in others} | named | last, *plain),
+            *columns({k: r for k, r in reals.items() if k not in optional_names} | named | last, *plain),
             tuple(integers),
             slots if states is None else states,
             self._outputs if outputs is None else outputs,

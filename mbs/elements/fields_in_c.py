@@ -32,10 +32,10 @@ RANGES: dict[Check, tuple[str, str]] = {
 def class_of(kind: ElementType) -> type[Element]:
     """The class of a type of elements."""
     name = kind.name.lower()
-    found = getattr(importlib.import_module(f"mbs.elements.{name}"), name.title().replace("_", ""))
-    assert isinstance(found, type)
-    assert issubclass(found, Element)
-    return found
+    element_class = getattr(importlib.import_module(f"mbs.elements.{name}"), name.title().replace("_", ""))
+    assert isinstance(element_class, type)
+    assert issubclass(element_class, Element)
+    return element_class
 
 
 def texts(kind: type) -> dict[str, str]:
@@ -47,7 +47,7 @@ def header(kind: type[Element]) -> str:
     """The header of an element."""
     name = kind._type().name.lower()
     upper, words = name.upper(), kind._words
-    own, last = kind._numbers()
+    required_reals, optional_reals = kind._numbers()
     required = sum(not of.optional for of in kind._integers)
     lines = [
         "/* clang-format off */",
@@ -58,7 +58,7 @@ def header(kind: type[Element]) -> str:
         f"#define ALI3_{upper}_FIELDS_H",
         '#include "element.h"',
         "",
-        *_enumeration(kind, f"{upper}_REALS", len(own), bool(last)),
+        *_enumeration(kind, f"{upper}_REALS", len(required_reals), bool(optional_reals)),
     ]
     if kind._integers:
         lines += [
@@ -69,13 +69,13 @@ def header(kind: type[Element]) -> str:
         ]
     sizes = _sizes(kind, required)
     lines += ["#ifndef ALI3_WIDTH"]
-    if own or last:
+    if required_reals or optional_reals:
         lines += [f"static const ali3_field {name}_fields[] = {{"]
         for _, real, called in each_real(kind):
             what, must = RANGES[real.check]
             lines += [f'  {{{what}, "{f"the {called} of {words} {must}" if must else ""}"}},']
         lines += ["};"]
-        sizes |= {"fields": f"{name}_fields", "nfields": str(len(own) + len(last))}
+        sizes |= {"fields": f"{name}_fields", "nfields": str(len(required_reals) + len(optional_reals))}
     if kind._integers:
         lines += [f"static const ali3_integer {name}_integers[] = {{"]
         for of in kind._integers:
@@ -123,14 +123,14 @@ def signals_of(kind: type[Element]) -> str:
 
 def _sizes(kind: type[Element], required: int) -> dict[str, str]:
     """Sizes in `ali3_element_type` that are not 0."""
-    own, last = kind._numbers()
-    both = [n if isinstance(n, tuple) else (n, n) for _, n in kind._signals or ()]
-    space, plane = sum(n for n, _ in both), sum(n for _, n in both)
+    required_reals, optional_reals = kind._numbers()
+    counts = [n if isinstance(n, tuple) else (n, n) for _, n in kind._signals or ()]
+    space, plane = sum(n for n, _ in counts), sum(n for _, n in counts)
     sizes = {
         "nsig": -1 if kind._signals is None else space,
         "nsig_plane": 0 if plane == space else plane,
-        "nreal": -1 if kind._behind is None else len(own) + kind._behind,
-        "nreal_more": len(last),
+        "nreal": -1 if kind._behind is None else len(required_reals) + kind._behind,
+        "nreal_more": len(optional_reals),
         "nint": required,
         "nstate": len(kind._states),
         "nstate_more": len(kind._more_states),
@@ -144,13 +144,13 @@ def _sentence(of: Integer, words: str) -> str:
     if of.of is not Of.NUMBERS:
         thing = "an input" if of.of is Of.INPUTS else "a road"
         return f"{of.called} of {words} names {thing} that does not exist"
-    some = " or ".join(map(str, range(of.least, min(of.most, of.least + 3) + 1)))
-    return f"{of.called} of {words} must be {some if of.most < of.least + 3 else f'at least {of.least}'}"
+    allowed = " or ".join(map(str, range(of.least, min(of.most, of.least + 3) + 1)))
+    return f"{of.called} of {words} must be {allowed if of.most < of.least + 3 else f'at least {of.least}'}"
 
 
 def _comment(text: str) -> list[str]:
-    first, *others = textwrap.wrap(text, 112)
-    lines = [f"/* {first}", *(f" * {line}" for line in others)]
+    first, *following = textwrap.wrap(text, 112)
+    lines = [f"/* {first}", *(f" * {line}" for line in following)]
     return [*lines[:-1], f"{lines[-1]} */"]
 
 

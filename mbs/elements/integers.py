@@ -59,8 +59,10 @@ def an_input(name: str, words: str = "", *, missing: bool = False, optional: boo
 def channels(inputs: Sequence[int | None], count: int, what: str) -> list[int | None]:
     """Numbers of the inputs of a force or a torque, one per component; None for none."""
     if not isinstance(inputs, (list, tuple)) or len(inputs) != count:
-        given = f"has {len(inputs)} inputs" if isinstance(inputs, (list, tuple)) else f"has the inputs {shown(inputs)}"
-        raise ModelError(f"{capital(what)} {given}; it needs {count}, None for no component.")
+        description = (
+            f"has {len(inputs)} inputs" if isinstance(inputs, (list, tuple)) else f"has the inputs {shown(inputs)}"
+        )
+        raise ModelError(f"{capital(what)} {description}; it needs {count}, None for no component.")
     return [*inputs]
 
 

@@ -71,8 +71,8 @@ def declared(kind: type) -> dict[str, Real | Group]:
     """Numbers that a class declares and groups of them, by field, in the order of the kernel."""
     if kind not in _DECLARED:  # a car asks for those of its tyres many times
         hints = get_type_hints(kind, include_extras=True).items()
-        found = ((name, real) for name, hint in hints for real in getattr(hint, "__metadata__", ()))
-        numbers = {name: real for name, real in found if isinstance(real, (Real, Group))}
+        annotations = ((name, real) for name, hint in hints for real in getattr(hint, "__metadata__", ()))
+        numbers = {name: real for name, real in annotations if isinstance(real, (Real, Group))}
         apart = {name for name, real in numbers.items() if isinstance(real, Group) and real.apart}
         _DECLARED[kind] = {name: numbers[name] for name in sorted(numbers, key=apart.__contains__)}
     return _DECLARED[kind]
@@ -87,9 +87,9 @@ def each_real(kind: type) -> Iterator[tuple[str, Real, str]]:
             for name, member, called in each_real(real.kind):
                 yield real.name(field, name), member, f"{called} of the {noun}" if noun else called
         else:
-            own = real.name or field
-            for name in [f"{own}_{part}" for part in real.parts] or [own]:
-                yield name, real, real.words or own.replace("_", " ")
+            base_name = real.name or field
+            for name in [f"{base_name}_{suffix}" for suffix in real.parts] or [base_name]:
+                yield name, real, real.words or base_name.replace("_", " ")
 
 
 def texts_of(kind: type) -> dict[str, str]:
@@ -117,13 +117,13 @@ def reals_of(thing: object, what: str, values: Mapping[str, object] | None = Non
             if not (value is None and real.optional):
                 group: object = instance_of(real.kind, value, f"The {words} of {what}", real.words)
                 numbers = reals_of(group, f"the {words} {real.noun} of {what}" if real.noun else what)
-                reals |= {real.name(name, key): one for key, one in numbers.items()}
+                reals |= {real.name(name, key): component for key, component in numbers.items()}
             continue
-        own = real.name or name
-        words = f"{real.words or own.replace('_', ' ')} of {what}"
+        base_name = real.name or name
+        words = f"{real.words or base_name.replace('_', ' ')} of {what}"
         if not real.parts:
-            reals[own] = (real.check(value, f"The {words}"), real.check)
+            reals[base_name] = (real.check(value, f"The {words}"), real.check)
             continue
-        for part, one in zip(real.parts, vector(value, len(real.parts), f"the {words}"), strict=True):
-            reals[f"{own}_{part}"] = (real.check(one, f"The {words}"), real.check)
+        for suffix, component in zip(real.parts, vector(value, len(real.parts), f"the {words}"), strict=True):
+            reals[f"{base_name}_{suffix}"] = (real.check(component, f"The {words}"), real.check)
     return reals

@@ -38,11 +38,11 @@ def fraction(value: object, what: str) -> float:
 
 def size(vector: AffineVector, sizes: Sequence[int], what: str) -> None:
     """The number of components of an expression."""
-    wanted = " or ".join(str(n) for n in sizes)
+    expected = " or ".join(str(n) for n in sizes)
     if not isinstance(vector, AffineVector):
-        raise ModelError(f"{capital(what)} must be a point or a vector of {wanted} expressions, not {shown(vector)}.")
+        raise ModelError(f"{capital(what)} must be a point or a vector of {expected} expressions, not {shown(vector)}.")
     if len(vector) not in sizes:
-        raise ModelError(f"{capital(what)} has {len(vector)} components; it must have {wanted}.")
+        raise ModelError(f"{capital(what)} has {len(vector)} components; it must have {expected}.")
 
 
 def several(values: Sequence[float], what: str) -> list[float]:

@@ -86,9 +86,9 @@ STOPS = Group(EndStops, "EndStops", apart=True)
 
 def given_stops(stops: EndStops | None, what: str) -> EndStops:
     """The stops of a spring, checked; without any, stops that do not act."""
-    given = EndStops() if stops is None else instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
-    given.check(what)
-    return given
+    checked = EndStops() if stops is None else instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
+    checked.check(what)
+    return checked
 
 
 @dataclass(frozen=True)

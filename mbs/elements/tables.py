@@ -50,8 +50,8 @@ def _numbers(kind: type, group: Group | None = None, field: str = "") -> Iterato
         if isinstance(real, Group):
             yield from _numbers(real.kind, real, name)
             continue
-        own = real.name or name
-        names = [f"{own}_{part}" for part in real.parts] or [own]
+        base_name = real.name or name
+        names = [f"{base_name}_{part}" for part in real.parts] or [base_name]
         named = [group.name(field, n) for n in names] if group else names
         yield named, _range(real), _shown(defaults.get(name, dataclasses.MISSING)), descriptions[name]
 
@@ -64,8 +64,8 @@ def _range(real: Real) -> str:
 def _shown(default: object) -> str:
     if default is dataclasses.MISSING or default is None:
         return ""
-    parts = default if isinstance(default, tuple) else (default,)
-    return ", ".join(f"{part:.6g}" if isinstance(part, float) else str(part) for part in parts)
+    numbers = default if isinstance(default, tuple) else (default,)
+    return ", ".join(f"{value:.6g}" if isinstance(value, float) else str(value) for value in numbers)
 
 
 def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

@@ -100,26 +100,26 @@ def _values(
     total, sides = units.mass * float(masses.sum()), units.length * np.ptp(x, axis=0)
     size, centre = float(sides.max()), units.length * moment / max(float(masses.sum()), np.finfo(float).tiny)
     mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_three(sides)} m"}
-    found = [Value(QUANTITIES["mass"], total, mass), Value(QUANTITIES["size"], size, nodes)]
+    values = [Value(QUANTITIES["mass"], total, mass), Value(QUANTITIES["size"], size, nodes)]
     for name, three in (("extent", sides), ("centre", np.round(centre, 9) + 0.0)):
-        found += [Value(QUANTITIES[name], float(v), nodes, axis) for axis, v in zip("xyz", three, strict=True)]
+        values += [Value(QUANTITIES[name], float(v), nodes, axis) for axis, v in zip("xyz", three, strict=True)]
     volume = units.length**3 * hull
     if volume > 0.0:
-        found.append(Value(QUANTITIES["dense"], total / volume, mass | nodes))
+        values.append(Value(QUANTITIES["dense"], total / volume, mass | nodes))
     if beside:
-        found.append(Value(QUANTITIES["beside"], total / beside, mass | {"mass beside it": beside}))
+        values.append(Value(QUANTITIES["beside"], total / beside, mass | {"mass beside it": beside}))
     faster = float(np.sqrt(units.stiffness / units.mass))
     if free is not None:
         keys: dict[str, Any] = {"stiffness": f"a first free frequency of {faster * free:.4g} Hz"} | mass | nodes
         c = 2.0 * size * faster * free
-        found += [Value(QUANTITIES["free"], faster * free, keys), Value(QUANTITIES["wave"], c, keys)]
+        values += [Value(QUANTITIES["free"], faster * free, keys), Value(QUANTITIES["wave"], c, keys)]
         if volume > 0.0 and total > 0.0:
-            found.append(Value(QUANTITIES["stiff"], c**2 * volume / total, keys))
+            values.append(Value(QUANTITIES["stiff"], c**2 * volume / total, keys))
     if supported is not None:
-        found.append(Value(QUANTITIES["supported"], faster * supported))
+        values.append(Value(QUANTITIES["supported"], faster * supported))
     for quantity, of in given.items():
-        found += [Value(QUANTITIES[quantity], float(v), {}, name) for name, v in of.items()]
-    return found
+        values += [Value(QUANTITIES[quantity], float(v), {}, name) for name, v in of.items()]
+    return values
 
 
 def _three(sides: np.ndarray) -> str:

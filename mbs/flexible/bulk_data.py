@@ -51,10 +51,10 @@ class _Card:
 
     def numbers(self, first: int, count: int) -> Array:
         """Fields as numbers; 0 where one is empty."""
-        found = np.array([self._read(k, _number, "number") for k in range(first, first + count)])
-        if not (np.abs(found) <= LARGEST_NUMBER).all():
+        numbers = np.array([self._read(k, _number, "number") for k in range(first, first + count)])
+        if not (np.abs(numbers) <= LARGEST_NUMBER).all():
             raise self.line.error(f"a number of this {self.name} is not finite or beyond {LARGEST_NUMBER:g}.")
-        return found
+        return numbers
 
     def _read(self, k: int, reader: Callable[[str], float], what: str) -> float:
         try:
@@ -75,21 +75,21 @@ def grid_points(path: Path, folder: str | Path | None = None) -> dict[int, tuple
         By number, ascending: the place in the basic system, and the number of the coordinate system of the
         displacements, 0: the basic one.
     """
-    found: dict[str, list[_Card]] = {}
+    cards: dict[str, list[_Card]] = {}
     lines = list(_lines(path, NamedFiles(path.parent if folder is None else folder, LARGEST, ModelError)))
     begin = next((k + 1 for k, line in enumerate(lines) if re.match(r"begin\s+bulk", line.text, re.IGNORECASE)), 0)
     end = next((k for k, line in enumerate(lines) if re.match(r"enddata\b", line.text, re.IGNORECASE)), len(lines))
     for card in _cards(lines[begin:end]):
-        found.setdefault(card.name, []).append(card)
-    systems = _Systems({card.whole(0): card for name in _SYSTEMS for card in found.get(name, [])})
-    default = found.get("GRDSET", [_Card(_Line("", ""), "GRDSET", [])])[0]
+        cards.setdefault(card.name, []).append(card)
+    systems = _Systems({card.whole(0): card for name in _SYSTEMS for card in cards.get(name, [])})
+    default = cards.get("GRDSET", [_Card(_Line("", ""), "GRDSET", [])])[0]
     points = {}
-    for card in found.get("GRID", []):
+    for card in cards.get("GRID", []):
         number = card.whole(0)
         if number in points:
             raise card.line.error(f"grid point {number} is given twice.")
-        given, own = ((card if card.field(k) else default).whole(k) for k in (1, 5))
-        points[number] = systems.basic(card.numbers(2, 3), given, card.line), own
+        position_system, displacement_system = ((card if card.field(k) else default).whole(k) for k in (1, 5))
+        points[number] = systems.basic(card.numbers(2, 3), position_system, card.line), displacement_system
     if not points:
         raise ModelError(f"{path.name} contains no grid points.")
     return dict(sorted(points.items()))
@@ -191,19 +191,21 @@ def _replicated(rule: Sequence[str], before: Sequence[str], line: _Line) -> list
     """Data of a card: ``=`` that before it, ``==`` all from there on, ``*(n)`` that before it and n more."""
     fields = list[str]()
     for k, field in enumerate(rule):
-        old = before[k] if k < len(before) else ""
-        more = re.fullmatch(r"\*\(?([^()]+)\)?", field)
+        previous = before[k] if k < len(before) else ""
+        increment = re.fullmatch(r"\*\(?([^()]+)\)?", field)
         if field == "==":
             return [*fields, *before[k:]]
-        if more is None:
-            fields.append(old if field == "=" else field)
+        if increment is None:
+            fields.append(previous if field == "=" else field)
             continue
         try:
-            whole = re.fullmatch(r"[+-]?\d+", old) and re.fullmatch(r"[+-]?\d+", more[1])
-            fields.append(str(int(old) + int(more[1])) if whole else repr(_number(old) + _number(more[1])))
+            whole = re.fullmatch(r"[+-]?\d+", previous) and re.fullmatch(r"[+-]?\d+", increment[1])
+            fields.append(
+                str(int(previous) + int(increment[1])) if whole else repr(_number(previous) + _number(increment[1]))
+            )
         except ValueError:
             raise line.error(
-                f"field {k + 2} adds {brief(more[1])} to {brief(old)}, which are not both numbers."
+                f"field {k + 2} adds {brief(increment[1])} to {brief(previous)}, which are not both numbers."
             ) from None
     return fields
 
@@ -217,10 +219,10 @@ def _joined(lines: Sequence[_Line]) -> Iterator[_Card]:
             yield card
             card = _Card(line, first.rstrip("*").upper(), [])
         if card.name in _USED or card.name.startswith("="):
-            own = first[1:].strip()
-            if card.line is not line and mark and own and mark != own:
+            label = first[1:].strip()
+            if card.line is not line and mark and label and mark != label:
                 raise line.error(
-                    f"it continues a line that ends with {brief(own)}, and the one of the {card.name} before it ends "
+                    f"it continues a line that ends with {brief(label)}, and the one of the {card.name} before it ends "
                     f"with {brief(mark)}; lines that continue a card must follow it."
                 )
             data, mark = _data(line, first)
@@ -243,9 +245,9 @@ def _data(line: _Line, first: str) -> tuple[list[str], str]:
 def _without_tabs(line: _Line, wide: int) -> str:
     """A line in which each tab leads to the next field."""
     row = ""
-    *parts, last = line.text.split("\t")
-    for part in parts:
-        row += part
+    *pieces, last = line.text.split("\t")
+    for piece in pieces:
+        row += piece
         first, end = (0, 8) if len(row) < 8 else (8 + wide * ((len(row) - 8) // wide + k) for k in (0, 1))
         if row.rfind(" ") + 1 < min(first, len(row)):
             raise line.error(

@@ -65,17 +65,20 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     for k, (node, axis) in enumerate(freedoms):
         if node in row and axis < 3:
             table[row[node], axis] = k
-    used = (table >= 0).all(axis=1)
-    held = np.flatnonzero(~used & (table >= 0).any(axis=1))
+    complete = (table >= 0).all(axis=1)
+    supported = np.flatnonzero(~complete & (table >= 0).any(axis=1))
     if not numbers:
         raise ModelError(f"{deck.name} has no nodes.")
-    if held.size or not used.any():
-        node = numbers[int(held[0])] if held.size else numbers[0]
+    if supported.size or not complete.any():
+        node = numbers[int(supported[0])] if supported.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
     entries = [read_foreign(path, _entries) for path in files[1:3]]
     lumped = len(entries[1]) == 3 and np.array_equal(entries[1][0], entries[1][1])
-    for path, found in zip(files[1:3], entries, strict=True):
-        if len(found) != 3 or not np.isin(table[used] + 1, found[0][found[0] == found[1]]).all():
+    for path, matrix_entries in zip(files[1:3], entries, strict=True):
+        if (
+            len(matrix_entries) != 3
+            or not np.isin(table[complete] + 1, matrix_entries[0][matrix_entries[0] == matrix_entries[1]]).all()
+        ):
             raise ModelError(f"{path.name} must have a diagonal entry for each freedom; it is damaged.")
     if entries[0].shape != entries[1].shape and not lumped:
         raise ModelError(f"{files[1].name} and {files[2].name} must have as many entries; one of them is damaged.")
@@ -83,8 +86,8 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
         read_foreign(path, partial(_triangle, size=len(freedoms), entries=e))
         for path, e in zip(files[1:3], entries, strict=True)
     )
-    K, M = _condensed(K, M, table[used].ravel())
-    return K, M, points[used], [numbers[int(i)] for i in np.flatnonzero(used)]
+    K, M = _condensed(K, M, table[complete].ravel())
+    return K, M, points[complete], [numbers[int(i)] for i in np.flatnonzero(complete)]
 
 
 def _freedoms(path: Path) -> list[tuple[int, int]]:

@@ -118,23 +118,23 @@ def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | Non
 def _dynamic_modes(
     fixed: FixedInterface, wanted: int | Sequence[int], up_to: float | None
 ) -> tuple[np.ndarray, np.ndarray]:
-    held = fixed.held_numbers()
+    held_numbers = fixed.held_numbers()
     if up_to is not None:
         if not (is_number(wanted) and wanted == 0):
             raise ModelError("Dynamic modes are chosen by number or by frequency, not by both.")
-        available = fixed.model.n_dof - held.size
+        available = fixed.model.n_dof - held_numbers.size
         massive = int((fixed.model.mass_matrix().diagonal()[fixed.inner] > 0).sum())
         count = min(FIRST_BATCH, massive, available)
-        hertz, shapes = natural_modes(fixed.model, count, held)
+        hertz, shapes = natural_modes(fixed.model, count, held_numbers)
         while hertz.size and hertz[-1] <= up_to and count < massive:
             count = min(2 * count, massive)
-            hertz, shapes = natural_modes(fixed.model, count, held)
+            hertz, shapes = natural_modes(fixed.model, count, held_numbers)
         chosen = np.flatnonzero(hertz <= up_to)
     else:
         chosen = _numbers_of(wanted)
         if chosen.size and (chosen.min() < 0 or np.unique(chosen).size != chosen.size):
             raise ModelError(f"Dynamic modes are different numbers from 0 up, not {chosen.tolist()}.")
-        hertz, shapes = natural_modes(fixed.model, int(chosen.max(initial=-1)) + 1, held)
+        hertz, shapes = natural_modes(fixed.model, int(chosen.max(initial=-1)) + 1, held_numbers)
     return hertz[chosen], shapes[:, chosen]
 
 
@@ -176,7 +176,7 @@ def _static_names(fixed: FixedInterface) -> list[str]:
 
 
 def _interface_modes(fixed: FixedInterface, origin: np.ndarray) -> dict[str, InterfaceModes]:
-    found, column = {}, 0
+    modes, column = {}, 0
     for interface in fixed.interfaces:
         node = fixed.model.node(interface.node)
         translation = column + np.arange(3) if interface.translations else None
@@ -184,8 +184,8 @@ def _interface_modes(fixed: FixedInterface, origin: np.ndarray) -> dict[str, Int
         rotation = column + np.arange(3) if interface.rotations else None
         column += 3 * interface.rotations
         position = fixed.model.positions[node] - origin
-        found[fixed.model.names[node]] = InterfaceModes(node, position, translation, rotation)
-    return found
+        modes[fixed.model.names[node]] = InterfaceModes(node, position, translation, rotation)
+    return modes
 
 
 def _symmetric(X: np.ndarray) -> np.ndarray:

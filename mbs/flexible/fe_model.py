@@ -52,10 +52,10 @@ class FiniteElementModel(Summarised):
     @property
     def node_of(self) -> np.ndarray:
         """Shape (n_dof,): number of the node of each degree of freedom."""
-        found = np.full(self.n_dof, -1)
+        node_numbers = np.full(self.n_dof, -1)
         nodes, axes = np.nonzero(self.dof >= 0)
-        found[self.dof[nodes, axes]] = nodes
-        return found
+        node_numbers[self.dof[nodes, axes]] = nodes
+        return node_numbers
 
     def mass_matrix(self) -> sp.csc_array:
         """Mass matrix of the points, shape (n_dof, n_dof)."""
@@ -148,8 +148,8 @@ class FiniteElementModel(Summarised):
             return np.concatenate([self.freedoms(reference), self.freedoms(reference, rotations=True)])
         if len(reference) != 3:
             raise ModelError(f"The reference is one node with rotations or three nodes, not {len(reference)} nodes.")
-        first, *others = (self.freedoms(node) for node in reference)
-        numbers = np.concatenate(others)
+        first, *other_freedoms = (self.freedoms(node) for node in reference)
+        numbers = np.concatenate(other_freedoms)
         positions = self.positions[[self.node(node) for node in reference]]
         size = max(float(np.ptp(positions, axis=0).max()), np.finfo(float).tiny)
         turns = self.rigid_motions(positions[0])[numbers, 3:] / size

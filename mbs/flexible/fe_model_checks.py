@@ -52,11 +52,11 @@ def negative_eigenvalues(matrix: Sparse) -> int:
     """
     diagonal = matrix.diagonal()
     entries = sp.coo_array(matrix)
-    used = np.unique(entries.col[entries.data != 0.0])
-    if (diagonal[used] <= 0.0).any():
-        return max(int((diagonal[used] <= 0.0).sum()), 1)
-    scale = sp.diags_array(1.0 / np.sqrt(diagonal[used]))
-    shifted = sp.csc_array(scale @ matrix[used][:, used] @ scale + SYMMETRY * sp.eye_array(used.size))
+    columns = np.unique(entries.col[entries.data != 0.0])
+    if (diagonal[columns] <= 0.0).any():
+        return max(int((diagonal[columns] <= 0.0).sum()), 1)
+    scale = sp.diags_array(1.0 / np.sqrt(diagonal[columns]))
+    shifted = sp.csc_array(scale @ matrix[columns][:, columns] @ scale + SYMMETRY * sp.eye_array(columns.size))
     factors = splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     return int((factors.U.diagonal() < 0.0).sum())
 
@@ -143,11 +143,11 @@ def _mistakes(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.n
 def _turned_entry(model: FiniteElementModel) -> tuple[int, int] | None:
     """Row and column of an entry that must have the other sign for the model to be free; None where none mends it."""
     motions = model.rigid_motions(model.positions.mean(axis=0))
-    rest = np.asarray(model.K @ motions)[:, :3]
-    i = int(np.abs(rest).max(axis=1).argmax())
+    forces = np.asarray(model.K @ motions)[:, :3]
+    i = int(np.abs(forces).max(axis=1).argmax())
     row = model.K[[i]].toarray()[0]
     # turned, an entry takes twice itself times the motion of its column from its row
-    fits = np.abs(rest[i] - 2.0 * row[:, None] * motions[:, :3]).max(axis=1)
+    fits = np.abs(forces[i] - 2.0 * row[:, None] * motions[:, :3]).max(axis=1)
     fits[i] = np.inf
     for j in np.argsort(fits)[:3].tolist():
         K = model.K.tolil(copy=True)
@@ -160,11 +160,11 @@ def _turned_entry(model: FiniteElementModel) -> tuple[int, int] | None:
 
 def check_connected(model: FiniteElementModel, reference: Reference) -> None:
     """Refuse nodes or degrees of freedom that nothing ties to the reference node, and mechanisms."""
-    held = model.reference_freedoms(reference)
-    islands = _island_nodes(model, held)
+    reference_freedoms = model.reference_freedoms(reference)
+    islands = _island_nodes(model, reference_freedoms)
     if islands.size:
         raise ModelError(f"No element ties {_named(model, islands)} to the reference node.")
-    _check_mechanism(model, held)
+    _check_mechanism(model, reference_freedoms)
 
 
 def _island_nodes(model: FiniteElementModel, held: np.ndarray) -> np.ndarray:
@@ -173,8 +173,8 @@ def _island_nodes(model: FiniteElementModel, held: np.ndarray) -> np.ndarray:
     n = len(model.names)
     stiff = np.abs(K.data) > 0
     graph = sp.coo_array((np.ones(int(stiff.sum())), (node_of[K.row[stiff]], node_of[K.col[stiff]])), shape=(n, n))
-    _, part = connected_components(sp.csr_array(graph), directed=False)
-    return np.flatnonzero(part != part[node_of[held[0]]])
+    _, component = connected_components(sp.csr_array(graph), directed=False)
+    return np.flatnonzero(component != component[node_of[held[0]]])
 
 
 def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:

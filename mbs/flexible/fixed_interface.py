@@ -40,21 +40,21 @@ class FixedInterface:
         self.interfaces = tuple(i if isinstance(i, Interface) else Interface(i) for i in interfaces)
         self.held = model.reference_freedoms(reference)
         numbers: list[np.ndarray] = []
-        seen: set[int] = set()
+        nodes: set[int] = set()
         for interface in self.interfaces:
             node = model.node(interface.node)
-            if node in seen:
+            if node in nodes:
                 raise ModelError(f"Node {model.names[node]!r} is named twice among the interfaces.")
-            seen.add(node)
+            nodes.add(node)
             if not (interface.translations or interface.rotations):
                 raise ModelError(f"Interface {model.names[node]!r} has neither translations nor rotations.")
-            parts = [model.freedoms(node, rotations=True)] if interface.rotations else []
+            freedom_groups = [model.freedoms(node, rotations=True)] if interface.rotations else []
             if interface.translations:
-                parts.insert(0, model.freedoms(node))
-            for part in parts:
-                if np.isin(part, self.held).any():
+                freedom_groups.insert(0, model.freedoms(node))
+            for freedoms in freedom_groups:
+                if np.isin(freedoms, self.held).any():
                     raise ModelError(f"The reference node {model.names[node]!r} does not move: it is not an interface.")
-            numbers.extend(parts)
+            numbers.extend(freedom_groups)
         self.boundary = np.concatenate(numbers) if numbers else np.zeros(0, int)
         check_connected(model, reference)
         self.inner = np.setdiff1d(np.arange(model.n_dof), np.concatenate([self.held, self.boundary]))

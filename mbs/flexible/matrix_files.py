@@ -188,7 +188,7 @@ def _freedom_table(dof: ArrayLike | None, n: int, size: int) -> np.ndarray:
     table = np.array(dof, int)
     if table.shape != (n, 6) or (table[:, :3] < 0).any():
         raise ModelError(f"The freedoms have shape {table.shape}; ({n}, 6) with all translations is needed.")
-    used = np.sort(table[table >= 0])
-    if not np.array_equal(used, np.arange(size)):
+    numbers = np.sort(table[table >= 0])
+    if not np.array_equal(numbers, np.arange(size)):
         raise ModelError(f"The freedoms must number each of the {size} rows of the matrices once.")
     return table

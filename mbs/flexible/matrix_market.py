@@ -43,12 +43,12 @@ def read_matrix_market(path: Path) -> sp.csc_array:
         count = sizes[2] if form == "coordinate" else len(i)
         check_memory(24 * _COPIES * count + 8 * (rows + columns), ModelError, path.name)
         width = 1 if form == "array" else 2 if field == "pattern" else 3
-        found = np.loadtxt(stream, ndmin=2, comments="%", max_rows=count + 1) if count else np.zeros((0, width))
-    if found.shape != (count, width):
-        raise ValueError(f"it has {found.shape[0]} lines of {found.shape[1]} numbers in place of {count} of {width}")
-    values = np.ones(count) if field == "pattern" else found[:, -1]
+        table = np.loadtxt(stream, ndmin=2, comments="%", max_rows=count + 1) if count else np.zeros((0, width))
+    if table.shape != (count, width):
+        raise ValueError(f"it has {table.shape[0]} lines of {table.shape[1]} numbers in place of {count} of {width}")
+    values = np.ones(count) if field == "pattern" else table[:, -1]
     if form == "coordinate":
-        i, j = (_indices(found[:, k], n) for k, n in ((0, rows), (1, columns)))
+        i, j = (_indices(table[:, k], n) for k, n in ((0, rows), (1, columns)))
     if sign := _SIGNS[symmetry]:
         beside = i != j
         i, j = np.concatenate([i, j[beside]]), np.concatenate([j, i[beside]])
@@ -60,8 +60,8 @@ def _dense_indices(rows: int, columns: int, symmetry: str, path: Path) -> tuple[
     """Rows and columns of the numbers of a dense matrix, column by column; of a symmetric one the lower triangle."""
     check_memory(24 * _COPIES * rows * columns, ModelError, path.name)
     j, i = np.divmod(np.arange(rows * columns), max(rows, 1))
-    kept = i >= j + (symmetry == "skew-symmetric") if symmetry != "general" else np.ones(len(i), bool)
-    return i[kept], j[kept]
+    stored = i >= j + (symmetry == "skew-symmetric") if symmetry != "general" else np.ones(len(i), bool)
+    return i[stored], j[stored]
 
 
 def _indices(numbers: np.ndarray, size: int) -> np.ndarray:

@@ -87,21 +87,21 @@ def modes_for_output(
             f"Output {int(np.flatnonzero(scale == 0)[0])} does not depend on any deformation of the model."
         )
     participation = (modes.T @ load) / ((2 * np.pi * hertz) ** 2)[:, None]
-    parts = np.asarray(rows @ modes)[:, :, None] * participation[None] / scale[:, :, None]
+    contributions = np.asarray(rows @ modes)[:, :, None] * participation[None] / scale[:, :, None]
     resonant = hertz < RESONANT * frequency
     # at resonance only damping bounds the response: these modes are taken whatever they contribute
     ratio = np.where(resonant, 0.0, frequency / np.where(resonant, 1.0, hertz)) ** 2
-    rest = parts * (ratio / (1 - ratio))[None, :, None]
-    missing = rest.sum(axis=1) + (0.0 if inertia_modes else exact / scale)
-    parts = rest if inertia_modes else parts + rest
-    order = np.argsort(np.where(resonant, -np.inf, -np.abs(parts).max(axis=(0, 2))), kind="stable")
+    amplified = contributions * (ratio / (1 - ratio))[None, :, None]
+    residual = amplified.sum(axis=1) + (0.0 if inertia_modes else exact / scale)
+    contributions = amplified if inertia_modes else contributions + amplified
+    order = np.argsort(np.where(resonant, -np.inf, -np.abs(contributions).max(axis=(0, 2))), kind="stable")
     chosen: list[int] = []
     for mode in order:
-        if np.abs(missing).max() <= tolerance and not resonant[mode]:
+        if np.abs(residual).max() <= tolerance and not resonant[mode]:
             break
-        missing = missing - parts[:, mode]
+        residual = residual - contributions[:, mode]
         chosen.append(int(mode))
-    error = float(np.abs(missing).max())
+    error = float(np.abs(residual).max())
     if error > tolerance:
         raise ModelError(
             f"The lowest {candidates} modes leave an error of {error:.2g} of the output; look at more candidates or "

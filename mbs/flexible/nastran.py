@@ -58,17 +58,17 @@ def read_nastran(
         if not is_file(path):
             raise ModelError(no_file(path))
     points = read_foreign(Path(bulk_data), partial(grid_points, folder=folder))
-    for number, (_, own) in points.items():
-        if own != 0:
+    for number, (_, system) in points.items():
+        if system != 0:
             raise ModelError(f"Grid point {number} has displacements in a system of its own; use the basic system.")
-    found = read_foreign(Path(matrices), read_output4)
+    by_name = read_foreign(Path(matrices), read_output4)
     for name in (stiffness, mass):
-        if name.upper() not in found:
-            raise ModelError(f"{Path(matrices).name} has no matrix {name}; it has {', '.join(sorted(found))}.")
-        if np.iscomplexobj(found[name.upper()]):
+        if name.upper() not in by_name:
+            raise ModelError(f"{Path(matrices).name} has no matrix {name}; it has {', '.join(sorted(by_name))}.")
+        if np.iscomplexobj(by_name[name.upper()]):
             raise ModelError(f"The matrix {name} of {Path(matrices).name} is complex; give a real one.")
-    K, M = (_symmetric(found[name.upper()]) for name in (stiffness, mass))
-    positions, names = np.array([place for place, _ in points.values()]), [str(number) for number in points]
+    K, M = (_symmetric(by_name[name.upper()]) for name in (stiffness, mass))
+    positions, names = np.array([position for position, _ in points.values()]), [str(number) for number in points]
     return external_model(K, M, positions, names, total_mass=total_mass, what=Path(matrices).name)
 
 

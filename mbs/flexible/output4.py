@@ -45,8 +45,8 @@ def _matrices(source: _Binary | _Text) -> Iterator[tuple[str, sp.csc_array]]:
             raise ValueError(f"the matrix {name} has {columns} columns")
         check_memory(8 * (columns + abs(rows)), ModelError, f"The matrix {name}")
         indices, values = [np.empty((2, 0), int)], [np.empty(0)]
-        for column, row, part in _strings(source, columns, rows):
-            numbers = part.view(complex) if source.kind > 2 else part
+        for column, row, string in _strings(source, columns, rows):
+            numbers = string.view(complex) if source.kind > 2 else string
             indices.append(np.stack([row - 1 + np.arange(len(numbers)), np.full(len(numbers), column - 1)]))
             values.append(numbers)
         yield name, sp.csc_array((np.concatenate(values), np.hstack(indices)), shape=(abs(rows), columns))
@@ -144,10 +144,10 @@ class _Text:
         return self.integers(3)
 
     def integers(self, count: int) -> list[int]:
-        found = [int(n) for n in self._line().split()]
-        if len(found) != count:
-            raise ValueError(f"a line has {len(found)} numbers in place of {count}")
-        return found
+        integers = [int(n) for n in self._line().split()]
+        if len(integers) != count:
+            raise ValueError(f"a line has {len(integers)} numbers in place of {count}")
+        return integers
 
     def numbers(self, words: int, dense: bool) -> Array:
         count = _count(words if dense or self.kind in (1, 3) else words // 2)

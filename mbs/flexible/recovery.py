@@ -80,9 +80,9 @@ def _inertia(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarray, np.
     share = positions[:, 0] / length
     moved = np.stack([np.hstack([(1.0 - s) * R, s * R]) for s in share])
     to_nodes = np.einsum("p,pij,pik->jk", masses, shapes, moved)
-    rest, whole = 1.0 - xi, beam.material.rho * beam.section.area * length
-    force = whole * np.hstack([rest**2 / 2 * R, (1.0 - xi**2) / 2 * R])
-    lever = whole * length * np.hstack([rest**3 / 6 * R, ((1.0 - xi**3) / 3 - xi * (1.0 - xi**2) / 2) * R])
+    complement, mass = 1.0 - xi, beam.material.rho * beam.section.area * length
+    force = mass * np.hstack([complement**2 / 2 * R, (1.0 - xi**2) / 2 * R])
+    lever = mass * length * np.hstack([complement**3 / 6 * R, ((1.0 - xi**3) / 3 - xi * (1.0 - xi**2) / 2) * R])
     return to_nodes, np.vstack([force, np.zeros(6), -lever[2], lever[1]])
 
 
@@ -178,8 +178,8 @@ def gauge_rows(frame: BeamFrame, gauges: tuple[StrainGauge, ...]) -> tuple[np.nd
 
 def section_force_field(frame: BeamFrame) -> sp.csr_array:
     """Section forces at both ends of every element, shape (12 n_elements, 9 n): six at the start, six at the end."""
-    parts = [section_forces(frame, e, xi) for e in range(len(frame.beams)) for xi in (0.0, 1.0)]
-    return sp.csr_array(sp.vstack(parts))
+    sections = [section_forces(frame, e, xi) for e in range(len(frame.beams)) for xi in (0.0, 1.0)]
+    return sp.csr_array(sp.vstack(sections))
 
 
 def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
@@ -192,12 +192,12 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
     where : ndarray of int, shape (n_points, 3)
         Element, end (0 or 1) and number of the fibre of each row.
     """
-    parts, where = [], []
+    stresses, where = [], []
     for e, beam in enumerate(frame.beams):
         for end in (0, 1):
-            parts.append(fibre_stresses(frame, e, float(end)))
+            stresses.append(fibre_stresses(frame, e, float(end)))
             where += [(e, end, f) for f in range(len(beam.section.fibres))]
-    return sp.csr_array(sp.vstack(parts)), np.array(where)
+    return sp.csr_array(sp.vstack(stresses)), np.array(where)
 
 
 def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:

@@ -55,8 +55,8 @@ def sources(lanes: bool = True, kernel: Path | None = None) -> list[Path]:
 
     `kernel`: folder of it, by default that beside this file.
     """
-    found = sorted(((kernel or HERE) / "src").rglob("*.c"))
-    return [f for f in found if lanes or not (f.parent.name in LANES or f.name in LANES)]
+    files = sorted(((kernel or HERE) / "src").rglob("*.c"))
+    return [f for f in files if lanes or not (f.parent.name in LANES or f.name in LANES)]
 
 
 def host_target() -> str:
@@ -92,13 +92,13 @@ def compiler() -> str:
     It is called by its path: ``python -m ziglang`` would look into the current folder first. Raises
     `ModuleNotFoundError` if the package is not installed.
     """
-    found = importlib.util.find_spec("ziglang")
-    if found is None or not found.submodule_search_locations:
+    spec = importlib.util.find_spec("ziglang")
+    if spec is None or not spec.submodule_search_locations:
         raise ModuleNotFoundError(
             "The package ziglang, which compiles C, is not installed; run: python -m pip install ziglang",
             name="ziglang",
         )
-    return str(Path(found.submodule_search_locations[0], "zig.exe" if os.name == "nt" else "zig"))
+    return str(Path(spec.submodule_search_locations[0], "zig.exe" if os.name == "nt" else "zig"))
 
 
 def compile_library(target: str | None = None, out: str | Path | None = None) -> Path:

@@ -87,16 +87,16 @@ def enumeration(file: str, first: str, prefix: str) -> dict[str, int]:
 
     Raises `ValueError` if the header has no such enumeration or an item has another prefix.
     """
-    found = re.search(r"enum \{\s*(" + first + r"\b[^}]*)\}", text_of(file))
-    if found is None:
+    match = re.search(r"enum \{\s*(" + first + r"\b[^}]*)\}", text_of(file))
+    if match is None:
         raise ValueError(f"{file} has no enumeration that starts with {first}.")
     items: dict[str, int] = {}
     value = 0
-    for item in filter(None, (part.strip() for part in found[1].split(","))):
-        name, _, given = (part.strip() for part in item.partition("="))
+    for item in filter(None, (part.strip() for part in match[1].split(","))):
+        name, _, number = (part.strip() for part in item.partition("="))
         if not name.startswith(prefix):
             raise ValueError(f"{name} in {file} does not start with {prefix}.")
-        value = int(given) if given else value
+        value = int(number) if number else value
         if not name.endswith("_COUNT"):
             items[name.removeprefix(prefix)] = value
         value += 1
@@ -109,19 +109,19 @@ _PART = re.compile(r"""\s*((?:"(?:[^"\\]|\\.)*"\s*)+|(?:[^,()"]|\([^()]*\))+)\s*
 
 def table(file: str, name: str) -> list[list[str]]:
     """Entries ``X(...)`` of a list macro: the arguments as text, adjacent strings joined and without quotes."""
-    found = re.search(rf"#define {name}\(X\)((?:[^\n]*\\\n)+[^\n]*)", text_of(file))
-    if found is None:
+    match = re.search(rf"#define {name}\(X\)((?:[^\n]*\\\n)+[^\n]*)", text_of(file))
+    if match is None:
         raise ValueError(f"{file} has no list {name}.")
-    entries, text, at = [], found[1].replace("\\\n", " "), 0
+    entries, text, at = [], match[1].replace("\\\n", " "), 0
     while (start := text.find("X(", at)) >= 0:
         at, end, entry = start + 2, "", []
         while end != ")":
-            part = _PART.match(text, at)
-            if part is None:
+            argument = _PART.match(text, at)
+            if argument is None:
                 raise ValueError(f"an entry of {name} in {file} cannot be read: {text[start : start + 60]}")
-            words = part[1].strip()
+            words = argument[1].strip()
             entry.append(str(ast.literal_eval(f"({words})")) if words.startswith('"') else words)
-            at, end = part.end(), part[2]
+            at, end = argument.end(), argument[2]
         entries.append(entry)
     return entries
 
@@ -232,11 +232,11 @@ def status_table() -> str:
 
 def structure(name: str) -> list[tuple[str, str]]:
     """Fields of ``ali3_name`` and their ctypes."""
-    found = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", text_of(PUBLIC))
-    if found is None:
+    match = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", text_of(PUBLIC))
+    if match is None:
         raise ValueError(f"{PUBLIC} has no structure ali3_{name}.")
     fields = []
-    for declaration in filter(None, (part.strip() for part in found[1].split(";"))):
+    for declaration in filter(None, (part.strip() for part in match[1].split(";"))):
         kind, _, names = declaration.removeprefix("const ").partition(" ")
         for field in names.split(","):
             pointer = field.strip().startswith("*")
@@ -250,13 +250,13 @@ def structure(name: str) -> list[tuple[str, str]]:
 
 def _defined(file: str, limits: dict[str, str]) -> list[str]:
     """Constants of Python for the macros of a header."""
-    content, found = text_of(file), []
+    content, constants = text_of(file), []
     for name, text in limits.items():
         value = re.search(rf"#define {name} (\S+)", content)
         if value is None:
             raise ValueError(f"{file} does not define {name}.")
-        found.append(f'{name.removeprefix("ALI3_")} = {value[1]}\n"""{text}"""')
-    return found
+        constants.append(f'{name.removeprefix("ALI3_")} = {value[1]}\n"""{text}"""')
+    return constants
 
 
 def entries() -> str:
@@ -264,10 +264,10 @@ def entries() -> str:
     declared = re.findall(r"^ALI3_API ([^;(]*?)(ali3_\w+)\(([^)]*)\);", text_of(PUBLIC), re.MULTILINE)
     rows = []
     for result, name, parameters in declared:
-        given = ", ".join(re.findall(r"(\w+)(?:\[\d+\])?\s*(?:,|$)", "" if parameters == "void" else parameters))
-        kept = "in" if parameters.startswith("ali3_instance *in") else "NULL"
+        arguments = ", ".join(re.findall(r"(\w+)(?:\[\d+\])?\s*(?:,|$)", "" if parameters == "void" else parameters))
+        instance = "in" if parameters.startswith("ali3_instance *in") else "NULL"
         head = "PROCEDURE(" if result.strip() == "void" else f"ENTRY({result.strip()}, "
-        rows.append(f"{head}{name}, ({' '.join(parameters.split())}), ({given}), {kept})\n")
+        rows.append(f"{head}{name}, ({' '.join(parameters.split())}), ({arguments}), {instance})\n")
     return _ENTRIES + "".join(rows)
 
 

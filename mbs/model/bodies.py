@@ -98,7 +98,7 @@ class BodyVocabulary(Register):
         what = f"payload {shown(name)}"
         self.owned(body, f"The {what}")
         m = not_negative(mass, f"The mass of {what}")
-        place = vector(position, self.dimension, f"the position of {what}")
+        location = vector(position, self.dimension, f"the position of {what}")
         if body.is_ground:
             raise ModelError(f"The {what} sits on the ground, which does not move; give it to a body.")
         if body.is_tabled:
@@ -107,13 +107,15 @@ class BodyVocabulary(Register):
                 "base."
             )
         if point is not None:
-            drawn = self.expressions(point, f"The {what}").value(self.drawn())
-            if not same_place(drawn, place, size_about(body, place)):
-                raise ModelError(f"The {what} is at {place.tolist()}, but its point is drawn at {drawn.tolist()}.")
+            drawn_point = self.expressions(point, f"The {what}").value(self.drawn())
+            if not same_place(drawn_point, location, size_about(body, location)):
+                raise ModelError(
+                    f"The {what} is at {location.tolist()}, but its point is drawn at {drawn_point.tolist()}."
+                )
             carrier = point
         else:  # the origin of a floating frame is no material point, a node is
-            carrier = body.at(place, what).point(place)
-        return self.enter("payload", self.payloads, Payload(name, body, place, carrier, m, point is not None))
+            carrier = body.at(location, what).point(location)
+        return self.enter("payload", self.payloads, Payload(name, body, location, carrier, m, point is not None))
 
     def written_inertia(
         self,
@@ -154,8 +156,8 @@ class BodyVocabulary(Register):
             raise ModelError(f"The axes of {what} are {shown(axes)}; they must be three vectors of a body.")
         x, y, z = (self.expressions(axis, f"The {what}") for axis in axes)
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = tensor.tolist()
-        place = vector(com, 3, f"the centre of mass of {what}").tolist()
-        reals = (m, *place, xx, yy, zz, xy, xz, yz)
+        centre = vector(com, 3, f"the centre of mass of {what}").tolist()
+        reals = (m, *centre, xx, yy, zz, xy, xz, yz)
         new = WrittenInertia(name, (self.expressions(point, f"The {what}"), x, y, z), reals)
         return self.enter("written inertia", self.written_inertias, new)
 

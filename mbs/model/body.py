@@ -147,10 +147,10 @@ class Body:
 
     def _expression(self, local: Vector, origin: float) -> AffineVector:
         numbers = tuple(local.tolist())
-        found = self._expressions.get((origin, *numbers))
-        if found is None:
-            found = self._expressions[(origin, *numbers)] = self._affine_point(numbers, origin)
-        return found
+        expression = self._expressions.get((origin, *numbers))
+        if expression is None:
+            expression = self._expressions[(origin, *numbers)] = self._affine_point(numbers, origin)
+        return expression
 
     def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
         s, (x, y, *z) = self.start, local

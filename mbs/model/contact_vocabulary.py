@@ -50,21 +50,27 @@ class ContactVocabulary(BodyVocabulary):
         limits = {"friction": (0.0, 10.0)} | dict.fromkeys(up, (-1.1, 1.1))
         units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
         first = len(self.inputs)
-        for part in ANSWER:
-            at = "of the point that the answer on the road holds for, earth" if part in "xy" else "of the road there"
-            word = words.get(part, f"{part[-1]} of the unit normal, earth, upwards," if part in up else part)
+        for component in ANSWER:
+            at = (
+                "of the point that the answer on the road holds for, earth"
+                if component in "xy"
+                else "of the road there"
+            )
+            word = words.get(
+                component, f"{component[-1]} of the unit normal, earth, upwards," if component in up else component
+            )
             new_input(
                 self,
-                f"{name}_{part}",
-                starts.get(part, 0.0),
-                *limits.get(part, (-math.inf, math.inf)),
-                units.get(part, "1"),
+                f"{name}_{component}",
+                starts.get(component, 0.0),
+                *limits.get(component, (-math.inf, math.inf)),
+                units.get(component, "1"),
                 f"{word} {at}",
                 False,
                 True,
-                roles.get(part, Role.NONE),
-                near if part == "x" else "",
-                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * grip}.get(part, 0.02),
+                roles.get(component, Role.NONE),
+                near if component == "x" else "",
+                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * grip}.get(component, 0.02),
             )
         return first
 
@@ -90,9 +96,9 @@ class ContactVocabulary(BodyVocabulary):
         k = whole(road, f"The road of {what}", 0)
         if k >= len(self.roads):
             raise ModelError(f"The {what} ask for road {k}; the model has {len(self.roads)}.")
-        places = array(points, (None, 3), f"the places of {what}")
+        positions = array(points, (None, 3), f"the places of {what}")
         axes = [body.vector(v) for v in np.eye(3)]
-        return self.add(contact.record(name, body.point(body.com), axes, places - body.com, k))
+        return self.add(contact.record(name, body.point(body.com), axes, positions - body.com, k))
 
     def contact_point(
         self, name: str, body: Body, point: ArrayLike, *, road: int, contact: ContactPoints
@@ -106,5 +112,5 @@ class ContactVocabulary(BodyVocabulary):
         point : array_like, shape (3,)
             Earth axes in the reference configuration, m.
         """
-        place = array(point, (3,), f"the place of contact point {shown(name)}")
-        return self.contact_points(name, body, place[None], road=road, contact=contact)
+        position = array(point, (3,), f"the place of contact point {shown(name)}")
+        return self.contact_points(name, body, position[None], road=road, contact=contact)

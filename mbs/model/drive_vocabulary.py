@@ -62,8 +62,8 @@ class DriveVocabulary(BodyVocabulary):
             Its turns for one of the coordinate. A fixed parameter may write it.
         """
         self.owned_coordinate(coordinate, f"The armature '{name}'")
-        own = not_negative(inertia, f"The inertia of armature '{name}'")
+        own_inertia = not_negative(inertia, f"The inertia of armature '{name}'")
         turns = positive(ratio, f"The ratio of armature '{name}'")
-        new = self.enter("armature", self.armatures, Armature(name, coordinate.affine, own, turns))
-        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
+        new = self.enter("armature", self.armatures, Armature(name, coordinate.affine, own_inertia, turns))
+        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own_inertia * turns * turns
         return new

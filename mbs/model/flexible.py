@@ -139,14 +139,14 @@ class FlexibleBody(Body):
 
         Raises `ModelError`: no node is there.
         """
-        place = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
-        gaps = np.linalg.norm(self.node_positions - place, axis=1)
+        location = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
+        gaps = np.linalg.norm(self.node_positions - location, axis=1)
         near = [*self._named(), int(np.argmin(gaps))]  # nodes may coincide: interfaces first
-        here = [k for k in near if self.at_place(place, self.node_positions[k])]
-        best = here[0] if here else near[-1]
-        if not here:
+        coincident = [k for k in near if self.at_place(location, self.node_positions[k])]
+        best = coincident[0] if coincident else near[-1]
+        if not coincident:
             raise ModelError(
-                f"Flexible body '{self.name}' has no node at {place.tolist()} for {what}; "
+                f"Flexible body '{self.name}' has no node at {location.tolist()} for {what}; "
                 f"the nearest is '{self.reduced.node_names[best]}', {gaps[best]:.3g} m away."
             )
         return self.interface(best)
@@ -156,17 +156,17 @@ class FlexibleBody(Body):
 
         `position`: earth axes in the reference configuration, m, shape (3,). Raises `ModelError`: no node is there.
         """
-        place = vector(position, 3, f"a point of flexible body '{self.name}'")
-        if self.at_place(place, self.com):
+        location = vector(position, 3, f"a point of flexible body '{self.name}'")
+        if self.at_place(location, self.com):
             return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(3)))
         return self.interface_at(position, "a point").point()
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
         """See `Body.carried`: of a node that has no coordinates."""
-        place = vector(position, 3, f"a point of flexible body '{self.name}'")
-        if self.at_place(place, self.com):
+        location = vector(position, 3, f"a point of flexible body '{self.name}'")
+        if self.at_place(location, self.com):
             return None
-        return self.interface_at(place, "a point").carried(place)
+        return self.interface_at(location, "a point").carried(location)
 
     def node(self, node: str | int) -> AffineVector:
         """A node as a point; it brings three coordinates and rows unless it is there already."""
@@ -183,8 +183,8 @@ class FlexibleBody(Body):
         """See `Body.velocity_weight`; the modes stay as they are."""
         block = super().velocity_weight(linear, angular)
         if linear and not angular:
-            place = np.array([1.0, *(self.first_moment / self.mass)])
-            block[:12, :12] = self.mass * np.kron(np.outer(place, place), np.eye(3))
+            homogeneous_centre = np.array([1.0, *(self.first_moment / self.mass)])
+            block[:12, :12] = self.mass * np.kron(np.outer(homogeneous_centre, homogeneous_centre), np.eye(3))
         block[12:, 12:] = self.integrals.modal_mass()
         return block
 
@@ -261,13 +261,15 @@ class Interface(Body):
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth
             self._point = self._frame(0) + self._moved("", self.com - self.owner.com, self.translation)
-        place = self.com if position is None else vector(position, 3, f"a point of interface '{self.name}'")
-        return self._point if self.owner.at_place(place, self.com) else self._point + self.vector(place - self.com)
+        location = self.com if position is None else vector(position, 3, f"a point of interface '{self.name}'")
+        return (
+            self._point if self.owner.at_place(location, self.com) else self._point + self.vector(location - self.com)
+        )
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
         """See `Body.carried`: of the node itself, where it has no coordinates."""
-        place = vector(position, 3, f"a point of interface '{self.name}'")
-        if self._point is not None or not self.owner.at_place(place, self.com) or not np.any(self.translation):
+        location = vector(position, 3, f"a point of interface '{self.name}'")
+        if self._point is not None or not self.owner.at_place(location, self.com) or not np.any(self.translation):
             return None
         bent = self._bent(self.com - self.owner.com, self.translation)
         return *(self._frame(i) for i in range(4)), AffineVector(tuple(bent))
@@ -288,15 +290,15 @@ class Interface(Body):
             self._turn = self._moved(".rotation", np.zeros(3), self.rotation)
         key = tuple(np.round(v, 12).tolist())
         if key not in self._vectors:
-            what = f"{self.name}.vector {len(self._vectors) + 1}"
-            new = self._new(what, "vector", v)
+            vector_name = f"{self.name}.vector {len(self._vectors) + 1}"
+            new = self._new(vector_name, "vector", v)
             middle = (carried + new) * 0.5
             rows = []
             for k in range(3):
                 i, j = (k + 1) % 3, (k + 2) % 3
                 products: list[Product] = [(-1.0, self._turn[i], middle[j]), (1.0, self._turn[j], middle[i])]
-                rows.append(Equation(what, "interface", products, new[k] - carried[k]))
-            self.model.joints.append(Joint(what, "interface", rows))
+                rows.append(Equation(vector_name, "interface", products, new[k] - carried[k]))
+            self.model.joints.append(Joint(vector_name, "interface", rows))
             self._vectors[key] = new
         return self._vectors[key]
 
@@ -305,14 +307,14 @@ class Interface(Body):
         owner, frame = self.owner, self.owner.start
         if not np.any(motion):
             return owner.vector(local)
-        what = f"{self.name}{part}"
-        new = self._new(what, "vector", local)
+        vector_name = f"{self.name}{part}"
+        new = self._new(vector_name, "vector", local)
         bent = self._bent(local, motion)
         rows = []
         for k in range(3):
             products = [(-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), bent[i]) for i in range(3)]
-            rows.append(Equation(what, "interface", products, new[k]))
-        self.model.joints.append(Joint(what, "interface", rows))
+            rows.append(Equation(vector_name, "interface", products, new[k]))
+        self.model.joints.append(Joint(vector_name, "interface", rows))
         return new
 
     def _frame(self, i: int) -> AffineVector:

@@ -55,15 +55,15 @@ class FlexibleVocabulary(SensorVocabulary):
         what = f"flexible body {shown(name)}"
         if self.dimension != 3:
             raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-        given: object = reduced
-        if not isinstance(given, ModalBody):
-            kind = type(given).__name__
-            raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(given)}.")
-        place = vector(origin, 3, f"the origin of {what}")
+        value: object = reduced
+        if not isinstance(value, ModalBody):
+            kind = type(value).__name__
+            raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(value)}.")
+        position = vector(origin, 3, f"the origin of {what}")
         R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {what}")
         if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
             raise ModelError(f"The axes of {what} must be the columns of a rotation matrix.")
-        new = FlexibleBody(self, self.unique("body", name), reduced, place, R, len(self.coordinates))
+        new = FlexibleBody(self, self.unique("body", name), reduced, position, R, len(self.coordinates))
         self._register(new)
         return new
 
@@ -88,11 +88,11 @@ class FlexibleVocabulary(SensorVocabulary):
         self.owned(body, "The ports")
         if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
             raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
-        given = mapping(ports, f"The ports of body '{body.name}'", "names to places")
-        if not given:
+        checked = mapping(ports, f"The ports of body '{body.name}'", "names to places")
+        if not checked:
             raise ModelError(f"The ports of body '{body.name}' are {shown(ports)}; it needs one at least.")
-        places = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in given.items()}
-        return PortedBody(self, body, places)
+        positions = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in checked.items()}
+        return PortedBody(self, body, positions)
 
     def sense_quasi_static(
         self,

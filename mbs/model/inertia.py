@@ -15,9 +15,9 @@ def inertia_matrix(value: ArrayLike, dimension: int, what: str) -> NDArray[np.fl
         planar = np.zeros((3, 3))
         planar[2, 2] = positive(value, what)
         return planar
-    wanted = "3 principal values or a 3x3 matrix"
+    expected = "3 principal values or a 3x3 matrix"
     rows = isinstance(value, (Sequence, np.ndarray)) and len(value) == 3 and not any(is_number(row) for row in value)
-    inertia = array(value, (3, 3) if rows else (3,), what, wanted=wanted)
+    inertia = array(value, (3, 3) if rows else (3,), what, wanted=expected)
     if inertia.shape == (3,):
         inertia = np.diag(inertia)
     if np.max(np.abs(inertia - inertia.T)) > 1e-9 * np.max(np.abs(inertia)):

@@ -42,9 +42,9 @@ def moment_terms(
 
 def _cross(row: int, weight: float, a: AffineVector, b: AffineVector, axis: AffineVector) -> list[Term]:
     """Terms of ``weight * lam * axis . (a x b)``; in the plane a x b is a number."""
-    parts = [(0, 0, 1)] if len(a) == 2 else [(k, (k + 1) % 3, (k + 2) % 3) for k in range(3)]
+    permutations = [(0, 0, 1)] if len(a) == 2 else [(k, (k + 1) % 3, (k + 2) % 3) for k in range(3)]
     terms = []
-    for k, i, j in parts:
+    for k, i, j in permutations:
         for first, second, sign in ((i, j, 1.0), (j, i, -1.0)):
             terms += folded(Term(sign * weight, row, (axis[k], a[first], b[second])))
     return terms

@@ -66,19 +66,19 @@ class JointSensorVocabulary(SensorVocabulary):
             The joint has no such force or moment.
         """
         one_of(kind, ("force", "moment"), f"The kind of sensor '{name}'")
-        found = sensed_joint(self, name, joint)
+        sensed = sensed_joint(self, name, joint)
         if not isinstance(on, str) or on not in ("first", "second"):
             raise ModelError(f"The sensor '{name}' asks for the {kind} on {shown(on)}; it must be 'first' or 'second'.")
-        if kind == "moment" and not (found.type == "drive" and found.equations[0].kind == "drive"):
-            return _joint_moment(self, name, found, component, on, axes, point, unit, description)
+        if kind == "moment" and not (sensed.type == "drive" and sensed.equations[0].kind == "drive"):
+            return _joint_moment(self, name, sensed, component, on, axes, point, unit, description)
         if on != "first" or not isinstance(axes, str) or axes != "earth" or point is not None:
             raise ModelError(
-                f"The sensor '{name}' reads the force of joint '{found.name}' on its first body in earth axes; on, "
+                f"The sensor '{name}' reads the force of joint '{sensed.name}' on its first body in earth axes; on, "
                 "axes and point are for moments."
             )
         if kind == "moment":
-            return _joint_force(self, name, found, "drive", self._unit(unit, "N.m"), description)
-        return _joint_force(self, name, found, component, unit, description)
+            return _joint_force(self, name, sensed, "drive", self._unit(unit, "N.m"), description)
+        return _joint_force(self, name, sensed, component, unit, description)
 
     def sense_rod_force(
         self,

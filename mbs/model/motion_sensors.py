@@ -52,21 +52,21 @@ class MotionSensorVocabulary(SensorVocabulary):
         what = f"sensor '{name}'"
         k = order_number(order, 2, what)
         unit = self._unit(unit, RATE_UNITS["m"][k])
-        owner, place = self.owned(body, f"The {what}"), body.com if point is None else point
-        carried = owner.carried(place)
+        owner, position = self.owned(body, f"The {what}"), body.com if point is None else point
+        carried = owner.carried(position)
         type = SensorType.COMPONENT if carried is None else SensorType.CARRIED
-        parts = (owner.point(place),) if carried is None else carried
+        vectors = (owner.point(position),) if carried is None else carried
         i = component_number(component, self.dimension, what)
         along = np.eye(self.dimension)[i]
         if isinstance(axes, str) and axes == "earth":
             if carried is None:
-                return self._sense(name, unit, description, SIGNALS[k], [parts[0][i]], reals=[1.0])
+                return self._sense(name, unit, description, SIGNALS[k], [vectors[0][i]], reals=[1.0])
             axis = AffineVector(tuple(Affine({}, v) for v in along.tolist()))
         elif isinstance(axes, Body) or (isinstance(axes, str) and axes == "body"):
             axis = (self.owned(axes, f"The {what}") if isinstance(axes, Body) else body).vector(along)
         else:
             raise ModelError(f"The axes of {what} are {shown(axes)}; they must be 'earth', 'body' or a body.")
-        signals = [s for part in (*parts, axis) for s in spatial(part)]
+        signals = [s for vector in (*vectors, axis) for s in spatial(vector)]
         return self._sense(name, unit, description, type, signals, integers=[k])
 
     def sense_coordinate(

@@ -81,10 +81,10 @@ def _written_once(model: Register, what: str, found: Sequence[_Target]) -> None:
     """Refuse a number that two parameters write."""
     writers = {where[:3]: f"parameter '{p.name}'" for p in model.parameters for where in p.targets}
     for target in found:
-        place = target.where[:3]
-        if place in writers:
-            raise ModelError(f"The {what} writes {target.what}, which {writers[place]} writes already.")
-        writers[place] = "another of its targets"
+        location = target.where[:3]
+        if location in writers:
+            raise ModelError(f"The {what} writes {target.what}, which {writers[location]} writes already.")
+        writers[location] = "another of its targets"
 
 
 def _target(model: Register, what: str, given: Target) -> _Target:
@@ -115,12 +115,12 @@ def _target(model: Register, what: str, given: Target) -> _Target:
         k = names.index(str(real))
         check = element.real_checks[k] if element.real_checks else number
         return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)
-    for target, kind, things, own in _owners(model):
-        place = model.place_of(things, owner_name)
-        reals = {} if place is None else own(place)
-        if place is not None and isinstance(real, str) and real in reals:
+    for target, kind, things, reals_of in _owners(model):
+        position = model.place_of(things, owner_name)
+        reals = {} if position is None else reals_of(position)
+        if position is not None and isinstance(real, str) and real in reals:
             words = f"the {real} of {kind} '{owner_name}'" if real != "on" else f"the {kind} '{owner_name}'"
-            return _Target((target, place, list(reals).index(real), *line), words, reals[real])
+            return _Target((target, position, list(reals).index(real), *line), words, reals[real])
     raise ModelError(
         f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide, payload, "
         "armature or switch."
@@ -232,16 +232,16 @@ class ParameterVocabulary(Register):
                 f"The {what} has no target; its targets must be a list of (element, name of a real, scale[, offset]), "
                 f"not {shown(targets)}."
             )
-        found = [_target(self, what, target) for target in targets]
-        _written_once(self, what, found)
+        resolved = [_target(self, what, target) for target in targets]
+        _written_once(self, what, resolved)
         for end, limit in (("min", low), ("max", high)):
-            for target in found:
+            for target in resolved:
                 target.check(target.written(limit), f"At the {end} {limit:g} of {what}, {target.what}")
         span = None if works is None else _span(works, what)
         text(unit, f"The unit of {what}")
         text(description, f"The description of {what}", lines=True)
         if flag(tunable, f"The tunable of {what}"):
-            _moving(what, found)
-        places = tuple(target.where for target in found)
-        parameter = Parameter(name, start, low, high, unit, description, places, tunable, span)
+            _moving(what, resolved)
+        locations = tuple(target.where for target in resolved)
+        parameter = Parameter(name, start, low, high, unit, description, locations, tunable, span)
         return self.enter("parameter", self.parameters, parameter)

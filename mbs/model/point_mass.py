@@ -35,10 +35,10 @@ class PointMass(Body):
             It is another place.
         """
         if position is not None:
-            given = vector(position, self.dimension, f"the point of point mass '{self.name}'")
-            if np.linalg.norm(given - self.com) > 1e-9 * max(1.0, float(np.linalg.norm(self.com))):
+            point = vector(position, self.dimension, f"the point of point mass '{self.name}'")
+            if np.linalg.norm(point - self.com) > 1e-9 * max(1.0, float(np.linalg.norm(self.com))):
                 raise ModelError(
-                    f"Point mass '{self.name}' is at {self.com.tolist()}; it has no point at {given.tolist()}."
+                    f"Point mass '{self.name}' is at {self.com.tolist()}; it has no point at {point.tolist()}."
                 )
         return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(self.dimension)))
 

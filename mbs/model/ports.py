@@ -29,16 +29,18 @@ class PortedBody(Body):
         self.owner = owner
         self.ports: dict[str, Joint] = {}
         self._points: list[tuple[Vector, AffineVector]] = []
-        for name, place in places.items():
-            what = f"{owner.name}.{name}"
+        for name, position in places.items():
+            port_name = f"{owner.name}.{name}"
             # from the centre of mass, so that the rows lose no digits far from the origin of the earth
-            arm = place - owner.com
-            numbers = [model.new_coordinate(f"{what}.{'xyz'[k]}", "vector", float(arm[k]), k) for k in range(3)]
+            arm = position - owner.com
+            numbers = [model.new_coordinate(f"{port_name}.{'xyz'[k]}", "vector", float(arm[k]), k) for k in range(3)]
             free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
-            joint = Joint(what, "port", equal_vectors(what, "point", free, owner.vector(arm)), rows_weight=1.0)
+            joint = Joint(
+                port_name, "port", equal_vectors(port_name, "point", free, owner.vector(arm)), rows_weight=1.0
+            )
             joint.as_rows = True
             self.ports[name] = model._join(joint)
-            self._points.append((place, owner.point(owner.com) + free))
+            self._points.append((position, owner.point(owner.com) + free))
 
     def point(self, position: ArrayLike) -> AffineVector:
         """The port at a place, else the point of the body.
@@ -46,7 +48,7 @@ class PortedBody(Body):
         `position`: earth axes in the reference configuration, m, shape (3,).
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
-        for place, free in self._points:
-            if same_place(p, place, size_about(self, place)):
+        for port_position, free in self._points:
+            if same_place(p, port_position, size_about(self, port_position)):
                 return free
         return super().point(p)

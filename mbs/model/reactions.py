@@ -28,11 +28,11 @@ def guide_terms(joint: Joint, guide: int) -> list[Term]:
     """
     terms = []
     for row, equation in enumerate(joint.equations):
-        for part in equation.guides:
-            if part.guide != guide:
+        for term in equation.guides:
+            if term.guide != guide:
                 continue
-            weight, square = (1.0, -1) if part.power == 1 else (2.0, guide)
-            for c, a, b in part.products:
+            weight, square = (1.0, -1) if term.power == 1 else (2.0, guide)
+            for c, a, b in term.products:
                 terms += folded(Term(weight * c, row, (a, b), square, joint))
-            terms += folded(Term(weight, row, (part.linear,), square, joint))
+            terms += folded(Term(weight, row, (term.linear,), square, joint))
     return terms

@@ -21,11 +21,11 @@ def component_number(component: str, dimension: int, what: str) -> int:
 
 def sensed_joint(model: Register, name: str, joint: Joint | str) -> Joint:
     """A joint of the model, for the sensor of this name."""
-    found = model.joint_named(joint) if isinstance(joint, str) else joint
-    if not isinstance(found, Joint) or found not in model.joints:
+    sensed = model.joint_named(joint) if isinstance(joint, str) else joint
+    if not isinstance(sensed, Joint) or sensed not in model.joints:
         raise ModelError(f"The sensor '{name}' needs a joint of model '{model.name}', got {shown(joint)}.")
-    model.remember(found)
-    return found
+    model.remember(sensed)
+    return sensed
 
 
 def sensed_joints(model: Register, name: str, argument: str, given: Sequence[Joint | str]) -> list[Joint]:

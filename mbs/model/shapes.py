@@ -247,18 +247,18 @@ def _anchors(
     words = f"{least} points" if least == most else f"{least} points or more"
     if not isinstance(places, (list, tuple, np.ndarray)) or not least <= len(places) <= most:
         raise ModelError(f"The {key} of {what} must be {words}, not {shown(places)}.")
-    found = []
-    for number_, place in enumerate(places, start=1):
+    points = []
+    for number_, point in enumerate(places, start=1):
         at = f"number {number_} of the {key} of {what}"
-        if isinstance(place, (tuple, list)) and len(place) == 2 and not is_number(place[0]):
-            of = _owner(model, place[0], at)
-            found.append((of, local_place(model, of, place[1], at)))
-        elif isinstance(place, Body):
-            of = _owner(model, place, at)
-            found.append((of, np.zeros(3)))
+        if isinstance(point, (tuple, list)) and len(point) == 2 and not is_number(point[0]):
+            of = _owner(model, point[0], at)
+            points.append((of, local_place(model, of, point[1], at)))
+        elif isinstance(point, Body):
+            of = _owner(model, point, at)
+            points.append((of, np.zeros(3)))
         else:
-            found.append((owner, local_place(model, owner, place, at)))
-    return found
+            points.append((owner, local_place(model, owner, point, at)))
+    return points
 
 
 def _new_shape(
@@ -349,25 +349,25 @@ def _listed(kind: _Kind) -> str:
 
 
 def _looks(color: object, material: object, opacity: object, what: str) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    looks: dict[str, Any] = {}
     if color is not None:
         if not isinstance(color, str) or not _COLOUR.fullmatch(color):
             raise ModelError(f"The color of {what} is {shown(color)}; it must read '#rrggbb', such as '#c03020'.")
-        found["color"] = color.lower()
+        looks["color"] = color.lower()
     if material is not None:
-        found["material"] = one_of(material, MATERIALS, f"The material of {what}")
+        looks["material"] = one_of(material, MATERIALS, f"The material of {what}")
     share = number(opacity, f"The opacity of {what}")
     if not 0.0 <= share <= 1.0:
         raise ModelError(f"The opacity of {what} is {share:g}; it must be from 0 to 1.")
-    return found | ({"opacity": share} if share < 1.0 else {})
+    return looks | ({"opacity": share} if share < 1.0 else {})
 
 
 def _size(size: object, dimension: int, what: str) -> Vector:
     length = len(size) if dimension == 2 and isinstance(size, (list, tuple, np.ndarray)) else 3
-    found = array(size, (2 if length == 2 else 3,), f"the size of {what}")
-    if not np.all(found > 1.0 / LARGEST):
-        raise ModelError(f"The size of {what} is {found.tolist()}; all edges must be greater than zero.")
-    return found if len(found) == 3 else np.array([*found, 0.5 * float(np.min(found))])
+    edges = array(size, (2 if length == 2 else 3,), f"the size of {what}")
+    if not np.all(edges > 1.0 / LARGEST):
+        raise ModelError(f"The size of {what} is {edges.tolist()}; all edges must be greater than zero.")
+    return edges if len(edges) == 3 else np.array([*edges, 0.5 * float(np.min(edges))])
 
 
 def _axes(axes: object, dimension: int, what: str) -> NDArray[np.float64]:

@@ -77,12 +77,12 @@ class SlidingVocabulary(ShapeVocabulary):
         """
         what = f"mesh '{named(name, 'a mesh')}'"
         vertices = array(positions, (None, 3), f"the positions of {what}")
-        given = array(triangles, (None, 3), f"the triangles of {what}")
-        corners = given.astype(np.int64)
-        if len(corners) and (np.any(corners != given) or corners.min() < 0 or corners.max() >= len(vertices)):
+        indices = array(triangles, (None, 3), f"the triangles of {what}")
+        corners = indices.astype(np.int64)
+        if len(corners) and (np.any(corners != indices) or corners.min() < 0 or corners.max() >= len(vertices)):
             raise ModelError(
                 f"The triangles of {what} must be numbers of its {len(vertices)} positions, from 0; they go from "
-                f"{given.min():g} to {given.max():g}."
+                f"{indices.min():g} to {indices.max():g}."
             )
         ball = ShapeVocabulary.shape(
             self, body, "sphere", radius=1.0, name=name, color=color, material=material, opacity=opacity

@@ -32,11 +32,11 @@ def smooth_table(axes: object, values: object, functions: tuple[int, ...], what:
     if len(axes) not in (1, 2):
         raise ModelError(f"{capital(what)} has {len(axes)} axes; it must have one or two.")
     points = tuple(_axis(axis, what) for axis in axes)
-    found = array(values, (*(len(p) for p in points), *functions), f"the values of the table of {what}")
-    found = found.reshape(*found.shape[: len(points)], -1)
+    coefficients = array(values, (*(len(p) for p in points), *functions), f"the values of the table of {what}")
+    coefficients = coefficients.reshape(*coefficients.shape[: len(points)], -1)
     for k in range(len(points)):
-        found = np.moveaxis(_control_points(np.moveaxis(found, k, 0)), 0, k)
-    return SmoothTable(points, found if len(points) == 2 else found[:, None, :])
+        coefficients = np.moveaxis(_control_points(np.moveaxis(coefficients, k, 0)), 0, k)
+    return SmoothTable(points, coefficients if len(points) == 2 else coefficients[:, None, :])
 
 
 def _axis(given: object, what: str) -> Array:
@@ -62,8 +62,8 @@ def _collocation(n: int) -> Array:
 def _control_points(values: Array) -> Array:
     """Control points along the first axis through values there, two more than these."""
     none = np.zeros((1, values[0].size))
-    found = np.linalg.solve(_collocation(len(values)), np.vstack([none, values.reshape(len(values), -1), none]))
-    return np.asarray(found.reshape(len(values) + 2, *values.shape[1:]))
+    coefficients = np.linalg.solve(_collocation(len(values)), np.vstack([none, values.reshape(len(values), -1), none]))
+    return np.asarray(coefficients.reshape(len(values) + 2, *values.shape[1:]))
 
 
 def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
@@ -84,7 +84,11 @@ def check_drawn(found: Array, drawn: Array, what: str) -> None:
 
 def checked_parameters(given: Any, what: str) -> tuple[Any, ...]:
     """One or two different coordinates."""
-    found = tuple(given) if isinstance(given, (list, tuple)) else (given,)
-    if is_number(given) or len(found) not in (1, 2) or (len(found) == 2 and found[0] is found[1]):
+    coordinates = tuple(given) if isinstance(given, (list, tuple)) else (given,)
+    if (
+        is_number(given)
+        or len(coordinates) not in (1, 2)
+        or (len(coordinates) == 2 and coordinates[0] is coordinates[1])
+    ):
         raise ModelError(f"The parameters of {what} are {shown(given)}; they must be one or two coordinates.")
-    return found
+    return coordinates

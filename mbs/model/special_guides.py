@@ -103,8 +103,8 @@ class MoreGuidesVocabulary(GuideVocabulary):
                 f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
                 "from row to row."
             )
-        given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
-        m = PchipInterpolator(*rows.T).derivative()(rows[:, 0]) if given is None else given
+        given_slopes = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
+        m = PchipInterpolator(*rows.T).derivative()(rows[:, 0]) if given_slopes is None else given_slopes
         reals = [float(x) for x in np.concatenate([*rows.T, m])]
         guide = new_guide(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
         value, _ = of_table(guide, u.start)

@@ -29,19 +29,19 @@ class SmoothTable:
 
     def value(self, *at: float) -> Array:
         """The functions at a place, shape (k,)."""
-        found = self.coefficients
+        values = self.coefficients
         for axis, x in zip(self.axes, at, strict=True):
-            found = np.tensordot(_weights(axis, x), found, axes=1)
-        return np.asarray(found if len(self.axes) == 2 else found[0])
+            values = np.tensordot(_weights(axis, x), values, axes=1)
+        return np.asarray(values if len(self.axes) == 2 else values[0])
 
 
 def _weights(axis: Array, x: float) -> Array:
     """Weights of the control points of a cubic B-spline at `x`; beyond the ends it goes on along the tangent."""
     step = float(axis[1] - axis[0])
-    place = (x - axis[0]) / step
-    held = min(max(place, 0.0), len(axis) - 1.0)
-    cell = min(int(held), len(axis) - 2)
-    s, beyond = held - cell, place - held
+    position = (x - axis[0]) / step
+    clamped = min(max(position, 0.0), len(axis) - 1.0)
+    cell = min(int(clamped), len(axis) - 2)
+    s, beyond = clamped - cell, position - clamped
     r = 1.0 - s
     value = np.array([r**3, 4.0 - 6.0 * s**2 + 3.0 * s**3, 4.0 - 6.0 * r**2 + 3.0 * r**3, s**3]) / 6.0
     slope = np.array([-0.5 * r * r, s * (1.5 * s - 2.0), r * (2.0 - 1.5 * r), 0.5 * s * s])
@@ -65,8 +65,8 @@ class TabledBody(Body):
         return np.concatenate([self.com - self.base.com, np.eye(3).ravel()])
 
     def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
-        own = super()._affine_point(local, origin)
-        return self.base.point(self.base.com) + own if origin else own
+        offset = super()._affine_point(local, origin)
+        return self.base.point(self.base.com) + offset if origin else offset
 
     base: Body
     """What it is placed on."""

@@ -70,16 +70,16 @@ class TableVocabulary(BodyVocabulary):
         coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
         m, centre = positive(mass, f"The mass of {what}"), vector(com, 3, f"the centre of mass of {what}")
         I = inertia_matrix(inertia, 3, f"The inertia of {what}")
-        given = array(rotations, (*[None] * len(coordinates), 3, 3), f"the rotations of {what}")
-        if np.max(np.abs(given @ np.swapaxes(given, -1, -2) - np.eye(3))) > 1e3 * ROTATION or np.any(
-            np.linalg.det(given) < 0.0
+        matrices = array(rotations, (*[None] * len(coordinates), 3, 3), f"the rotations of {what}")
+        if np.max(np.abs(matrices @ np.swapaxes(matrices, -1, -2) - np.eye(3))) > 1e3 * ROTATION or np.any(
+            np.linalg.det(matrices) < 0.0
         ):
             raise ModelError(f"The rotations of {what} must be rotation matrices.")
-        where = array(places, (*given.shape[:-2], 3), f"the places of {what}")
-        table = smooth_table(axes, pose_functions(base, where, given), (12,), what)
+        where = array(places, (*matrices.shape[:-2], 3), f"the places of {what}")
+        table = smooth_table(axes, pose_functions(base, where, matrices), (12,), what)
         _same_axes(len(table.axes), len(coordinates), what)
-        drawn = pose_functions(base, centre, np.eye(3))
-        check_drawn(table.value(*[0.0] * len(coordinates)), drawn, what)
+        drawn_pose = pose_functions(base, centre, np.eye(3))
+        check_drawn(table.value(*[0.0] * len(coordinates)), drawn_pose, what)
         new = TabledBody(self, self.unique("body", name), centre, len(self.coordinates))
         new.add_mass(m, centre, 0.5 * np.trace(I) * np.eye(3) - I)
         new.base, new.parameters, new.table = base, coordinates, table
@@ -116,8 +116,8 @@ class TableVocabulary(BodyVocabulary):
         coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
         table = smooth_table(axes, values, (), what)
         _same_axes(len(table.axes), len(coordinates), what)
-        drawn = float(table.value(*[0.0] * len(coordinates))[0])
-        index = self.new_coordinate(self.unique("tabled number", name), "tabled", drawn)
+        drawn_value = float(table.value(*[0.0] * len(coordinates))[0])
+        index = self.new_coordinate(self.unique("tabled number", name), "tabled", drawn_value)
         new = TabledNumber(name, index, named(unit, "a unit"), coordinates, table)
         self.tabled.append(new)
         return new

@@ -73,8 +73,8 @@ class Accuracy:
         if self.halvings_per_step > 0.0:
             sentences.append(f"{self.halvings_per_step:.2g} halvings a step")
         if self.units:
-            parts = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
-            sentences.append(f"estimated error {', '.join(parts)}")
+            errors = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
+            sentences.append(f"estimated error {', '.join(errors)}")
         if self.check_cost > 0.0:
             sentences.append(
                 f"checked by runs of {self.check_cost:.2g} times its steps (at most {MOST_COST:g} unless "
@@ -94,8 +94,8 @@ def doubt(report: Report, method: str) -> str:
         return FINER
     # what an abrupt force does is missed, or hidden in parts of steps
     whole = report.halvings == report.divisions == report.abrupt_steps == 0
-    kept = max(drift(report), abs(report.energy_change)) <= GOAL_ERROR
-    return "" if summed_miss(report) <= WRONG_ERROR and kept and whole else COARSER
+    conserved = max(drift(report), abs(report.energy_change)) <= GOAL_ERROR
+    return "" if summed_miss(report) <= WRONG_ERROR and conserved and whole else COARSER
 
 
 def summed_miss(report: Report) -> float:
@@ -137,10 +137,10 @@ def recorded_every(every: int, steps: int) -> int:
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     """Accuracy of a run from its energy balance alone, without a refined run."""
-    known = report.kinetic_peak > 0.0
+    moves = report.kinetic_peak > 0.0
     return Accuracy(
-        report.energy_balance if known else None,
-        report.energy_error if known else None,
+        report.energy_balance if moves else None,
+        report.energy_error if moves else None,
         halvings / max(steps, 1),
     )
 
@@ -174,8 +174,8 @@ def needed_step(h: float, accuracy: Accuracy) -> float | None:
     error = accuracy.error
     if error is None or error > RESOLVED or accuracy.order is None:
         return None
-    made = h / (1.0 + accuracy.halvings_per_step)
-    return float(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
+    mean_step = h / (1.0 + accuracy.halvings_per_step)
+    return float(mean_step * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
 
 
 def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
@@ -183,8 +183,8 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
 
     `tried`: steps of refined runs, s, the finest last, and their estimated errors, relative to the range.
     """
-    found = next(((step, off) for step, off in tried if off <= CLEAR), None)
-    if found is None:
+    sufficient = next(((step, off) for step, off in tried if off <= CLEAR), None)
+    if sufficient is None:
         finds = "simulate(..., tolerance=1e-3) in place of a step finds sufficient steps."
         if not tried:
             return f"Which step is sufficient was not tried: {finds}"
@@ -195,8 +195,8 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
         return f"Steps of {step:g} s were tried too, and {nearer}: {finds}"
     better = _higher_orders(system, method)
     names = " or ".join(map(repr, better))
-    others = f"; longer steps may be sufficient with a method of higher order ({names})" if better else ""
-    return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])} at most{others}."
+    advice = f"; longer steps may be sufficient with a method of higher order ({names})" if better else ""
+    return f"Steps of {sufficient[0]:g} s were tried: they are off by about {_percent(sufficient[1])} at most{advice}."
 
 
 def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping[str, Compared]) -> str:

@@ -178,11 +178,11 @@ def animate(
     checked = drawer().check_options(options)
     if names is not None and len(names) != len(runs):
         raise ValueError(f"There are {len(names)} names for {len(runs)} runs: {shown(names)}; give one for each.")
-    drawn = scene.scene if isinstance(scene, System) else scene
+    drawn_scene = scene.scene if isinstance(scene, System) else scene
     recordings = []
     for k, each in enumerate(runs):
         name = "" if names is None else text(names[k], "the name of a run", ValueError)
-        recording = each.recording(drawn, name)
+        recording = each.recording(drawn_scene, name)
         if names is None and k > 0:
             recording.name = f"{recording.name} {k + 1}"
         recordings.append(recording)

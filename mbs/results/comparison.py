@@ -69,9 +69,9 @@ class Compared:
 
     def gap(self, one: Array, other: Array) -> float:
         """Largest difference at samples, (n,); of angles the smaller arc."""
-        found = Comparison({"": self}, 1.0)
-        found.add({"": other}, {"": one})
-        return found.gaps[""]
+        comparison = Comparison({"": self}, 1.0)
+        comparison.add({"": other}, {"": one})
+        return comparison.gaps[""]
 
 
 class Comparison:
@@ -106,35 +106,35 @@ class Comparison:
         """
         if not self.compared:
             return
-        mine, other = self._rows(fine), None
+        fine_rows, aligned = self._rows(fine), None
         if coarse is not None:
-            theirs, other = self._rows(coarse)[: len(mine)], np.full_like(mine, np.nan)
+            coarse_rows, aligned = self._rows(coarse)[: len(fine_rows)], np.full_like(fine_rows, np.nan)
             loads = np.array([what.load for what in self.compared.values()])
-            other[: len(theirs), ~loads] = theirs[:, ~loads]
-            some = np.ix_(np.arange(len(theirs)) if forces is None else forces, np.flatnonzero(loads))
-            other[some] = theirs[some]
-        pointers = (None if rows is None else rows.ctypes.data_as(POINTER(c_double)) for rows in (other, mine))
-        load_library().ali3_compare(self._what, len(self._what), len(mine), None, *pointers, self._seen)
+            aligned[: len(coarse_rows), ~loads] = coarse_rows[:, ~loads]
+            loaded = np.ix_(np.arange(len(coarse_rows)) if forces is None else forces, np.flatnonzero(loads))
+            aligned[loaded] = coarse_rows[loaded]
+        pointers = (None if rows is None else rows.ctypes.data_as(POINTER(c_double)) for rows in (aligned, fine_rows))
+        load_library().ali3_compare(self._what, len(self._what), len(fine_rows), None, *pointers, self._seen)
 
     def _rows(self, motion: Mapping[str, Array]) -> Array:
         return np.column_stack([np.asarray(motion[name], float) for name in self.compared])
 
     def widen(self, gaps: Mapping[str, float]) -> None:
         """Differences that were found otherwise."""
-        for name, seen in zip(self.compared, self._seen, strict=True):
-            seen.gap = max(seen.gap, gaps.get(name, 0.0))
+        for name, fields in zip(self.compared, self._seen, strict=True):
+            fields.gap = max(fields.gap, gaps.get(name, 0.0))
 
     @property
     def gaps(self) -> dict[str, float]:
         """Largest difference of each."""
-        return {name: seen.gap for name, seen in zip(self.compared, self._seen, strict=True)}
+        return {name: fields.gap for name, fields in zip(self.compared, self._seen, strict=True)}
 
     @property
     def ends(self) -> dict[str, ComparedFields]:
         """Ranges without differences, for a comparison of what follows."""
         ends = dict(zip(self.compared, map(ComparedFields.from_buffer_copy, self._seen), strict=True))
-        for seen in ends.values():
-            seen.gap = 0.0
+        for fields in ends.values():
+            fields.gap = 0.0
         return ends
 
     def sizes(self, guided: bool = True) -> dict[str, float]:
@@ -159,7 +159,7 @@ def compared_sensors(system: System) -> Mapping[str, Compared]:
 
 
 def _sensors_of(system: System) -> dict[str, Compared]:
-    arrays, found = system.arrays, dict[str, Compared]()
+    arrays, compared = system.arrays, dict[str, Compared]()
     driven = set(np.asarray(arrays["gterm_row"]).tolist())
     for i, sensor in enumerate(system.meta["sensors"]):
         if not sensor.get("computed", True):
@@ -171,14 +171,14 @@ def _sensors_of(system: System) -> dict[str, Compared]:
         rate = kind in (SensorType.SIGNAL_RATE, SensorType.ANGULAR_RATE) or (kind in WITH_ORDER and order == 1)
         output = kind == SensorType.ELEMENT_OUTPUT
         if ((signal or kind in ANGLES) and unit in ("m", "rad")) or (output and unit == "m"):
-            found[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES)
+            compared[sensor["name"]] = Compared(unit, place=True, wrapped=kind in ANGLES)
         elif output and unit == "N":
-            found[sensor["name"]] = Compared(unit, load=True)
+            compared[sensor["name"]] = Compared(unit, load=True)
         elif rate and unit in ("m/s", "rad/s"):
-            found[sensor["name"]] = Compared(unit, always=False)
+            compared[sensor["name"]] = Compared(unit, always=False)
         elif kind in REACTIONS and unit in UNITS and driven.intersection(_rows(kind, integers)):
-            found[sensor["name"]] = Compared(unit, load=True, always=False)
-    return found
+            compared[sensor["name"]] = Compared(unit, load=True, always=False)
+    return compared
 
 
 def _rows(kind: SensorType, integers: list[int]) -> list[int]:
@@ -201,9 +201,11 @@ def compared_in(
     `stands`: nothing moves by the coordinates, so that rates and forces of motors do not count; `guided`: two motions
     decide whether a place moves by itself, see `differences`; `length`, `before`, `energy`: as of `Comparison`.
     """
-    found = Comparison({n: what for n, what in compared.items() if what.always or not stands}, length, before, energy)
-    found.add(values, values)
-    return {name: compared[name] for name in found.sizes(guided)}
+    comparison = Comparison(
+        {n: what for n, what in compared.items() if what.always or not stands}, length, before, energy
+    )
+    comparison.add(values, values)
+    return {name: compared[name] for name in comparison.sizes(guided)}
 
 
 def is_open(compared: Mapping[str, Compared]) -> bool:
@@ -234,9 +236,9 @@ def sizes_of(
     before: Mapping[str, ComparedFields] | None = None,
 ) -> dict[str, float]:
     """`Comparison.sizes` of one motion."""
-    found = Comparison(compared, length, before)
-    found.add(values)
-    return found.sizes()
+    comparison = Comparison(compared, length, before)
+    comparison.add(values)
+    return comparison.sizes()
 
 
 def differences(
@@ -260,11 +262,14 @@ def differences(
     sizes : dict of str to float
         See `Comparison.sizes`, of the finer run.
     """
-    found, samples = Comparison(compared, length, before), [len(run[n]) for n in compared for run in (fine, coarse)]
-    found.add(fine, coarse, instants(min(samples, default=0)))
-    found.widen({name: missed_load(coarse[name], fine[name]) for name, what in compared.items() if what.load})
-    sizes, units = found.sizes(), dict[str, float]()
-    gaps = {name: gap for name, gap in found.gaps.items() if name in sizes}
+    comparison, samples = (
+        Comparison(compared, length, before),
+        [len(run[n]) for n in compared for run in (fine, coarse)],
+    )
+    comparison.add(fine, coarse, instants(min(samples, default=0)))
+    comparison.widen({name: missed_load(coarse[name], fine[name]) for name, what in compared.items() if what.load})
+    sizes, units = comparison.sizes(), dict[str, float]()
+    gaps = {name: gap for name, gap in comparison.gaps.items() if name in sizes}
     for name, size in sizes.items():
         units[compared[name].unit] = max(gaps[name] / size, units.get(compared[name].unit, 0.0))
     return units, gaps, sizes

@@ -64,7 +64,7 @@ def extrapolated(
     name; `before`, `length`: as of `Comparison`.
     """
     run, coarse, fine = tables
-    more = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)
-    limit = {name: fine[name] + more * what.change(coarse[name], fine[name]) for name, what in compared.items()}
+    weight = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)
+    limit = {name: fine[name] + weight * what.change(coarse[name], fine[name]) for name, what in compared.items()}
     units, sensors, _ = differences(run, limit, compared, before, length)
     return replace(known, units=units, sensors=sensors)

@@ -63,14 +63,14 @@ class Poses(Mapping[str, Array]):
         Poses or None
             None where nothing has all parts.
         """
-        parts = [f".{part}" for part in POSE]
+        ends = [f".{end}" for end in POSE]
         names = [n.removesuffix(".qw") for n in columns if n.endswith(".qw")]
-        whole = [n for n in names if all(n + part in columns for part in parts) and f"{n}.pose.qw" not in columns]
+        whole = [n for n in names if all(n + end in columns for end in ends) and f"{n}.pose.qw" not in columns]
         if not whole:
             return None
-        q = np.column_stack([columns[n + part] for n in whole for part in parts])
+        q = np.column_stack([columns[n + end] for n in whole for end in ends])
         bodies = [
-            BodyPlace(n.removesuffix(".pose"), "pose", 7 * k, tuple(n + part for part in parts))
+            BodyPlace(n.removesuffix(".pose"), "pose", 7 * k, tuple(n + end for end in ends))
             for k, n in enumerate(whole)
         ]
         size = q.shape[1]
@@ -80,10 +80,10 @@ class Poses(Mapping[str, Array]):
         if not isinstance(name, str) or name not in self._columns:
             available = ", ".join(self.bodies) or "none"
             raise KeyError(f"There is no pose {shown(name)}; each body has .x to .qz, the bodies are: {available}.")
-        kind, number, part = self._columns[name]
+        kind, number, column = self._columns[name]
         if kind == "body":
-            return self._pose(number)[:, part]
-        return self._turn(number) if kind == "turn" else self._amplitudes(number)[:, part]
+            return self._pose(number)[:, column]
+        return self._turn(number) if kind == "turn" else self._amplitudes(number)[:, column]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -150,10 +150,12 @@ class Poses(Mapping[str, Array]):
     @cached_property
     def _columns(self) -> dict[str, tuple[str, int, int]]:
         p = self._places
-        found = {f"{b.name}.{part}": ("body", k, i) for k, b in enumerate(p.bodies) for i, part in enumerate(POSE)}
-        found |= {f"{turn.name}.angle": ("turn", k, 0) for k, turn in enumerate(p.turns)}
+        columns = {
+            f"{b.name}.{component}": ("body", k, i) for k, b in enumerate(p.bodies) for i, component in enumerate(POSE)
+        }
+        columns |= {f"{turn.name}.angle": ("turn", k, 0) for k, turn in enumerate(p.turns)}
         modes = [(k, i, f"{a.body}.{mode}") for k, a in enumerate(p.amplitudes) for i, mode in enumerate(a.modes)]
-        return found | {name: ("mode", k, i) for k, i, name in modes}
+        return columns | {name: ("mode", k, i) for k, i, name in modes}
 
     def _number(self, body: str) -> int:
         if body not in self.bodies:

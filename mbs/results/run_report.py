@@ -168,9 +168,9 @@ class Report:
         """A sentence about the steps that `Settings.step_iterations` ended or left whole; empty where none."""
         if self.capped == 0:
             return ""
-        left = f"they left at most {1e3 * self.capped_residual:.2g} mm"
+        violation_text = f"they left at most {1e3 * self.capped_residual:.2g} mm"
         ended = f"{self.capped} of {self.steps} steps ended at the limit of their iterations, or stayed whole for it"
-        return f"{ended}; {left}."
+        return f"{ended}; {violation_text}."
 
     def __str__(self) -> str:
         text = (

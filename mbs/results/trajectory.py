@@ -177,12 +177,12 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             columns, units = poses.recorded(columns, units)
         recording = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
         if recording.scene is None:
-            drawn = shown(scene["name"])
+            scene_name = shown(scene["name"])
             if poses is not None:
                 bodies = ", ".join(poses.bodies)
-                raise ValueError(f"This trajectory has none of the poses of {drawn}; its bodies are: {bodies}.")
+                raise ValueError(f"This trajectory has none of the poses of {scene_name}; its bodies are: {bodies}.")
             raise ValueError(
-                f"This trajectory has no poses, by which {drawn} would be drawn; files have them that "
+                f"This trajectory has no poses, by which {scene_name} would be drawn; files have them that "
                 "to_csv(..., poses=True) wrote."
             )
         if every > 1:
@@ -191,12 +191,12 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def _drawn_roads(self, roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
         """Roads of a scene with those that this run replaced; road files are read."""
-        parts = [dict(road) for road in roads]
-        for k, part in enumerate(parts):
-            road = self.roads.get(part.get("number", k))
+        entries = [dict(road) for road in roads]
+        for k, entry in enumerate(entries):
+            road = self.roads.get(entry.get("number", k))
             if road is not None and not isinstance(road, PortRoad):
-                parts[k] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
-        return drawn_roads(parts)
+                entries[k] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
+        return drawn_roads(entries)
 
     def _repr_html_(self) -> str | None:
         """Animation of the run in a notebook; a text if it cannot be drawn, None if it has no drawing."""

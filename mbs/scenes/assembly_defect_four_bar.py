@@ -75,12 +75,12 @@ def build(
         follower = _bent(m, "follower", c, d, radius, parts, elements, dynamic_modes)
         ends = [(bar[0].interface(0), bar[-1].interface(elements)) for bar in (crank, coupler, follower)]
         frame: Any = crank[0]
-        for part in crank:
-            m.initial_velocity(part, np.cross(turning, part.centre_of_mass - a), turning)
-        for part in coupler:
-            m.initial_velocity(part, along)
-        for part in follower:
-            m.initial_velocity(part, np.cross(turning, part.centre_of_mass - d), turning)
+        for body in crank:
+            m.initial_velocity(body, np.cross(turning, body.centre_of_mass - a), turning)
+        for body in coupler:
+            m.initial_velocity(body, along)
+        for body in follower:
+            m.initial_velocity(body, np.cross(turning, body.centre_of_mass - d), turning)
         _sense_middle(m, coupler, radius, elements)
     else:
         bars = [_rigid(m, n, p, q, radius) for n, p, q in (("crank", a, b), ("coupler", b, c), ("follower", c, d))]
@@ -129,12 +129,12 @@ def _frame(start: np.ndarray, end: np.ndarray, radius: float, elements: int) -> 
 
 def _sense_middle(m: Model, coupler: list[FlexibleBody], radius: float, elements: int) -> None:
     """Torsion and bending moments where the coupler is 0.12 m from both joints, in its local axes (x along it)."""
-    place = len(coupler) * elements / 2  # in elements from B
-    element = min(int(np.ceil(place)) - 1, len(coupler) * elements - 1)
+    position = len(coupler) * elements / 2  # in elements from B
+    element = min(int(np.ceil(position)) - 1, len(coupler) * elements - 1)
     body, local = coupler[element // elements], element % elements
     start = np.asarray(body.node_positions[0])
     length = (np.array(C) - np.array(B)) / len(coupler)
-    rows = section_forces(_frame(start, start + length, radius, elements), local, place - element)
+    rows = section_forces(_frame(start, start + length, radius, elements), local, position - element)
     weights = body.reduced.recovery(rows.toarray())
     for name, row, what in (("T", 3, "torsion"), ("My", 4, "bending moment"), ("Mz", 5, "bending moment")):
         m.sense_coordinate(

@@ -40,8 +40,8 @@ def build() -> Model:
         # rod and ball as one body
         centre = (bar * middle + BALL * end) / (bar + BALL)
         inertia = transverse * np.eye(3) + (axial - transverse) * np.outer(along, along)
-        for mass, place in ((bar, middle), (BALL, end)):
-            arm = place - centre
+        for mass, position in ((bar, middle), (BALL, end)):
+            arm = position - centre
             inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
         rod = m.body(f"rod {side}", mass=bar + BALL, com=centre, inertia=inertia)
         m.revolute(f"hinge {side}", shaft, rod, point=hinge, axis=(0, 1, 0))

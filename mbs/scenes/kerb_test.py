@@ -97,14 +97,14 @@ def smooth_guide(m: Model, start: float) -> Guide:
                 [n * (n - 1) * h ** (n - 2) for n in (3, 4, 5)],
             ]
         )
-        rest = np.array(
+        residual = np.array(
             [
                 x[k + 1] - low[0] - low[1] * h - low[2] * h * h,
                 v[k + 1] - low[1] - 2 * low[2] * h,
                 rate[k + 1] - 2 * low[2],
             ]
         )
-        coefficients.append([*low, *np.linalg.solve(A, rest)])
+        coefficients.append([*low, *np.linalg.solve(A, residual)])
     motion = PPoly(np.array(coefficients).T[::-1], breaks)
     return m.guide_time("way of the chassis", motion, unit="m")
 
@@ -112,5 +112,5 @@ def smooth_guide(m: Model, start: float) -> Guide:
 def _acceleration(t: np.ndarray) -> np.ndarray:
     """Prescribed acceleration at times in s, m/s2."""
     slope = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).deriv()
-    parts = [slope(np.clip((t - a) / (b - a), 0.0, 1.0)) / (b - a) for a, b in (ACCELERATE, BRAKE)]
-    return np.asarray(SPEED * (parts[0] - parts[1]))
+    slopes = [slope(np.clip((t - a) / (b - a), 0.0, 1.0)) / (b - a) for a, b in (ACCELERATE, BRAKE)]
+    return np.asarray(SPEED * (slopes[0] - slopes[1]))

@@ -38,23 +38,23 @@ def function_breaks(
     """
     edges = np.append(np.arange(t0, t_end - 0.5 * h, BLOCK * h), t_end)
     blocks = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
-    seen = np.zeros(0)
+    range_samples = np.zeros(0)
     for begin, end in blocks if len(blocks) > 1 else []:
         x = _ask(function, np.linspace(begin, end, BLOCK + 1))
         good = x[np.abs(x) < HUGE]
-        seen = np.append(seen, good)
-        seen = np.array([seen.min(), seen.max()]) if len(seen) else seen
+        range_samples = np.append(range_samples, good)
+        range_samples = np.array([range_samples.min(), range_samples.max()]) if len(range_samples) else range_samples
         if len(good) < len(x):
             break
-    found, jumping = [], list[tuple[float, float]]()
+    break_times, jumping = [], list[tuple[float, float]]()
     for begin, end in blocks:
-        t, x = sampled(function, begin, end, h, seen)
-        size = _range(np.append(x, seen))
-        found.append(_breaks(t, x, size, begin, end, h, rough=True))
+        t, x = sampled(function, begin, end, h, range_samples)
+        size = _range(np.append(x, range_samples))
+        break_times.append(_breaks(t, x, size, begin, end, h, rough=True))
         jumping += _jumps(t, x, size, h)
         if t[-1] < end:
             break
-    return distinct(found, t_end, h), jumping
+    return distinct(break_times, t_end, h), jumping
 
 
 def distinct(found: Iterable[Array], t_end: float, h: float) -> Array:
@@ -81,15 +81,15 @@ def sampled(
     off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > LEAST * _range(np.append(x, seen))
     uneven = np.flatnonzero(np.r_[off, False] | np.r_[False, off])
     a, b = (np.stack([t[uneven + i], x[uneven + i]]) for i in (0, 1))
-    parts = [np.stack([t, x])]
+    tables = [np.stack([t, x])]
     while 0 < a.shape[1] <= n and b[0, 0] - a[0, 0] > _apart(t_end, h):
         middle = 0.5 * (a + b)
         straight, middle[1] = middle[1].copy(), _ask(function, middle[0])
-        parts.append(middle[:, np.abs(middle[1]) < HUGE])
-        size = _range(np.append(np.concatenate(parts, axis=1)[1], seen))
+        tables.append(middle[:, np.abs(middle[1]) < HUGE])
+        size = _range(np.append(np.concatenate(tables, axis=1)[1], seen))
         off = np.abs(middle[1] - straight) > FINE * size
         a, b = np.concatenate([a[:, off], middle[:, off]], axis=1), np.concatenate([middle[:, off], b[:, off]], axis=1)
-    t, x = np.concatenate(parts, axis=1)
+    t, x = np.concatenate(tables, axis=1)
     order = np.argsort(t, kind="stable")
     return t[order], x[order]
 
@@ -107,7 +107,7 @@ def _ask(function: Callable[[float], float], times: Array) -> Array:
 
 def _breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: float, rough: bool = False) -> Array:
     """Break times of one table whose signal has the range `size`; `rough`: only in steps in which it is not smooth."""
-    found = [np.zeros(0)]
+    times = [np.zeros(0)]
     phase = (t - t0) / h
     step = np.floor(phase)
     ends = t0 + h * (step + np.array([[AT_END], [1.0 - AT_END]]))
@@ -120,8 +120,8 @@ def _breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: float, 
         inside = first + np.flatnonzero(within[first:behind])
         k = inside[0]
         points = np.r_[ends[0, k], t[inside], ends[1, k]], np.r_[begin[k], x[inside], end[k]]
-        found.append(_parted(*points, FINE * size))
-    return np.concatenate(found)
+        times.append(_parted(*points, FINE * size))
+    return np.concatenate(times)
 
 
 def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> NDArray[np.bool_]:

@@ -56,17 +56,17 @@ class InputSignals:
     def breaks(self, t0: float, t_end: float, h: float) -> NDArray[np.float64]:
         """Times, s, at which steps of `h` from `t0` are parted; what is attached jumps where functions do."""
         tables = [_table(signal) for signal in self._signals.values() if isinstance(signal, tuple)]
-        found = [input_breaks(tables, t0, t_end, h)]
+        break_times = [input_breaks(tables, t0, t_end, h)]
         for i, signal in self._signals.items():
             if callable(signal):
                 times, self._jumps[i] = function_breaks(signal, t0, t_end, h)
-                found.append(times)
-        return distinct(found, t_end, h)
+                break_times.append(times)
+        return distinct(break_times, t_end, h)
 
     def points(self) -> list[float]:
         """Times of the tables, and when functions jump, as `breaks` has found, s."""
         tables = [t for s in self._signals.values() if isinstance(s, tuple) for t in _table(s)[0].tolist()]
-        return tables + [before for found in self._jumps.values() for before, _ in found]
+        return tables + [before for jumps in self._jumps.values() for before, _ in jumps]
 
     @property
     def has_functions(self) -> bool:

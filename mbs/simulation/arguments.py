@@ -106,11 +106,11 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
 
 def warn_of_end(t0: float, t_end: float, h: float) -> None:
     """Warn, for the caller's caller, where whole steps leave out more than `LEFT_OUT` of what was asked for."""
-    whole, asked = count_steps(t0, t_end, h) * h, t_end - t0
-    if asked - whole > LEFT_OUT * asked + 1e-6 * h:
+    whole, duration = count_steps(t0, t_end, h) * h, t_end - t0
+    if duration - whole > LEFT_OUT * duration + 1e-6 * h:
         warnings.warn(
             f"The run ends at {t0 + whole:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
-            f"{asked / math.ceil(asked / h):.9g} ends there.",
+            f"{duration / math.ceil(duration / h):.9g} ends there.",
             AccuracyWarning,
             stacklevel=3,
         )
@@ -174,14 +174,14 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
         samples = count_steps(t0, t_end, interval) + 1
         check_record(samples, 1)
         return t0 + interval * np.arange(samples, dtype=float)
-    wanted = array(times, (None,), "the times", ValueError, "finite numbers that ascend")
-    if not len(wanted) or not np.all(np.diff(wanted) > 0.0):
+    instants = array(times, (None,), "the times", ValueError, "finite numbers that ascend")
+    if not len(instants) or not np.all(np.diff(instants) > 0.0):
         raise ValueError(f"The times must be finite numbers that ascend, not {shown(times)}.")
-    if len(wanted) and not (wanted[0] >= t0 and wanted[-1] <= t_end):
+    if len(instants) and not (instants[0] >= t0 and instants[-1] <= t_end):
         raise ValueError(
-            f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}."
+            f"The times must lie between {t0:g} and {t_end:g} s; they go from {instants[0]:g} to {instants[-1]:g}."
         )
-    return np.concatenate([[t0], wanted[wanted > t0]])
+    return np.concatenate([[t0], instants[instants > t0]])
 
 
 def asked_tolerance(system: System, tolerance: object) -> Tolerance:

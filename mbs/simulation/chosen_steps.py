@@ -47,20 +47,20 @@ def chosen_equal_steps(
         choice = choose(lambda: start(0.0, settings), task, settings, DEFAULT_TOLERANCE, WRONG_ERROR)
         method, reason, wall, runs = choice.method, choice.reason, choice.wall, choice.runs
     settings = replace(settings, method="ali3p" if method == "auto" else method)
-    given = h is not None
+    step_given = h is not None
     if h is None:
         step = StepChoice(1.0, 0.0, 0.0, 0)
         if t_end > t0:
             with progress_for(progress) as bar:
                 step = choose_step(lambda: start(0.0, settings), t_end, DEFAULT_TOLERANCE, inputs, bar)
         h, error, runs = step.h, step.error, runs + step.runs
-    found = run(h, settings, estimate_error if given or estimate_error else False)
-    assert found.report is not None
+    trajectory = run(h, settings, estimate_error if step_given or estimate_error else False)
+    assert trajectory.report is not None
     length = length_of(start(h, settings).system)
-    n = found.report.steps
-    found.control = Control(
+    n = trajectory.report.steps
+    trajectory.control = Control(
         DEFAULT_TOLERANCE, length, settings.method, reason, error, h, n, 0, 0, 0, h, h, 0, runs + 1
     )  # fmt: skip
-    warn_of_tolerance(found.control, error)
-    found.wall_s += wall
-    return found
+    warn_of_tolerance(trajectory.control, error)
+    trajectory.wall_s += wall
+    return trajectory

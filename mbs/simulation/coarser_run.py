@@ -113,8 +113,8 @@ class CoarserRuns:
         report = self.refined.run[0].report
         assert report is not None
         for samples, at in self.refined.path:
-            rest = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
-            if not accuracy.doubt(rest, self.refined.method):
+            remaining = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
+            if not accuracy.doubt(remaining, self.refined.method):
                 return samples
         return math.inf
 
@@ -140,12 +140,12 @@ class CoarserRuns:
 
         def off(values: NDArray[np.float64], begin: float, end: float) -> float:
             first, last = (max(math.ceil(at), 0) for at in (begin, end))
-            part = Comparison({name: compared[name] for name in sizes}, self.refined.length)
-            there = {name: values[first:last, column[name]] for name in sizes}
+            comparison = Comparison({name: compared[name] for name in sizes}, self.refined.length)
+            coarse_values = {name: values[first:last, column[name]] for name in sizes}
             at = forces[(forces >= first) & (forces < last)] - first
-            part.add({name: run[name][first:last] for name in sizes}, there, at)
-            whole.widen(part.gaps)
-            return max((gap / sizes[name] for name, gap in part.gaps.items()), default=0.0)
+            comparison.add({name: run[name][first:last] for name in sizes}, coarse_values, at)
+            whole.widen(comparison.gaps)
+            return max((gap / sizes[name] for name, gap in comparison.gaps.items()), default=0.0)
 
         def look(values: NDArray[np.float64]) -> bool:
             end = len(values)

@@ -22,12 +22,12 @@ class ControlledPair:
     def gaps(self) -> dict[str, float]:
         """Largest differences of the sensors that have a tolerance of their own."""
         system = self.run.simulation.system
-        known, names = compared_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
-        found = dict[str, float]()
+        compared, names = compared_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
+        gaps = dict[str, float]()
         for name in self.tolerance.sensors:
-            one, other = (made.values[:, names.index(name)] for made in (self.run, self.before))
-            found[name] = known.get(name, Compared(COORDINATES)).gap(one, other)
-        return found
+            fine, coarse = (run.values[:, names.index(name)] for run in (self.run, self.before))
+            gaps[name] = compared.get(name, Compared(COORDINATES)).gap(fine, coarse)
+        return gaps
 
     @property
     def fall(self) -> float:

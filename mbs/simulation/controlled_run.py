@@ -48,8 +48,8 @@ class Task:
     def stops(self) -> list[float]:
         """Ends of steps: the points of the tables, jumps and peaks of functions, which are asked once, and the end."""
         breaks = self.signals.breaks(self.t0, self.t_end, PARTED * self.span)
-        found = {float(t) for t in (*breaks, *self.signals.points()) if self.t0 < t < self.t_end}
-        return [*sorted(found), self.t_end]
+        instants = {float(t) for t in (*breaks, *self.signals.points()) if self.t0 < t < self.t_end}
+        return [*sorted(instants), self.t_end]
 
 
 class StalledError(RuntimeError):
@@ -127,10 +127,10 @@ class ControlledRun:
         try:
             while self._stops and self.fields.accepted - first < steps:
                 stop = self._stops[0]
-                left = steps - (self.fields.accepted - first)
+                remaining = steps - (self.fields.accepted - first)
                 try:
                     self.done = instance.control_run(
-                        self.fields, self.scale, stop, left, task.times, self.values, self.positions, self.done
+                        self.fields, self.scale, stop, remaining, task.times, self.values, self.positions, self.done
                     )
                 except KernelError:
                     self.done = int(np.searchsorted(task.times, self.simulation.time, side="right"))

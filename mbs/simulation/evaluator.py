@@ -76,9 +76,9 @@ class Evaluator:
         root = np.sqrt(np.where(M.diagonal() > 0.0, M.diagonal(), M.diagonal().mean()))
         jacobian, M = self._jacobian(values, len(q)) / root, M / root / root[:, None]  # of coordinates of one size
         Z = scipy.linalg.null_space(jacobian, rcond=RANK_TOLERANCE) if len(jacobian) else np.eye(len(q))
-        held = np.linalg.lstsq(jacobian, -np.array(values["gamma"]), rcond=RANK_TOLERANCE)[0]
-        free = np.linalg.solve(Z.T @ M @ Z, Z.T @ (np.array(values["force"]) / root - M @ held))
-        acceleration = (held + Z @ free) / root
+        particular = np.linalg.lstsq(jacobian, -np.array(values["gamma"]), rcond=RANK_TOLERANCE)[0]
+        free = np.linalg.solve(Z.T @ M @ Z, Z.T @ (np.array(values["force"]) / root - M @ particular))
+        acceleration = (particular + Z @ free) / root
         return np.concatenate([acceleration, self._slot_rates(q, qd, settled)])
 
     def admissible(self, q: Array, qd: Array) -> tuple[Array, Array]:

@@ -53,7 +53,7 @@ def fixed_step_run(
     What it warns of beside `Accuracy.message` is added to `warned` where that is given, also where the run fails.
     """
     stepped, path = list[SteppedSystem](), list[tuple[int, Mapping[str, float]]]()
-    found: Accuracy | None = None
+    run_accuracy: Accuracy | None = None
 
     def note(values: NDArray[np.float64]) -> bool:
         path.append((len(values), stepped[0].instance.report()))
@@ -73,25 +73,25 @@ def fixed_step_run(
         stepped.append(simulation)
         if len(stepped) == 1 and checked and before is None:  # a coarser run that may be watched asks for it
             guided, states = (len(system.arrays[name]) > 0 for name in ("gterm_row", "y0"))
-            some = {name: what for name, what in compared_sensors(system).items() if what.always or guided}
-            watch = None if one_iteration(simulation.settings, some, states) else note
-        return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
+            judged_sensors = {name: what for name, what in compared_sensors(system).items() if what.always or guided}
+            watch = None if one_iteration(simulation.settings, judged_sensors, states) else note
+        return march(simulation, t_end, step, inputs, every, progress, look, thinning, watch)
 
     checked = estimate_error is not False
     most = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
     look = checked or before is not None
     often = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if checked else every
-    wanted = every // often
+    thinning = every // often
     try:
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error is True else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
-            found = run[0].accuracy
+            run_accuracy = run[0].accuracy
             refined = refined_run.RefinedRuns(
                 system, run, march_from_start, h, often, bar.update, before, divisor, inputs, most, path
             )
             if checked:
-                found = check(refined, always=estimate_error is True)
+                run_accuracy = check(refined, always=estimate_error is True)
             refined.add_ends()
     except SimulationError as error:
         if error.trajectory is not None:
@@ -99,18 +99,18 @@ def fixed_step_run(
         raise
     finally:  # of the run that was asked for, also when it failed
         jump = stepped and stepped[0].report.branch_kind == BranchKind.JUMP
-        branch = stepped[0].branch_change if jump else found.branch if found is not None else ""
+        branch = stepped[0].branch_change if jump else run_accuracy.branch if run_accuracy is not None else ""
         bent = stepped[0].bending.once() if stepped else ""
-        rim = stepped[0].road_text if stepped and found is not None else ""  # else the refusal says it
+        rim = stepped[0].road_text if stepped and run_accuracy is not None else ""  # else the refusal says it
         for category, text in ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim)):
             if text and warned is not None:
                 warned.append((category, text))
             elif text:
                 warnings.warn(text, category, stacklevel=4)
     trajectory = run[0].thinned(every // often)
-    trajectory.accuracy = found
-    if found is not None and found.notice:
-        trajectory.notices += (found.notice,)
+    trajectory.accuracy = run_accuracy
+    if run_accuracy is not None and run_accuracy.notice:
+        trajectory.notices += (run_accuracy.notice,)
     return trajectory
 
 
@@ -123,39 +123,39 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
     `always`: whether a run that is plainly smooth is refined too.
     """
     system, run = refined.system, refined.run
-    report, known = run[0].report, run[0].accuracy
-    if report is None or known is None or run[0].settings is None:
-        return known
+    report, estimate = run[0].report, run[0].accuracy
+    if report is None or estimate is None or run[0].settings is None:
+        return estimate
     method, balance = run[0].settings.method, accuracy.balance_text(report)
     doubt = accuracy.doubt(report, method)
     if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
-        return known
+        return estimate
     if not always and refined.before is None and doubt == accuracy.COARSER:
         if refined.rests:
-            return known
+            return estimate
         screened = CoarserRuns(refined).verdict()
         if screened is not None:
             return screened
     try:
-        known = refined.verdict()
+        estimate = refined.verdict()
     except refined_run.TooDearError:
         ahead = [refined.h / refined.tried * times for times in (1, 2, 4, MOST_PARTS)]
         needed = refined.cost + sum(cost for cost in ahead if cost < (MOST_PARTS + 0.5) * refined.parts)
-        known = refined.known or known
-        text = accuracy.open_text(known, refined.tried, refined.most, needed)
-        return replace(known, check_cost=refined.cost, message=f"{balance} {text}".strip())
+        estimate = refined.known or estimate
+        text = accuracy.open_text(estimate, refined.tried, refined.most, needed)
+        return replace(estimate, check_cost=refined.cost, message=f"{balance} {text}".strip())
     except SimulationError as error:
         text = (
             f"A refined run with steps of {refined.tried:g} s was refused, so the result is not to be trusted: {error}"
         )
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps
             text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
-        return replace(known, check_cost=refined.cost, message=text)
+        return replace(estimate, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
-    off = refined.text(known) if (known.error or 0.0) > WRONG_ERROR else ""
+    off = refined.text(estimate) if (estimate.error or 0.0) > WRONG_ERROR else ""
     if not (off or (balance and refined.finest.balance == Balance.WRONG)):  # if it is, the refined run is off as well
         notice = f"{balance} {accuracy.RIGHT}" if balance else ""
-        return replace(known, branch=branch, notice=notice)
-    tried = refined.tried_steps(known) if off else []
-    message = " ".join(filter(None, [off, balance, accuracy.remedy(system, method, tried)]))
-    return replace(known, check_cost=refined.cost, branch=branch, message=message)
+        return replace(estimate, branch=branch, notice=notice)
+    step_errors = refined.tried_steps(estimate) if off else []
+    message = " ".join(filter(None, [off, balance, accuracy.remedy(system, method, step_errors)]))
+    return replace(estimate, check_cost=refined.cost, branch=branch, message=message)

@@ -59,12 +59,12 @@ class BendingWatch:
         """One sentence with a remedy where a body bent too far, else empty."""
         if self.body is None or self.turn <= MOST_TURN:
             return ""
-        parts = int(np.ceil(self.turn / MOST_TURN))
+        divisions = int(np.ceil(self.turn / MOST_TURN))
         return (
             f"The flexible body {self.body.name!r} bends by {self.turn:.2g} rad in its floating frame at "
             f"t = {self.time:.4g} s. Its modes are linear: they leave out its shortening and the stiffening by axial "
             f"forces, so places at its ends may be off by {SHARE * self.turn:.1%} of its length. Divide it into "
-            f"{parts} or more bodies welded end to end."
+            f"{divisions} or more bodies welded end to end."
         )
 
     def once(self) -> str:

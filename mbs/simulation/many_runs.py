@@ -133,8 +133,8 @@ class _Run:
     def rows(self, done: int, n: int) -> tuple[int, Any, Any]:
         """Where n steps after the first `done` are recorded."""
         row = done // self.every + 1
-        part = self.values[row : (done + n) // self.every + 1]
-        return row, part, self.record.rows(row, len(part))
+        samples = self.values[row : (done + n) // self.every + 1]
+        return row, samples, self.record.rows(row, len(samples))
 
     def ended(self, checked: bool) -> _Found:
         """What was recorded, why it is not all, and what it warns of, where it is `checked` as `simulate` does."""
@@ -167,11 +167,11 @@ class _Run:
         return messages + self._remarks()
 
     def _told(self, run: Trajectory) -> Warned:
-        told = list(self.told_at_start)
+        messages = list(self.told_at_start)
         if run.report is not None and (balance := accuracy.balance_text(run.report)):
-            told.append((AccuracyWarning, f"{balance} The result is wrong; take shorter steps."))
-        told += [(BranchWarning, run.branch_change)] if run.branch_change else []
-        return told + self._remarks()
+            messages.append((AccuracyWarning, f"{balance} The result is wrong; take shorter steps."))
+        messages += [(BranchWarning, run.branch_change)] if run.branch_change else []
+        return messages + self._remarks()
 
     def _remarks(self) -> Warned:
         """Of what the model holds for, at the end of the run."""
@@ -255,7 +255,7 @@ def simulate_many(
     workers = os.cpu_count() or 1 if threads is None else whole(threads, "the threads", least=1, error=ValueError)
     order = _by_inputs(system, variants)
     groups = [order[i : i + width] for i in range(0, len(order), width)]
-    found: dict[int, _Found] = {}
+    finished_runs: dict[int, _Found] = {}
     steps_made = [0] * len(groups)
     stopped = threading.Event()
 
@@ -266,7 +266,9 @@ def simulate_many(
             steps_made[number] = done * len(members)
             return not stopped.is_set()
 
-        found.update(_run_group(system, members, settings, (t0, h, steps, every), width, told, estimate_error is None))
+        finished_runs.update(
+            _run_group(system, members, settings, (t0, h, steps, every), width, told, estimate_error is None)
+        )
         steps_made[number] = steps * len(members)
 
     with progress_for(progress) as bar, ThreadPoolExecutor(min(workers, max(1, len(groups)))) as pool:
@@ -281,7 +283,7 @@ def simulate_many(
             stopped.set()
             for future in waiting:
                 future.cancel()
-    runs = [found[k] for k in range(len(variants))]
+    runs = [finished_runs[k] for k in range(len(variants))]
     for k, run in enumerate(runs):
         for category, text in run.told:
             warnings.warn(f"Variant {k}: {text}", category, stacklevel=2)
@@ -301,7 +303,7 @@ def _run_group(
     """The runs of one group, by the number of the variant; `told` returns whether to go on."""
     t0, h, steps, every = course
     runs: dict[int, _Run] = {}
-    found: dict[int, _Found] = {}
+    results: dict[int, _Found] = {}
     with ExitStack() as stack:
         for k, variant in members.items():
             try:
@@ -309,30 +311,30 @@ def _run_group(
                 stack.enter_context(attached(run.simulation, run.signals, t0, t0 + steps * h, h))
                 runs[k] = run
             except SimulationError as error:
-                found[k] = _Found(None, error, 0, [])
+                results[k] = _Found(None, error, 0, [])
             except ValueError as error:
                 raise ValueError(f"Variant {k}: {error}") from error
-        many, going, done, chunk = Many(prepared(system)[0], width), list(runs.values()), 0, every
-        while done < steps and going and told(done):
-            n = min(chunk, steps - done)
-            parts = [run.rows(done, n) for run in going]
+        many, going, completed, chunk = Many(prepared(system)[0], width), list(runs.values()), 0, every
+        while completed < steps and going and told(completed):
+            n = min(chunk, steps - completed)
+            blocks = [run.rows(completed, n) for run in going]
             begin = time.perf_counter()
             ended = many.run(
-                [run.simulation.instance for run in going], h, n, every, [p[1] for p in parts], [p[2] for p in parts]
+                [run.simulation.instance for run in going], h, n, every, [p[1] for p in blocks], [p[2] for p in blocks]
             )
             spent = time.perf_counter() - begin
-            for run, (row, _, places), end in zip(going, parts, ended, strict=True):
-                run.record.take(row, places)
+            for run, (row, _, positions), end in zip(going, blocks, ended, strict=True):
+                run.record.take(row, positions)
                 run.alone += end.alone
                 run.wall += spent / len(going)
                 run.error = end.error
                 run.simulation.bending.look(run.simulation.time, run.simulation.state.q)
-            done += n
+            completed += n
             chunk = next_chunk(chunk, spent, every)
             going = [run for run in going if run.error is None]
         for k, run in runs.items():
-            found[k] = run.ended(checked)
-    return found
+            results[k] = run.ended(checked)
+    return results
 
 
 def _checked(number: int, variant: Variant) -> Variant:

@@ -51,7 +51,7 @@ def march(
 
     Returns
     -------
-    seen : list of ndarray, shape (nq,)
+    positions : list of ndarray, shape (nq,)
         With `look` the coordinates at the instants where two runs are compared.
     """
     t0, h = simulation.time, check_step(h)
@@ -60,50 +60,52 @@ def march(
     meta, instance = prepared(simulation.system)[1], simulation.instance
     check_record(steps // every + 1, len(meta["sensors"]))
     simulation.step_tried = h
-    given = check_values(inputs, "The inputs")
-    signals = InputSignals(given, meta["inputs"])
+    checked_inputs = check_values(inputs, "The inputs")
+    signals = InputSignals(checked_inputs, meta["inputs"])
     values = np.empty((steps // every + 1, len(meta["sensors"])))
     values[0] = list(instance.sensors())
-    left_out = omitted_of_run(simulation, given, h, every)
+    left_out = omitted_of_run(simulation, checked_inputs, h, every)
     compared = [int(k) for k in instants(len(values))] if look else []
     looks = [int(k) * every for k in instants(len(values))] if simulation.bending.watches else []
     if watch is not None:
         looks = sorted({*looks, *(len(values) * k // MOST_PARTS * every for k in range(1, MOST_PARTS))})
-    seen = [simulation.state.q] if look else []
+    positions = [simulation.state.q] if look else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
-    done, wall, chunk, before = 0, 0.0, every, simulation.report
+    steps_done, wall, chunk, before = 0, 0.0, every, simulation.report
     with progress_for(progress) as bar, attached(simulation, signals, t0, t0 + steps * h, h):
-        while done < steps:
-            ahead = [k - done for k in looks if k > done]
-            n = min(chunk, steps - done, *ahead[:1])
-            row = done // every + 1
-            part = values[row : (done + n) // every + 1]
-            places = record.rows(row, len(part))
-            if look and places is None:
-                places = np.empty((len(part), simulation.system.nq))
+        while steps_done < steps:
+            ahead = [k - steps_done for k in looks if k > steps_done]
+            n = min(chunk, steps - steps_done, *ahead[:1])
+            row = steps_done // every + 1
+            block = values[row : (steps_done + n) // every + 1]
+            coordinates = record.rows(row, len(block))
+            if look and coordinates is None:
+                coordinates = np.empty((len(block), simulation.system.nq))
             begin = time.perf_counter()
             try:
-                instance.run(h, n, None, every, part, places)
+                instance.run(h, n, None, every, block, coordinates)
             except KernelError as error:
                 good = round((simulation.time - t0) / h) // every + 1
                 wall += time.perf_counter() - begin
-                record.take(row, places)
+                record.take(row, coordinates)
                 recorded = trajectory_of(simulation, t0, h * every, values[:good], wall, before, record, left_out)
                 what = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
                 raise refusal(simulation, what, error, recorded, step_given=True) from error
             spent = time.perf_counter() - begin
             wall += spent
-            record.take(row, places)
-            done += n
-            seen += [places[k - row].copy() for k in compared if places is not None and row <= k < row + len(part)]
+            record.take(row, coordinates)
+            steps_done += n
+            positions += [
+                coordinates[k - row].copy() for k in compared if coordinates is not None and row <= k < row + len(block)
+            ]
             if ahead and n == ahead[0] and simulation.bending.watches:
                 simulation.bending.look(simulation.time, simulation.state.q)
-            bar.update(done / steps)
-            if watch is not None and ahead and n == ahead[0] and watch(values[: done // every + 1]):
-                values = values[: done // every + 1]
+            bar.update(steps_done / steps)
+            if watch is not None and ahead and n == ahead[0] and watch(values[: steps_done // every + 1]):
+                values = values[: steps_done // every + 1]
                 break
             chunk = next_chunk(chunk, spent, every)
-    return trajectory_of(simulation, t0, h * every, values, wall, before, record, left_out), seen
+    return trajectory_of(simulation, t0, h * every, values, wall, before, record, left_out), positions
 
 
 @contextmanager
@@ -130,9 +132,9 @@ def trajectory_of(
     report, settings = simulation.report, simulation.settings
     t = t0 + interval * np.arange(len(values), dtype=float)
     energy = accuracy.energy_text(report, simulation.system, settings.method)
-    known = accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings)
+    estimate = accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings)
     notices = report.capped_text, energy
-    return recorded(simulation, t, values, settings, wall, record, left_out(len(values)), notices, accuracy=known)
+    return recorded(simulation, t, values, settings, wall, record, left_out(len(values)), notices, accuracy=estimate)
 
 
 def next_chunk(chunk: int, spent: float, every: int) -> int:

@@ -22,10 +22,10 @@ def omitted_names(system: System) -> list[str]:
 def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
     """The System with ports in the kernel's memory and the places of its sensors, made once; None: there is none."""
     if system not in _PORTED:
-        made = system.ported(system) if system.ported is not None else None
-        place = {} if made is None else {s["name"]: k for k, s in enumerate(made.meta["sensors"])}
-        loaded = None if made is None else (LoadedSystem(made.kernel_bytes()), place)
-        _PORTED[system] = loaded if loaded is not None and set(omitted_names(system)) <= set(place) else None
+        ported = system.ported(system) if system.ported is not None else None
+        index_of = {} if ported is None else {s["name"]: k for k, s in enumerate(ported.meta["sensors"])}
+        loaded = None if ported is None else (LoadedSystem(ported.kernel_bytes()), index_of)
+        _PORTED[system] = loaded if loaded is not None and set(omitted_names(system)) <= set(index_of) else None
     return _PORTED[system]
 
 
@@ -36,11 +36,11 @@ class OmittedSensorSystem:
     """
 
     def __init__(self, system: System, asked: str = "") -> None:
-        found, self._names = _ported(system), omitted_names(system)
-        if found is None:
+        loaded, self._names = _ported(system), omitted_names(system)
+        if loaded is None:
             raise KeyError(refused(asked or self._names[0], NO_PORTS))
-        self._instance = Instance(found[0])
-        self._columns = [found[1][name] for name in self._names]
+        self._instance = Instance(loaded[0])
+        self._columns = [loaded[1][name] for name in self._names]
 
     def values(self, instance: Instance) -> list[float]:
         """Of the sensors that the System leaves out, at the state of its instance, which stays.
@@ -52,8 +52,8 @@ class OmittedSensorSystem:
         except KernelError as error:
             what = f"The forces at the ports could not be found: {error.message}"
             raise SimulationError(what, instance.time, error.status) from error
-        found = self._instance.sensors()
-        return [found[k] for k in self._columns]
+        values = self._instance.sensors()
+        return [values[k] for k in self._columns]
 
 
 class Readings(dict[str, float]):

@@ -42,9 +42,9 @@ class PositionRecord:
         if self._kept is None or rows is None or self.every == 1:
             return
         begin = -first % self.every
-        found = rows[begin :: self.every]
+        samples = rows[begin :: self.every]
         at = (first + begin) // self.every
-        self._kept[at : at + len(found)] = found
+        self._kept[at : at + len(samples)] = samples
 
     def fill(self, positions: Array) -> None:
         """Take all samples at once, shape (samples, nq)."""
@@ -55,5 +55,5 @@ class PositionRecord:
         """Poses of the samples at the times `t` (n,)."""
         if self.drawing is None or self._kept is None:
             return None
-        own = t[:: self.every]
-        return Poses(own, self.every, self._kept[: len(own)], self.drawing.places)
+        times = t[:: self.every]
+        return Poses(times, self.every, self._kept[: len(times)], self.drawing.places)

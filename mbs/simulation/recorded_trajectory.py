@@ -62,14 +62,14 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
     `values` (n, ns) at `t` (n,).
     """
     meta = prepared(system)[1]
-    found, sensors = notices_before(meta), meta["sensors"]
+    notices, sensors = notices_before(meta), meta["sensors"]
     for k, sensor in enumerate(sensors):
         none = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
-        there = np.flatnonzero(np.abs(values[:, k]) > none if "notice" in sensor else ())
-        if len(there):
+        nonzero = np.flatnonzero(np.abs(values[:, k]) > none if "notice" in sensor else ())
+        if len(nonzero):
             most = values[np.argmax(np.abs(values[:, k])), k]
-            found.append(
-                f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[there[0]]:g} s, "
+            notices.append(
+                f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[nonzero[0]]:g} s, "
                 f"at most {most:g} {sensor['unit']}."
             )
-    return found
+    return notices

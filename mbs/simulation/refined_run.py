@@ -226,15 +226,15 @@ class RefinedRuns:
         If no run is clearly accurate, one with the step needed according to the order of the errors is made first, as
         far as the budget allows.
         """
-        step, tried = accuracy.needed_step(self.h, known), self._offs()
+        step, step_errors = accuracy.needed_step(self.h, known), self._offs()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
-        if parts > max(self._finer) and not any(off <= accuracy.CLEAR for _, off in tried):
+        if parts > max(self._finer) and not any(off <= accuracy.CLEAR for _, off in step_errors):
             try:
                 self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):
-                return tried
+                return step_errors
             return self._offs()
-        return tried
+        return step_errors
 
     def _offs(self) -> list[tuple[float, float]]:
         """Step and error of each refined run: its difference from the finest, plus the error of the finest.

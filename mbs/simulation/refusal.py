@@ -104,9 +104,9 @@ def beyond_reach(simulation: SteppedSystem, ahead: float) -> str:
         closed, opened = (middle, opened) if _closes(evaluator, middle) else (closed, middle)
     meta = prepared(simulation.system)[1]
     names = [repr(meta["rows"][row]["name"]) for row in rows]
-    more = f" and {len(names) - MOST_NAMED} others" if len(names) > MOST_NAMED else ""
+    suffix = f" and {len(names) - MOST_NAMED} others" if len(names) > MOST_NAMED else ""
     return (
-        f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMED])}{more} the joints can be closed until "
+        f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMED])}{suffix} the joints can be closed until "
         f"about t = {simulation.time + closed:.5g} s, where two ways to close them meet, and not behind it. End the "
         f"run before, or drive it less far."
     )
@@ -117,12 +117,12 @@ def _closes(evaluator: Evaluator, ahead: float) -> bool:
     q, t, most = evaluator.state.q, evaluator.time + ahead, 0.0
     for _ in range(ITERATIONS):
         phi, jacobian, _ = evaluator.constraints(q, evaluator.state.qd, t)
-        left = float(np.abs(phi).max())
-        most = most or max(left, RANK_TOLERANCE * max(1.0, float(np.abs(q).max())) / CLOSED)
-        if not left < math.inf or left <= CLOSED * most:
+        residual = float(np.abs(phi).max())
+        most = most or max(residual, RANK_TOLERANCE * max(1.0, float(np.abs(q).max())) / CLOSED)
+        if not residual < math.inf or residual <= CLOSED * most:
             break
         q = q - np.linalg.lstsq(jacobian, phi, rcond=RANK_TOLERANCE)[0]
-    return left <= CLOSED * most
+    return residual <= CLOSED * most
 
 
 def _farthest_changed(simulation: SteppedSystem) -> str:
@@ -135,8 +135,8 @@ def _farthest_changed(simulation: SteppedSystem) -> str:
             changed.append((abs(value - entry["value"]) / span if span < math.inf else math.inf, words))
     changed.sort(key=lambda item: -item[0])
     changes_text = "; ".join(words for _, words in changed[:MOST_NAMED])
-    more = f" (and {len(changed) - MOST_NAMED} others)" if len(changed) > MOST_NAMED else ""
-    return f" {changes_text}{more}." if changes_text else ""
+    suffix = f" (and {len(changed) - MOST_NAMED} others)" if len(changed) > MOST_NAMED else ""
+    return f" {changes_text}{suffix}." if changes_text else ""
 
 
 def _worst_equations(simulation: SteppedSystem, report: dict[str, float]) -> str:

@@ -138,18 +138,18 @@ def simulate(
     check_progress(progress)
     if times is not None and tolerance is None:
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
-    wanted = None if tolerance is None else asked_tolerance(system, tolerance)
+    requested = None if tolerance is None else asked_tolerance(system, tolerance)
     settings = check_settings(settings)
-    if wanted is not None:
+    if requested is not None:
         check_tolerance_settings(settings)
     check_values(parameters, "The parameters")
     named = method is not None or settings.method != Settings().method
-    chosen = method if method is not None else settings.method if named or wanted is None else "auto"
+    chosen = method if method is not None else settings.method if named or requested is None else "auto"
     if not isinstance(chosen, str) or chosen not in ("auto", settings.method):
         settings = replace(settings, method=chosen)
-    given = check_values(inputs, "The inputs")
+    checked_inputs = check_values(inputs, "The inputs")
     declared = prepared(system)[1]["inputs"]
-    signals = InputSignals(given, declared)
+    signals = InputSignals(checked_inputs, declared)
     names = [declared[i]["name"] for i in signals.columns()]
 
     def start(step: float = 0.0, used: Settings = settings) -> Simulation:
@@ -166,17 +166,19 @@ def simulate(
     def equal_steps(step: float, used: Settings, estimate: bool | float | None) -> Trajectory:
         return fixed_step_run(system, lambda h: start(h, used), t0, t_end, step, inputs, every, progress, estimate)
 
-    if wanted is None and h is not None and chosen != "auto":
+    if requested is None and h is not None and chosen != "auto":
         run = equal_steps(h, settings, estimate_error)
         _warn_of(run)
         return run
-    if wanted is None:
-        run = chosen_equal_steps(start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress)
+    if requested is None:
+        run = chosen_equal_steps(
+            start, equal_steps, t0, t_end, h, checked_inputs, settings, chosen, estimate_error, progress
+        )
         _warn_of(run)
         return run
     with progress_for(progress) as bar:
         record = record_times(t0, t_end, h, every, times)
-        return to_tolerance(start, wanted, record, given, settings, chosen, bar)[0]
+        return to_tolerance(start, requested, record, checked_inputs, settings, chosen, bar)[0]
 
 
 def _warn_of(run: Trajectory) -> None:

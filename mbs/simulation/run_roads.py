@@ -16,9 +16,9 @@ def run_roads(system: System, instance: Instance, files: Mapping[int, str]) -> d
     `instance`: with the values of the parameters; `files`: paths of files in place of roads; empty: none.
     """
     a = system.arrays
-    found: dict[int, Road | str] = {k: path for k, path in files.items() if path}
+    roads: dict[int, Road | str] = {k: path for k, path in files.items() if path}
     if not len(a["road_type"]):
-        return found
+        return roads
     real = np.array(a["road_real"])
     values = [instance.get_parameter(k) for k in range(len(a["par_value"]))]
     for k in np.flatnonzero(np.array(values) != a["par_value"]):
@@ -27,13 +27,13 @@ def run_roads(system: System, instance: Instance, files: Mapping[int, str]) -> d
                 offset = a["par_offset"][n] if len(a["par_offset"]) else 0.0
                 real[a["par_index"][n]] = values[k] * a["par_scale"][n] + offset
     for road, kind in enumerate(a["road_type"]):
-        part = slice(a["road_real_ptr"][road], a["road_real_ptr"][road + 1])
-        if road in found or np.array_equal(real[part], a["road_real"][part]):
+        reals = slice(a["road_real_ptr"][road], a["road_real_ptr"][road + 1])
+        if road in roads or np.array_equal(real[reals], a["road_real"][reals]):
             continue
-        numbers = real[part].tolist()
+        numbers = real[reals].tolist()
         if kind == RoadType.PLANE:
-            found[road] = PlaneRoad(*numbers)
+            roads[road] = PlaneRoad(*numbers)
         elif kind == RoadType.KERB:
             position, lower, step, side, *rest = numbers
-            found[road] = KerbRoad(position, step, lower, "before" if side > 0.0 else "after", *rest)
-    return found
+            roads[road] = KerbRoad(position, step, lower, "before" if side > 0.0 else "after", *rest)
+    return roads

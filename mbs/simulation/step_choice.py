@@ -94,7 +94,7 @@ def _positions(
     """Coordinates at 50 instants by steps of h; None where a step fails."""
     simulation = start()
     t0 = simulation.time
-    found = []
+    positions = []
     for k in range(1, INSTANTS + 1):
         try:
             march(simulation, t0 + (t_end - t0) * k / INSTANTS, h, inputs, 1, False)
@@ -102,5 +102,5 @@ def _positions(
             if strict:
                 raise
             return None
-        found.append(simulation.state.q)
-    return np.array(found)
+        positions.append(simulation.state.q)
+    return np.array(positions)

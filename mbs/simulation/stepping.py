@@ -118,8 +118,10 @@ class Simulation(SteppedSystem):
     @property
     def sensors(self) -> dict[str, float]:
         """Sensor values at the state, by name; those that the System leaves out are found when one is first read."""
-        found = super().sensors
-        return found if len(found) == len(self._meta["sensors"]) else Readings(found, self.system, self.instance)
+        computed = super().sensors
+        return (
+            computed if len(computed) == len(self._meta["sensors"]) else Readings(computed, self.system, self.instance)
+        )
 
     def set_input(self, name: str, value: float) -> None:
         """Value of an input from now on.
@@ -421,40 +423,44 @@ class Simulation(SteppedSystem):
             Once, when a flexible body bends more within its floating frame than its modes hold for.
         """
         if tolerance is not None:
-            wanted = asked_tolerance(self.system, tolerance)
-            return self._to_tolerance(wanted, t_end, h, inputs, every, progress)
+            requested = asked_tolerance(self.system, tolerance)
+            return self._to_tolerance(requested, t_end, h, inputs, every, progress)
         if h is None:
             raise ValueError("A run needs a step h or a tolerance.")
         estimate_error = check_estimate(estimate_error)
         every = check_every(every)
         check_progress(progress)
         checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= MOST_PARTS
-        given, made, state = self._refined if checked else None, False, self.instance.save() if checked else b""
+        existing, is_started, state = (
+            self._refined if checked else None,
+            False,
+            self.instance.save() if checked else b"",
+        )
         self._refined = None
 
         def start(_: float) -> SteppedSystem:
-            nonlocal made
-            if not made:
-                made = True
+            nonlocal is_started
+            if not is_started:
+                is_started = True
                 return self
-            self._refined = given if given is not None else self._at(state)
+            self._refined = existing if existing is not None else self._at(state)
             return self._refined
 
         def equal_steps() -> Trajectory:
-            asked, divisor = estimate_error if checked else False, self._parts if given is not None else 0
+            estimate, divisor = estimate_error if checked else False, self._parts if existing is not None else 0
             return fixed_step_run(
-                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._ends, divisor
+                self.system, start, self.time, t_end, h, inputs, every, progress, estimate, self._ends, divisor
             )
 
         trajectory = equal_steps()
-        found = trajectory.accuracy
-        if found is not None and found.compared_step is not None:
-            self._parts = max(1, round(h / found.compared_step))
-        if found is not None and found.message and not self._warned:
+        run_accuracy = trajectory.accuracy
+        if run_accuracy is not None and run_accuracy.compared_step is not None:
+            self._parts = max(1, round(h / run_accuracy.compared_step))
+        if run_accuracy is not None and run_accuracy.message and not self._warned:
             self._warned = True
-            warnings.warn(found.message, AccuracyWarning, stacklevel=2)
+            warnings.warn(run_accuracy.message, AccuracyWarning, stacklevel=2)
         if estimate_error is not False:
-            self._warn_once(right=found is not None and bool(found.notice))
+            self._warn_once(right=run_accuracy is not None and bool(run_accuracy.notice))
         return trajectory
 
     def _to_tolerance(
@@ -468,11 +474,11 @@ class Simulation(SteppedSystem):
     ) -> Trajectory:
         check_tolerance_settings(self.settings)
         times = record_times(self.time, check_end(self.time, t_end), h, check_every(every), None)
-        state, given = self.instance.save(), check_values(inputs, "The inputs")
+        state, checked_inputs = self.instance.save(), check_values(inputs, "The inputs")
         self._refined = None
         with progress_for(progress) as bar:
             trajectory, ended = to_tolerance(
-                lambda: self._at(state), tolerance, times, given, self.settings, self.settings.method, bar
+                lambda: self._at(state), tolerance, times, checked_inputs, self.settings, self.settings.method, bar
             )
         self.instance.restore(ended.instance.save())
         self.instance.set_settings(**self.settings.kernel_fields())
@@ -517,8 +523,8 @@ class Simulation(SteppedSystem):
     def _index(self, kind: str, name: str) -> int:
         names = [entry["name"] for entry in self._meta[kind]]
         if not isinstance(name, str) or name not in names:
-            known = ", ".join(names) or "none"
-            raise ValueError(f"There is no {SINGULAR.get(kind, kind[:-1])} {shown(name)}; the System has: {known}.")
+            available = ", ".join(names) or "none"
+            raise ValueError(f"There is no {SINGULAR.get(kind, kind[:-1])} {shown(name)}; the System has: {available}.")
         return names.index(name)
 
     def _call(self, what: str, action: Callable[[], object], *, step_given: bool = False) -> None:

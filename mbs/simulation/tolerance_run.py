@@ -68,31 +68,33 @@ def to_tolerance(
     grid[-1] = t_end
     task = Task(t0, t_end, grid, signals_of(inputs, first))
     # the first run: its error is known to a share of `WRONG_ERROR` by a last one that keeps the tolerance
-    coarse, made = min(tolerance.share * (1.0 / WRONG_ERROR), WRONG_ERROR), _Made()
+    coarse, previous = min(tolerance.share * (1.0 / WRONG_ERROR), WRONG_ERROR), _Made()
     if method != "auto":
         settings = replace(settings, method=method)
-        return _told(_by(start, first, tolerance, times, task, settings, coarse, bar, made, ""), first, times)
+        return _told(_by(start, first, tolerance, times, task, settings, coarse, bar, previous, ""), first, times)
     choice = choose(start, task, settings, min(tolerance.share, coarse / FINER), coarse)
-    made = _Made(choice.run, choice.runs, choice.wall)
+    previous = _Made(choice.run, choice.runs, choice.wall)
     failed = list[SimulationError]()
     best: _Ended | None = None
     for number, name in enumerate(choice.names):
         reason = choice.reason + "".join(f", {k} cannot hold it" for k in choice.names[:number])
         by = replace(settings, method=name)
         try:
-            ended = _by(start, first, tolerance, times, task, by, coarse, bar, made, reason)
+            ended = _by(start, first, tolerance, times, task, by, coarse, bar, previous, reason)
         except SimulationError as error:
             if best is None and (error.status not in HANDED_ON or error.final):
                 raise
             failed.append(error)
-            made = replace(made, run=None)
+            previous = replace(previous, run=None)
             continue
-        other, best = best, ended
-        if other is not None and other.control.error < ended.control.error:
-            best = replace(other, control=replace(other.control, runs=ended.control.runs), wall=ended.wall)
-        if other is not None or ended.control.kept:
+        previous_best, best = best, ended
+        if previous_best is not None and previous_best.control.error < ended.control.error:
+            best = replace(
+                previous_best, control=replace(previous_best.control, runs=ended.control.runs), wall=ended.wall
+            )
+        if previous_best is not None or ended.control.kept:
             break
-        made = _Made(None, ended.control.runs, ended.wall)
+        previous = _Made(None, ended.control.runs, ended.wall)
     if best is None:
         raise failed[0]
     return _told(best, first, times)
@@ -138,16 +140,16 @@ def _by(
     do or a step.
     """
     before, wall, runs = made.run, made.wall, made.runs
-    wanted = tolerance.share
-    aim = min(wanted, coarse / FINER)
+    target = tolerance.share
+    aim = min(target, coarse / FINER)
     if before is None:
-        before = _whole(ControlledRun(start(), task, settings, coarse), wanted, bar, 0.0, times, first)
+        before = _whole(ControlledRun(start(), task, settings, coarse), target, bar, 0.0, times, first)
         runs, wall = runs + 1, wall + before.wall
     error, run, longest = math.inf, None, 1.0
     for number in range(1, MOST_RUNS):
         again = ControlledRun(start(), task, settings, aim, longest)
         try:
-            again = _whole(again, wanted, bar, min(0.5, 0.3 * number), times, first)
+            again = _whole(again, target, bar, min(0.5, 0.3 * number), times, first)
         except (StalledError, SimulationError):
             wall += again.wall
             if run is None:
@@ -164,16 +166,16 @@ def _by(
             continue
         unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
         grows = number == 1 and far > before.fields.error_sum  # two coarse runs may be off alike
-        if (error <= (AGREED if grows else 1.0) * wanted and not unsure) or aim <= ROUND_OFF:
+        if (error <= (AGREED if grows else 1.0) * target and not unsure) or aim <= ROUND_OFF:
             break
         before = run
-        aim = max(ROUND_OFF, aim * min(AGREED if unsure else 1.0 / FINER, wanted / max(guess, wanted)))
+        aim = max(ROUND_OFF, aim * min(AGREED if unsure else 1.0 / FINER, target / max(guess, target)))
     assert run is not None
     c, reported_error = run.fields, 0.0
     if error > 0.0:  # smaller guesses are too small; what stands still errs by no more than it moves
-        reported_error = max(error, min(AGREED * wanted, run.moved / run.length))
+        reported_error = max(error, min(AGREED * target, run.moved / run.length))
     control = Control(
-        wanted, run.length, settings.method, reason, reported_error, None, c.accepted, c.rejected, c.failed, c.forced,
+        target, run.length, settings.method, reason, reported_error, None, c.accepted, c.rejected, c.failed, c.forced,
         c.smallest, c.largest, c.side_steps, runs, run.moved, ControlledPair(run, before, tolerance).errors,
     )  # fmt: skip
     return _Ended(run, before, control, error, wall)
@@ -218,6 +220,6 @@ def _whole(
 
 
 def _so_far(run: ControlledRun, times: Array, first: SteppedSystem) -> Trajectory:
-    done = run.task.times[: run.done]
-    good = times[1:][times[1:] <= (done[-1] if len(done) else run.task.t0)]
+    recorded_times = run.task.times[: run.done]
+    good = times[1:][times[1:] <= (recorded_times[-1] if len(recorded_times) else run.task.t0)]
     return _recorded(run, times[: len(good) + 1], first, None, run.wall)

@@ -77,8 +77,8 @@ class Places:
 
     def rows(self, q: Array, first: int, count: int) -> Array:
         """Full coordinates from `first` on, shape (n, count), of coordinates (n, nq)."""
-        part = slice(first, first + count)
-        return np.asarray((self.matrix[part] @ q.T).T + self.constant[part])
+        rows = slice(first, first + count)
+        return np.asarray((self.matrix[rows] @ q.T).T + self.constant[rows])
 
     def pose(self, q: Array, body: BodyPlace) -> Array:
         """Positions and quaternions of a body, shape (n, 7), at coordinates (n, nq)."""
@@ -93,16 +93,16 @@ class Places:
     def _pose(full: Array, kind: str) -> Array:
         if kind == "pose":
             return full
-        found = np.zeros((len(full), 7))
-        found[:, 3] = 1.0
+        pose = np.zeros((len(full), 7))
+        pose[:, 3] = 1.0
         d = 2 if kind.startswith("planar") else 3
-        found[:, :d] = full[:, :d]
+        pose[:, :d] = full[:, :d]
         if kind == "planar":
             half = 0.5 * np.arctan2(full[:, 3], full[:, 2])  # from -pi/2 to pi/2: the scalar part is not negative
-            found[:, 3], found[:, 6] = np.cos(half), np.sin(half)
+            pose[:, 3], pose[:, 6] = np.cos(half), np.sin(half)
         elif kind == "rigid" and len(full):
-            found[:, 3:] = quaternions(full[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1))
-        return found
+            pose[:, 3:] = quaternions(full[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1))
+        return pose
 
     def to_json(self) -> dict[str, Any]:
         """The drawing as the System file has it."""
@@ -125,18 +125,18 @@ class Places:
         constant = np.array(data["constant"], float)
         if matrix.shape[0] != len(constant):
             raise ValueError("places and constants of the drawing differ in number")
-        found = cls(
+        places = cls(
             matrix,
             constant,
             tuple(BodyPlace(**b | {"columns": tuple(b["columns"])}) for b in data["bodies"]),
             tuple(TurnPlace(**t | {"axis": tuple(t["axis"])}) for t in data["turns"]),
             tuple(AmplitudePlace(**a | {k: tuple(a[k]) for k in ("modes", "columns")}) for a in data["amplitudes"]),
         )
-        ends = [b.row + _SIZES[b.kind] for b in found.bodies] + [t.row + 1 for t in found.turns]
-        ends += [a.row + len(a.modes) for a in found.amplitudes]
+        ends = [b.row + _SIZES[b.kind] for b in places.bodies] + [t.row + 1 for t in places.turns]
+        ends += [a.row + len(a.modes) for a in places.amplitudes]
         if max(ends, default=0) > len(constant):
             raise ValueError("the drawing names coordinates that it does not have")
-        return found
+        return places
 
 
 @dataclass(frozen=True)
@@ -178,8 +178,8 @@ class Drawing:
 
 def quaternions(matrices: Array) -> Array:
     """Quaternions (n, 4), scalar first and not negative, of rotation matrices (n, 3, 3)."""
-    found = Rotation.from_matrix(matrices).as_quat()[:, [3, 0, 1, 2]]
-    return np.asarray(np.where(found[:, :1] < 0.0, -found, found))
+    q = Rotation.from_matrix(matrices).as_quat()[:, [3, 0, 1, 2]]
+    return np.asarray(np.where(q[:, :1] < 0.0, -q, q))
 
 
 def matrices(quaternions: Array) -> Array:

@@ -52,9 +52,9 @@ def _list_problem(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
     if key in _COUNTED and len(entries) != lengths[_COUNTED[key]]:
         return f"'{key}' names {len(entries)} of {lengths[_COUNTED[key]]}"
     for k, entry in enumerate(entries):
-        for part, kind in _LISTS[key].items():
-            if not (isinstance(entry, dict) and _fits(entry.get(part), kind)):
-                return f"entry {k} of '{key}' has no '{part}', or one of another kind"
+        for field, kind in _LISTS[key].items():
+            if not (isinstance(entry, dict) and _fits(entry.get(field), kind)):
+                return f"entry {k} of '{key}' has no '{field}', or one of another kind"
         if key == "inputs" and not all(
             end in entry and (entry[end] is None or _fits(entry[end], float)) for end in ("min", "max")
         ):

@@ -110,8 +110,8 @@ class System(CompiledModel):
     @property
     def report(self) -> dict[str, Any]:
         """Coordinates, rows, rank, degrees of freedom and non-zeros as numbers."""
-        found: dict[str, Any] = self.meta["report"]
-        return found
+        report: dict[str, Any] = self.meta["report"]
+        return report
 
     def __str__(self) -> str:
         meta = self.meta
@@ -128,8 +128,8 @@ class System(CompiledModel):
         """
         if self.drawing is None:
             raise ValueError(f"The System '{self.name}' carries no drawing; compile its model again.")
-        found: dict[str, Any] = copy.deepcopy(dict(self.drawing.scene))
-        return found
+        scene: dict[str, Any] = copy.deepcopy(dict(self.drawing.scene))
+        return scene
 
     def with_arrays(self, arrays: Mapping[str, ArrayLike]) -> System:
         """Copy of the System with other values of some arrays.
@@ -175,18 +175,18 @@ class System(CompiledModel):
             With one sentence on the fault.
         """
         data = bytes(instance_of((bytes, bytearray, memoryview), data, "The content of a System file", "bytes"))
-        found = _parse(data)
+        arrays = _parse(data)
         try:
             LoadedSystem(data)
         except KernelError as error:
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
-            meta = json_of(found.pop("meta"), SystemFileError, "The array 'meta' of the System file", finite=False)
-            problem = problem_of(meta, {name: len(values) for name, values in found.items()})
+            meta = json_of(arrays.pop("meta"), SystemFileError, "The array 'meta' of the System file", finite=False)
+            problem = problem_of(meta, {name: len(values) for name, values in arrays.items()})
             if problem:
                 raise SystemFileError(f"The names in the System file were altered: {problem}.")
-            drawn = found.pop("drawing", None)
-            system = cls(found, meta, None, None if drawn is None else Drawing.from_bytes(drawn, len(found["q0"])))
+            drawn = arrays.pop("drawing", None)
+            system = cls(arrays, meta, None, None if drawn is None else Drawing.from_bytes(drawn, len(arrays["q0"])))
             str(system)
         except SystemFileError:
             raise
@@ -254,21 +254,21 @@ def _parse(data: bytes) -> dict[str, Any]:
         raise SystemFileError("The System file was altered: the last four bytes of its header are not zero.")
     if HEADER.size + ENTRY.size * count > len(data):
         raise SystemFileError(f"The System file lists {count} arrays, more than it can hold.")
-    found: dict[str, Any] = {}
+    arrays: dict[str, Any] = {}
     types: dict[int, np.dtype[Any]] = {INT32: np.dtype("<i4"), FLOAT64: np.dtype("<f8"), BYTES: np.dtype("u1")}
     for k in range(count):
         raw, kind, _, offset, items = ENTRY.unpack_from(data, HEADER.size + k * ENTRY.size)
         name = raw.rstrip(b"\0").decode("ascii", "replace")
         expected = FLOAT64 if name in FLOATS else INT32 if name in INTEGERS else BYTES if name in TEXTS else 0
-        if not expected or kind != expected or name in found:
+        if not expected or kind != expected or name in arrays:
             raise SystemFileError(f"The System file holds an unknown, repeated or mistyped array {brief(name)}.")
         dtype = types[kind]
         if offset % 8 or offset + items * dtype.itemsize > len(data):
             raise SystemFileError(f"The array '{name}' of the System file lies outside the file.")
         if kind == BYTES:
-            found[name] = data[offset : offset + items]
+            arrays[name] = data[offset : offset + items]
         else:
-            found[name] = np.frombuffer(data, dtype, items, offset)
-    if "meta" not in found:
+            arrays[name] = np.frombuffer(data, dtype, items, offset)
+    if "meta" not in arrays:
         raise SystemFileError("The System file has no names (array 'meta').")
-    return found
+    return arrays

@@ -37,10 +37,10 @@ def notices_before(meta: Mapping[str, Any]) -> list[str]:
     initial velocities contradict each other.
     """
     report = meta["report"]
-    found = [report.get("locked"), report.get("contradiction")]
+    notices = [report.get("locked"), report.get("contradiction")]
     if report.get("degrees_of_freedom") == 0 and not meta["guides"] and not meta["switches"]:
-        found.insert(0, f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
-    return list(filter(None, found))
+        notices.insert(0, f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
+    return list(filter(None, notices))
 
 
 def _correction_text(corrections: Mapping[str, tuple[float, float]]) -> str:

@@ -32,24 +32,24 @@ def places(pattern: Pattern) -> Iterator[tuple[int, int]]:
 
 def lines(pattern: Pattern) -> list[str]:
     """C that writes these numbers to `angle`, as the kernel finds them (rows/constraints.c)."""
-    found = [room("angle", sum(1 for _ in places(pattern)))]
+    code = [room("angle", sum(1 for _ in places(pattern)))]
     at = 0
     for i, row in enumerate(pattern.array["angle_row"]):
         theta = f"parts->q[{pattern.row_col[_theta(pattern, i)]}]"
-        found += ["  {", "  double value = 0.0;"]
-        found.append(f"  const double cosine = factor[{row}] * parts->cosine({theta});")
-        found.append(f"  const double sine = factor[{row}] * parts->sine({theta});")
+        code += ["  {", "  double value = 0.0;"]
+        code.append(f"  const double cosine = factor[{row}] * parts->cosine({theta});")
+        code.append(f"  const double sine = factor[{row}] * parts->sine({theta});")
         for t, a, b in _terms(pattern, i):
             qa, qb = ("1.0" if x is None else f"parts->q[{pattern.row_col[x]}]" for x in (a, b))
             hc, hs = f"parts->angle_hc[{t}]", f"parts->angle_hs[{t}]"
-            found.append(f"  {{ const double h = cosine * {hs} - sine * {hc};")
-            found.append(f"    const double mixed = -(sine * {hs} + cosine * {hc});")
-            found.append(f"    value += h * {qa} * {qb};")
+            code.append(f"  {{ const double h = cosine * {hs} - sine * {hc};")
+            code.append(f"    const double mixed = -(sine * {hs} + cosine * {hc});")
+            code.append(f"    value += h * {qa} * {qb};")
             numbers = ["2.0 * h" if a == b else "h"] if a is not None and b is not None else []
             numbers += [f"mixed * {other}" for x, other in ((a, qb), (b, qa)) if x is not None]
-            found += [f"    angle[{at + k}] = {number};" for k, number in enumerate(numbers)]
-            found += ["    (void)mixed; }"]
+            code += [f"    angle[{at + k}] = {number};" for k, number in enumerate(numbers)]
+            code += ["    (void)mixed; }"]
             at += len(numbers)
-        found += [f"  angle[{at}] = -value;", "  }"]
+        code += [f"  angle[{at}] = -value;", "  }"]
         at += 1
-    return found
+    return code

@@ -114,16 +114,16 @@ class _Shape:
         """Column j loses the panels before it."""
         if panels == 0:
             return []
-        parts, lines = pieces(j, self.size), ["  {", f"  double *restrict c = A + {j * self.size};"]
-        lines += [f"  {p.kind} t{p.first} = {p.load('c')};" for p in parts]
+        column_pieces, lines = pieces(j, self.size), ["  {", f"  double *restrict c = A + {j * self.size};"]
+        lines += [f"  {p.kind} t{p.first} = {p.load('c')};" for p in column_pieces]
         for q in range(panels):
             start, count = self.panels[q]
             f = [f"f{q}_{k}" for k in range(count)]
             of = ", ".join(f"{name} = A[{(start + k) * self.size + j}]" for k, name in enumerate(f))
             lines.append(f"  const double {of};")
-            for p in parts:
+            for p in column_pieces:
                 lines.append(f"  t{p.first} = {self._less(f't{p.first}', q, p, f)};")
-        lines += [p.store("c", f"t{p.first}") for p in parts]
+        lines += [p.store("c", f"t{p.first}") for p in column_pieces]
         return [*lines, "  }"]
 
     def _less(self, value: str, q: int, piece: Piece, f: Sequence[str]) -> str:

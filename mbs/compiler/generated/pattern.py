@@ -73,10 +73,10 @@ class Pattern:
     def _lean_signals(self) -> None:
         """Entries of signals that parameters write, and which are zero as drawn, are dropped, as the kernel does."""
         ptr, col, val = (self.array[name] for name in ("sig_ptr", "sig_col", "sig_val"))
-        kept = [[k for k in range(ptr[i], ptr[i + 1]) if i not in self._written or val[k] != 0.0]
+        retained = [[k for k in range(ptr[i], ptr[i + 1]) if i not in self._written or val[k] != 0.0]
                 for i in range(len(ptr) - 1)]  # fmt: skip
-        self.sig_ptr = [0, *np.cumsum([len(k) for k in kept]).tolist()]
-        flat = [k for row in kept for k in row]
+        self.sig_ptr = [0, *np.cumsum([len(k) for k in retained]).tolist()]
+        flat = [k for row in retained for k in row]
         self.sig_col, self.sig_val = [col[k] for k in flat], [val[k] for k in flat]
 
     def entries(self, signal: int) -> range:
@@ -96,14 +96,14 @@ class Pattern:
 
     def _triples(self, signals: Integers) -> list[bool]:
         """Whether each signal, in this order, is the first of the three components of a point."""
-        found = [False] * len(signals)
+        flags = [False] * len(signals)
         a = 0
         while a < len(signals):
             first = signals[a]
             if signals[a + 1 : a + 3] == [first + 1, first + 2]:
-                found[a] = self._is_triple(self.sig_ptr, self.sig_col, self.sig_val, first)
-            a += 3 if found[a] else 1
-        return found
+                flags[a] = self._is_triple(self.sig_ptr, self.sig_col, self.sig_val, first)
+            a += 3 if flags[a] else 1
+        return flags
 
     def _mass_triples(self) -> set[int]:
         ptr, col, val = (self.array[name] for name in ("mass_ptr", "mass_col", "mass_val"))
@@ -177,12 +177,12 @@ class Pattern:
 
     def _elements(self) -> list[Element]:
         ptr, sig = self.array["el_sig_ptr"], self.array["el_sig"]
-        found, tangent = [], 0
+        elements, tangent = [], 0
         for e, front in enumerate(self.array["el_front"]):
             signals = sig[ptr[e] : ptr[e + 1]]
-            found.append(Element(e, front, signals, self._triples(signals), tangent))
+            elements.append(Element(e, front, signals, self._triples(signals), tangent))
             tangent += len(signals) ** 2 if front >= 0 else 0
-        return found
+        return elements
 
     def _groups(self) -> list[range]:
         """Coordinates in turn: three of a point, or one."""
@@ -207,5 +207,5 @@ class Pattern:
 
 
 def _plain(values: Any) -> list[Any]:
-    found: list[Any] = np.asarray(values).tolist()
-    return found
+    numbers: list[Any] = np.asarray(values).tolist()
+    return numbers

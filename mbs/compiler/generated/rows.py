@@ -145,11 +145,11 @@ def _group(members: range, products: Sequence[Sequence[tuple[int, str]]], out: s
     """Sums of up to four rows side by side, each in the order of its own products."""
     lines = ["  {", "  four total = NONE;"]
     for level in range(max((len(row) for row in products), default=0)):
-        there = [row[level] if level < len(row) else (0, "NONE") for row in products] + [(0, "NONE")] * (
+        terms = [row[level] if level < len(row) else (0, "NONE") for row in products] + [(0, "NONE")] * (
             4 - len(products)
         )
-        most = max(length for length, _ in there)
-        words = [text if length in (0, most) or length < 3 else f"{_FIRST[length]}({text})" for length, text in there]
+        most = max(length for length, _ in terms)
+        words = [text if length in (0, most) or length < 3 else f"{_FIRST[length]}({text})" for length, text in terms]
         names = [f"p{level}{c}" for c in "abcd"]
         lines.append("  const four " + ", ".join(f"{n} = {w}" for n, w in zip(names, words, strict=True)) + ";")
         a, b, c, d = names

@@ -48,18 +48,18 @@ def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:
 
 def _forward(front: Front) -> list[str]:
     n, pivots = front.size, front.pivots
-    parts = pieces(0, n)
-    lines = [f"  {p.kind} x{p.first} = {_gather(front, p)};" for p in parts]
+    column_pieces = pieces(0, n)
+    lines = [f"  {p.kind} x{p.first} = {_gather(front, p)};" for p in column_pieces]
     p = 0
     while p < pivots:
-        left = pivots - p
-        count = 4 if n >= LARGE and left >= 4 else 2 if left >= 2 else 1
-        lines += _scalars(front, parts, p, count)
-        for piece in parts:
+        remaining = pivots - p
+        count = 4 if n >= LARGE and remaining >= 4 else 2 if remaining >= 2 else 1
+        lines += _scalars(front, column_pieces, p, count)
+        for piece in column_pieces:
             if piece.first + (3 if piece.wide else 0) >= p + count:
                 lines.append(f"  x{piece.first} = {_subtracted(piece, p, count, n)};")
         p += count
-    for piece in parts:
+    for piece in column_pieces:
         if piece.first + (3 if piece.wide else 0) >= pivots:
             lines += _scatter(front, piece, f"x{piece.first}", pivots)
     return lines

@@ -40,19 +40,21 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
     """
     pattern = Pattern(arrays)
     common = _written(pattern, _FRONTS | ({} if len(pattern.array["flex_front"]) else _ROWS))
-    own = _written(pattern, _signal_functions(pattern))
-    lines = [line for body in (common | own).values() for line in body]
+    functions = _written(pattern, _signal_functions(pattern))
+    lines = [line for body in (common | functions).values() for line in body]
     head = [f"  .version = ALI3_GENERATED_VERSION, .structure = 0x{structure:08x}u, .avx2 = AVX2,"]
     tail = []
     if len(pattern.array["axis_signal"]):
-        other = Pattern(arrays, turned=True)
-        turned = _written(other, _signal_functions(other))
+        turned_pattern = Pattern(arrays, turned=True)
+        turned = _written(turned_pattern, _signal_functions(turned_pattern))
         lines += [line for body in turned.values() for line in body]
-        tail = _table("static const ali3_generated turned", [*head, *_members(common), *_members(turned, other.suffix)])
+        tail = _table(
+            "static const ali3_generated turned", [*head, *_members(common), *_members(turned, turned_pattern.suffix)]
+        )
         head.append("  .turned = &turned,")
-    shown = ["#ifndef ALI3_INSIDE", '__attribute__((visibility("default")))', "#endif"]
-    whole = _table(f"const ali3_generated {TABLE}", [*head, *_members(common), *_members(own)])
-    tail += [*shown, f"extern const ali3_generated {TABLE};", *whole]
+    visibility = ["#ifndef ALI3_INSIDE", '__attribute__((visibility("default")))', "#endif"]
+    whole = _table(f"const ali3_generated {TABLE}", [*head, *_members(common), *_members(functions)])
+    tail += [*visibility, f"extern const ali3_generated {TABLE};", *whole]
     most = max([0, *(len(e.signals) for e in pattern.elements)])
     nothing = f"__attribute__((unused)) static const double nothing[{most * most + 4}];\n"
     begin = VECTORS if avx2 else NO_VECTORS

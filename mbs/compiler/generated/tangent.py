@@ -67,32 +67,32 @@ class _OfFront:
     def _groups(self) -> list[Sequence[int]]:
         """Places in the front in turn: three of a point, or one."""
         begins = {g[0] for g in self.pattern.groups if len(g) == 3}
-        found: list[Sequence[int]] = []
+        groups: list[Sequence[int]] = []
         i, of = 0, self.front.coordinates
         while i < len(of):
             three = of[i] in begins and of[i + 1 : i + 3] == [of[i] + 1, of[i] + 2]
-            found.append(range(i, i + (3 if three else 1)))
-            i += len(found[-1])
-        return found
+            groups.append(range(i, i + (3 if three else 1)))
+            i += len(groups[-1])
+        return groups
 
     def _bends(self) -> dict[tuple[int, int], list[tuple[str, int, int]]]:
         """Per place the second derivatives of rows, then of terms with guides, then of angles, in turn."""
         pattern = self.pattern
-        found: dict[tuple[int, int], list[tuple[str, int, int]]] = defaultdict(list)
+        derivatives: dict[tuple[int, int], list[tuple[str, int, int]]] = defaultdict(list)
         a, b, ptr = (pattern.array[name] for name in ("quad_a", "quad_b", "quad_ptr"))
         for k in self.rows:
             for t in range(ptr[k], ptr[k + 1]):
                 at = pattern.row_place(k, pattern.row_ptr[k] + a[t], pattern.row_ptr[k] + b[t])
-                found[pattern.place[at][1:]].append(("hess", pattern.quad_place[t], k))
+                derivatives[pattern.place[at][1:]].append(("hess", pattern.quad_place[t], k))
         for t, k in enumerate(pattern.array["gterm_row"]):
-            one, other = pattern.array["gterm_a"][t], pattern.array["gterm_b"][t]
-            if pattern.array["row_front"][k] == self.front.number and other >= 0:
-                at = pattern.row_place(k, pattern.row_ptr[k] + one, pattern.row_ptr[k] + other)
-                found[pattern.place[at][1:]].append(("guide", t, -1))
-        for number, (row, place) in enumerate(angles.places(pattern)):
+            first, second = pattern.array["gterm_a"][t], pattern.array["gterm_b"][t]
+            if pattern.array["row_front"][k] == self.front.number and second >= 0:
+                at = pattern.row_place(k, pattern.row_ptr[k] + first, pattern.row_ptr[k] + second)
+                derivatives[pattern.place[at][1:]].append(("guide", t, -1))
+        for number, (row, position) in enumerate(angles.places(pattern)):
             if pattern.array["row_front"][row] == self.front.number:
-                found[pattern.place[place][1:]].append(("angle", number, -1))
-        return found
+                derivatives[pattern.place[position][1:]].append(("angle", number, -1))
+        return derivatives
 
     def function(self) -> list[str]:
         """C of the front."""
@@ -110,22 +110,22 @@ class _OfFront:
 
     def _entries(self, element: Element) -> dict[int, list[tuple[int, int]]]:
         """Per place in the front the signals and entries of an element there, in turn."""
-        found: dict[int, list[tuple[int, int]]] = defaultdict(list)
+        entries: dict[int, list[tuple[int, int]]] = defaultdict(list)
         for s, signal in enumerate(element.signals):
             for k in self.pattern.entries(signal):
-                found[self.local[self.pattern.sig_col[k]]].append((s, k))
-        return found
+                entries[self.local[self.pattern.sig_col[k]]].append((s, k))
+        return entries
 
     def _element_groups(self, element: Element) -> list[Sequence[int]]:
-        there = self._entries(element)
-        return [g for g in self.groups if any(i in there for i in g)]
+        entries = self._entries(element)
+        return [g for g in self.groups if any(i in entries for i in g)]
 
     def _products(self, element: Element) -> list[str]:
         """S B of an element: per signal and group of coordinates a vector."""
-        e, n, there = element.number, len(element.signals), self._entries(element)
+        e, n, entries = element.number, len(element.signals), self._entries(element)
         lines = [f"  const double *T{e} = parts->idle[{e}] ? nothing : parts->S + {element.tangent};"]
         for group in self._element_groups(element):
-            lists = [there.get(i, []) for i in group]
+            lists = [entries.get(i, []) for i in group]
             for s in range(n):
                 name = f"B{e}_{s}_{group[0]}"
                 if name not in self.used:
@@ -166,17 +166,17 @@ class _OfFront:
         lines = ["  {"]
         for d, j in enumerate(block.columns):
             any_mass = any((i, j) in self.mass for i in block.rows)
-            places = range(at[d], at[d] + len(block.rows))
-            begin = vector("parts->front_mass", places, self._storage()) if any_mass else zero
+            offsets = range(at[d], at[d] + len(block.rows))
+            begin = vector("parts->front_mass", offsets, self._storage()) if any_mass else zero
             lines.append(f"  {kind} a{d} = {begin};")
         if block.rows == block.columns:
             lines += self._zeros_above(block)
         lines += self._squares(block) + self._second(block) + self._element_terms(block)
-        for d, place in enumerate(at):
+        for d, offset in enumerate(at):
             if kind == "double":
-                lines.append(f"  F[{place}] = a{d};")
+                lines.append(f"  F[{offset}] = a{d};")
             else:
-                lines.append(f"  {'PUT' if place + 4 <= self._storage() else 'put3'}(F + {place}, a{d});")
+                lines.append(f"  {'PUT' if offset + 4 <= self._storage() else 'put3'}(F + {offset}, a{d});")
         return [*lines, "  }"]
 
     def _zeros_above(self, block: _Block) -> list[str]:
@@ -204,20 +204,20 @@ class _OfFront:
 
     def _second(self, block: _Block) -> list[str]:
         """Statements for the second-order terms: entries on the diagonal of a block together, others one by one."""
-        places = [(i, j) for j in block.columns for i in block.rows if (i, j) in self.bends]
-        if not places:
+        positions = [(i, j) for j in block.columns for i in block.rows if (i, j) in self.bends]
+        if not positions:
             return []
         if len(block.rows) == 1 or len(block.columns) == 1:
-            return self._single(block, places)
+            return self._single(block, positions)
         diagonal = [(block.rows[d], block.columns[d]) for d in range(3)]
-        lists = [self.bends.get(place, []) for place in diagonal]
+        lists = [self.bends.get(position, []) for position in diagonal]
         lines = []
         if any(lists):
             lines = ["  { four on = DIAGONAL(a0, a1, a2);"]
             for m in range(max(map(len, lists))):
                 lines.append(f"    on += {self._bend([x[m] if m < len(x) else None for x in lists])};")
             lines.append("    a0[0] = on[0]; a1[1] = on[1]; a2[2] = on[2]; }")
-        return lines + self._single(block, [p for p in places if p not in diagonal])
+        return lines + self._single(block, [p for p in positions if p not in diagonal])
 
     def _bend(self, terms: Sequence[tuple[str, int, int] | None]) -> str:
         present = [t for t in terms if t is not None]
@@ -242,11 +242,11 @@ class _OfFront:
     def _element_terms(self, block: _Block) -> list[str]:
         lines = []
         for element in self.elements:
-            there = self._entries(element)
-            if not any(i in there for i in block.rows):
+            entries = self._entries(element)
+            if not any(i in entries for i in block.rows):
                 continue
             for d, j in enumerate(block.columns):
-                for s, k in there.get(j, []):
+                for s, k in entries.get(j, []):
                     name = f"B{element.number}_{s}_{block.rows[0]}"
                     self.used.add(name)
                     lines.append(f"  a{d} += val[{k}] * {name};")

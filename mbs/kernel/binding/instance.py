@@ -52,11 +52,11 @@ class Instance(StandingInstance):
         """Change the settings named; the others stay."""
         fields = SettingsFields()
         self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
-        known = dict(SettingsFields._fields_)
+        field_types = dict(SettingsFields._fields_)
         for name, value in values.items():
-            if name not in known:
+            if name not in field_types:
                 raise TypeError(f"{name!r} is not a setting of the kernel.")
-            setattr(fields, name, int(value) if known[name] is c_int32 else float(value))
+            setattr(fields, name, int(value) if field_types[name] is c_int32 else float(value))
         self._check(self._library.ali3_set_settings(self._handle, byref(fields)))
 
     def set_input(self, index: int, value: float) -> None:
@@ -240,9 +240,9 @@ class Instance(StandingInstance):
             buffer(out, records * sizes.ns, "out", writable=True),
             buffer(positions, records * sizes.nq, "positions", writable=True),
         )
-        done = c_int64()
-        self._check(self._library.ali3_run(self._handle, h, n, *buffers, byref(done)))
-        return done.value
+        steps_done = c_int64()
+        self._check(self._library.ali3_run(self._handle, h, n, *buffers, byref(steps_done)))
+        return steps_done.value
 
     def control_run(
         self,

@@ -149,8 +149,8 @@ def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
         setattr(library, name, function)
     for name, structure in STRUCTURES.items():
         size = ctypes.sizeof(structure)
-        found = library.ali3_structure_size(name.encode())
-        if found != size:
-            raise OSError(f"In the kernel {key} {name} has {found} bytes, in this package {size}{_OTHER_SOURCES}")
+        kernel_size = library.ali3_structure_size(name.encode())
+        if kernel_size != size:
+            raise OSError(f"In the kernel {key} {name} has {kernel_size} bytes, in this package {size}{_OTHER_SOURCES}")
     _libraries[key] = library
     return library

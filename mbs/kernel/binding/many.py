@@ -70,13 +70,15 @@ class Many(KernelMemory):
         Result: per instance; one that stopped leaves the others as they are.
         """
         sizes, lanes = self.system.sizes, (LaneFields * len(instances))()
-        kept = []
-        for lane, instance, values, places in zip(lanes, instances, out, positions, strict=True):
-            taken = buffer(values, n // every * sizes.ns, "out", writable=True)
-            where = buffer(places, n // every * sizes.nq, "positions", writable=True)
-            kept.append((taken, where))
+        buffers = []
+        for lane, instance, values, rows in zip(lanes, instances, out, positions, strict=True):
+            out_buffer = buffer(values, n // every * sizes.ns, "out", writable=True)
+            position_buffer = buffer(rows, n // every * sizes.nq, "positions", writable=True)
+            buffers.append((out_buffer, position_buffer))
             lane.instance = instance._handle
-            lane.out, lane.positions = (None if b is None else ctypes.cast(b, _DOUBLES) for b in (taken, where))
+            lane.out, lane.positions = (
+                None if b is None else ctypes.cast(b, _DOUBLES) for b in (out_buffer, position_buffer)
+            )
         self._check(self._library.ali3_many_run(self._handle, len(lanes), lanes, h, n, every))
         return [
             RunEnd(lane.done, lane.alone, self._error(instance, lane.status))

@@ -79,6 +79,6 @@ class StandingInstance(KernelMemory):
     def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
         """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""
         sizes = self.system.sizes
-        parts = tuple((c_double * n)() for n in (sizes.nq, sizes.nq, sizes.nq, sizes.nc, sizes.ny))
-        self._check(self._library.ali3_get_state(self._handle, *parts))
-        return parts[0], parts[1], parts[2], parts[3], parts[4]
+        arrays = tuple((c_double * n)() for n in (sizes.nq, sizes.nq, sizes.nq, sizes.nc, sizes.ny))
+        self._check(self._library.ali3_get_state(self._handle, *arrays))
+        return arrays[0], arrays[1], arrays[2], arrays[3], arrays[4]

@@ -66,11 +66,11 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length
         raise ModelError(f"The {what} joins two points of the ground; one end must be able to move.")
     if slide_1 is None and slide_2 is None and bodies[0].flexibility is None:  # which has many nodes
         different(*bodies, what)
-    drawn = float(np.linalg.norm(gap.value(model.drawn())))
+    drawn_length = float(np.linalg.norm(gap.value(model.drawn())))
     if length is None:
-        if drawn <= 0.0:
+        if drawn_length <= 0.0:
             raise ModelError(f"The {what} has zero length; use a spherical joint for points that coincide.")
-        length = drawn
+        length = drawn_length
     length = positive(length, f"The length of {what}")
     constant = Affine({}, -0.5 * length * length)
     slide, sign = (slide_1, 1.0) if slide_1 is not None else (slide_2, -1.0)

@@ -218,10 +218,12 @@ def point_pair(point: PointPair, dimension: int, what: str, thing: str = "point"
     pair of ndarray, shape (dimension,)
         Of the first and of the second body.
     """
-    wanted = f"{dimension} numbers, or a pair of {'points' if thing == 'point' else 'axes'}, one per body"
+    expected = f"{dimension} numbers, or a pair of {'points' if thing == 'point' else 'axes'}, one per body"
     name = f"the {thing} of {what}"
-    given: Any = point
-    if isinstance(given, (tuple, list, np.ndarray)) and len(given) == 2 and not any(is_number(p) for p in given):
-        return array(given[0], (dimension,), name, wanted=wanted), array(given[1], (dimension,), name, wanted=wanted)
-    both = array(given, (dimension,), name, wanted=wanted)
-    return both, both
+    value: Any = point
+    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 2 and not any(is_number(p) for p in value):
+        return array(value[0], (dimension,), name, wanted=expected), array(
+            value[1], (dimension,), name, wanted=expected
+        )
+    shared = array(value, (dimension,), name, wanted=expected)
+    return shared, shared

@@ -33,9 +33,9 @@ def pin(model: BodyVocabulary, name: str, body: Body, point: ArrayLike | None = 
     what = f"pin '{name}'"
     if model.owned(body, f"The {what}").is_ground:
         raise ModelError(f"The {what} holds a point of the ground; it needs a body that can move.")
-    place = body.com if point is None else point
-    held = model.anchor(body, place, what)
-    equations = equal_vectors(name, "point", held, model.anchor(model.ground, place, what))
+    position = body.com if point is None else point
+    held_point = model.anchor(body, position, what)
+    equations = equal_vectors(name, "point", held_point, model.anchor(model.ground, position, what))
     joint = Joint(name, "pin", equations, rows_weight=1.0)
     joint.as_rows = True
     joint.switch = new_switch(model, name, on)

@@ -61,8 +61,8 @@ def rack(
     if model.owned(body, f"The {what}").is_ground:
         raise ModelError(f"The rack of {what} is the ground; it must be a moving body, with the ground as its carrier.")
     r = not_zero(radius, f"The radius of {what}")
-    place = body.com if point is None else point
-    gap = model.anchor(body, place, what) - model.anchor(carrier, place, what)
+    position = body.com if point is None else point
+    gap = model.anchor(body, position, what) - model.anchor(carrier, position, what)
     e = model.anchor_axis(carrier, axis, what)
     if isinstance(turns, Spin):
         rates = [*dot_products(e, gap), *dot_products(gap, e), *turning_rate(turns, -r)]

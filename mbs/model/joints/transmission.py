@@ -24,7 +24,7 @@ def turning_rate(wheel: Coordinate, factor: float) -> list[Product]:
 
     The rate of a spin with axis f x g is absolute; its carrier turns by g . df/dt about that axis.
     """
-    own = [(factor, ONE, wheel.affine)]
+    products = [(factor, ONE, wheel.affine)]
     if not isinstance(wheel, Spin):
-        return own
-    return own + [(-factor, g, f) for f, g in zip(wheel.f.components, wheel.g.components, strict=True)]
+        return products
+    return products + [(-factor, g, f) for f, g in zip(wheel.f.components, wheel.g.components, strict=True)]

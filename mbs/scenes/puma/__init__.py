@@ -127,15 +127,15 @@ def stages(
     table, end = _table(), 0.0
     steps = h if isinstance(h, tuple) else (h,) * len(STAGES_S)
     for stage, (duration, step) in enumerate(zip(STAGES_S, steps, strict=True), start=1):
-        part = table[table[:, 0] == stage]
+        rows = table[table[:, 0] == stage]
         if stage > 1:
-            for name, value in zip(TORQUES, part[0, 2:8].tolist(), strict=True):
+            for name, value in zip(TORQUES, rows[0, 2:8].tolist(), strict=True):
                 simulation.set_input(name, value)
             jump = simulation.set_switch(PIN, stage == 2)
             if jumps is not None:
                 jumps.append(jump)
         end += duration
-        inputs = {name: (part[:, 1], part[:, 2 + k]) for k, name in enumerate(TORQUES)}
+        inputs = {name: (rows[:, 1], rows[:, 2 + k]) for k, name in enumerate(TORQUES)}
         yield simulation.run(end, step, inputs=inputs, progress=False, estimate_error=estimate_error)
 
 
