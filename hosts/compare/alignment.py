@@ -133,13 +133,13 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
     spreads = [float(np.std(s.values)) for s, _ in pairs]
 
     def residual(p: NDArray[np.float64]) -> NDArray[np.float64]:
-        residuals = []
+        parts = []
         for (s, curve), spread in zip(pairs, spreads, strict=True):
             x = curve((s.time - p[0]) / (1.0 + (p[1] if drift else 0.0)))
             design = np.column_stack((np.ones(len(x)), x))
             scales = np.linalg.lstsq(design, s.values, rcond=None)[0]
-            residuals.append((s.values - design @ scales) / spread)
-        return np.concatenate(residuals)
+            parts.append((s.values - design @ scales) / spread)
+        return np.concatenate(parts)
 
     interval = min(s.interval for s, _ in pairs)
     length = max(s.time[-1] for s, _ in pairs)

@@ -71,8 +71,8 @@ def fitted(
         fit_result = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
         best = replay.run(dict(fit_result.parameters))
     if request.coarse:
-        coarse_result = replay.run(request.coarse | fit_result.parameters)
-        changes = [f"{n} by {shown_number(rms(coarse_result[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
+        approximate = replay.run(request.coarse | fit_result.parameters)
+        changes = [f"{n} by {shown_number(rms(approximate[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ by (root mean square): {', '.join(changes)}."

@@ -117,8 +117,8 @@ def _columns(
         for name in (column.name, column.time):
             if name is not None and name not in present:
                 raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{near_hint(name, present)}.")
-    aliased_columns = {c.name for c in aliases.columns.values()}
-    plain = {n: Column(name=n) for n in present if (n in inputs or n in outputs) and n not in aliased_columns}
+    mapped_columns = {c.name for c in aliases.columns.values()}
+    plain = {n: Column(name=n) for n in present if (n in inputs or n in outputs) and n not in mapped_columns}
     results = {**plain, **aliases.columns}
     if not results:
         clock = [n for n in present if n.lower() not in TIMES]

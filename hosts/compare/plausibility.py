@@ -66,9 +66,9 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     deviation = deviations(signal.time, y, x)
     label = f"'{signal.source}' ({signal.name})"
-    if (correlation := turned(signal, curve, delay)) is not None:
+    if (opposite := turned(signal, curve, delay)) is not None:
         return (
-            f"{label} has the opposite sign of the simulation (correlation {correlation:.2f}): factor = -1.0 in the alias "
+            f"{label} has the opposite sign of the simulation (correlation {opposite:.2f}): factor = -1.0 in the alias "
             "file turns it."
         )
     if not abs(deviation.correlation) >= ALIKE:

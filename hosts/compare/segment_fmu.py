@@ -46,12 +46,12 @@ def smoothed(speed: Signal) -> Signal:
 
 def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
     speed = smoothed(speed)
-    own, integral = (gain * min(1.0, _FINE / step) for gain in _GAINS)
+    proportional, integral = (gain * min(1.0, _FINE / step) for gain in _GAINS)
 
     def wanted(t: float) -> float:
         return float(np.interp(t, speed.time, speed.values))
 
-    return SpeedHolder(wanted, own, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIDING)
+    return SpeedHolder(wanted, proportional, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIDING)
 
 
 Task: TypeAlias = tuple[int, dict[str, Value], bool | None]

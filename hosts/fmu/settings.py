@@ -72,7 +72,7 @@ class Settings:
             self._notes.append((source, f"all {len(unchanged)} values are those of the FMU: it changes nothing"))
         else:
             self._notes.append(
-                (source, f"{len(results)} values, {len(results) - len(own)} of them other than in the FMU")
+                (source, f"{len(results)} values, {len(results) - len(unchanged)} of them other than in the FMU")
             )
 
     def add_wishes(self, fmu_options: FmuOptions, fidelity: float | None = None) -> None:

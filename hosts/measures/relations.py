@@ -145,7 +145,7 @@ def _rates(signals: Signals, key: str, state: Signal, rate: str, least: float) -
     if end - begin < 5.0 * WINDOW:
         return
     starts = np.linspace(begin, end - WINDOW, min(int(2.0 * (end - begin) / WINDOW), MOST))
-    integral = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(r.time) * (r.values[1:] + r.values[:-1]))])
+    summed_rate = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(r.time) * (r.values[1:] + r.values[:-1]))])
 
     def change(at: Array, of: Array, delay: float = 0.0) -> Array:
         ends = (np.interp(starts + delay + one, at, of) for one in (0.0, WINDOW))
@@ -155,7 +155,7 @@ def _rates(signals: Signals, key: str, state: Signal, rate: str, least: float) -
     names = (*PATH, rate) if key == "course" else (state.name, rate)
     keys = keys_of(signals, *names) | {"time": "the times of the log"}
     changes = change(state.time, state.values)
-    yield from _compared(keys, key, changes, lambda delay: change(r.time, integral, delay), least)
+    yield from _compared(keys, key, changes, lambda delay: change(r.time, summed_rate, delay), least)
 
 
 def _compared(

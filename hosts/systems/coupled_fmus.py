@@ -225,10 +225,10 @@ class CoupledFmus(Closable):
         now, ends, stepped = dict(begin), (self._steps + 1) * self.step_length, set[str]()
         for p in self._parts:
             first = np.array([begin[w.source, w.output] for w in p.wires])
-            available = dict(now) if self.order == "in turn" else {}
+            current = dict(now) if self.order == "in turn" else {}
             ends_at = [end if follows else None for follows in p.follows]
             newest = np.array(
-                [(e or available or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
+                [(e or current or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
             )
             has_end_value = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
             try:
