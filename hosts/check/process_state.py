@@ -146,13 +146,15 @@ def time_of_steps(subject: Subject) -> Finding:
         if not instance.advance(k * subject.step, subject.step):
             break
         times.append(time.perf_counter() - begin)
-    busy, waited, begin = 0.0, 0.0, time.process_time()
-    while waited < _LONGEST_REST and (waited == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # what works may wait for others
+    busy, rest, begin = 0.0, 0.0, time.process_time()
+    while rest < _LONGEST_REST and (rest == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # what works may wait for others
         time.sleep(_REST)
-        busy, waited = time.process_time() - begin, waited + _REST
+        busy, rest = time.process_time() - begin, rest + _REST
     clause = subject.clause("4.2.2", "4.2.1")
     if busy > _IDLE:
-        message = f"{busy:.3f} s of processor time are used in {waited:.1f} s between calls; stop threads while no call is made"
+        message = (
+            f"{busy:.3f} s of processor time are used in {rest:.1f} s between calls; stop threads while no call is made"
+        )
         return Finding("time of steps", "note", f"{message} {clause}")
     middle = sorted(times)[len(times) // 2] if times else 0.0
     if middle > max(_SLOW * subject.step, 0.05) or middle > 0.09:

@@ -69,11 +69,11 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
                 result = replay.run()
         except HostError:  # the FMU does not start so fast
             continue
-        agreement = [_correlation(s, Curve(result, n)) for n, s in signals.items()]
-        if not result.failed_steps and all(one >= ALIKE for one in agreement):
+        r_values = [_correlation(s, Curve(result, n)) for n, s in signals.items()]
+        if not result.failed_steps and all(one >= ALIKE for one in r_values):
             return (
                 f"'{speed.source}' ({speed.name}) looks like {mistake.words}: with a car that starts so the other "
-                f"signals are like those of the simulation (correlation {min(agreement):.2f} and more), as none is now. "
+                f"signals are like those of the simulation (correlation {min(r_values):.2f} and more), as none is now. "
                 f'unit = "{mistake.unit}" in the alias file.'
             )
     return ""

@@ -56,20 +56,18 @@ def saltelli_indices(names: Sequence[str], points: NDArray[np.int64], y: NDArray
     width = len(names) + 2
     blocks = np.full((int(points.max()) // width + 1, width), np.nan)
     blocks.flat[points] = y
-    complete = np.isfinite(blocks).all(axis=1)
-    if complete.sum() < _FEWEST_BLOCKS:
+    whole = np.isfinite(blocks).all(axis=1)
+    if whole.sum() < _FEWEST_BLOCKS:
         return (
-            f"Only {complete.sum()} blocks of {width} runs of the design are whole; from {_FEWEST_BLOCKS} on indices are "
+            f"Only {whole.sum()} blocks of {width} runs of the design are whole; from {_FEWEST_BLOCKS} on indices are "
             "given."
         )
-    retained = blocks[complete].ravel()
+    retained = blocks[whole].ravel()
     if same := _all_the_same(retained):
         return same
     result = sobol.analyze(_problem(names), retained, calc_second_order=False, seed=_SEED)
-    left_out = f"; blocks with a missing or failed run left out: {len(complete) - complete.sum()}" * (
-        not complete.all()
-    )
-    how = f"Sobol' indices by Saltelli's estimators from {complete.sum()} blocks of {width} runs{left_out}. {_BARS}"
+    left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
+    how = f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. {_BARS}"
     s1, s1_conf, st, st_conf = (np.asarray(result[k], dtype=np.float64) for k in ("S1", "S1_conf", "ST", "ST_conf"))
     return Indices(tuple(names), s1, s1_conf, st, st_conf, how)
 
