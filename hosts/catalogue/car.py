@@ -85,8 +85,8 @@ class TestedCar:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
-            every = 1 if record_step is None else max(1, round(record_step / step))
-            driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            steps_per_row = 1 if record_step is None else max(1, round(record_step / step))
+            driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=steps_per_row)
             result = marked(driven, pilot)
             if wrong := result.not_finite():
                 raise FailedFmuError(f"{wrong} That run is not evaluated.")

@@ -93,10 +93,10 @@ def _ours(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
 
 def _distinguished(cars: Sequence[TestedCar]) -> list[TestedCar]:
     """The cars with labels of which none stands twice."""
-    seen: dict[str, int] = {}
+    counts: dict[str, int] = {}
     labelled = []
     for car in cars:
-        seen[car.label] = seen.get(car.label, 0) + 1
-        count = seen[car.label]
+        counts[car.label] = counts.get(car.label, 0) + 1
+        count = counts[car.label]
         labelled.append(car if count == 1 else replace(car, label=f"{car.label} ({count})"))
     return labelled

@@ -117,9 +117,9 @@ def drive_circle(
     rate = math.radians(settings["steering_rate"]) if steady else settings["speed_rise"]
     watch = _Watch(side, method, first, rate, settings["tolerance"])
     pilot = _pilot(car, side, method, radius, ratio, steering, watch)
-    most = steering.largest / rate if steady else (math.sqrt(_FASTEST * radius) - first) / rate
-    stop = _APPROACH + (min(most, 300.0) if math.isfinite(most) else 300.0)
-    expected = 0.2 * most * rate if steady else math.sqrt(_USUAL * radius) - first
+    ramp_time = steering.largest / rate if steady else (math.sqrt(_FASTEST * radius) - first) / rate
+    stop = _APPROACH + (min(ramp_time, 300.0) if math.isfinite(ramp_time) else 300.0)
+    expected = 0.2 * ramp_time * rate if steady else math.sqrt(_USUAL * radius) - first
     name = f"circle to the {'left' if side > 0.0 else 'right'}"
     reported_time = 0.0
 

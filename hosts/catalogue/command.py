@@ -107,8 +107,8 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     settings = {test.name: settings_of_test(test, by_test.get(test.name, {})) for test in tests}
     requested = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
     limits = requested.of_tests(list(settings))
-    if others := ", ".join(name for name in requested.entries if name not in limits.entries):
-        print(f"{options.limits}: limits of tests that --tests leaves out are not evaluated: {others}", flush=True)
+    if ignored := ", ".join(name for name in requested.entries if name not in limits.entries):
+        print(f"{options.limits}: limits of tests that --tests leaves out are not evaluated: {ignored}", flush=True)
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
     fmus = [fmu_file(path).absolute() for path in options.fmus]
@@ -153,8 +153,8 @@ def _do(
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     try:
-        with closing(_done(tasks, options.jobs or available_cores(), outcomes, kept)) as done:
-            for _ in done:
+        with closing(_done(tasks, options.jobs or available_cores(), outcomes, kept)) as finished:
+            for _ in finished:
                 write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     finally:  # after Ctrl-C too, of what is there
         judged, faults = limits.judged(outcomes)

@@ -97,7 +97,7 @@ def series(
     `speed`: at the beginning of the steering, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
     `amplitudes`: amplitudes, rad.
     """
-    done: list[DwellRun] = []
+    runs: list[DwellRun] = []
     for k, amplitude in enumerate(amplitudes):
         name = f"{math.degrees(amplitude):.0f} deg {'left' if side > 0.0 else 'right'}"
         run = processed(steer(car, name, speed, *table(side * amplitude), Pedals.COAST))
@@ -105,8 +105,8 @@ def series(
         count = len(run.time) >= 20
         slip = None if np.isnan(run.sideslip).any() else run.sideslip
         measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if count else NOTHING
-        done.append(DwellRun(amplitude, run, measures))
-        if done[-1].is_lost:
+        runs.append(DwellRun(amplitude, run, measures))
+        if runs[-1].is_lost:
             break
     progress(1.0)
-    return done
+    return runs

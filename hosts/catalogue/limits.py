@@ -27,8 +27,8 @@ class GivenLimits:
 
     def of_tests(self, names: list[str]) -> GivenLimits:
         """Those that are not of other tests of the catalogue."""
-        others = set(TESTS) - set(names)
-        return replace(self, entries={n: e for n, e in self.entries.items() if n.partition(".")[0] not in others})
+        other_tests = set(TESTS) - set(names)
+        return replace(self, entries={n: e for n, e in self.entries.items() if n.partition(".")[0] not in other_tests})
 
     def judged(self, outcomes: Mapping[str, Mapping[str, Outcome]]) -> tuple[dict[str, dict[str, Outcome]], list[str]]:
         """The outcomes with these limits, and what is wrong with others of them, each in a sentence.
@@ -59,10 +59,10 @@ class GivenLimits:
             if column not in limits:
                 return m
             factor = conversion(units[column], m.unit, f"{self.file}: limits.'{column}'")
-            own = replace(
+            converted_limit = replace(
                 limits[column], lowest=factor * limits[column].lowest, highest=factor * limits[column].highest
             )
-            return replace(m, limit=_both(m.limit, own))
+            return replace(m, limit=_both(m.limit, converted_limit))
 
         judged_outcomes = {
             test: {

@@ -155,11 +155,11 @@ class Sheet:
         scope = scope.inner(sides)
         table = self._tables.parts[part]
         for name, line in table.measures.items():
-            for more in _mappings(scope, line.each):
-                inner = scope.inner(more)
+            for extra in _mappings(scope, line.each):
+                inner = scope.inner(extra)
                 self.measures.append(_measure(inner.words(name), line, inner))
         for n in table.notes:
-            results = [scope.inner(more) for more in _mappings(scope, n.each)]
+            results = [scope.inner(extra) for extra in _mappings(scope, n.each)]
             self.notes += [each.words(n.text) for each in results if _true(each, each.words(n.when))]
         self._plots += [plot for line in table.plots if (plot := _plot(line, scope)).lines]
 

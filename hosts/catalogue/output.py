@@ -34,9 +34,9 @@ def measures_csv(tests: Sequence[StandardTest], outcomes: Mapping[str, Mapping[s
                 continue
             for m in outcome.measures:
                 low, high, source = (m.limit.lowest, m.limit.highest, m.limit.source) if m.limit else ("", "", "")
-                kept = "" if m.is_kept is None else str(m.is_kept).lower()
+                passed = "" if m.is_kept is None else str(m.is_kept).lower()
                 number = repr(float(m.value))
-                writer.writerow([test.name, label, m.name, number, m.unit, low, high, kept, source, m.note, m.text])
+                writer.writerow([test.name, label, m.name, number, m.unit, low, high, passed, source, m.note, m.text])
     return stream.getvalue()
 
 

@@ -90,8 +90,8 @@ def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
     zero = run.time < 0.0
     if zero.any():
         turned, lateral = turned - turned[zero].mean(), lateral - lateral[zero].mean()
-    kept = run.time >= 0.0
-    turned, lateral = turned[kept], lateral[kept]
+    after_start = run.time >= 0.0
+    turned, lateral = turned[after_start], lateral[after_start]
     turned = turned - _late(turned, lateral, float(angle[1] / time[1]))
     top = int(np.argmax(lateral)) + 1
     return SteadyMap(speed, turned[:top], lateral[:top], run)

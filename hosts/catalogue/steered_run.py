@@ -185,14 +185,14 @@ def _signals(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     interval = max(_INTERVAL, row)
     # the grid has a sample where the steering begins
     first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
-    kept = result.time > first - 1.5 * row
-    time, blank = result.time[kept], np.full(len(result.time), math.nan)
+    selected = result.time > first - 1.5 * row
+    time, blank = result.time[selected], np.full(len(result.time), math.nan)
     grid = resample(time, time, interval, first)[0]
 
     def even(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        if not np.isfinite(values[kept]).all():
+        if not np.isfinite(values[selected]).all():
             return np.full(len(grid), math.nan)
-        return resample(time, values[kept], interval, first)[1]
+        return resample(time, values[selected], interval, first)[1]
 
     names = ("chassis.wz", "sideslip", "chassis.roll", "speed")
     yaw_rate, sideslip, roll, speed = (even(result.continuous(n) if n in result else blank) for n in names)

@@ -54,8 +54,8 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
     except MemoryError:
         return "The memory was not enough."
     except Exception as error:
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        return f"The test ended with an internal error: {error!r} in {Path(place.filename).name}, line {place.lineno}."
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        return f"The test ended with an internal error: {error!r} in {Path(frame.filename).name}, line {frame.lineno}."
 
 
 def write_runs(task: Task, record: TestRecord) -> None:
@@ -66,14 +66,14 @@ def write_runs(task: Task, record: TestRecord) -> None:
         file = task.folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)
         settings = [{"name": variable, "new": value} for variable, value in task.car.fmu.theirs(result.start).items()]
-        seen = {
+        view_record = {
             "fmu": str(task.car.path),
             "token": task.car.facts.token,
             "set": settings,
             "marks": result.marks,
             "names": task.car.fmu.of_record,
         }
-        write_text(file.with_suffix(".json"), json.dumps(seen, ensure_ascii=False) + "\n")
+        write_text(file.with_suffix(".json"), json.dumps(view_record, ensure_ascii=False) + "\n")
 
 
 def run_file(test: str, label: str, run: str) -> Path:

@@ -51,14 +51,14 @@ def repeats(subject: Subject) -> Finding:
             row += instance.run(1, k)
     if differs := first_difference(subject, alone, rows[0]) or first_difference(subject, alone, rows[1]):
         return _not_repeated(subject, "beside a second one", differs)
-    apart: list[list[list[float]]] = []
+    by_thread: list[list[list[float]]] = []
     mover = Instance(subject).start()
-    thread = Thread(target=lambda: apart.append(mover.run(subject.steps)))
+    thread = Thread(target=lambda: by_thread.append(mover.run(subject.steps)))
     thread.start()
     thread.join()
-    if not apart:
+    if not by_thread:
         raise HostError("a run in another thread than the instance was made in fails")
-    if differs := first_difference(subject, alone, apart[0]):
+    if differs := first_difference(subject, alone, by_thread[0]):
         return _not_repeated(subject, "in another thread than its instance was made in", differs)
     return Finding("repeats", "good", "bit for bit, also interleaved and in another thread")
 
@@ -112,23 +112,23 @@ def states(subject: Subject) -> Finding:
     first = instance.run(half, half)
     instance.restore_bytes(data)
     again = instance.run(half, half)
-    if kept := _kept_state(subject):
-        return Finding("states", "bad", f"{kept} {clause}")
+    if fault := _kept_state(subject):
+        return Finding("states", "bad", f"{fault} {clause}")
     if differs := first_difference(subject, first, again, half):
         message = f"a restored state goes on differently: {differs}; save all of it, with the solver's own"
         return Finding("states", "note" if _near(first, again) else "bad", f"{message} {clause}")
-    for ready in (False, True):
-        other = Instance(subject).start() if ready else Instance(subject)
+    for initialised in (False, True):
+        receiver = Instance(subject).start() if initialised else Instance(subject)
         try:
-            other.restore_bytes(data)
-            differs = first_difference(subject, first, other.run(half, half), half)
+            receiver.restore_bytes(data)
+            differs = first_difference(subject, first, receiver.run(half, half), half)
         except FMICallException as error:
             differs = f"{error.function} answers with status {error.status}"
         if not differs:
             break
     if differs:
         return Finding("states", "bad", f"a state goes on differently in another instance: {differs} {clause}")
-    if ready:
+    if initialised:
         message = "a state goes on in another instance only where that was initialised; save its mode too"
         return Finding("states", "bad" if subject.three else "note", f"{message} {clause}")
     return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes")
@@ -150,8 +150,10 @@ def _kept_state(subject: Subject) -> str:
 
 def _near(first: list[list[float]], again: list[list[float]]) -> bool:
     """Whether two runs differ by no more than what the new start of a solver explains."""
-    one, other = np.array(first), np.array(again)
-    return one.shape == other.shape and bool(np.all(np.abs(one - other) <= _NEAR * np.abs(one).max(axis=0)))
+    reference, repeated = np.array(first), np.array(again)
+    return reference.shape == repeated.shape and bool(
+        np.all(np.abs(reference - repeated) <= _NEAR * np.abs(reference).max(axis=0))
+    )
 
 
 def _has_states(subject: Subject) -> bool:
@@ -165,17 +167,17 @@ def altered_states(subject: Subject) -> Finding:
         return Finding("altered states", "good", "there are none")
     instance = Instance(subject).start()
     instance.run(max(1, subject.steps // 2))
-    data, taken, other = instance.state_bytes(), 0, Instance(subject)
+    data, accepted, receiver = instance.state_bytes(), 0, Instance(subject)
     for k in range(16):
         altered = bytearray(data)
         altered[len(data) * k // 16] ^= 0x10
         try:
-            other.restore_bytes(bytes(altered))
-            taken += 1
+            receiver.restore_bytes(bytes(altered))
+            accepted += 1
         except Exception:
             continue
-    if taken:
-        return Finding("altered states", "note", f"{taken} of 16 were taken ({_ALTERED})")
+    if accepted:
+        return Finding("altered states", "note", f"{accepted} of 16 were taken ({_ALTERED})")
     return Finding("altered states", "good", "16 of 16 are refused")
 
 

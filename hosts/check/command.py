@@ -124,30 +124,30 @@ def _steps(text: str) -> int:
 
 def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     reference = options.reference is not None
-    for names, there, what in (
+    for names, is_present, requirement in (
         (_OF_SOAK, options.soak, "--soak"),
         (_OF_REFERENCE, reference, "--reference"),
         (_OF_BOTH, options.soak or reference, "--soak or --reference"),
     ):
-        used = given_of(parser, options, names)
-        if used and not there:
-            raise HostError(f"{used[0]} needs {what}.")
+        given = given_of(parser, options, names)
+        if given and not is_present:
+            raise HostError(f"{given[0]} needs {requirement}.")
     table = given_of(parser, options, _OF_PARAMETERS)
-    others = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
-    if (options.soak or reference) and len(others) > 1:
-        raise HostError(f"{others[0]} cannot be combined with {others[-1]}.")
+    modes = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
+    if (options.soak or reference) and len(modes) > 1:
+        raise HostError(f"{modes[0]} cannot be combined with {modes[-1]}.")
     if reference and options.reference.is_file() and (of_folder := given_of(parser, options, _OF_FOLDER)):
         raise HostError(
             f"{of_folder[0]} needs a folder of tables, whose finished comparisons are kept; {options.reference} is a "
             "single table."
         )
-    if (of_check := given_of(parser, options, _OF_CHECK)) and others:
-        raise HostError(f"{of_check[0]} cannot be combined with {others[0]}.")
+    if (of_check := given_of(parser, options, _OF_CHECK)) and modes:
+        raise HostError(f"{of_check[0]} cannot be combined with {modes[0]}.")
     written = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}
     if written and (table or options.soak):
-        raise HostError(f"--{next(iter(written))} cannot be combined with {others[0]}.")
+        raise HostError(f"--{next(iter(written))} cannot be combined with {modes[0]}.")
     if options.confined and (table or options.soak):
-        raise HostError(f"--confined cannot be combined with {others[0]}.")
+        raise HostError(f"--confined cannot be combined with {modes[0]}.")
     if options.soak:
         command_needs("simulator")
         from hosts.soak.soak import soak
@@ -226,12 +226,12 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     steps = options.steps or (_THOROUGH if options.thorough else _STEPS)
     checker = Checker(fmu.absolute(), steps, start)
     with Pool(checker, Finding, reads=(fmu, *files_of(start)), limit=limit, in_all=True) as process:
-        for place, check in enumerate(CHECKS):
+        for index, check in enumerate(CHECKS):
             if check.name in without:
                 cases.append(Case(fmu.stem, check.name, "skipped", "functions of the FMU cannot be called"))
                 continue
             begin = time.perf_counter()
-            result = process.run(place)
+            result = process.run(index)
             finding = lost(check, result, limit) if isinstance(result, Lost) else result
             print_finding(finding)
             cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))

@@ -29,11 +29,11 @@ def dependencies(subject: Subject) -> Finding:
     if not (subject.inputs and outputs):
         return Finding("dependencies", "good", "no inputs and outputs to compare")
     clause = subject.clause("2.2.8", "2.4.8")
-    whole: dict[int, str] = {}  # the inputs, and by their reference what else they are called
+    variable_names: dict[int, str] = {}  # the inputs, and by their reference what else they are called
     for v in sorted(subject.description.modelVariables, key=lambda v: v.causality != "input"):
-        whole.setdefault(v.valueReference, v.name)
+        variable_names.setdefault(v.valueReference, v.name)
     declared = {
-        u.variable.name: None if u.dependencies is None else {whole[v.valueReference] for v in u.dependencies}
+        u.variable.name: None if u.dependencies is None else {variable_names[v.valueReference] for v in u.dependencies}
         for u in subject.description.outputs
     }
     moved: dict[str, set[str]] = {name: set() for name in declared}
@@ -45,7 +45,7 @@ def dependencies(subject: Subject) -> Finding:
             instance.set_input(v, inside(v, 0.37))
             after = instance.get(outputs)
             instance.set_input(v, inside(v, 0.0))
-            input_name = whole[subject.places[v.name].reference]
+            input_name = variable_names[subject.places[v.name].reference]
             for name, one, other in zip(names, before, after, strict=True):
                 if one == other or (one != one and other != other):
                     continue
@@ -55,10 +55,10 @@ def dependencies(subject: Subject) -> Finding:
                     message = f"{name} goes from {one:g} to {other:g} as {input_name} is set, on which it is said not "
                     message += f"to depend; declare it in ModelStructure {clause}"
                     return Finding("dependencies", "bad", message)
-    nudged = {whole[subject.places[v.name].reference] for v in subject.inputs}
-    every = {v.name for v in subject.description.modelVariables if v.causality == "input"}
+    nudged = {variable_names[subject.places[v.name].reference] for v in subject.inputs}
+    inputs = {v.name for v in subject.description.modelVariables if v.causality == "input"}
     listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
-    declared_inputs = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
+    declared_inputs = {name: inputs if listed is None else listed & inputs for name, listed in listed_of.items()}
     loose = [name for name, known in declared_inputs.items() if known and known <= nudged and not moved.get(name)]
     if loose:
         message = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
@@ -93,12 +93,12 @@ def derivatives(subject: Subject) -> Finding:
     added_along = "" if span is None else span.get("addedAlong", "")
     for input_variable, instance, time in _states(subject, without=set(added_along.split())):
         start, change = size_of(input_variable)
-        part = _PART * change
+        offset = _PART * change
         before = instance.state()
         at_point, over_step = [], []
         for share in (0.0, 1.0, -1.0):
             instance.restore(before)
-            instance.set_input(input_variable, start + share * part)
+            instance.set_input(input_variable, start + share * offset)
             at_point.append(np.array(instance.get(outputs)))
             if not instance.advance(time, subject.step):
                 break
@@ -112,11 +112,11 @@ def derivatives(subject: Subject) -> Finding:
             except Exception as error:
                 instance.free_state(before)
                 return Finding("derivatives", "note", f"none by {input_variable.name}: {error}")
-            near = [_agrees(slopes, differences, part) for differences in (at_point, over_step)]
+            near = [_agrees(slopes, differences, offset) for differences in (at_point, over_step)]
             wrong = np.flatnonzero(~(near[0] | near[1]))
             if len(wrong):
                 k = int(wrong[0])
-                step, point = ((found[1][k] - found[2][k]) / (2.0 * part) for found in (over_step, at_point))
+                step, point = ((found[1][k] - found[2][k]) / (2.0 * offset) for found in (over_step, at_point))
                 message = f"{names[k]} has the derivative {slopes[k]:g} by {input_variable.name}; differences are "
                 message += f"{point:g} at a communication point and {step:g} over a step; give one of them"
                 return Finding("derivatives", "bad", f"{message} {subject.clause('2.1.9', '2.2.12')}")
@@ -154,11 +154,11 @@ def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariabl
 def _agrees(slopes: NDArray[np.float64], differences: list[NDArray[np.float64]], part: float) -> NDArray[np.bool_]:
     """Which slopes are those of differences; also those at a kink, where the two sides differ."""
     middle, plus, minus = differences
-    up, down, both = (plus - middle) / part, (middle - minus) / part, (plus - minus) / (2.0 * part)
-    round_off = _ROUND * (np.abs(middle) + np.max(np.abs(both))) / min(1.0, abs(part))
+    up, down, central = (plus - middle) / part, (middle - minus) / part, (plus - minus) / (2.0 * part)
+    round_off = _ROUND * (np.abs(middle) + np.max(np.abs(central))) / min(1.0, abs(part))
     kink = np.abs(up - down) > _SMOOTH * np.maximum(np.abs(up), np.abs(down)) + round_off
-    near = np.abs(slopes - both) <= _NEAR * np.maximum(np.abs(both), np.abs(slopes)) + round_off
-    agrees: NDArray[np.bool_] = near | kink | ~np.isfinite(both)
+    near = np.abs(slopes - central) <= _NEAR * np.maximum(np.abs(central), np.abs(slopes)) + round_off
+    agrees: NDArray[np.bool_] = near | kink | ~np.isfinite(central)
     return agrees
 
 

@@ -58,8 +58,14 @@ class Deviation:
         size = number_in(self.range, self.unit, ".3g") + (
             f", taken as {self.size:.3g}" if self.size != self.range else ""
         )
-        part = 100.0 * self.share
-        share = f"{part:.2g} %" if part < 99.5 else f"{part:.0f} %" if part < 1000.0 else f"{self.share:.0f} times"
+        percent = 100.0 * self.share
+        share = (
+            f"{percent:.2g} %"
+            if percent < 99.5
+            else f"{percent:.0f} %"
+            if percent < 1000.0
+            else f"{self.share:.0f} times"
+        )
         return number_in(self.error, self.unit, ".3g"), f"{self.at:g} s", size, share, f"{100.0 * self.bound:g} %"
 
     def case(self, reference: str) -> Case:
@@ -96,9 +102,9 @@ def deviations(
     bounds : sequence of (str, float)
         Patterns of names with bounds; the last that fits counts.
     """
-    used, rows = places(result, times)
+    table_rows, rows = places(result, times)
     results = [
-        _deviation(name, result, values[used], rows, nominals[name], bounded(name, bounds))
+        _deviation(name, result, values[table_rows], rows, nominals[name], bounded(name, bounds))
         for name, values in columns.items()
     ]
     return sorted(results, key=lambda d: (d.good, -d.share / (d.bound or 1.0)))
@@ -106,10 +112,10 @@ def deviations(
 
 def places(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Rows of a reference that are compared, and those of the result at the same times."""
-    used = np.flatnonzero(np.diff(times, prepend=-math.inf) > 0.0)
+    table_rows = np.flatnonzero(np.diff(times, prepend=-math.inf) > 0.0)
     step = result.time[1] - result.time[0] if len(result.time) > 1 else 1.0
-    rows = np.round(times[used] / step).astype(np.int64)
-    return used[rows < len(result.time)], rows[rows < len(result.time)]
+    rows = np.round(times[table_rows] / step).astype(np.int64)
+    return table_rows[rows < len(result.time)], rows[rows < len(result.time)]
 
 
 def _deviation(
@@ -142,23 +148,23 @@ def remedies(
 
     `result`, `times`, `columns`: of `deviations`; `bad`: what it has found.
     """
-    used, rows = places(result, times)
-    wanted = {d.name: columns[d.name][used] for d in bad}
+    table_rows, rows = places(result, times)
+    wanted = {d.name: columns[d.name][table_rows] for d in bad}
     lines, remaining = [], list(bad)
 
     def agrees(d: Deviation, values: NDArray[np.float64], wanted: NDArray[np.float64]) -> bool:
         return bool(np.abs(values - wanted).max() <= d.bound * d.size)
 
     for d in bad:
-        named = [(1.0 / m.factor, m.words) for m in misread(d.unit)]
-        other = [(1.0 / m.factor, "another unit") for m in misread("")]
-        why = [(f, f"{f:.4g} times as large: {message}?") for f, message in (*named, *other)] + [(-1.0, _TURNED)]
+        by_unit = [(1.0 / m.factor, m.words) for m in misread(d.unit)]
+        by_factor = [(1.0 / m.factor, "another unit") for m in misread("")]
+        why = [(f, f"{f:.4g} times as large: {message}?") for f, message in (*by_unit, *by_factor)] + [(-1.0, _TURNED)]
         fits = [w for f, w in why if d.range > 0.0 and agrees(d, f * result[d.name][rows], wanted[d.name])]
         if fits:
             remaining.remove(d)
             lines.append(f"{d.name}: in agreement where the table has it {fits[0]}")
-    apart = int(np.median(np.diff(rows))) if len(rows) > 1 else 1
-    for late in (apart, -apart) if remaining else ():
+    spacing = int(np.median(np.diff(rows))) if len(rows) > 1 else 1
+    for late in (spacing, -spacing) if remaining else ():
         inside = (rows >= late) & (rows - late < len(result.time))
         if inside.sum() > 2 and all(
             agrees(d, result[d.name][rows[inside] - late], wanted[d.name][inside]) for d in remaining

@@ -105,14 +105,16 @@ def folders(subject: Subject) -> Finding:
 def source_files(subject: Subject) -> Finding:
     """Source files that the documents name are there."""
     sources = subject.folder / "sources"
-    named = [] if subject.face is None else [e.get("name", "") for e in subject.face.iter("File")]
+    file_names = [] if subject.face is None else [e.get("name", "") for e in subject.face.iter("File")]
     if (build := sources / "buildDescription.xml").exists():
-        named += [e.get("name", "") for e in ElementTree.parse(build).getroot().iter("SourceFile")]
-    missing = [name for name in named if not (sources / name).is_file()]
+        file_names += [e.get("name", "") for e in ElementTree.parse(build).getroot().iter("SourceFile")]
+    missing = [name for name in file_names if not (sources / name).is_file()]
     if missing:
-        message = f"{len(missing)} of {len(named)} that are named are missing: {some_of(missing)}; pack them in sources"
+        message = (
+            f"{len(missing)} of {len(file_names)} that are named are missing: {some_of(missing)}; pack them in sources"
+        )
         return Finding("source files", "bad", f"{message} {subject.clause('2.3', '2.5.1')}")
-    return Finding("source files", "good", f"all {len(named)} that are named are there")
+    return Finding("source files", "good", f"all {len(file_names)} that are named are there")
 
 
 DOCUMENT_CHECKS = (

@@ -230,9 +230,9 @@ class Instance(instance.Instance):
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
         """Values of real variables, then those of whole ones; arrays flattened."""
         real = [v for v in variables if v.type in REAL]
-        whole = [v for v in variables if v.type in WHOLE]
+        integers = [v for v in variables if v.type in WHOLE]
         values: list[float] = []
-        for members, two, three in ((real, "getReal", "getFloat64"), (whole, "getInteger", "getInt32")):
+        for members, two, three in ((real, "getReal", "getFloat64"), (integers, "getInteger", "getInt32")):
             references = [v.valueReference for v in members]
             if references and self.three:
                 values += getattr(self.slave, three)(references, sum(map(count_of, members)))

@@ -49,8 +49,8 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
     top = ElementTree.Element("testsuites", {"name": "ali3 check"})
     suite_element = ElementTree.SubElement(top, "testsuite", {"name": _text(suite), **numbers, "time": seconds})
     for case in cases:
-        named = {"classname": _text(case.group), "name": _text(case.name), "time": f"{case.seconds:.3f}"}
-        element = ElementTree.SubElement(suite_element, "testcase", named)
+        attributes = {"classname": _text(case.group), "name": _text(case.name), "time": f"{case.seconds:.3f}"}
+        element = ElementTree.SubElement(suite_element, "testcase", attributes)
         if case.verdict in ("good", "note"):
             ElementTree.SubElement(element, "system-out").text = _text(case.words)
         else:

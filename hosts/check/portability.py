@@ -31,8 +31,8 @@ def one_spelling(subject: Subject) -> Finding:
     spelt = [u.name for u in subject.description.unitDefinitions]
     twice = [name for name, count in Counter(map(_plain, spelt)).items() if count > 1]
     if twice:
-        both = " and ".join(f"'{name}'" for name in spelt if _plain(name) == twice[0])
-        message = f"one unit under two names: {both}; FMI asks for different names only"
+        names = " and ".join(f"'{name}'" for name in spelt if _plain(name) == twice[0])
+        message = f"one unit under two names: {names}; FMI asks for different names only"
         return Finding("unit names", "note", f"{message} {subject.clause('2.2.2', '2.4.3')}")
     return Finding("unit names", "good", f"{len(spelt)}, each under one name")
 
@@ -87,13 +87,15 @@ def build_files(subject: Subject) -> Finding:
     """Whether sources of FMI 3.0 that use the mathematical library say so."""
     sources = subject.folder / "sources"
     description = sources / "buildDescription.xml"
-    used = any("#include <math.h>" in f.read_text(encoding="utf-8", errors="replace") for f in sources.rglob("*.c"))
-    if not (subject.three and used):
+    uses_mathematics = any(
+        "#include <math.h>" in f.read_text(encoding="utf-8", errors="replace") for f in sources.rglob("*.c")
+    )
+    if not (subject.three and uses_mathematics):
         return Finding("build description", "good", "not needed")
-    named = description.exists() and any(
+    is_named = description.exists() and any(
         e.get("name") == "m" for e in ElementTree.parse(description).getroot().iter("Library")
     )
-    if named:
+    if is_named:
         return Finding("build description", "good", "names the mathematical library")
     message = "the sources use the mathematical library, which is not named; FMI does not say that it must be"
     return Finding("build description", "note", f"{message} {subject.clause('2.3', '2.4.10')}")
@@ -141,10 +143,10 @@ def careless_calls(subject: Subject) -> Finding:
 
     FMI says of the last alone what an FMU has to do; that of FMI 3.0 gives start values before its initialisation.
     """
-    taken = []
+    accepted = []
     try:
         Instance(subject, name="")
-        taken.append("an empty instance name")
+        accepted.append("an empty instance name")
     except Exception:
         pass
     early = Instance(subject)
@@ -153,14 +155,14 @@ def careless_calls(subject: Subject) -> Finding:
         ("an unknown log category", lambda: early.slave.setDebugLogging(True, ["logNoSuchThing"])),
         *([("values before initialisation", lambda: early.get(real))] if real else []),
     ]
-    for what, call in calls:
+    for label, call in calls:
         try:
             call()
-            taken.append(what)
+            accepted.append(label)
         except Exception:
             continue
-    if taken:
-        message = f"accepted without a message: {', '.join(taken)}; FMI does not say what an FMU does"
+    if accepted:
+        message = f"accepted without a message: {', '.join(accepted)}; FMI does not say what an FMU does"
         return Finding("careless calls", "note", f"{message} {subject.clause('2.1.5, 4.2.4', '2.3.1')}")
     return Finding("careless calls", "good", "empty names, unknown categories and early reads are refused")
 

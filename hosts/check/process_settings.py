@@ -121,11 +121,11 @@ def _settings(subject: Subject) -> Finding:
         ("the end", instance.end),
         ("fmiFreeInstance", instance.free),
     ]
-    for what, call in calls:
+    for label, call in calls:
         call()
         for name, (read, remedy) in _SETTINGS.items():
             if (now := read()) != before[name]:
-                message = f"{name} changed from {_short(before[name], now)} by {what}; {remedy}"
+                message = f"{name} changed from {_short(before[name], now)} by {label}; {remedy}"
                 return Finding("process settings", "bad", f"{message} {subject.clause(*_GLOBAL)}")
     return Finding("process settings", "good", f"left alone: {', '.join(_SETTINGS)}")
 

@@ -146,14 +146,14 @@ def time_of_steps(subject: Subject) -> Finding:
         if not instance.advance(k * subject.step, subject.step):
             break
         times.append(time.perf_counter() - begin)
-    used, rest, begin = 0.0, 0.0, time.process_time()
-    while rest < _LONGEST_REST and (rest == 0.0 or 0.1 * _IDLE < used < _IDLE):  # what works may wait for others
+    busy, rest, begin = 0.0, 0.0, time.process_time()
+    while rest < _LONGEST_REST and (rest == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # what works may wait for others
         time.sleep(_REST)
-        used, rest = time.process_time() - begin, rest + _REST
+        busy, rest = time.process_time() - begin, rest + _REST
     clause = subject.clause("4.2.2", "4.2.1")
-    if used > _IDLE:
+    if busy > _IDLE:
         message = (
-            f"{used:.3f} s of processor time are used in {rest:.1f} s between calls; stop threads while no call is made"
+            f"{busy:.3f} s of processor time are used in {rest:.1f} s between calls; stop threads while no call is made"
         )
         return Finding("time of steps", "note", f"{message} {clause}")
     middle = sorted(times)[len(times) // 2] if times else 0.0
@@ -167,7 +167,7 @@ def time_of_steps(subject: Subject) -> Finding:
 def _captured() -> Iterator[list[bytes]]:
     """A context that collects text written to the two standard streams in a list."""
     results: list[bytes] = []
-    kept = [os.dup(k) for k in (1, 2)]
+    descriptors = [os.dup(k) for k in (1, 2)]
     with tempfile.TemporaryFile() as stream:
         try:
             for k in (1, 2):
@@ -175,7 +175,7 @@ def _captured() -> Iterator[list[bytes]]:
             yield results
         finally:
             ctypes.CDLL(None).fflush(None)
-            for k, old in zip((1, 2), kept, strict=True):
+            for k, old in zip((1, 2), descriptors, strict=True):
                 os.dup2(old, k)
                 os.close(old)
             stream.seek(0)
@@ -185,9 +185,9 @@ def _captured() -> Iterator[list[bytes]]:
 def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
     """Sizes and times of change of files, by path, where those of an FMU could lie and nobody else writes."""
     temporary = Path(tempfile.gettempdir())
-    own = {temporary} if temporary.name.startswith(("ali3", "tmp")) else set()
+    own_folders = {temporary} if temporary.name.startswith(("ali3", "tmp")) else set()
     results = {}
-    for path in (path for folder in {subject.folder, Path.cwd()} | own for path in folder.rglob("*")):
+    for path in (path for folder in {subject.folder, Path.cwd()} | own_folders for path in folder.rglob("*")):
         try:
             stat = path.lstat()
         except OSError:

@@ -181,21 +181,21 @@ def _done(
     """The comparison of each table with the table's number: first the kept ones, then the others as they are done."""
     keys = [_key(fmu, reference, bounds) for reference in references]
     names = [reference.file.name for reference in references]
-    before = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
-    present = [(number, outcome) for number, outcome in enumerate(before) if outcome is not None]
+    stored = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
+    present = [(number, outcome) for number, outcome in enumerate(stored) if outcome is not None]
     report_resumed(len(present), len(keys), "tables")
     yield from present
-    pending = [number for number, outcome in enumerate(before) if outcome is None]
+    pending = [number for number, outcome in enumerate(stored) if outcome is None]
     with closing(runs_with_bar(fmu, [references[number].drive for number in pending], jobs)) as results:
-        for place, result in results:
-            number = pending[place]
+        for index, result in results:
+            number = pending[index]
             if isinstance(result, HostError):
                 yield number, result
                 continue
-            found = _compared(fmu, references[number], result, bounds, by_table)
+            comparison = _compared(fmu, references[number], result, bounds, by_table)
             if kept is not None:
-                kept.add(names[number], keys[number], found)
-            yield number, found
+                kept.add(names[number], keys[number], comparison)
+            yield number, comparison
 
 
 def _key(fmu: Fmu, reference: _Reference, bounds: Sequence[tuple[str, float]]) -> str:
@@ -240,11 +240,11 @@ def _compared(
     lines += _table(deviation_list[:_WORST])
     bad = [d for d in deviation_list if not d.good]
     lines += remedies(result, times, columns, bad)
-    if still := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and by_table]:
-        lines.append(f"inputs without a column, which keep their start values: {some_of(still)}")
-    apart = float(np.diff(times).max(initial=0.0))
-    if bad and by_table and driven.inputs and apart > (1.0 + _ROUND_OFF) * step:
-        lines.append(f"between rows, up to {apart:g} s apart, inputs go straight: did those of the reference do so?")
+    if constant_inputs := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and by_table]:
+        lines.append(f"inputs without a column, which keep their start values: {some_of(constant_inputs)}")
+    interval = float(np.diff(times).max(initial=0.0))
+    if bad and by_table and driven.inputs and interval > (1.0 + _ROUND_OFF) * step:
+        lines.append(f"between rows, up to {interval:g} s apart, inputs go straight: did those of the reference do so?")
     if reference.left:
         lines.append(f"not compared, for {fmu.path.name} has no such output: {', '.join(reference.left)}")
     if times[0] > 0.0 and by_table:
@@ -296,8 +296,8 @@ def _read(
 def _step(fmu: Fmu, driven: Manoeuvre, times: NDArray[np.float64]) -> float:
     """The communication step of the record or of the FMU, made such that the rows are communication points."""
     step, between = driven.step or default_step(fmu.description), np.diff(times)
-    apart = float(np.median(between[between > 0.0])) if (between > 0.0).any() else float(times[-1])
-    return apart / max(1, math.ceil(apart / step - _ROUND_OFF))
+    interval = float(np.median(between[between > 0.0])) if (between > 0.0).any() else float(times[-1])
+    return interval / max(1, math.ceil(interval / step - _ROUND_OFF))
 
 
 def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:

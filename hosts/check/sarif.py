@@ -31,12 +31,12 @@ def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
         "version": version("ali3"),
         "rules": [{"id": name, "shortDescription": {"text": name}} for name in names],
     }
-    place = {"physicalLocation": {"artifactLocation": {"uri": fmu.name}}}
+    location = {"physicalLocation": {"artifactLocation": {"uri": fmu.name}}}
     results: list[dict[str, Any]] = []
     for case in cases:
         kind, level = _KINDS[case.verdict]
         result = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
-        results.append(result | {"message": {"text": case.words}, "locations": [place]})
+        results.append(result | {"message": {"text": case.words}, "locations": [location]})
     run = {"tool": {"driver": driver}, "results": results}
     with atomic_file(file) as temporary:
         text = json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1, ensure_ascii=False)

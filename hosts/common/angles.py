@@ -27,6 +27,6 @@ def angle_difference(first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]
     `first`, `second`: rad, shape (n,). That one of both has turned once more than the other in the meantime is told:
     whole turns are left out of the start only.
     """
-    apart = continuous(np.subtract(first, second))
-    begun = apart[np.isfinite(apart)][:1]
-    return np.asarray(apart - math.tau * np.round(begun / math.tau)) if len(begun) else apart
+    difference = continuous(np.subtract(first, second))
+    start = difference[np.isfinite(difference)][:1]
+    return np.asarray(difference - math.tau * np.round(start / math.tau)) if len(start) else difference

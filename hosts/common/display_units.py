@@ -34,16 +34,16 @@ def shown_in(unit: str, name: str = "") -> Shown:
     """
     if unit == "rad/s" and name.endswith("frequency"):
         return Shown("Hz", 1.0 / _RAD_PER_PERIOD)
-    other = "rpm" if unit == "rad/s" and "omega" in name else _SHOWN.get(unit, unit)
-    return Shown(other, 1.0 if other == unit else conversion(unit, other))
+    display_unit = "rpm" if unit == "rad/s" and "omega" in name else _SHOWN.get(unit, unit)
+    return Shown(display_unit, 1.0 if display_unit == unit else conversion(unit, display_unit))
 
 
 def axis_shown(label: str) -> Shown:
     """The label of an axis that ends with its unit, such as ``yaw rate, rad/s``, and the factor of its values."""
-    what, comma, unit = label.rpartition(", ")
+    quantity, comma, unit = label.rpartition(", ")
     shown = shown_in(unit)
     known = comma and known_unit(shown.unit)
-    return Shown(titled(what, shown.unit) if known else f"{what}{comma}{shown.unit}", shown.factor)
+    return Shown(titled(quantity, shown.unit) if known else f"{quantity}{comma}{shown.unit}", shown.factor)
 
 
 def titled(name: str, unit: str) -> str:

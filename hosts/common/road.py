@@ -67,11 +67,11 @@ _TOLD = set[str]()
 
 def _beside(road: str, x: float, y: float) -> bool:
     """Whether a point is farther from the extent of a road than one usually starts."""
-    place = _place(road, Path(road).stat().st_mtime_ns)
-    if place is None:
+    record = _place(road, Path(road).stat().st_mtime_ns)
+    if record is None:
         return False
-    ends = zip((x, y), *(json.loads(place["keys"][key]) for key in ("origin", "extent")), strict=True)
-    return bool(math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends)) > place["range"][1])
+    ends = zip((x, y), *(json.loads(record["keys"][key]) for key in ("origin", "extent")), strict=True)
+    return bool(math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends)) > record["range"][1])
 
 
 @cache

@@ -63,7 +63,7 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
     if not pairs:
         return Alignment(*5 * (math.nan,), "no signal moves in both")
-    coarse, peak, other, level = _coarse(pairs, longest)
+    coarse, peak, rival, level = _coarse(pairs, longest)
     if peak < _LEAST_CORRELATION:
         return Alignment(*4 * (math.nan,), peak, f"the best correlation is {peak:.2f}: no delay can be determined")
     if level:
@@ -73,7 +73,7 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     if drift and not fine.has_drift:  # which has taken a part of the delay
         alone = _fine(pairs, coarse, False)
         fine = replace(fine, delay=alone.delay, delay_error=alone.delay_error, correlation=alone.correlation)
-    note = f"a delay of {other:.3g} s fits nearly as well" if other is not None else ""
+    note = f"a delay of {rival:.3g} s fits nearly as well" if rival is not None else ""
     if abs(fine.delay) > longest:
         message = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
         return Alignment(*4 * (math.nan,), fine.correlation, message)
@@ -169,8 +169,8 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
         return Alignment(float(solution.x[0]), float(errors[0]), 0.0, 0.0, correlation)
     # To first order: the delay takes the best part of the drift's place when the drift is left out.
     late, fast = jacobian.T
-    taken = float(solution.x[1] ** 2 * (fast @ fast - (late @ fast) ** 2 / (late @ late)))
-    explained = taken / (taken + float(solution.fun @ solution.fun)) if taken > 0.0 else 0.0
+    by_drift = float(solution.x[1] ** 2 * (fast @ fast - (late @ fast) ** 2 / (late @ late)))
+    explained = by_drift / (by_drift + float(solution.fun @ solution.fun)) if by_drift > 0.0 else 0.0
     drifts = float(solution.x[1]), float(errors[1])
     return Alignment(float(solution.x[0]), float(errors[0]), *drifts, correlation, explained=explained)
 

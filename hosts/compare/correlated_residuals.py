@@ -27,9 +27,9 @@ def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
     covariances = np.zeros(n)
     if sample[0] <= 0.0:
         return covariances
-    most = max(1, min(n // 10, int(10.0 * math.log10(n))))
+    highest_order = max(1, min(n // 10, int(10.0 * math.log10(n))))
     best, a = math.inf, np.zeros(0)
-    for order in range(most + 1):
+    for order in range(highest_order + 1):
         trial = solve_toeplitz(sample[:order], sample[1 : order + 1]) if order else np.zeros(0)
         innovation = sample[0] - float(trial @ sample[1 : order + 1])
         # Rounding errors of a smooth residual leave nothing, or less.
@@ -103,18 +103,18 @@ def covariance(
     size = np.linalg.norm(jacobian, axis=0)
     scale = np.where(size > 0.0, size, 1.0)
     u, s, vt = np.linalg.svd(jacobian / scale, full_matrices=False)
-    kept = s > max(s[0], 1e-300) * 1e-7
-    lost = (np.abs(vt[~kept]) > 0.1).any(axis=0) | (size == 0.0)
-    inverse = vt[kept].T / s[kept]  # of shape (p, kept)
-    middle = np.zeros((kept.sum(), kept.sum()))
+    determined = s > max(s[0], 1e-300) * 1e-7
+    lost = (np.abs(vt[~determined]) > 0.1).any(axis=0) | (size == 0.0)
+    inverse = vt[determined].T / s[determined]  # of shape (p, determined)
+    middle = np.zeros((determined.sum(), determined.sum()))
     for rows in blocks:
-        r, part = residual[rows], u[rows][:, kept]
+        r, vectors = residual[rows], u[rows][:, determined]
         c = autocovariance(r) * (n / max(n - p, 1))
-        middle += part.T @ matmul_toeplitz(c, part)
+        middle += vectors.T @ matmul_toeplitz(c, vectors)
     result = inverse @ middle @ inverse.T / np.outer(scale, scale)
-    moved = inverse @ u[:, kept].T * residual
-    alike = np.sqrt([likeness(times, [part[rows] for rows in blocks]) for part in moved])
-    result *= np.outer(alike, alike)
+    moved = inverse @ u[:, determined].T * residual
+    likenesses = np.sqrt([likeness(times, [vectors[rows] for rows in blocks]) for vectors in moved])
+    result *= np.outer(likenesses, likenesses)
     result[lost, :], result[:, lost] = 0.0, 0.0
     result[lost, lost] = math.inf
     return result, lost

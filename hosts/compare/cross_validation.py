@@ -45,14 +45,14 @@ def parts_of(outputs: Mapping[str, Signal], segments: Sequence[Segment]) -> Part
     `outputs`: samples that are compared, in the order of the residuals.
     """
     if len(segments) > 1:
-        places = np.array([s.place for s in segments])
+        positions = np.array([s.place for s in segments])
         begins, length = np.array([s.begin for s in segments]), segments[0].end
     else:
         times = np.concatenate([s.time for s in outputs.values()])
         length = max(float(np.ptp(times)), 1e-9) / _PARTS
-        places = begins = float(times.min()) + length * np.arange(_PARTS)
-    number = np.concatenate([np.searchsorted(places - 1e-9, s.time, side="right") - 1 for s in outputs.values()])
-    return Parts(np.clip(number, 0, len(places) - 1), begins, length)
+        positions = begins = float(times.min()) + length * np.arange(_PARTS)
+    number = np.concatenate([np.searchsorted(positions - 1e-9, s.time, side="right") - 1 for s in outputs.values()])
+    return Parts(np.clip(number, 0, len(positions) - 1), begins, length)
 
 
 def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Array:
@@ -67,10 +67,10 @@ def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Arra
     Journal of Human Resources 50 (2015) 317-372).
     """
     scores = _sums(jacobian * residual[:, None], parts)
-    apart = np.abs(parts.begins[:, None] - parts.begins) / (2.0 * parts.length)
+    distances = np.abs(parts.begins[:, None] - parts.begins) / (2.0 * parts.length)
     inverse = np.linalg.pinv(jacobian.T @ jacobian)
     count = parts.independent
-    middle = scores.T @ np.clip(1.0 - apart, 0.0, None) @ scores * (count / max(count - 1.0, 1.0))
+    middle = scores.T @ np.clip(1.0 - distances, 0.0, None) @ scores * (count / max(count - 1.0, 1.0))
     return np.asarray(inverse @ middle @ inverse)
 
 
@@ -122,9 +122,9 @@ def _changes(jacobian: Array, residual: Array, parts: Parts, groups: Sequence[Se
     scores = _sums(scaled * residual[:, None], parts)
     results = []
     for group in groups:
-        apart = np.abs(parts.begins[:, None] - parts.begins[list(group)]).min(axis=1)
-        others = apart >= parts.length * (1.0 - 1e-9)
-        change = np.linalg.pinv(matrices[others].sum(axis=0), rcond=1e-12) @ scores[others].sum(axis=0)
+        distances = np.abs(parts.begins[:, None] - parts.begins[list(group)]).min(axis=1)
+        retained = distances >= parts.length * (1.0 - 1e-9)
+        change = np.linalg.pinv(matrices[retained].sum(axis=0), rcond=1e-12) @ scores[retained].sum(axis=0)
         results.append(-change / size)
     return np.array(results)
 
@@ -136,8 +136,8 @@ def without_each(jacobian: Array, residual: Array, parts: Parts, steps: Sequence
     """
     results = []
     for k, step in enumerate(steps):
-        others = np.delete(jacobian, k, axis=1)
-        errors = left_out(others, residual + jacobian[:, k] * step, parts)
+        other_columns = np.delete(jacobian, k, axis=1)
+        errors = left_out(other_columns, residual + jacobian[:, k] * step, parts)
         results.append(rms(errors))
     return results
 

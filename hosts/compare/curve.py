@@ -22,8 +22,8 @@ class Curve:
         values = result.continuous(name)
         self._angle = result.units.get(name) == "rad"
         self.end = float(result.time[-1])
-        parts = [slice(a, b) for a, b in pairwise([*result.starts, len(values)])]
-        self._parts = [_Part(result.time[part], values[part]) for part in parts]
+        slices = [slice(a, b) for a, b in pairwise([*result.starts, len(values)])]
+        self._parts = [_Part(result.time[part], values[part]) for part in slices]
         # Between two runs the earlier one holds up to the middle.
         self._edges = np.array([0.5 * (a.end + b.begin) for a, b in pairwise(self._parts)])
 

@@ -62,9 +62,9 @@ def perform(options: argparse.Namespace) -> int:
         if task.windowed:
             print(window_text(windows(after, task.segments)))
         print(fit_table(results))
-        problems, more = problems + fit_problems(results), fit_notes(results)
-        notes += more
-        for line in [*fit_problems(results), *(f"note: {note}" for note in more)]:
+        problems, remarks = problems + fit_problems(results), fit_notes(results)
+        notes += remarks
+        for line in [*fit_problems(results), *(f"note: {note}" for note in remarks)]:
             print(line)
     _write(options, task, Outcome(before, after, results, notes, problems), paths)
     return 1 if problems else 0
@@ -78,8 +78,8 @@ def _check(options: argparse.Namespace, task: Task) -> None:
     """Refuse options that cannot be combined."""
     if options.nuisance and not options.fit:
         raise HostError("--nuisance needs --fit; delays and drift are estimated without both.")
-    for option, used in {"--starts": options.starts > 1, "--fit-step": options.fit_step is not None}.items():
-        if used and not options.fit:
+    for option, is_given in {"--starts": options.starts > 1, "--fit-step": options.fit_step is not None}.items():
+        if is_given and not options.fit:
             raise HostError(f"{option} needs --fit; without it no parameters are fitted.")
     if task.windowed and any(t.startswith("initial.") for t in options.fit):
         raise HostError("--fit initial.* cannot be combined with --windows: each window begins in its measured state.")

@@ -85,9 +85,9 @@ def fit(
     residuals.accepted(p)
     first = residuals(p)
     residuals.noise = {n: least[n] * max(1.0, x) for n, x in residuals.left(first).items()}
-    own = computed_noise(residuals, p)
-    residuals.steps, sensitivities = difference_steps(residuals, p, own)
-    _check_effects(unknowns, sensitivities, own)
+    numeric_noise = computed_noise(residuals, p)
+    residuals.steps, sensitivities = difference_steps(residuals, p, numeric_noise)
+    _check_effects(unknowns, sensitivities, numeric_noise)
     start = p.copy()
 
     def search(begin: NDArray[np.float64], jacobian: Jacobian, most: int) -> OptimizeResult:
@@ -95,19 +95,19 @@ def fit(
             residuals, begin, jacobian, bounds, x_scale=width, max_nfev=most, xtol=_STEP, ftol=_CHANGE, gtol=1e-12
         )
 
-    tried: list[OptimizeResult] = []
+    solutions: list[OptimizeResult] = []
     searches: list[Start] = []
     refused: list[str] = []
     for k, begin in enumerate(_begins(p, unknowns, starts)):
         try:
-            tried.append(search(begin, residuals.one_sided, evaluations))
+            solutions.append(search(begin, residuals.one_sided, evaluations))
         except RefusedError as error:
             if k == 0:
                 raise
             refused.append(str(error))
             continue
-        searches.append(Start(begin.tolist(), tried[-1].x.tolist(), rms(tried[-1].fun)))
-    solution = min(tried, key=lambda t: float(t.cost))
+        searches.append(Start(begin.tolist(), solutions[-1].x.tolist(), rms(solutions[-1].fun)))
+    solution = min(solutions, key=lambda t: float(t.cost))
     for _ in range(_ROUNDS - 1):
         if _weighted_anew(residuals, solution.fun):
             break
@@ -116,15 +116,15 @@ def fit(
     p = _polished(residuals, solution.x, bounds)
     _weighted_anew(residuals, residuals(p))
     r, jacobian, begun = residuals(p), residuals.jacobian(p), residuals(start)  # as the weights are now
-    result = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, searches, parts)
+    result = _judged(residuals, unknowns, p, r, jacobian, begun, noise, numeric_noise, runs, converged, searches, parts)
     return replace(result, refused=refused)
 
 
 def _weighted_anew(residuals: Residuals, r: NDArray[np.float64]) -> bool:
     """Weight each signal by what residuals leave of it; whether its weights stay as they were."""
-    left = {n: max(x, 1e-9) for n, x in residuals.left(r).items()}
-    residuals.noise = {n: residuals.noise[n] * x for n, x in left.items()}
-    return all(abs(x - 1.0) < _SETTLED for x in left.values())
+    remaining = {n: max(x, 1e-9) for n, x in residuals.left(r).items()}
+    residuals.noise = {n: residuals.noise[n] * x for n, x in remaining.items()}
+    return all(abs(x - 1.0) < _SETTLED for x in remaining.values())
 
 
 def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
@@ -139,13 +139,13 @@ def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> N
 
 def _begins(p: NDArray[np.float64], unknowns: Sequence[Unknown], count: int) -> list[NDArray[np.float64]]:
     """The given values, and points of Sobol's sequence in the ranges of the FMU's parameters."""
-    own = [k for k, u in enumerate(unknowns) if u.kind == "parameter"]
+    fmu_indices = [k for k, u in enumerate(unknowns) if u.kind == "parameter"]
     results = [p]
-    if not own:
+    if not fmu_indices:
         return results
-    for point in qmc.Sobol(len(own), rng=_SEED).random_base2(max(count - 1, 1).bit_length())[: count - 1]:
+    for point in qmc.Sobol(len(fmu_indices), rng=_SEED).random_base2(max(count - 1, 1).bit_length())[: count - 1]:
         q = p.copy()
-        q[own] = [u.low + (0.1 + 0.8 * x) * (u.high - u.low) for u, x in zip(unknowns, point, strict=False)]
+        q[fmu_indices] = [u.low + (0.1 + 0.8 * x) * (u.high - u.low) for u, x in zip(unknowns, point, strict=False)]
         results.append(q)
     return results
 

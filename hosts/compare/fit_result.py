@@ -84,5 +84,5 @@ class Fit:
 
     def sensor(self, signal: str) -> tuple[float, float, float, float]:
         """Delay (s), drift, bias and gain of a signal; those that were not fitted are 0, 0, 0 and 1."""
-        own = {f.unknown.kind: f.value for f in self.found if f.unknown.signal in ("", signal)}
-        return own.get("delay", 0.0), own.get("drift", 0.0), own.get("bias", 0.0), own.get("gain", 1.0)
+        values = {f.unknown.kind: f.value for f in self.found if f.unknown.signal in ("", signal)}
+        return values.get("delay", 0.0), values.get("drift", 0.0), values.get("bias", 0.0), values.get("gain", 1.0)

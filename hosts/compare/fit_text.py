@@ -142,10 +142,10 @@ def fit_notes(fit: Fit) -> list[str]:
             f"The searches led to residuals from {min(residuals):.4g} to {max(residuals):.4g}: the best was taken; "
             "there may be a better one (--starts)."
         )
-    for name, left in fit.misfit.items():
-        if fit.noise[name] > 0.0 and left > _MISFIT * fit.noise[name]:
+    for name, remaining in fit.misfit.items():
+        if fit.noise[name] > 0.0 and remaining > _MISFIT * fit.noise[name]:
             notes.append(
-                f"{name}: what remains is {left / fit.noise[name]:.3g} times the noise of the signal: the model "
+                f"{name}: what remains is {remaining / fit.noise[name]:.3g} times the noise of the signal: the model "
                 "misses something there, which the intervals treat as slow noise."
             )
     return notes

@@ -71,8 +71,8 @@ def fitted(
         fit_result = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
         best = replay.run(dict(fit_result.parameters))
     if request.coarse:
-        apart = replay.run(request.coarse | fit_result.parameters)
-        changes = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
+        approximate = replay.run(request.coarse | fit_result.parameters)
+        changes = [f"{n} by {shown_number(rms(approximate[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ by (root mean square): {', '.join(changes)}."
@@ -89,6 +89,6 @@ def _delays(before: Comparison, kinds: list[str]) -> dict[str, float]:
     if "delay" in kinds:
         return {"": common} | dict.fromkeys(before.signals, common)
     if "delays" in kinds:
-        own = {n: s.alignment.delay for n, s in before.signals.items()}
-        return {n: d if math.isfinite(d) else common for n, d in own.items()}
+        delays = {n: s.alignment.delay for n, s in before.signals.items()}
+        return {n: d if math.isfinite(d) else common for n, d in delays.items()}
     return {}

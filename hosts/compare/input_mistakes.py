@@ -57,9 +57,9 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
     It is tried where none of them is as it stands. `right`: signals that other signals of the log bear out.
     """
     speed = next((s.measured for n, s in compared.signals.items() if n in SPEEDS and n not in right), None)
-    others = {n: s for n, s in compared.signals.items() if n not in SPEEDS}
+    signals = {n: s for n, s in compared.signals.items() if n not in SPEEDS}
     begins = any(_SPEED in s.manoeuvre.start for s in task.segments)
-    if speed is None or not others or not begins or any(s.deviations.correlation >= ALIKE for s in others.values()):
+    if speed is None or not signals or not begins or any(s.deviations.correlation >= ALIKE for s in signals.values()):
         return ""
     for mistake in misread(speed.unit):
         if not mistake.usual:
@@ -69,11 +69,11 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
                 result = replay.run()
         except HostError:  # the FMU does not start so fast
             continue
-        alike = [_correlation(s, Curve(result, n)) for n, s in others.items()]
-        if not result.failed_steps and all(one >= ALIKE for one in alike):
+        r_values = [_correlation(s, Curve(result, n)) for n, s in signals.items()]
+        if not result.failed_steps and all(one >= ALIKE for one in r_values):
             return (
                 f"'{speed.source}' ({speed.name}) looks like {mistake.words}: with a car that starts so the other "
-                f"signals are like those of the simulation (correlation {min(alike):.2f} and more), as none is now. "
+                f"signals are like those of the simulation (correlation {min(r_values):.2f} and more), as none is now. "
                 f'unit = "{mistake.unit}" in the alias file.'
             )
     return ""

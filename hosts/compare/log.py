@@ -117,8 +117,8 @@ def _columns(
         for name in (column.name, column.time):
             if name is not None and name not in present:
                 raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{near_hint(name, present)}.")
-    named = {c.name for c in aliases.columns.values()}
-    plain = {n: Column(name=n) for n in present if (n in inputs or n in outputs) and n not in named}
+    mapped_columns = {c.name for c in aliases.columns.values()}
+    plain = {n: Column(name=n) for n in present if (n in inputs or n in outputs) and n not in mapped_columns}
     results = {**plain, **aliases.columns}
     if not results:
         clock = [n for n in present if n.lower() not in TIMES]
@@ -153,11 +153,11 @@ def _signal(
             )
     if written is not None and written != unit:
         where = f"The column '{column.name}' of the log ({ours})"
-        theirs, own = unit_definition(written, where), known_unit(unit)
-        own = own or (fmu.table[ours].definition if ours in fmu.table else None)
-        if own is None or own.exponents != theirs.exponents:
+        log_unit, fmu_unit = unit_definition(written, where), known_unit(unit)
+        fmu_unit = fmu_unit or (fmu.table[ours].definition if ours in fmu.table else None)
+        if fmu_unit is None or fmu_unit.exponents != log_unit.exponents:
             raise HostError(f"{where} is in '{written}'; '{ours}' of {fmu.path.name} is in '{unit}'.")
-        values = (theirs.factor * values + theirs.offset - own.offset) / own.factor
+        values = (log_unit.factor * values + log_unit.offset - fmu_unit.offset) / fmu_unit.factor
     finite = np.isfinite(values)
     t, values = time[finite], values[finite]
     if unit == "rad" and variable.causality == "output":  # an input jumps where it is told to
@@ -173,8 +173,8 @@ def _of_each_time(signal: Signal, jumps: bool) -> Signal:
     first, last = np.append(True, later), np.append(later, True)
     begun = signal.values[np.maximum.accumulate(np.where(first, np.arange(len(first)), 0))]
     moved = np.abs(signal.values - begun) > ROUND_OFF * (np.abs(signal.values) + np.abs(begun))
-    kept = first | (last & moved) if jumps else first
-    return replace(signal, time=signal.time[kept], values=signal.values[kept])
+    selected = first | (last & moved) if jumps else first
+    return replace(signal, time=signal.time[selected], values=signal.values[selected])
 
 
 def _as_measured(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:

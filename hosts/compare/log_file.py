@@ -47,13 +47,13 @@ class RawLog:
             return self
         names = [str(name) for name in self.table.columns]
         last = names.index(record.outputs_from) if record.outputs_from in names else 0
-        parts, end = [], len(self.table)
+        blocks, end = [], len(self.table)
         for k, before in rows_before_jumps(record, self.path, self.numbers(names[0]).tolist(), last - 1):
             row = self.table.iloc[[k]].copy()
             row.iloc[0, 1:last] = before
-            parts += [self.table.iloc[k:end], row]
+            blocks += [self.table.iloc[k:end], row]
             end = k
-        table = pd.concat([self.table.iloc[:end], *reversed(parts)])  # the index is that of the rows of the file
+        table = pd.concat([self.table.iloc[:end], *reversed(blocks)])  # the index is that of the rows of the file
         return replace(self, table=table, added=len(record.jumps))
 
     def numbers(self, name: str) -> NDArray[np.float64]:
@@ -131,8 +131,8 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
         raise HostError(f"The log {path} is not written in {result.encoding}: {error}.") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, ValueError) as error:
         if cells := re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error)):
-            width, line, seen = cells.groups()
-            raise HostError(f"The log {path}, line {line}: {seen} cells; the heading has {width}.") from None
+            width, line, count = cells.groups()
+            raise HostError(f"The log {path}, line {line}: {count} cells; the heading has {width}.") from None
         raise HostError(f"The log {path} is not a table: {one_line(str(error).strip()).rstrip('.')}.") from None
     return RawLog(path, table, result.units, result.first_row)
 

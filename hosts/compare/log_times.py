@@ -109,9 +109,9 @@ def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
         wrong = wrong & pd.to_numeric(raw.table[name], errors="coerce").isna()
     if wrong.any():
         row = int(np.argmax(wrong.to_numpy()))
-        what = "date of ISO 8601" if unit == "iso" else "number or a date such as 2024-05-03T12:00:00.010"
+        expected = "date of ISO 8601" if unit == "iso" else "number or a date such as 2024-05-03T12:00:00.010"
         cell = str(raw.table[name].iloc[row])
-        raise raw.error(row, name, unit_behind(cell) or f"the time {brief(cell)} is not a {what}.")
+        raise raw.error(row, name, unit_behind(cell) or f"the time {brief(cell)} is not a {expected}.")
     first = moments.dropna().iloc[0]
     return np.array((moments - first) / pd.Timedelta(seconds=1), dtype=np.float64)
 
@@ -122,8 +122,8 @@ def _clock_times(raw: RawLog, name: str, texts: pd.Series[str]) -> NDArray[np.fl
     if wrong.any():
         row = int(np.argmax(wrong.to_numpy()))
         raise raw.error(row, name, f"the time {brief(texts.iloc[row])} is not written as {texts.iloc[0]}.")
-    parts = texts.where(raw.table[name].notna()).str.split(":", expand=True).astype(float)
-    seconds = np.array(parts.apply(lambda row: row.dropna().to_numpy() @ 60.0 ** np.arange(row.count())[::-1], axis=1))
+    fields = texts.where(raw.table[name].notna()).str.split(":", expand=True).astype(float)
+    seconds = np.array(fields.apply(lambda row: row.dropna().to_numpy() @ 60.0 ** np.arange(row.count())[::-1], axis=1))
     days = np.cumsum(np.nan_to_num(np.diff(seconds, prepend=seconds[:1])) < -43200.0)
     return np.asarray(seconds + 86400.0 * days)
 

@@ -40,32 +40,34 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         first = None
         for k, name in enumerate(names):
             s = before.signals[name]
-            kept = thinned(s.measured.time, s.measured.values, _POINTS)
+            indices = thinned(s.measured.time, s.measured.values, _POINTS)
             unit, factor = shown_in(s.measured.unit, name)
-            t, y = s.measured.time[kept], factor * s.measured.values[kept]
-            over = figure.add_subplot(grid[k, 0], sharex=first)
-            first = first or over
-            rest = figure.add_subplot(grid[k, 1], sharex=first)
-            over.plot(t, y, ".", color=_MEASURED, markersize=2.5, label="measured", rasterized=len(t) > MANY_POINTS)
+            t, y = s.measured.time[indices], factor * s.measured.values[indices]
+            signal_axes = figure.add_subplot(grid[k, 0], sharex=first)
+            first = first or signal_axes
+            residual_axes = figure.add_subplot(grid[k, 1], sharex=first)
+            signal_axes.plot(
+                t, y, ".", color=_MEASURED, markersize=2.5, label="measured", rasterized=len(t) > MANY_POINTS
+            )
             runs = [(s, BLUE, "simulated" if after is None else "simulated before")]
             if after is not None and name in after.signals:
                 runs.append((after.signals[name], RED, "fitted"))
             for run, colour, label in runs:
                 x = factor * run.simulated(t)
-                over.plot(t, x, color=colour, label=label)
-                rest.plot(t, x - y, color=colour, linewidth=0.9)
+                signal_axes.plot(t, x, color=colour, label=label)
+                residual_axes.plot(t, x - y, color=colour, linewidth=0.9)
             last = runs[-1][0]
-            over.set_title(titled(name, unit))
+            signal_axes.set_title(titled(name, unit))
             rms = f"rms {number_in(factor * last.deviations.rms, unit, '.3g')}"
             rated = f"; rating {last.rating.overall:.2f}" if math.isfinite(last.rating.overall) else ""
-            rest.set_title(f"simulated − measured: {rms}{rated}")
-            rest.axhline(0.0, color="#444444", linewidth=0.8)
-            over.margins(x=0)
+            residual_axes.set_title(f"simulated − measured: {rms}{rated}")
+            residual_axes.axhline(0.0, color="#444444", linewidth=0.8)
+            signal_axes.margins(x=0)
             if k == 0:
-                over.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
+                signal_axes.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
             if k == rows - 1:
-                over.set_xlabel("time, s")
-                rest.set_xlabel("time, s")
+                signal_axes.set_xlabel("time, s")
+                residual_axes.set_xlabel("time, s")
         if inputs:
             _inputs(figure, grid, rows - 1, inputs, first)
     return figure
@@ -74,8 +76,8 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
 def _inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], first: Any) -> None:
     axes = figure.add_subplot(grid[row, :1], sharex=first)
     for k, (name, s) in enumerate(inputs.items()):
-        shown, factor = shown_in(s.unit, name)
-        axes.plot(s.time, factor * s.values, color=COLOURS[k % len(COLOURS)], label=titled(name, shown))
+        unit, factor = shown_in(s.unit, name)
+        axes.plot(s.time, factor * s.values, color=COLOURS[k % len(COLOURS)], label=titled(name, unit))
     axes.set_title("inputs, as measured")
     axes.set_xlabel("time, s")
     axes.margins(x=0)

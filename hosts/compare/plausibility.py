@@ -30,20 +30,20 @@ def check_inputs(fmu: NamedFmu, inputs: Mapping[str, Signal], longest: float, no
     for name, signal in inputs.items():
         steps = np.diff(signal.time)
         k, usual = int(np.argmax(steps)), signal.interval
-        begin, end, what = signal.time[k], signal.time[k + 1], f"input '{signal.source}' ({name})"
+        begin, end, label = signal.time[k], signal.time[k + 1], f"input '{signal.source}' ({name})"
         if steps[k] > max(longest, 1.5 * usual):
             raise HostError(
-                f"The log has no samples of the {what} from {begin:.6g} s to {end:.6g} s ({steps[k]:.3g} s; usual are "
+                f"The log has no samples of the {label} from {begin:.6g} s to {end:.6g} s ({steps[k]:.3g} s; usual are "
                 f"{usual:.3g} s): compare what lies before (--to {begin:.6g}) or after (--from {end:.6g}), or bridge "
                 f"it by a straight line with --longest-gap {math.ceil(100.0 * steps[k]) / 100.0:g}."
             )
         if steps[k] > _MANY * usual:
             notes.append(
-                f"A gap of {steps[k]:.3g} s in the {what}, at {begin:.6g} s, is bridged by a straight line "
+                f"A gap of {steps[k]:.3g} s in the {label}, at {begin:.6g} s, is bridged by a straight line "
                 f"(usual are {usual:.3g} s)."
             )
         if beyond := beyond_range(fmu.table[name], signal.values, "sample"):
-            raise HostError(f'The log\'s {what} {beyond} An alias file gives a unit, such as unit = "%" or "deg".')
+            raise HostError(f'The log\'s {label} {beyond} An alias file gives a unit, such as unit = "%" or "deg".')
 
 
 def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
@@ -66,18 +66,18 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     deviation = deviations(signal.time, y, x)
     label = f"'{signal.source}' ({signal.name})"
-    if (still := turned(signal, curve, delay)) is not None:
+    if (opposite := turned(signal, curve, delay)) is not None:
         return (
-            f"{label} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
+            f"{label} has the opposite sign of the simulation (correlation {opposite:.2f}): factor = -1.0 in the alias "
             "file turns it."
         )
     if not abs(deviation.correlation) >= ALIKE:
         return ""
     # Of the spreads, not of the regression, which noise makes smaller.
     ratio = float(np.std(y) / np.std(x))
-    named = [(m, f'it looks like {m.words}: unit = "{m.unit}" in the alias file.') for m in misread(signal.unit)]
-    other = [(m, "is it in another unit, or is a factor missing?") for m in misread("")]
-    for m, message in (*named, *other):
+    by_unit = [(m, f'it looks like {m.words}: unit = "{m.unit}" in the alias file.') for m in misread(signal.unit)]
+    by_factor = [(m, "is it in another unit, or is a factor missing?") for m in misread("")]
+    for m, message in (*by_unit, *by_factor):
         if m.usual and 1.0 / _CLOSE < ratio * m.factor < _CLOSE:
             return f"{label} is {ratio:.4g} times as large as in the simulation: {message}"
     return ""

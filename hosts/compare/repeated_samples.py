@@ -23,9 +23,9 @@ def rows_of_a_value(values: NDArray[np.float64]) -> int:
     changes = np.flatnonzero(np.diff(values)) + 1
     if len(changes) < _FEWEST:
         return 1
-    apart, sizes = np.diff(changes), np.abs(np.diff(values))[changes - 1]
-    rows = int(np.median(apart))
-    off = np.abs(apart - rows * np.maximum(np.round(apart / rows), 1.0)) <= _OFF * rows
+    spacings, sizes = np.diff(changes), np.abs(np.diff(values))[changes - 1]
+    rows = int(np.median(spacings))
+    off = np.abs(spacings - rows * np.maximum(np.round(spacings / rows), 1.0)) <= _OFF * rows
     usual = float(np.median(sizes))
-    alike = np.abs(sizes - usual) < _EQUAL * usual
-    return rows if rows >= _LEAST and off.mean() >= _MOST and alike.mean() < 0.5 else 1
+    equal = np.abs(sizes - usual) < _EQUAL * usual
+    return rows if rows >= _LEAST and off.mean() >= _MOST and equal.mean() < 0.5 else 1

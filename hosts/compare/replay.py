@@ -144,8 +144,8 @@ class Replay(Closable):
         Result: under our names; several segments as `joined` puts them. Raises `FailedFmuError`: a process has ended.
         """
         tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.segments))]
-        with Progress(self._experiment, 1.0) if self._shown is None else nullcontext(self._shown) as shown:
-            by_task = {k: result for k, _, result in shown.results(tasks, self._pool)}
+        with Progress(self._experiment, 1.0) if self._shown is None else nullcontext(self._shown) as progress:
+            by_task = {k: result for k, _, result in progress.results(tasks, self._pool)}
         results = [self._result(k, by_task[k]) for k in range(len(tasks))]
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):

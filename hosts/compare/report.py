@@ -47,19 +47,19 @@ def write_report(
 ) -> None:
     """Write the page into ``.html`` of the paths, and what is drawn into ``.svg``.
 
-    `told`: deviations by measured speed and lateral acceleration.
+    `bins`: deviations by measured speed and lateral acceleration.
     """
     late = common_sentence(before)
-    parts: list[HtmlElement] = [_table_of(before)] + ([paragraph(late)] if late else [])
-    sections = [Section("Deviations" if after is None else "Deviations before the fit", parts)]
+    content: list[HtmlElement] = [_table_of(before)] + ([paragraph(late)] if late else [])
+    sections = [Section("Deviations" if after is None else "Deviations before the fit", content)]
     if after is not None and fit is not None:
         sections.append(Section("Deviations with the fitted parameters and sensors", [_table_of(after)]))
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
-        parts = [table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
-        parts += [paragraph(sentence_of(line)) for line in result_text(fit)]
-        parts += [element("h3", "Correlation of the errors"), table("", ("", *names), rows, "numbers")]
-        sections.append(Section("Fit", parts))
+        content = [table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
+        content += [paragraph(sentence_of(line)) for line in result_text(fit)]
+        content += [element("h3", "Correlation of the errors"), table("", ("", *names), rows, "numbers")]
+        sections.append(Section("Fit", content))
     if bins:
         binned = table("", _BIN_COLUMNS, bin_rows(bins, before), "numbers")
         sections.append(Section("By speed and lateral acceleration", [binned]))

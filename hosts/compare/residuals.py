@@ -129,21 +129,21 @@ class Residuals:
         return np.asarray((at[0][1] - at[1][1]) / (at[0][0] - at[1][0]))
 
     def _exact(self, p: Array, k: int, curves: Mapping[str, Curve]) -> Array:
-        u, parts = self.unknowns[k], []
+        u, derivatives = self.unknowns[k], []
         segment = 1.0 + self._own("drift", "", p)
         for name, signal in self.outputs.items():
             if u.signal not in ("", name):
-                parts.append(np.zeros(len(signal.time)))
+                derivatives.append(np.zeros(len(signal.time)))
                 continue
             t, gain = self._time(name, p), self._own("gain", name, p, 1.0)
             if u.kind == "bias":
-                part = np.ones(len(t))
+                derivative = np.ones(len(t))
             elif u.kind == "gain":
-                part = curves[name](t)
+                derivative = curves[name](t)
             else:
-                part = -gain * curves[name].slope(t) / segment * (t if u.kind == "drift" else 1.0)
-            parts.append(part / self.noise[name])
-        return np.concatenate(parts)
+                derivative = -gain * curves[name].slope(t) / segment * (t if u.kind == "drift" else 1.0)
+            derivatives.append(derivative / self.noise[name])
+        return np.concatenate(derivatives)
 
     def _curves(self, p: Array) -> dict[str, Curve] | str:
         key = tuple(float(v) for v in p[: self.count])

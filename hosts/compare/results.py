@@ -59,10 +59,10 @@ def write_outcome(
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
     error_bins = bins(outcome.best, task.scales)
-    shown = (
+    caption = (
         f"{title}: {', '.join(outcome.before.signals)}, measured and simulated, over time, and what remains of each."
     )
-    figure = drawing(comparison_figure(outcome.before, outcome.after, title, task.inputs), shown)
+    figure = drawing(comparison_figure(outcome.before, outcome.after, title, task.inputs), caption)
     write_report(
         title, outcome.before, outcome.after, outcome.fit, error_bins, outcome.notes, outcome.problems, paths, figure
     )

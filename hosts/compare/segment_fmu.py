@@ -35,23 +35,23 @@ def smoothed(speed: Signal) -> Signal:
     """
     if len(speed.values) < _PARABOLA + 2:
         return speed
-    window, parts = 2 * round(0.5 * _SMOOTHED / speed.interval) + 1, speed.values.copy()
-    every = np.diff(speed.time)
-    uneven = np.flatnonzero(np.abs(every - speed.interval) > _UNEVEN * speed.interval) + 1
-    for part in np.split(np.arange(len(parts)), uneven):
-        if len(part) >= window > _PARABOLA + 1:
-            parts[part] = savgol_filter(speed.values[part], window, _PARABOLA)
-    return replace(speed, values=parts)
+    window, values = 2 * round(0.5 * _SMOOTHED / speed.interval) + 1, speed.values.copy()
+    intervals = np.diff(speed.time)
+    uneven = np.flatnonzero(np.abs(intervals - speed.interval) > _UNEVEN * speed.interval) + 1
+    for indices in np.split(np.arange(len(values)), uneven):
+        if len(indices) >= window > _PARABOLA + 1:
+            values[indices] = savgol_filter(speed.values[indices], window, _PARABOLA)
+    return replace(speed, values=values)
 
 
 def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
     speed = smoothed(speed)
-    own, integral = (gain * min(1.0, _FINE / step) for gain in _GAINS)
+    proportional, integral = (gain * min(1.0, _FINE / step) for gain in _GAINS)
 
     def wanted(t: float) -> float:
         return float(np.interp(t, speed.time, speed.values))
 
-    return SpeedHolder(wanted, own, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIDING)
+    return SpeedHolder(wanted, proportional, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIDING)
 
 
 Task: TypeAlias = tuple[int, dict[str, Value], bool | None]
@@ -74,8 +74,8 @@ class SegmentFmu(LoadedFmu):
         """The result, or why the FMU does not start with these values: no error, which would end the others."""
         number, values, self.can_reset = task
         try:
-            whole = len(self._stretches) * self._stretches[number].end / self._step
-            return self.drive(self._stretches[number], values, lambda done: tell(done / whole))
+            total = len(self._stretches) * self._stretches[number].end / self._step
+            return self.drive(self._stretches[number], values, lambda done: tell(done / total))
         except StartRefusedError as error:
             return str(error)
 

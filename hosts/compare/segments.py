@@ -71,9 +71,9 @@ def one_after_the_other(signals: Mapping[str, Signal], segments: Sequence[Segmen
     """Signals of a log at the places of its segments."""
     results = {}
     for name, signal in signals.items():
-        parts = [signal.between(s.begin, s.begin + s.end) for s in segments]
-        times = [p.time - s.begin + s.place for p, s in zip(parts, segments, strict=True)]
-        results[name] = replace(signal, time=np.concatenate(times), values=np.concatenate([p.values for p in parts]))
+        pieces = [signal.between(s.begin, s.begin + s.end) for s in segments]
+        times = [p.time - s.begin + s.place for p, s in zip(pieces, segments, strict=True)]
+        results[name] = replace(signal, time=np.concatenate(times), values=np.concatenate([p.values for p in pieces]))
     return results
 
 

@@ -71,8 +71,8 @@ def measured_start(
     if start:
         message = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
         notes.append(f"The start is as measured: {message}{_WHERE if 'initial.x' in start else ''}.")
-    whole = {**start, **set_values}
-    moves = abs(float(whole.get("initial.speed", 0.0))) > _MOVES and "initial.yaw_rate" in whole
+    all_values = {**start, **set_values}
+    moves = abs(float(all_values.get("initial.speed", 0.0))) > _MOVES and "initial.yaw_rate" in all_values
     if moves and _SETTLING in fmu.variables and _SETTLING not in set_values:
         start[_SETTLING] = _SETTLED
         notes.append(

@@ -89,8 +89,8 @@ def prepare(options: argparse.Namespace) -> Task:
         our_values = source.ours(set_values)
         sought = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
         # Those that may drive the car, and the speed for its start, are used whatever is compared.
-        used = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
-        log = log_for(fmu, raw, log_aliases, {*our_values, *sought}, used)
+        used_names = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
+        log = log_for(fmu, raw, log_aliases, {*our_values, *sought}, used_names)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
         followed = _add_steering(fmu, log, inputs, outputs, notes, our_values, sought)
@@ -109,15 +109,15 @@ def prepare(options: argparse.Namespace) -> Task:
         check_inputs(fmu, inputs, options.longest_gap, notes)
         note_gaps(outputs, notes)
         requested = spans(options.seconds)
-        parts = _parts(options, requested, end)
-        step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, parts[0][1]), _step(fmu, inputs, options))
-        whole = {n for n in inputs if fmu.variables[n].type == "Integer"}
+        stretches = _parts(options, requested, end)
+        step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, stretches[0][1]), _step(fmu, inputs, options))
+        integers = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
         everything = outputs | log_at(log, options)
         point = reference_point(source, our_values)
         segments: list[Segment] = []
         missed: list[str] = []
-        for begin, length in parts:
+        for begin, length in stretches:
             begun = None if begin or options.begin else log.begun
             start, message = measured_start(fmu, cut(everything, begin, begin + length), our_values, begun)
             notes += message if not segments else []
@@ -128,7 +128,7 @@ def prepare(options: argparse.Namespace) -> Task:
                 length,
                 step,
                 not slopes,
-                whole,
+                integers,
                 followed,
                 log.held & inputs.keys(),
             )
@@ -136,7 +136,7 @@ def prepare(options: argparse.Namespace) -> Task:
                 variable = fmu.table[name]
                 np.clip(manoeuvre.inputs[name], variable.low, variable.high, out=manoeuvre.inputs[name])
             check_columns(fmu, manoeuvre)
-            missed += _missed(manoeuvre, step, slopes, whole, (options.begin or 0.0) + begin)
+            missed += _missed(manoeuvre, step, slopes, integers, (options.begin or 0.0) + begin)
             held_speed = None if speed is None else cut({"": speed}, begin, begin + length)[""]
             segments.append(Segment(manoeuvre, held_speed, 0.0, begin, len(segments) * (length + GAP)))
         notes += missed[:1]
@@ -182,15 +182,15 @@ def _parts(options: argparse.Namespace, requested: Spans | None, end: float) -> 
         if options.window_every is not None:
             raise HostError("--window-every needs --windows, the length of a window.")
         return [(0.0, end)]
-    every = options.windows if options.window_every is None else options.window_every
-    if not (0.0 < options.windows <= end and every > 0.0):
+    interval = options.windows if options.window_every is None else options.window_every
+    if not (0.0 < options.windows <= end and interval > 0.0):
         raise HostError(
-            f"--windows {options.windows:g}, one every {every:g} s; both must be positive, within {end:g} s."
+            f"--windows {options.windows:g}, one every {interval:g} s; both must be positive, within {end:g} s."
         )
     if options.skip:
         raise HostError("--skip cannot be combined with --windows: each begins in its measured state.")
     last = begin + end + 1e-9
-    results = [t for t in begins(requested or ((begin, last),), options.windows, every) if t >= begin]
+    results = [t for t in begins(requested or ((begin, last),), options.windows, interval) if t >= begin]
     results = [t - begin for t in results if t + options.windows <= last]
     if not results:
         raise HostError(f"No window of {options.windows:g} s lies in --seconds {options.seconds} and in the log.")
@@ -231,9 +231,9 @@ def _step(fmu: NamedFmu, inputs: Mapping[str, Signal], options: argparse.Namespa
     """The step that was asked for; else that of the FMU, or of the log where that is longer, up to 10 ms."""
     if options.step is not None:
         return float(options.step)
-    own = default_step(fmu.description)
+    fmu_step = default_step(fmu.description)
     finest = min((s.interval for s in inputs.values()), default=0.01)
-    return own * max(1, math.floor(min(finest, 0.01) / own + 1e-6))
+    return fmu_step * max(1, math.floor(min(finest, 0.01) / fmu_step + 1e-6))
 
 
 def _chosen(log: Log, fmu: NamedFmu, options: argparse.Namespace) -> tuple[dict[str, Signal], dict[str, Signal]]:
@@ -242,8 +242,8 @@ def _chosen(log: Log, fmu: NamedFmu, options: argparse.Namespace) -> tuple[dict[
         for name in options.signals:
             if name not in outputs:
                 hint = did_you_mean(name, outputs, f"it has {', '.join(outputs) or 'none'}")
-                what = "is not an output of the FMU" if name not in fmu.names("output") else "is not in the log"
-                raise HostError(f"--signals: '{name}' {what}{hint}")
+                reason = "is not an output of the FMU" if name not in fmu.names("output") else "is not in the log"
+                raise HostError(f"--signals: '{name}' {reason}{hint}")
         outputs = {n: outputs[n] for n in options.signals}
     for name in options.ignore:
         if name not in inputs:
@@ -315,8 +315,8 @@ def _shifted(signals: Mapping[str, Signal], options: argparse.Namespace) -> dict
 
 def cut(signals: Mapping[str, Signal], begin: float, end: float) -> dict[str, Signal]:
     """Signals between two times, from time 0 on."""
-    parts = {n: s.between(begin, end) for n, s in signals.items()}
-    return {n: replace(s, time=s.time - begin) for n, s in parts.items()}
+    sections = {n: s.between(begin, end) for n, s in signals.items()}
+    return {n: replace(s, time=s.time - begin) for n, s in sections.items()}
 
 
 def _window(

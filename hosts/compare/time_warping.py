@@ -30,15 +30,15 @@ def warped(
     for d in range(2 * n - 1):
         low, high = max(0, d - n + 1, -((band - d) // 2)), min(n - 1, d, (d + band) // 2)
         i = np.arange(low, high + 1)
-        place = 2 * i - d + band + 1
+        cell = 2 * i - d + band + 1
         cost = (y[i] - x[d - i]) ** 2
         if d == 0:
-            total[0, place] = cost
+            total[0, cell] = cost
             continue
-        before = np.minimum(total[d - 1, place - 1], total[d - 1, place + 1])
+        before = np.minimum(total[d - 1, cell - 1], total[d - 1, cell + 1])
         if d > 1:
-            before = np.minimum(before, total[d - 2, place])
-        total[d, place] = cost + before
+            before = np.minimum(before, total[d - 2, cell])
+        total[d, cell] = cost + before
     return _along_path(total, y, x, band)
 
 
@@ -48,10 +48,10 @@ def _along_path(
     i = j = len(y) - 1
     path = [(i, j)]
     while i or j:
-        d, place = i + j, i - j + band + 1
-        steps = [(total[d - 1, place - 1], i - 1, j), (total[d - 1, place + 1], i, j - 1)]
+        d, cell = i + j, i - j + band + 1
+        steps = [(total[d - 1, cell - 1], i - 1, j), (total[d - 1, cell + 1], i, j - 1)]
         if d > 1:
-            steps.append((total[d - 2, place], i - 1, j - 1))
+            steps.append((total[d - 2, cell], i - 1, j - 1))
         _, i, j = min((s for s in steps if s[1] >= 0 and s[2] >= 0), key=lambda s: s[0])
         path.append((i, j))
     rows, columns = np.array(path[::-1]).T

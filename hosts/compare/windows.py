@@ -53,8 +53,8 @@ def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]
     for segment in segments:
         sizes, departed = {}, ""
         for name, s in comparison.signals.items():
-            part = s.measured.between(segment.place, segment.place + segment.end)
-            error = s.simulated(part.time) - part.values
+            measured = s.measured.between(segment.place, segment.place + segment.end)
+            error = s.simulated(measured.time) - measured.values
             sizes[name] = rms(error)
             if not np.max(np.abs(error)) <= ranges[name]:
                 departed = departed or name
@@ -64,11 +64,11 @@ def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]
 
 def window_text(windows: Sequence[Window]) -> str:
     """How many windows there are, and which have departed, in a sentence."""
-    gone = [w for w in windows if w.departed]
-    if not gone:
+    departed = [w for w in windows if w.departed]
+    if not departed:
         return f"{len(windows)} windows; none has departed."
-    which = ", ".join(f"{w.begin:g} s ({w.departed})" for w in gone)
-    count = f"{len(windows)} windows; {len(gone)} departed"
+    which = ", ".join(f"{w.begin:g} s ({w.departed})" for w in departed)
+    count = f"{len(windows)} windows; {len(departed)} departed"
     return f"{count}, by more than the range of what was measured: those from {which}."
 
 

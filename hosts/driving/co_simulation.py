@@ -155,9 +155,9 @@ def run(
             set_inputs(values)
         rows.begin(values)
         if straight:
-            then = manoeuvre.at(t + step, whole, before=True)
-            changes = [then[n] - input_values[n] for n in straight]
-            rows.move([then[n] for n in straight], changes)
+            next_values = manoeuvre.at(t + step, whole, before=True)
+            changes = [next_values[n] - input_values[n] for n in straight]
+            rows.move([next_values[n] for n in straight], changes)
             follow([change / step for change in changes])
         try:
             fmu.step(manoeuvre.state_time + t, step)

@@ -62,13 +62,13 @@ class Course:
             return f"lane 1 was not driven from its beginning at {begin:.4g} m: the front starts at {front[0]:.4g} m"
         for number, gate in enumerate(self.gates, start=1):
             if front.max() < gate.x_start:
-                place = f"it begins at {gate.x_start:.4g} m, the front comes to {front.max():.4g} m"
-                return f"lane {number} was not reached: {place}"
+                detail = f"it begins at {gate.x_start:.4g} m, the front comes to {front.max():.4g} m"
+                return f"lane {number} was not reached: {detail}"
         if rear[-1] <= end:
-            place = f"it ends at {end:.4g} m, the rear is at {rear[-1]:.4g} m at last"
-            return f"lane {len(self.gates)} was not left: {place}"
-        apart = float(np.abs(np.diff(x)).max(initial=0.0, where=(front[1:] >= begin) & (rear[:-1] <= end)))
-        return f"rows are {apart:.3g} m apart, lanes are seen by {ROWS:g} m or less" if apart > ROWS else ""
+            detail = f"it ends at {end:.4g} m, the rear is at {rear[-1]:.4g} m at last"
+            return f"lane {len(self.gates)} was not left: {detail}"
+        spacing = float(np.abs(np.diff(x)).max(initial=0.0, where=(front[1:] >= begin) & (rear[:-1] <= end)))
+        return f"rows are {spacing:.3g} m apart, lanes are seen by {ROWS:g} m or less" if spacing > ROWS else ""
 
     def corners_outside(
         self, x: NDArray[np.float64], y: NDArray[np.float64], yaw: NDArray[np.float64], length: float, width: float

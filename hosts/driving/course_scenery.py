@@ -36,18 +36,18 @@ def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
 
 def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> dict[str, Any]:
     """A scene with marks on its roads; `name` is that of `missing` where they cannot be put there."""
-    things = things_of(marks)
-    flat = np.array([p for thing in things for p in thing.get("points", [thing.get("at")])], float).reshape(-1, 2)
-    places = np.column_stack([flat, _heights(scene.get("roads", []), *flat.T)])
-    if not np.all(np.isfinite(places)):
+    scenery = things_of(marks)
+    flat = np.array([p for thing in scenery for p in thing.get("points", [thing.get("at")])], float).reshape(-1, 2)
+    points = np.column_stack([flat, _heights(scene.get("roads", []), *flat.T)])
+    if not np.all(np.isfinite(points)):
         why = "they are put onto level roads, planes, kerbs and within grids of heights and terrains only"
         return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}
-    rest = iter(places.tolist())
-    things = [
-        thing | ({"at": next(rest)} if "at" in thing else {"points": [next(rest) for _ in thing["points"]]})
-        for thing in things
+    remaining = iter(points.tolist())
+    scenery = [
+        thing | ({"at": next(remaining)} if "at" in thing else {"points": [next(remaining) for _ in thing["points"]]})
+        for thing in scenery
     ]
-    return dict(scene) | ({"scenery": [*scene.get("scenery", []), *things]} if things else {})
+    return dict(scene) | ({"scenery": [*scene.get("scenery", []), *scenery]} if scenery else {})
 
 
 def things_of(marks: Sequence[Mark]) -> list[Mark]:
@@ -55,25 +55,25 @@ def things_of(marks: Sequence[Mark]) -> list[Mark]:
 
     Raises `ValueError`, `KeyError`, `TypeError` or `OverflowError`: they are no marks.
     """
-    things = []
+    scenery = []
     for mark in marks:
         if mark["kind"] == "circle":
             (x, y), radius = mark["centre"], mark["radius"]
             sections = min(max(_FEWEST, math.ceil(2.0 * math.pi * radius)), _MOST)
             angles = np.linspace(0.0, 2.0 * math.pi, sections + 1)
             points = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)]).tolist()
-            things.append({"kind": "line", "points": points, "width": _WIDTH})
+            scenery.append({"kind": "line", "points": points, "width": _WIDTH})
         elif mark["kind"] == "line":
             points = [[float(x), float(y)] for x, y in mark["points"]]
-            things.append({"kind": "line", "points": points, "width": _WIDTH, "colour": mark["colour"]})
+            scenery.append({"kind": "line", "points": points, "width": _WIDTH, "colour": mark["colour"]})
         elif mark["kind"] == "lanes":
             x0, y0, yaw = mark["pose"]
             c, s = math.cos(yaw), math.sin(yaw)
-            places = cone_places([Gate(*gate) for gate in mark["gates"]])
-            things += [{"kind": "cone", "at": [x0 + c * x - s * y, y0 + s * x + c * y]} for x, y in places]
+            positions = cone_places([Gate(*gate) for gate in mark["gates"]])
+            scenery += [{"kind": "cone", "at": [x0 + c * x - s * y, y0 + s * x + c * y]} for x, y in positions]
         else:
             raise ValueError(mark["kind"])
-    return things
+    return scenery
 
 
 def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
@@ -110,5 +110,5 @@ def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array, border: float)
     heights = decoded(road["heights"], "f").reshape(nx, ny)
     a, b = np.minimum(i.astype(int), nx - 2), np.minimum(j.astype(int), ny - 2)
     u, v = i - a, j - b
-    near, far = (heights[k, b] * (1.0 - v) + heights[k, b + 1] * v for k in (a, a + 1))
-    return np.where(beyond <= border, near * (1.0 - u) + far * u, math.nan)
+    lower, upper = (heights[k, b] * (1.0 - v) + heights[k, b + 1] * v for k in (a, a + 1))
+    return np.where(beyond <= border, lower * (1.0 - u) + upper * u, math.nan)

@@ -13,12 +13,12 @@ def derive_columns(result: Result, fmu: SimulatedFmu, thinned: bool = False) -> 
     """
     if not any(name in result.names for name in fmu.derived):
         return
-    ended, held = result.values.copy(), [result.names.index(name) for name in result.held]
+    end_values, held_columns = result.values.copy(), [result.names.index(name) for name in result.held]
     if not thinned:
-        ended[1:, held] = result.values[:-1, held]
+        end_values[1:, held_columns] = result.values[:-1, held_columns]
     for k, before in result.jumps.items():
-        ended[k, : len(before)] = before
-    for name, column in fmu.derive(result.names, result.time, ended).items():
+        end_values[k, : len(before)] = before
+    for name, column in fmu.derive(result.names, result.time, end_values).items():
         if name in result.names:
-            kept = result.values[:, result.names.index(name)]
-            kept[:] = np.where(np.isnan(kept), column, kept) if thinned else column
+            values = result.values[:, result.names.index(name)]
+            values[:] = np.where(np.isnan(values), column, values) if thinned else column

@@ -79,13 +79,13 @@ class Manoeuvre:
     def column(self, name: str, times: NDArray[np.float64], held: bool, before: bool = False) -> NDArray[np.float64]:
         """Values of one input at many times, see `at`. `times`: s, shape (n,). Result: shape (n,)."""
         k = np.searchsorted(self.time, times + (-ON_TIME if before else ON_TIME), side="left" if before else "right")
-        one, other = np.maximum(k - 1, 0), np.minimum(k, len(self.time) - 1)
-        values, long = self.inputs[name], self.time[other] - self.time[one]
+        lower, upper = np.maximum(k - 1, 0), np.minimum(k, len(self.time) - 1)
+        values, interval = self.inputs[name], self.time[upper] - self.time[lower]
         if held:
-            return values[one]
-        part = np.clip((times - self.time[one]) / np.where(long > 0.0, long, 1.0), 0.0, 1.0)
-        part = np.where(long > 0.0, part, 0.0)
-        return np.asarray((1.0 - part) * values[one] + part * values[other])
+            return values[lower]
+        fraction = np.clip((times - self.time[lower]) / np.where(interval > 0.0, interval, 1.0), 0.0, 1.0)
+        fraction = np.where(interval > 0.0, fraction, 0.0)
+        return np.asarray((1.0 - fraction) * values[lower] + fraction * values[upper])
 
 
 def _between(one: float, other: float, part: float) -> float:
@@ -97,13 +97,13 @@ def digest(manoeuvre: Manoeuvre) -> str:
     """A hash of the content of a manoeuvre, its table and its state included, without its name."""
     m = manoeuvre
     content = m.stop_time, m.start, m.driver, m.state_time, m.find_throttle, sorted(m.held), list(m.inputs)
-    parts = (
+    fields = (
         repr(content).encode(),
         m.time.tobytes(),
         m.state or b"",
         *(values.tobytes() for values in m.inputs.values()),
     )
-    return hashlib.sha256(b"\n".join(parts)).hexdigest()
+    return hashlib.sha256(b"\n".join(fields)).hexdigest()
 
 
 def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:

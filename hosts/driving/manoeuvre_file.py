@@ -97,8 +97,8 @@ class _ManoeuvreFile(_Typed):
         if odd := next((name for name in self.held if name == "time" or name not in self.inputs), None):
             raise ValueError(f"held has '{odd}'; it must be a list of names of [inputs]")
         if self.find_throttle and (self.driver or "throttle" in self.inputs):
-            what = "[driver]" if self.driver else "throttle in [inputs]"
-            raise ValueError(f"with find_throttle there is no {what}")
+            conflict = "[driver]" if self.driver else "throttle in [inputs]"
+            raise ValueError(f"with find_throttle there is no {conflict}")
         return self
 
 

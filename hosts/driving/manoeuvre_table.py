@@ -62,26 +62,26 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
     step, start_values = record.step, dict[str, Value]()
     for number, comment in table.comments:
-        key, _, rest = comment.lstrip("# ").partition(":")
+        key, _, content = comment.lstrip("# ").partition(":")
         where = f"{path}, line {number}"
         if key.strip() == "start":
-            _assign(start_values, rest.split(","), where)
+            _assign(start_values, content.split(","), where)
         elif key.strip() == "state":
-            name, at, instant = rest.rpartition(" at ")
+            name, at, instant = content.rpartition(" at ")
             if not at:
-                raise HostError(f"{where}: {brief(rest.strip())} is not of the form FILE at TIME.")
+                raise HostError(f"{where}: {brief(content.strip())} is not of the form FILE at TIME.")
             state = read_state(path.parent, name.strip(), where), number_of(instant, f"{where}, time of the state")
         elif key.strip() == "step":
-            step = number_of(rest, f"{where}, communication step")
+            step = number_of(content, f"{where}, communication step")
             if not step > 0.0:
                 raise HostError(f"{where}: the communication step is {step:g} s; it must be positive.")
         elif _CUT.fullmatch(key.strip()):
             raise HostError(f"{where}: {key.strip()}, so that the run cannot be repeated; record a shorter one.")
         elif key.strip() == "outputs from":
-            recorded = rest.strip()
+            recorded = content.strip()
         elif key.strip() == "held":
-            held = {name.strip() for name in rest.split(",")}
-        elif rest and (meant := near_names(key.strip(), _KEYS, 1, LIKE)):
+            held = {name.strip() for name in content.split(",")}
+        elif content and (meant := near_names(key.strip(), _KEYS, 1, LIKE)):
             raise HostError(
                 f"{where}: {brief(key.strip() + ':')} is not a key of a table; did you mean '{meant[0]}:'? In a remark "
                 "leave the colon out."
@@ -100,12 +100,14 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
     columns = {
         name: values[:, k] for k, name in enumerate(inputs, start=1) if input_names is None or name in input_names
     }
-    kept = frozenset(inputs if held is None and recorded else held or ())
-    if not kept <= set(inputs):
-        raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is listed as held but is not an input of the table.")
+    held_inputs = frozenset(inputs if held is None and recorded else held or ())
+    if not held_inputs <= set(inputs):
+        raise HostError(
+            f"{path}: {brief(min(held_inputs - set(inputs)))} is listed as held but is not an input of the table."
+        )
     start = {name: value for name, value in (start | start_values).items() if name not in columns}
     return Manoeuvre(
-        path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step=step
+        path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, held_inputs & set(columns), step=step
     )
 
 
@@ -121,10 +123,10 @@ def check_begin(first: float, last: float, path: Path) -> None:
 
 
 def _assign(start_values: dict[str, Value], parts: Iterable[str], where: str) -> None:
-    for part in parts:
-        name, equals, value = part.partition("=")
+    for assignment in parts:
+        name, equals, value = assignment.partition("=")
         if not equals:
-            raise HostError(f"{where}: {brief(part.strip())} is not of the form name=value.")
+            raise HostError(f"{where}: {brief(assignment.strip())} is not of the form name=value.")
         if name.strip() in start_values:
             raise HostError(f"{where}: the start value {brief(name.strip())} is given twice.")
         start_values[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")

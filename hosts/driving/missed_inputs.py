@@ -72,18 +72,18 @@ def _off(
     """How far rows of a table are from what the FMU gets at their times, in the unit of the column."""
     time, values = manoeuvre.time[rows], manoeuvre.inputs[name][rows]
     begin = h * np.floor(time / h)
-    got = manoeuvre.column(name, begin, held)
+    begin_values = manoeuvre.column(name, begin, held)
     if straight:
-        then = manoeuvre.column(name, begin + h, held, before=True)
-        return np.asarray(np.abs(values - got - (time - begin) / h * (then - got)))
-    return np.where(values == manoeuvre.inputs[name][rows - 1], 0.0, np.abs(values - got))
+        end_values = manoeuvre.column(name, begin + h, held, before=True)
+        return np.asarray(np.abs(values - begin_values - (time - begin) / h * (end_values - begin_values)))
+    return np.where(values == manoeuvre.inputs[name][rows - 1], 0.0, np.abs(values - begin_values))
 
 
 def _jumps(manoeuvre: Manoeuvre, name: str, rows: NDArray[np.intp], held: bool) -> NDArray[np.bool_]:
     """Which rows are on one side of a jump: every change of a held input, two values at one time of the others."""
     time, values = manoeuvre.time, manoeuvre.inputs[name]
-    apart = (np.diff(values) != 0.0) & (held | (np.diff(time) == 0.0))
-    return np.append(False, apart)[rows] | (np.append(apart, False)[rows] & (not held))
+    jumps = (np.diff(values) != 0.0) & (held | (np.diff(time) == 0.0))
+    return np.append(False, jumps)[rows] | (np.append(jumps, False)[rows] & (not held))
 
 
 def missed_end(stop_time: float, steps: int, step: float) -> tuple[str, str] | None:

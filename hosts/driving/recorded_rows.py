@@ -33,8 +33,8 @@ def _table(shape: tuple[int, int], file: Path | None) -> NDArray[np.float64]:
 def kept_rows(file: Path, columns: int) -> NDArray[np.float64]:
     """Rows that a process wrote, of shape (n, columns); none where it has spoilt them."""
     with suppress(OSError, ValueError):
-        whole = np.memmap(file, np.float64, "c")
-        table: NDArray[np.float64] = np.asarray(whole[: len(whole) // columns * columns].reshape(-1, columns))
+        numbers = np.memmap(file, np.float64, "c")
+        table: NDArray[np.float64] = np.asarray(numbers[: len(numbers) // columns * columns].reshape(-1, columns))
         count = float(table[0, 0])
         if 0.0 <= count <= len(table) - 1.0:
             rows = table[1 : 1 + int(count)]

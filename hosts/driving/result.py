@@ -75,8 +75,8 @@ class Result:
         wrong = ~np.isfinite(self.values)
         if not wrong.any():
             return ""
-        row, place = np.argwhere(wrong)[0]
-        return f"The output '{self.names[place]}' is {self.values[row, place]} at {self.time[row]:g} s."
+        row, column = np.argwhere(wrong)[0]
+        return f"The output '{self.names[column]}' is {self.values[row, column]} at {self.time[row]:g} s."
 
     def __contains__(self, name: str) -> bool:
         return name in self.names

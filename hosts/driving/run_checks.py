@@ -48,13 +48,13 @@ def steps_of(interval: float, step: float, what: str) -> int:
     `interval`, `step`: in s; `what`: how messages call the interval. Raises `HostError`: it is not a whole multiple of
     the step.
     """
-    every = round(interval / step) if math.isfinite(interval) else 0
-    if every < 1 or abs(every * step - interval) > 1e-6 * interval:
-        near = step * max(1, every)
+    steps = round(interval / step) if math.isfinite(interval) else 0
+    if steps < 1 or abs(steps * step - interval) > 1e-6 * interval:
+        near = step * max(1, steps)
         raise HostError(
             f"{what} is {interval:g} s, which is not a multiple of the step of {step:g} s; take {near:g} s."
         )
-    return every
+    return steps
 
 
 def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
@@ -70,27 +70,27 @@ def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
             f"{manoeuvre.stop_time:g} s; subtract the first time from all its times."
         )
     for name, values in manoeuvre.inputs.items():
-        what, variable = f"The manoeuvre '{manoeuvre.name}' has a column '{name}'", fmu.variables.get(name)
+        text, variable = f"The manoeuvre '{manoeuvre.name}' has a column '{name}'", fmu.variables.get(name)
         if variable is not None and variable.causality == "parameter" and name not in tunable:
             raise HostError(
-                f"{what}, a {variable.variability} parameter of {fmu.path.name}: it can be set before the start only, "
+                f"{text}, a {variable.variability} parameter of {fmu.path.name}: it can be set before the start only, "
                 "by --set, --parameters or in [start]."
             )
         if name not in inputs and name not in tunable:
             raise HostError(
-                f"{what}, which is not an input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
+                f"{text}, which is not an input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
                 f"{f'; a tunable parameter, such as {tunable[0]}, can be a column too' if tunable else ''}. "
                 "An alias file (--aliases) gives inputs that have other names."
             )
         if fmu.variables[name].type == "Integer" and (values != np.round(values)).any():
             odd = float(values[values != np.round(values)][0])
-            raise HostError(f"{what} with the value {odd:g}; '{name}' is a whole number.")
+            raise HostError(f"{text} with the value {odd:g}; '{name}' is a whole number.")
         worst = float(values[np.argmax(np.abs(values))])
         if abs(worst) > LARGEST_NUMBER:
             fmu.table[name].check(worst, f"The manoeuvre '{manoeuvre.name}'")
-            raise HostError(f"{what} with the value {worst:g}; it must be within {LARGEST_NUMBER:g}.")
+            raise HostError(f"{text} with the value {worst:g}; it must be within {LARGEST_NUMBER:g}.")
         if beyond := beyond_range(fmu.table[name], values):
-            raise HostError(f"{what} that {beyond}")
+            raise HostError(f"{text} that {beyond}")
         if name in tunable:
             for value in values.tolist():
                 fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")

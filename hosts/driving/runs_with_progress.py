@@ -92,14 +92,14 @@ def runs_with_bar(
     )
     begin = clock.perf_counter()
     with closing(experiment.results(drives, experiment.pool(jobs))) as results:
-        for number, drive, done in results:
+        for number, drive, outcome in results:
             result: Result | HostError
-            if isinstance(done, Lost):
-                result = _rest(fmu, drive, done, clock.perf_counter() - begin)
-            elif isinstance(done, tuple):
-                result = _error(*done)
+            if isinstance(outcome, Lost):
+                result = _rest(fmu, drive, outcome, clock.perf_counter() - begin)
+            elif isinstance(outcome, tuple):
+                result = _error(*outcome)
             else:
-                result = done
+                result = outcome
             if isinstance(result, Result):
                 derive_columns(result, fmu, drive.every > 1)
                 result = marked(result, drive.driver)

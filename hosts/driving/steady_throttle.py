@@ -66,9 +66,13 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
     does not hold its speed.
     """
     refuse_missing([n for n in (THROTTLE, "speed") if n not in fmu.variables], fmu.path.name)
-    others = {n: values[:1] for n, values in manoeuvre.inputs.items() if n != THROTTLE}
+    other_inputs = {n: values[:1] for n, values in manoeuvre.inputs.items() if n != THROTTLE}
     straight = replace(
-        manoeuvre, time=np.zeros(min(len(manoeuvre.time), 1)), inputs=others, stop_time=_LONGEST, find_throttle=False
+        manoeuvre,
+        time=np.zeros(min(len(manoeuvre.time), 1)),
+        inputs=other_inputs,
+        stop_time=_LONGEST,
+        find_throttle=False,
     )
     finder = _Finder()
 
@@ -76,20 +80,20 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
         return not finder.speed > 0.0 or finder.is_steady(time, observation)
 
     run = drive(fmu, straight, step, finder, until=ends, every=max(1, round(_WINDOW / step)), last=True)
-    what, speed = f"The manoeuvre '{manoeuvre.name}' holds the speed of its start", float(run["speed"][-1])
+    text, speed = f"The manoeuvre '{manoeuvre.name}' holds the speed of its start", float(run["speed"][-1])
     if run.refusal:
-        raise HostError(f"{what}; straight on {run.refusal}.")
+        raise HostError(f"{text}; straight on {run.refusal}.")
     if not finder.speed > 0.0:
-        raise HostError(f"{what}, which is {finder.speed:.3g} m/s; give one above 0, as --set {INITIAL_SPEED}=22.22.")
+        raise HostError(f"{text}, which is {finder.speed:.3g} m/s; give one above 0, as --set {INITIAL_SPEED}=22.22.")
     if finder.off() > _ENOUGH:
         raise HostError(
-            f"{what}; straight on the car does not hold {finder.speed:.4g} m/s: after {run.simulated:.3g} s it is at "
+            f"{text}; straight on the car does not hold {finder.speed:.4g} m/s: after {run.simulated:.3g} s it is at "
             f"{speed:.4g} m/s with a throttle of {finder.throttle:.3g}; start at another speed, as --set "
             f"{INITIAL_SPEED}={max(0.9 * min(speed, finder.speed), 1.0):.3g}."
         )
     if finder.least < 0.5 * finder.speed:  # which has no sign
         raise HostError(
-            f"{what}; from {finder.speed:.4g} m/s the car slows down to {finder.least:.3g} m/s before it holds it, as "
+            f"{text}; from {finder.speed:.4g} m/s the car slows down to {finder.least:.3g} m/s before it holds it, as "
             f"one that rolls backwards does; start forwards, as --set {INITIAL_SPEED}={finder.speed:.4g}."
         )
     fmu.reset()

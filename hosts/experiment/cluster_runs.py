@@ -132,13 +132,13 @@ class ClusterRuns(Closable, Generic[T, R]):
             return
         if future not in self._flying:
             return
-        chunk, tried = self._flying.pop(future)
+        chunk, kills = self._flying.pop(future)
         results: list[R | Lost] = []
         try:
             seconds, results = future.result()
         except KilledWorker as error:
-            killed = (tried or 0) + error.allowed_failures + 1
-            if tried is None:
+            killed = (kills or 0) + error.allowed_failures + 1
+            if kills is None:
                 self._suspects.extend(([one], killed) for one in chunk)
             else:
                 results = [Lost(_LOST_WITH_WORKERS.format(killed))]
@@ -147,9 +147,9 @@ class ClusterRuns(Closable, Generic[T, R]):
         except Exception as error:
             # of a worker an error is the chunk's, of whatever kind
             if isinstance(error, (CancelledError, OSError)) and future.status != "error":
-                self._flying[future] = chunk, tried
+                self._flying[future] = chunk, kills
                 raise SchedulerLostError from error
-            if tried is None:
+            if kills is None:
                 self._suspects.append((chunk, 0))
             else:
                 results = [Lost(f"has failed on its worker: {type(error).__name__}: {error}") for _ in chunk]

@@ -111,13 +111,13 @@ def why_wrong(key: str, dask_worker: Worker) -> str:
 def run_chunk(key: str, tasks: Sequence[Any]) -> tuple[float, list[Any]]:
     """Make runs one after the other; how long it took, s, and their results. A task of Dask."""
     worker, begin = get_worker(), clock.perf_counter()
-    place = f"{key} {worker.address}"
-    room = _rooms.get(place)
+    room_key = f"{key} {worker.address}"
+    room = _rooms.get(room_key)
     if room is None or program_digest() != room.brought.program:
         raise WrongWorkerError(f"The worker {worker.address} cannot be used: {why_wrong(key, worker)}.")
     results = []
     for task in tasks:
-        if place not in _rooms:  # taken back: nobody waits for the others
+        if room_key not in _rooms:  # taken back: nobody waits for the others
             break
         results.append(room.pool.run(task))
     return clock.perf_counter() - begin, results

@@ -117,12 +117,12 @@ class Progress(Closable, Generic[T, R]):
                 yield task
 
         def shown(number: int, part: float) -> float:
-            task, done = flying[number]
-            now = min(max(part, done), self._experiment.size(task))
+            task, before = flying[number]
+            now = min(max(part, before), self._experiment.size(task))
             flying[number] = task, now
             self._bar.set_description_str(self._experiment.label(task), refresh=False)
-            more = now - done
-            self._bar.update(more if self._bar.total is None else min(more, self._bar.total - self._bar.n))
+            increment = now - before
+            self._bar.update(increment if self._bar.total is None else min(increment, self._bar.total - self._bar.n))
             return now
 
         for number, result in runner.results(sent(), lambda number, part: told(number, shown(number, part))):

@@ -46,9 +46,9 @@ class Journal(Closable, Generic[R]):
                 results[key] = result
                 end, count = stream.tell(), count + 1
         if end < len(stream.getbuffer()) or len(results) < count:
-            with atomic_file(self._file) as temporary, temporary.open("wb") as whole:
+            with atomic_file(self._file) as temporary, temporary.open("wb") as file:
                 for item in results.items():
-                    write_frame(whole, 0, item)
+                    write_frame(file, 0, item)
         return results
 
     def add(self, key: str, result: R) -> None:

@@ -18,14 +18,14 @@ def thinned(x: NDArray[np.float64], y: NDArray[np.float64], most: int = MOST) ->
         return np.arange(n)
     length = -(-n // stretches)
     starts = np.arange(0, n, length)
-    kept = [np.array([0, n - 1])]
+    indices = [np.array([0, n - 1])]
     for values in (x, y):
         for worst, choose in ((np.inf, np.argmin), (-np.inf, np.argmax)):
             padded = np.full(len(starts) * length, worst)
             padded[:n] = np.where(np.isnan(values), worst, values)
-            kept.append(starts + choose(padded.reshape(len(starts), length), axis=1))
+            indices.append(starts + choose(padded.reshape(len(starts), length), axis=1))
     is_gap = np.isnan(x) | np.isnan(y)
     edges = np.flatnonzero(is_gap[1:] != is_gap[:-1])
     if len(edges) <= most:
-        kept += [edges, edges + 1]
-    return np.asarray(np.unique(np.minimum(np.concatenate(kept), n - 1)), np.intp)
+        indices += [edges, edges + 1]
+    return np.asarray(np.unique(np.minimum(np.concatenate(indices), n - 1)), np.intp)

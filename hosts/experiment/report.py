@@ -47,12 +47,12 @@ class Plots:
 
 def page(title: str, facts: Iterable[HtmlElement], sections: Iterable[Section], foot: str = "") -> str:
     """The whole file, which needs no other. `facts`: what stands before the sections; `foot`: words at its end."""
-    named = [(section.name or f"section-{k}", section) for k, section in enumerate(sections, start=1)]
-    links = [element("li", element("a", section.title, href=f"#{name}")) for name, section in named]
+    named_sections = [(section.name or f"section-{k}", section) for k, section in enumerate(sections, start=1)]
+    links = [element("li", element("a", section.title, href=f"#{name}")) for name, section in named_sections]
     body = [element("h1", title), *facts]
-    if len(named) > 1:
+    if len(named_sections) > 1:
         body.append(element("nav", element("ul", *links), aria_label="Sections"))
-    for name, section in named:
+    for name, section in named_sections:
         heading = element("h2", section.title)
         body.append(element("section", heading, *section.parts, id=name, aria_label=section.title))
     return document(title, [*body, element("footer", *([element("p", foot)] if foot else []), paragraph(_made_by()))])

@@ -25,10 +25,10 @@ class ArrayValues:
         """All values of a variable as they were set last, to be changed; of a scalar one that will be replaced."""
         if place.size == 1:
             return [None]
-        kept = self._rows.get(place.reference)
-        if kept is None:
-            kept = self._read(place) if self._from_fmu else self._starts[place.reference]
-        return list(kept)
+        values = self._rows.get(place.reference)
+        if values is None:
+            values = self._read(place) if self._from_fmu else self._starts[place.reference]
+        return list(values)
 
     def keep(self, rows: Mapping[int, list[Any]]) -> None:
         """Values that the FMU has taken, by reference."""

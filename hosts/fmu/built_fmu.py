@@ -52,15 +52,15 @@ def fmu_of_scene(scene: str, tell: Callable[[str], None]) -> Path:
 
 def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[str], None]) -> Path:
     room = cache_folder("cars")
-    place = room / name
+    folder = room / name
     with locked(room):
-        result = sorted(place.glob("*.fmu"))
+        result = sorted(folder.glob("*.fmu"))
         if result:
-            os.utime(place)
+            os.utime(folder)
             return result[0]
     tell(f"{what[0].upper()}{what[1:]} is built for this machine, which takes half a minute ...")
     try:
-        with atomic_folder(place) as temporary:
+        with atomic_folder(folder) as temporary:
             build_fmu(what, options, temporary)
             if not list(temporary.glob("*.fmu")):
                 raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")
@@ -69,7 +69,7 @@ def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[st
         raise
     with locked(room):
         forget_oldest(room, _KEPT, _IN_USE)
-    return sorted(place.glob("*.fmu"))[0]
+    return sorted(folder.glob("*.fmu"))[0]
 
 
 def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
@@ -120,9 +120,9 @@ def _named_files(file: Path) -> Iterator[Path]:
         return  # the build says what is wrong
     for text in _texts(content):
         try:
-            named = file.parent / text
-            if is_file(named):
-                yield named
+            path = file.parent / text
+            if is_file(path):
+                yield path
         except (OSError, ValueError):
             continue
 

@@ -73,8 +73,8 @@ def read_description(
 
 
 def _too_many(path: Path, count: int) -> str:
-    most = at_most(count, MOST_VARIABLES)
-    return f"{path} has {count} variables, the elements of arrays counted; it must have {most}."
+    limit = at_most(count, MOST_VARIABLES)
+    return f"{path} has {count} variables, the elements of arrays counted; it must have {limit}."
 
 
 class _Bounds:

@@ -147,16 +147,16 @@ class Fmu(Closable, NamedScalars):
         """A function that sets variables; the references of real and whole ones are prepared once."""
         kinds = [self.variables[n].type for n in names]
         numbers = [k for k, kind in enumerate(kinds) if kind in ("Real", "Integer")]
-        whole = [k for k in numbers if kinds[k] == "Integer"]
-        others = [k for k in range(len(kinds)) if k not in numbers]
+        whole_numbers = [k for k in numbers if kinds[k] == "Integer"]
+        other_types = [k for k in range(len(kinds)) if k not in numbers]
         set_numbers = self._instance.setter(self.places(names[k] for k in numbers))
 
         def set_values(values: Sequence[float]) -> None:
-            for k in whole:
+            for k in whole_numbers:
                 self._whole(names[k], values[k])
-            further = {self._places[names[k]]: self._fitting(names[k], values[k]) for k in others}
+            further = {self._places[names[k]]: self._fitting(names[k], values[k]) for k in other_types}
             try:
-                set_numbers([values[k] for k in numbers] if others else values)
+                set_numbers([values[k] for k in numbers] if other_types else values)
                 if further:
                     self._instance.set(further)
             except FMICallException as error:

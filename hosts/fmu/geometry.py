@@ -40,8 +40,8 @@ def scene_of(
             roads, missing, scenery = _roads(scene, fmu, settings or {}, world)
     except SceneError as error:
         raise HostError(str(error)) from None
-    more = {"scenery": [*scene.get("scenery", []), *scenery]} if scenery else {}
-    return scene | {"roads": roads, "missing": [*scene.get("missing", []), *missing]} | more
+    additions = {"scenery": [*scene.get("scenery", []), *scenery]} if scenery else {}
+    return scene | {"roads": roads, "missing": [*scene.get("missing", []), *missing]} | additions
 
 
 def _roads(
@@ -59,11 +59,11 @@ def _roads(
             try:
                 file = Path(name.removeprefix("file://"))
                 world = world_beside(file)
-                parts = [_part(name, fmu)] if world is None else world["roads"]
+                road_parts = [_part(name, fmu)] if world is None else world["roads"]
                 if "friction_factor" in variables:
-                    kept = {"variables": {"friction_factor": variables["friction_factor"]}}
-                    parts = [_set({"friction_factor": 1.0} | part | kept, settings) for part in parts]
-                roads += parts
+                    retained = {"variables": {"friction_factor": variables["friction_factor"]}}
+                    road_parts = [_set({"friction_factor": 1.0} | part | retained, settings) for part in road_parts]
+                roads += road_parts
                 if world is None:
                     if road_file and expected:
                         why = f"{file.with_suffix('.json')} is not there; {_made_by(file)}"

@@ -182,14 +182,14 @@ class Instance:
         if any(place.size > 1 for place in places):
             return lambda values: self.set(dict(zip(places, values, strict=True)))
         writes = []
-        for kind, mine in _by_type(places).items():
-            call, references, buffer = self._prepared("Set", kind, [places[k].reference for k in mine], len(mine))
-            writes.append((call, references, buffer, mine, self._type(kind)))
+        for kind, indices in _by_type(places).items():
+            call, references, buffer = self._prepared("Set", kind, [places[k].reference for k in indices], len(indices))
+            writes.append((call, references, buffer, indices, self._type(kind)))
         slave, counts = self.slave, self._counts
 
         def set_values(values: Sequence[float]) -> None:
-            for call, references, buffer, mine, of in writes:
-                buffer[:] = [of(values[k]) for k in mine]
+            for call, references, buffer, indices, of in writes:
+                buffer[:] = [of(values[k]) for k in indices]
                 call(slave.component, references, len(references), buffer, *counts(buffer))
 
         return set_values
@@ -197,20 +197,20 @@ class Instance:
     def reader(self, places: Sequence[Place]) -> Callable[[NDArray[np.float64]], None]:
         """A function that writes numbers into an array; references and buffers are prepared once."""
         reads = []
-        for kind, mine in _by_type(places).items():
-            sizes = {places[k].reference: places[k].size for k in mine}
+        for kind, indices in _by_type(places).items():
+            sizes = {places[k].reference: places[k].size for k in indices}
             begin = dict(zip(sizes, np.cumsum([0, *sizes.values()]).tolist(), strict=False))
             call, references, buffer = self._prepared("Get", kind, list(sizes), sum(sizes.values()))
-            source = np.array([begin[places[k].reference] + places[k].item for k in mine])
+            source = np.array([begin[places[k].reference] + places[k].item for k in indices])
             reads.append(
-                (call, references, buffer, np.ctypeslib.as_array(buffer), _span(np.array(mine)), _span(source))
+                (call, references, buffer, np.ctypeslib.as_array(buffer), _span(np.array(indices)), _span(source))
             )
         slave, counts = self.slave, self._counts
 
         def read_values(into: NDArray[np.float64]) -> None:
-            for call, references, buffer, values, mine, source in reads:
+            for call, references, buffer, values, indices, source in reads:
                 call(slave.component, references, len(references), buffer, *counts(buffer))
-                into[mine] = values[source]
+                into[indices] = values[source]
 
         return read_values
 
@@ -258,8 +258,8 @@ class Instance:
         try:
             measure(self.slave.component, state, ctypes.byref(size))
             if size.value > raised(LARGEST_STATE):
-                most = at_most(size.value, LARGEST_STATE)
-                raise HostError(f"The FMU says that its state has {size.value} bytes; it must have {most}.")
+                limit = at_most(size.value, LARGEST_STATE)
+                raise HostError(f"The FMU says that its state has {size.value} bytes; it must have {limit}.")
             room = ctypes.create_string_buffer(bytes(size.value) + _GUARD, size.value + len(_GUARD))
             write = self.slave.fmi3SerializeFMUState if self.three else self.slave.fmi2SerializeFMUstate
             block = ctypes.cast(room, ctypes.POINTER(fmi3Byte)) if self.three else room

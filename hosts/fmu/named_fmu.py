@@ -138,14 +138,14 @@ class NamedFmu(NamedScalars):
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
         """See `Fmu.start_values`; in our units."""
         chosen = self._chosen(names)
-        theirs = self._fmu.start_values([a.theirs for a in chosen])
-        return np.array([(x - a.offset) / a.factor for a, x in zip(chosen, theirs, strict=True)])
+        values = self._fmu.start_values([a.theirs for a in chosen])
+        return np.array([(x - a.offset) / a.factor for a, x in zip(chosen, values, strict=True)])
 
     def constants(self) -> dict[str, float]:
         """See `Fmu.constants`; with those of the aliases, which win."""
-        theirs = {self.aliases.names([n])[0]: x for n, x in self._fmu.constants().items()}
-        ours = {n: (x - self._alias[n].offset) / self._alias[n].factor for n, x in theirs.items()}
-        return {**ours, **self.aliases.constants}
+        unconverted = {self.aliases.names([n])[0]: x for n, x in self._fmu.constants().items()}
+        converted = {n: (x - self._alias[n].offset) / self._alias[n].factor for n, x in unconverted.items()}
+        return {**converted, **self.aliases.constants}
 
     @property
     def derived(self) -> tuple[str, ...]:

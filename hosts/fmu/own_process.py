@@ -44,11 +44,11 @@ def in_own_process(
     process: Isolated[T, R] = Isolated(work, answer, reads=reads)
     with closing(process):
         try:
-            done = process.do(task, tell, PATIENCE)
+            result = process.do(task, tell, PATIENCE)
         except UserError as error:
             host_error = HostError(str(error))
             host_error.status = error.status
             raise host_error from None
-    if isinstance(done, Lost):
-        raise FailedFmuError(f"The process of the FMU {done.how}.")
-    return done
+    if isinstance(result, Lost):
+        raise FailedFmuError(f"The process of the FMU {result.how}.")
+    return result

@@ -52,18 +52,18 @@ def _taken(variable: Variable, kind: str, text: str, source: str) -> Value:
 
 
 def _converted(variable: Variable, value: float, name: str, unit: UnitDefinition, source: str) -> float:
-    own = variable.definition
-    if own is None:
+    fmu_unit = variable.definition
+    if fmu_unit is None:
         raise HostError(
             f"{source}: '{variable.name}' is given in {name}; the FMU does not define its unit "
             f"{variable.unit}, so that it cannot be converted."
         )
-    if own.exponents != unit.exponents:
+    if fmu_unit.exponents != unit.exponents:
         raise HostError(
             f"{source}: '{variable.name}' is given in {name} ({_base(unit)}); its unit is {variable.unit} "
-            f"({_base(own)})."
+            f"({_base(fmu_unit)})."
         )
-    return unit.convert(value, own)
+    return unit.convert(value, fmu_unit)
 
 
 def _base(unit: UnitDefinition) -> str:

@@ -61,16 +61,18 @@ class Settings:
         """Values of an SSV file in the units of the FMU; those that are its own replace nothing: a set may list all."""
         results, source = settings_of_file(file, self._variables), file.name
         self._put([setting for setting in results if setting.changes])
-        own = {setting.variable.name for setting in results if not setting.changes}
-        for kept in (setting for setting in self.changes if setting.variable.name in own):
-            self._notes.append((kept.variable.name, f"that of {kept.source} stays: in {source} it is as in the FMU"))
+        unchanged = {setting.variable.name for setting in results if not setting.changes}
+        for change in (setting for setting in self.changes if setting.variable.name in unchanged):
+            self._notes.append(
+                (change.variable.name, f"that of {change.source} stays: in {source} it is as in the FMU")
+            )
         if not results:
             self._notes.append((source, "empty: it sets nothing"))
-        elif len(own) == len(results):
-            self._notes.append((source, f"all {len(own)} values are those of the FMU: it changes nothing"))
+        elif len(unchanged) == len(results):
+            self._notes.append((source, f"all {len(unchanged)} values are those of the FMU: it changes nothing"))
         else:
             self._notes.append(
-                (source, f"{len(results)} values, {len(results) - len(own)} of them other than in the FMU")
+                (source, f"{len(results)} values, {len(results) - len(unchanged)} of them other than in the FMU")
             )
 
     def add_wishes(self, fmu_options: FmuOptions, fidelity: float | None = None) -> None:
@@ -99,10 +101,10 @@ class Settings:
 
     def title(self, name: str) -> str:
         """A name for a picture with the first of what the user has changed."""
-        mine = [s for s in self.changes if not s.source.startswith(START_OF)]
-        shown = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in mine[:_MOST_IN_TITLE]]
-        more = [f"{len(mine) - len(shown)} more"] if len(mine) > len(shown) else []
-        return ", ".join([name, *shown, *more])
+        changes = [s for s in self.changes if not s.source.startswith(START_OF)]
+        texts = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in changes[:_MOST_IN_TITLE]]
+        suffix = [f"{len(changes) - len(texts)} more"] if len(changes) > len(texts) else []
+        return ", ".join([name, *texts, *suffix])
 
     def records(self) -> list[dict[str, Any]]:
         """The settings as JSON."""

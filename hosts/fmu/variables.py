@@ -188,8 +188,8 @@ def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:
 
     kind = KINDS.get(v.type, v.type)
     unit = attribute("unit")
-    known = units.get(unit)
-    base = known.baseUnit if known is not None else None
+    entry = units.get(unit)
+    base = entry.baseUnit if entry is not None else None
     definition = UnitDefinition.of({k: getattr(base, k) for k in (*BASE_UNITS, "factor", "offset")}) if base else None
     if unit is None:
         definition = UnitDefinition({})
@@ -205,7 +205,7 @@ def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:
         -math.inf if low is None else float(low),
         math.inf if high is None else float(high),
         definition,
-        {d.name: (float(d.factor), float(d.offset)) for d in known.displayUnits} if known is not None else {},
+        {d.name: (float(d.factor), float(d.offset)) for d in entry.displayUnits} if entry is not None else {},
         {i.name: int(i.value) for i in declared.items} if kind == "Enumeration" and declared is not None else {},
     )
 
@@ -235,8 +235,8 @@ def default_step(description: ModelDescription) -> float:
     experiment, face = description.defaultExperiment, description.coSimulation
     if experiment is not None and experiment.stepSize:
         return float(experiment.stepSize)
-    own = float(face.fixedInternalStepSize or 0.0) if face is not None else 0.0
-    return own * max(1, round(_STEP / own)) if 0.0 < own < math.inf else _STEP
+    fixed_step = float(face.fixedInternalStepSize or 0.0) if face is not None else 0.0
+    return fixed_step * max(1, round(_STEP / fixed_step)) if 0.0 < fixed_step < math.inf else _STEP
 
 
 def kind_text(kind: str) -> str:

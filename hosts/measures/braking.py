@@ -65,8 +65,8 @@ def stopping_distance(
     `time`, `speed`: in s, m/s, shape (n,); `onset`: in s; `deceleration`: with which the rest of the way below
     `STANDING` is covered, m/s2. Result: in m; NaN if the car does not come to stand.
     """
-    rest = STANDING**2 / (2.0 * deceleration) if deceleration > 0.0 else math.nan
-    return way_between(time, speed, onset, time_below(time, speed, STANDING, onset)) + rest
+    final_way = STANDING**2 / (2.0 * deceleration) if deceleration > 0.0 else math.nan
+    return way_between(time, speed, onset, time_below(time, speed, STANDING, onset)) + final_way
 
 
 def corrected_to(nominal: float, distance: float, initial: float) -> float:

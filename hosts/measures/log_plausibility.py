@@ -71,10 +71,10 @@ _RATIOS, _ALIKE = ([QUANTITIES[key + part] for key in RELATIONS if key + part in
 def _undone(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str, set[str], Signals, bool]]:
     """Words, names and the log without each common mistake, and whether its number is fitted to the relations."""
     for name, signal in signals.items():
-        if (far := far_values(signal.values)).any():
-            kept = replace(signal, time=signal.time[~far], values=signal.values[~far])
-            value = f"{signal.values[far][0]:g} in the place of no value in '{signal.source}' ({name})"
-            yield value, {name}, {**signals, name: kept}, False
+        if (outliers := far_values(signal.values)).any():
+            cleaned = replace(signal, time=signal.time[~outliers], values=signal.values[~outliers])
+            value = f"{signal.values[outliers][0]:g} in the place of no value in '{signal.source}' ({name})"
+            yield value, {name}, {**signals, name: cleaned}, False
     for a, b in PAIRS:
         if a in signals and b in signals:
             swapped = {a: replace(signals[b], name=a), b: replace(signals[a], name=b)}

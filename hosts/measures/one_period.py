@@ -44,8 +44,8 @@ def correlation_lag(
     """
     lags = correlation_lags(len(answer), len(excitation)) * interval
     product = correlate(answer, excitation) / math.sqrt(float(np.dot(excitation, excitation) * np.dot(answer, answer)))
-    kept = np.abs(lags) <= longest + 1e-9
-    return top(lags[kept], product[kept])
+    within = np.abs(lags) <= longest + 1e-9
+    return top(lags[within], product[within])
 
 
 def one_period(

@@ -103,8 +103,8 @@ def _steering(signals: Signals) -> Iterator[Value]:
     wz = signals["chassis.wz"]
     angle = on_times(signals[STEERING], wz.time)
     if np.std(wz.values) > LEAST["yaw"] and np.std(angle) > LEAST["yaw"]:
-        alike = _alike(angle, wz.values)
-        yield Value(QUANTITIES["steer_alike"], alike, keys_of(signals, STEERING, "chassis.wz"))
+        correlation = _alike(angle, wz.values)
+        yield Value(QUANTITIES["steer_alike"], correlation, keys_of(signals, STEERING, "chassis.wz"))
 
 
 def _turning(signals: Signals, v: str) -> Iterator[Value]:
@@ -145,7 +145,7 @@ def _rates(signals: Signals, key: str, state: Signal, rate: str, least: float) -
     if end - begin < 5.0 * WINDOW:
         return
     starts = np.linspace(begin, end - WINDOW, min(int(2.0 * (end - begin) / WINDOW), MOST))
-    whole = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(r.time) * (r.values[1:] + r.values[:-1]))])
+    summed_rate = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(r.time) * (r.values[1:] + r.values[:-1]))])
 
     def change(at: Array, of: Array, delay: float = 0.0) -> Array:
         ends = (np.interp(starts + delay + one, at, of) for one in (0.0, WINDOW))
@@ -155,7 +155,7 @@ def _rates(signals: Signals, key: str, state: Signal, rate: str, least: float) -
     names = (*PATH, rate) if key == "course" else (state.name, rate)
     keys = keys_of(signals, *names) | {"time": "the times of the log"}
     changes = change(state.time, state.values)
-    yield from _compared(keys, key, changes, lambda delay: change(r.time, whole, delay), least)
+    yield from _compared(keys, key, changes, lambda delay: change(r.time, summed_rate, delay), least)
 
 
 def _compared(
@@ -172,8 +172,8 @@ def _compared(
         "_off": float(np.mean(one) - np.mean(other)),
         "_late": _delay(one, late),
     }
-    for part, value in values.items():
-        if (quantity := QUANTITIES.get(key + part)) is not None:
+    for suffix, value in values.items():
+        if (quantity := QUANTITIES.get(key + suffix)) is not None:
             yield Value(quantity, value, keys)
 
 
@@ -183,12 +183,12 @@ def _alike(one: Array, other: Array) -> float:
 
 def _delay(one: Array, late: Callable[[float], Array]) -> float:
     """By how much the other is behind, s; 0 where that is not clear."""
-    now, best = abs(_alike(one, late(0.0))), 0.0
+    without_delay, best = abs(_alike(one, late(0.0))), 0.0
     for step, reach in ((COARSE, LATEST), (FINE, COARSE)):
         delays = best + np.arange(-reach, reach + 1e-9, step)
-        alike = [abs(_alike(one, late(float(delay)))) for delay in delays]
-        best, most = float(delays[int(np.argmax(alike))]), max(alike)
-    return best if most > now + CLEAR else 0.0
+        correlations = [abs(_alike(one, late(float(delay)))) for delay in delays]
+        best, highest = float(delays[int(np.argmax(correlations))]), max(correlations)
+    return best if highest > without_delay + CLEAR else 0.0
 
 
 def _way(signals: Signals, v: str) -> Iterator[Value]:

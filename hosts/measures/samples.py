@@ -104,14 +104,14 @@ def _repeats(signals: Sequence[Signal]) -> int:
     if len(x) < 3 * RUN or len(np.unique(x)) < len(x) // 4:
         return 0
     where: dict[bytes, int] = {}
-    most = 0
+    repeated = 0
     for k in range(0, len(x) - RUN, RUN):
         where.setdefault(x[k : k + RUN].tobytes(), k)
     for k in range(RUN, len(x) - RUN + 1):
         first = where.get(x[k : k + RUN].tobytes())
         if first is not None and first + RUN <= k and len(np.unique(x[k : k + RUN])) > RUN // 2:
-            most += RUN
-    return min(most, len(x))
+            repeated += RUN
+    return min(repeated, len(x))
 
 
 def _jumps(signals: Sequence[Signal]) -> int:

@@ -61,19 +61,19 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
             weight = np.sqrt(np.maximum(r.coherence, 0.0) * np.gradient(np.log(r.frequency)))
             weight = weight / math.sqrt(float(np.sum(np.abs(weight * r.response) ** 2)))
             a, b = weight[:, None] * basis, weight * r.response
-            both, right = np.concatenate([a.real, a.imag]), np.concatenate([b.real, b.imag])
-            scale = np.linalg.norm(both, axis=0)
-            x = np.linalg.lstsq(both / scale, right, rcond=None)[0] / scale
+            matrix, target = np.concatenate([a.real, a.imag]), np.concatenate([b.real, b.imag])
+            scale = np.linalg.norm(matrix, axis=0)
+            x = np.linalg.lstsq(matrix / scale, target, rcond=None)[0] / scale
             results.append(x)
-            off.append(both @ x - right)
+            off.append(matrix @ x - target)
         return results, np.concatenate(off)
 
     def misfit(p: NDArray[np.float64]) -> NDArray[np.float64]:
         return numerators(p)[1]
 
     begins = [np.array([math.log(w), zeta]) for w in (2.0, 6.0, 20.0) for zeta in (0.3, 0.9)]
-    tried = [least_squares(misfit, x, bounds=([-3.0, 0.0], [7.0, 20.0])) for x in begins]
-    best = min((t for t in tried if t.success), key=lambda t: float(t.cost), default=None)
+    solutions = [least_squares(misfit, x, bounds=([-3.0, 0.0], [7.0, 20.0])) for x in begins]
+    best = min((t for t in solutions if t.success), key=lambda t: float(t.cost), default=None)
     if best is None:
         return [NOTHING] * len(responses)
     w, zeta = math.exp(best.x[0]), float(best.x[1])

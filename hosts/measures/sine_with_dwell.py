@@ -65,16 +65,16 @@ def sine_with_dwell(
 
     largest = math.nan
     if sideslip is not None:
-        part = (time >= begin) & (time <= completion + 1.75)
-        largest = float(np.abs(sideslip[part]).max())
+        window = (time >= begin) & (time <= completion + 1.75)
+        largest = float(np.abs(sideslip[window]).max())
     first = _of(begin, time, acceleration)
     return SineWithDwell(begin, completion, after(1.0), after(1.75), first.displacement, largest)
 
 
 def _side(steering: NDArray[np.float64]) -> float:
     """1 if the first half is to the left, -1 if to the right."""
-    far = np.flatnonzero(np.abs(steering) > 0.5 * np.abs(steering).max())
-    return math.copysign(1.0, float(steering[far[0]])) if len(far) else 1.0
+    indices = np.flatnonzero(np.abs(steering) > 0.5 * np.abs(steering).max())
+    return math.copysign(1.0, float(steering[indices[0]])) if len(indices) else 1.0
 
 
 def _completion(time: NDArray[np.float64], steering: NDArray[np.float64], reversal: float) -> float:
@@ -88,9 +88,9 @@ def _completion(time: NDArray[np.float64], steering: NDArray[np.float64], revers
 
 def _peak(time: NDArray[np.float64], yaw_rate: NDArray[np.float64], begin: float) -> float:
     """First local maximum of a yaw rate above zero after the reversal; the largest value where there is none."""
-    part = yaw_rate[time >= begin]
-    inside = np.flatnonzero((part[1:-1] > part[:-2]) & (part[1:-1] >= part[2:]) & (part[1:-1] > 0.0)) + 1
-    return float(part[inside[0]]) if len(inside) else float(part.max())
+    rates = yaw_rate[time >= begin]
+    peaks = np.flatnonzero((rates[1:-1] > rates[:-2]) & (rates[1:-1] >= rates[2:]) & (rates[1:-1] > 0.0)) + 1
+    return float(rates[peaks[0]]) if len(peaks) else float(rates.max())
 
 
 def _of(begin: float, time: NDArray[np.float64], acceleration: NDArray[np.float64]) -> SineWithDwell:

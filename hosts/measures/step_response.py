@@ -37,8 +37,8 @@ def mean_between(
     time: NDArray[np.float64], values: NDArray[np.float64], begin: float, end: float
 ) -> tuple[float, float]:
     """Mean and standard deviation of a signal between two times, s; NaN if there is no sample."""
-    part = values[(time >= begin) & (time <= end)]
-    return (float(part.mean()), float(part.std())) if len(part) else (float("nan"), float("nan"))
+    samples = values[(time >= begin) & (time <= end)]
+    return (float(samples.mean()), float(samples.std())) if len(samples) else (float("nan"), float("nan"))
 
 
 def reference_time(
@@ -116,7 +116,7 @@ def step_of_steering(
     if angle == 0.0 or not math.isfinite(reference):
         angle = math.nan
     else:
-        part = (steering - first) / angle
-        rise = float(time[np.argmax(part >= 0.9)] - time[np.argmax(part >= 0.1)])
+        fraction = (steering - first) / angle
+        rise = float(time[np.argmax(fraction >= 0.9)] - time[np.argmax(fraction >= 0.1)])
     responses = {name: step_response(time, x, reference, before, steady) for name, x in signals.items()}
     return {"angle": angle, "rise": rise, **responses}

@@ -39,8 +39,8 @@ def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     transition = ([w(_TRANSITION), w(_TRANSITION) ** 2], second_order(_TRANSITION, _TRANSITION_Q))
     # the upward step is 1 at high frequencies
     step = (second_order(_STEP_LOW, _STEP_LOW_Q), second_order(_STEP_HIGH, _STEP_HIGH_Q))
-    parts = (high, low, transition, step)
-    numerator, denominator = (reduce(np.polymul, [np.array(part[k]) for part in parts]) for k in (0, 1))
+    factors = (high, low, transition, step)
+    numerator, denominator = (reduce(np.polymul, [np.array(part[k]) for part in factors]) for k in (0, 1))
     return np.asarray(numerator, float), np.asarray(denominator, float)
 
 

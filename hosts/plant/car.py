@@ -215,8 +215,8 @@ class Car(Closable):
         if reader is None:
             reader = self._readers[key] = self.fmu.reader(self._known(key, _READ))
         values = np.empty(len(key)) if into is None else into
-        whole = isinstance(values, np.ndarray) and values.shape == (len(key),) and values.dtype == float
-        if not (whole and values.flags.writeable):
+        fits = isinstance(values, np.ndarray) and values.shape == (len(key),) and values.dtype == float
+        if not (fits and values.flags.writeable):
             raise HostError(f"Values go into {brief(into)}; it must be an array of {len(key)} floats, to be written.")
         reader(values)
         return values
@@ -252,7 +252,7 @@ class Car(Closable):
         have = {n for causality in causalities for n in self.fmu.names(causality)}
         for name in (checked := texts(names, "The names")):
             if name not in have:
-                what = "input" if causalities == ("input",) else "variable that is a number"
+                kind = "input" if causalities == ("input",) else "variable that is a number"
                 some = f"there are {', '.join(sorted(have)[:6])} and others"
-                raise HostError(f"The car has no {what} {brief(name)}{did_you_mean(name, have, some)}")
+                raise HostError(f"The car has no {kind} {brief(name)}{did_you_mean(name, have, some)}")
         return list(checked)

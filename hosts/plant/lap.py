@@ -27,9 +27,9 @@ def ring() -> Lane:
     """The centre line of the ring, closed, from the place `start` of the world on."""
     half = STRAIGHT + math.pi * RADIUS
     distance = (np.linspace(0.0, 2.0 * half, 831) - BEGIN) % (2.0 * half)
-    part, back = distance % half, distance >= half
-    angle = np.maximum(part - STRAIGHT, 0.0) / RADIUS
-    x = np.minimum(part, STRAIGHT) + RADIUS * np.sin(angle)
+    along, back = distance % half, distance >= half
+    angle = np.maximum(along - STRAIGHT, 0.0) / RADIUS
+    x = np.minimum(along, STRAIGHT) + RADIUS * np.sin(angle)
     y = RADIUS * (1.0 - np.cos(angle))
     points = np.column_stack([np.where(back, STRAIGHT - x, x) + BEGIN, np.where(back, 2.0 * RADIUS - y, y)])
     points[-1] = points[0]
@@ -144,7 +144,7 @@ class LapDriver:
     def act(self, seen: Floats) -> Floats:
         """The action for an observation."""
         offset, heading, speed = (float(value) for value in seen[:3])
-        place = (self.environment.lane.way, offset, heading, speed)
-        observation = dict(zip(("chassis.x", "chassis.y", "chassis.yaw", "speed"), place, strict=True))
+        state = (self.environment.lane.way, offset, heading, speed)
+        observation = dict(zip(("chassis.x", "chassis.y", "chassis.yaw", "speed"), state, strict=True))
         acts = self.driver.act(self.environment.car.time, observation)
         return np.array([acts["steering"], acts["throttle"] - acts["brake"]], np.float32)

@@ -115,8 +115,8 @@ class VectorEnvironment(SyncVectorEnv[Floats, Floats]):
 def _several(environment: Callable[..., _Single], num_envs: int, options: dict[str, Any]) -> VectorEnvironment:
     if not isinstance(num_envs, int) or num_envs < 1:
         raise HostError(f"The number of environments is {brief(num_envs)}; it must be a whole number from 1.")
-    own = {name: options.pop(name) for name in ("threads", "autoreset_mode", "copy") if name in options}
-    return VectorEnvironment(num_envs * [partial(environment, **options)], **own)
+    vector_options = {name: options.pop(name) for name in ("threads", "autoreset_mode", "copy") if name in options}
+    return VectorEnvironment(num_envs * [partial(environment, **options)], **vector_options)
 
 
 def lane_keeping(num_envs: int, **options: Any) -> VectorEnvironment:

@@ -94,14 +94,14 @@ def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, s
     """Steps from one row to another; the first line of the table has the inputs that are held at its start."""
     inputs = last.inputs[[*range(first, stop + 1), stop]]
     time = drive.step * np.array([0, *range(stop - first + 1)], dtype=np.float64)
-    kept = _kept(inputs)
-    columns = {name: inputs[kept, k] for k, name in enumerate(drive.inputs)}
+    rows = _kept(inputs)
+    columns = {name: inputs[rows, k] for k, name in enumerate(drive.inputs)}
     start = {name: value for name, value in last.start.items() if name not in columns}
     begin = 0.0 if state is None else float(last.time[first])
     name = drive.folder.resolve().name
     return Manoeuvre(
         name,
-        time[kept],
+        time[rows],
         columns,
         float(time[-1]),
         start,

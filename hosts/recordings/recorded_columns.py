@@ -23,11 +23,11 @@ def recorded_columns(
     `step`: communication step, s; `interval`: of all outputs, s, a whole multiple of the step. Raises `HostError`: the
     interval is not a whole multiple of the step.
     """
-    every = dict.fromkeys(inputs, 1)
+    intervals = dict.fromkeys(inputs, 1)
     if interval is not None:
-        return every | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
+        return intervals | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
     scene = scene_of(fmu)
-    drawn = set(all_columns(scene)) if scene else set()
+    drawn_outputs = set(all_columns(scene)) if scene else set()
     often = max(1, round(DRAWN / step))
     seldom = often * max(1, round(OTHERS / (often * step)))
-    return every | {name: often if name in drawn else seldom for name in outputs}
+    return intervals | {name: often if name in drawn_outputs else seldom for name in outputs}

@@ -100,11 +100,11 @@ class RecordedDrive:
         last, file = (0.0, -1, -1), next(self.folder.glob(f"{TABLE}.*"), self.folder)
         for rows in blocks_of(self.folder, self.names):
             times, counts, epochs = (np.r_[a, b] for a, b in zip(last, rows[:3], strict=True))
-            ways = np.diff(counts)
-            for k in np.flatnonzero(ways < 0):
+            increments = np.diff(counts)
+            for k in np.flatnonzero(increments < 0):
                 raise HostError(f"{file}: step {counts[k + 1]} stands after {counts[k]}: its parts are out of order.")
-            within = np.flatnonzero((ways > 0) & (np.diff(epochs) == 0))
-            result = np.diff(times)[within] / ways[within]
+            within = np.flatnonzero((increments > 0) & (np.diff(epochs) == 0))
+            result = np.diff(times)[within] / increments[within]
             for k in np.flatnonzero(~(np.abs(result - self.step) <= _NEAR * np.abs(result))):
                 raise HostError(
                     f"{self.folder / DESCRIPTION} says a step of {self.step:g} s; after step {counts[within[k]]} it is "
@@ -113,8 +113,8 @@ class RecordedDrive:
             last = float(times[-1]), int(counts[-1]), int(epochs[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
             if len(missing):
-                row, place = missing[0]
-                name, step = brief(self.names[place]), rows.steps[row]
+                row, column = missing[0]
+                name, step = brief(self.names[column]), rows.steps[row]
                 raise HostError(f"{file}: the row of step {step} has no value of the input {name}.")
             yield rows
 
@@ -188,8 +188,8 @@ def read_recording(folder: Path) -> RecordedDrive:
     folder = folder.parent if folder.name == DESCRIPTION else folder
     file = folder / DESCRIPTION
     if not file.is_file():
-        what = "has no" if folder.is_dir() else "is not a folder with a"
-        raise HostError(f"{folder} {what} {DESCRIPTION}; name the folder of a recording.")
+        defect = "has no" if folder.is_dir() else "is not a folder with a"
+        raise HostError(f"{folder} {defect} {DESCRIPTION}; name the folder of a recording.")
     meta = read_json(file, HostError)
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise HostError(f"{file} is not a recording of the simulator: its format is not {FORMAT!r}.")
@@ -199,8 +199,8 @@ def read_recording(folder: Path) -> RecordedDrive:
         if not isinstance(meta.get(key), kind):  # type: ignore[arg-type]
             raise HostError(f"{file} does not say the {key} of the recording.")
     every = meta.get("every")
-    known = len(every) if isinstance(every, list) and all(isinstance(k, int) and k > 0 for k in every) else 0
-    if known != len(meta["columns"]):
+    length = len(every) if isinstance(every, list) and all(isinstance(k, int) and k > 0 for k in every) else 0
+    if length != len(meta["columns"]):
         raise HostError(f"{file} does not say by 'every' of each column how many steps lie between two of its values.")
     notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
     events = _events(folder / EVENTS)

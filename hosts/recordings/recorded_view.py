@@ -37,16 +37,16 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     count = sum(len(rows) for rows in drive.shown())
     if not count:
         raise HostError(f"{folder} contains no rows yet.")
-    every = 1  # doubled, so that rows with the seldom outputs stay among those that are read
-    while count * len(drive.names) > every * _MOST_VALUES:
-        every *= 2
-    rows = drive.rows(every)
-    due = every * min(drive.every[len(drive.inputs) :], default=1)
+    stride = 1  # doubled, so that rows with the seldom outputs stay among those that are read
+    while count * len(drive.names) > stride * _MOST_VALUES:
+        stride *= 2
+    rows = drive.rows(stride)
+    due = stride * min(drive.every[len(drive.inputs) :], default=1)
     for k in np.flatnonzero((np.diff(rows.epoch) == 0) & (np.diff(rows.steps) > due))[:1]:
         gap = f"first from {rows.time[k]:g} s to {rows.time[k + 1]:g} s"
         notes.append(f"Rows of {folder} are missing, {gap}; it is drawn straight there.")
-    if every > 1:
-        notes.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
+    if stride > 1:
+        notes.append(f"One of every {stride} of {count} rows of {folder} with outputs is read.")
     source = geometry or Path(drive.meta["fmu"])
     is_fmu = is_archive(source)
     if geometry is None and not is_fmu:
@@ -61,8 +61,8 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
     recording = Recording(scene, time, columns, drive.meta["units"], name, rows.epoch)
     kinds = [event["kind"] for event in drive.events]
-    done = {"reset": "reset", "rewind": "rewound", "upright": "set upright"}
-    counts = {message: kinds.count(kind) for kind, message in done.items() if kind in kinds}
+    verbs = {"reset": "reset", "rewind": "rewound", "upright": "set upright"}
+    counts = {message: kinds.count(kind) for kind, message in verbs.items() if kind in kinds}
     jumps = [f"{message} {'once' if count == 1 else f'{count} times'}" for message, count in counts.items()]
     if jumps:
         recording.notes.append(f"The time is that of the driver; the car was {', '.join(jumps)}.")
@@ -77,10 +77,10 @@ def _filled(
     if finite.all() or not finite.any():
         return values
     filled = values.copy()
-    for part in np.split(np.arange(len(time)), np.flatnonzero(np.diff(epoch)) + 1):
-        present = part[finite[part]]
+    for rows in np.split(np.arange(len(time)), np.flatnonzero(np.diff(epoch)) + 1):
+        present = rows[finite[rows]]
         if len(present) and held:
-            filled[part] = values[present[np.maximum(np.searchsorted(present, part, side="right") - 1, 0)]]
+            filled[rows] = values[present[np.maximum(np.searchsorted(present, rows, side="right") - 1, 0)]]
         elif len(present):
-            filled[part] = np.interp(time[part], time[present], values[present])
+            filled[rows] = np.interp(time[rows], time[present], values[present])
     return filled

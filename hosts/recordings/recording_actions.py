@@ -76,8 +76,8 @@ def save_manoeuvre(folder: Path, file: Path, part: tuple[float | None, float | N
 
 def _outputs(drive: RecordedDrive) -> str:
     """How many outputs are recorded how often."""
-    every = Counter(drive.every[len(drive.inputs) :])
-    often = [f"{number} every {1e3 * k * drive.step:g} ms" for k, number in sorted(every.items())]
+    intervals = Counter(drive.every[len(drive.inputs) :])
+    often = [f"{number} every {1e3 * k * drive.step:g} ms" for k, number in sorted(intervals.items())]
     return ", ".join(often) + f"; {len(drive.saved)} states between"
 
 

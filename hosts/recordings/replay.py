@@ -213,9 +213,9 @@ def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None])
                     return replayed
                 count, time = int(rows.steps[k]), float(rows.time[k])
                 replayed.rows += 1
-                other = _other_bits(np.where(is_recorded[k], recorded[k], repeated), repeated)
-                replayed.different += bool(len(other))
-                for j in other:
+                columns = _other_bits(np.where(is_recorded[k], recorded[k], repeated), repeated)
+                replayed.different += bool(len(columns))
+                for j in columns:
                     if outputs[j] not in visited:
                         visited.add(outputs[j])
                         replayed.first.append(Difference(count, time, outputs[j], recorded[k, j], repeated[j]))
@@ -236,5 +236,5 @@ def _last_refusal(drive: RecordedDrive, repeater: Repeater, replayed: Replayed, 
 
 def _other_bits(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[int]:
     """Places where two rows of doubles differ in a bit; all NaN are alike."""
-    other = (a.view(np.int64) != b.view(np.int64)) & ~(np.isnan(a) & np.isnan(b))
-    return [int(k) for k in np.flatnonzero(other)]
+    differs = (a.view(np.int64) != b.view(np.int64)) & ~(np.isnan(a) & np.isnan(b))
+    return [int(k) for k in np.flatnonzero(differs)]

@@ -53,8 +53,8 @@ def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[n
     an array of shape (n, m).
     """
     due = np.asarray(steps)[:, np.newaxis] % np.asarray(every) == 0
-    kept: NDArray[np.bool_] = due | np.asarray(begins, dtype=bool)[:, np.newaxis]
-    return kept
+    is_recorded: NDArray[np.bool_] = due | np.asarray(begins, dtype=bool)[:, np.newaxis]
+    return is_recorded
 
 
 def joined(blocks: Sequence[Rows], columns: int) -> Rows:
@@ -67,22 +67,22 @@ def joined(blocks: Sequence[Rows], columns: int) -> Rows:
 
 def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
     """The rows of a recording, closed or not; `HostError` with file and reason. `names`: of columns behind `KEYS`."""
-    whole, text = folder / f"{TABLE}.parquet", folder / f"{TABLE}.csv"
-    if whole.is_file():
-        yield from parquet_blocks(whole, names)
-    elif text.is_file():
-        yield from _csv_blocks(text, names)
+    parquet_file, csv_file = folder / f"{TABLE}.parquet", folder / f"{TABLE}.csv"
+    if parquet_file.is_file():
+        yield from parquet_blocks(parquet_file, names)
+    elif csv_file.is_file():
+        yield from _csv_blocks(csv_file, names)
     elif (folder / PARTS).is_dir():
         read = 0
         for part in sorted((folder / PARTS).glob("*.parquet")):
-            if whole.is_file() and not part.is_file():  # joined meanwhile
-                yield from _after(parquet_blocks(whole, names), read)
+            if parquet_file.is_file() and not part.is_file():  # joined meanwhile
+                yield from _after(parquet_blocks(parquet_file, names), read)
                 return
             for rows in parquet_blocks(part, names):
                 read += len(rows)
                 yield rows
     else:
-        raise HostError(f"{folder} has neither {whole.name} nor {text.name}, the table of a recording.")
+        raise HostError(f"{folder} has neither {parquet_file.name} nor {csv_file.name}, the table of a recording.")
 
 
 def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
@@ -96,9 +96,11 @@ def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
 
 def _check_names(file: Path, columns: Sequence[str], names: Sequence[str]) -> None:
     """Refuse a table of another recording."""
-    for theirs, ours in zip_longest(columns, (*KEYS, *names), fillvalue="no column"):
-        if theirs != ours:
-            raise HostError(f"{file} is of another recording: it has {brief(theirs)}, its description {brief(ours)}.")
+    for actual, expected in zip_longest(columns, (*KEYS, *names), fillvalue="no column"):
+        if actual != expected:
+            raise HostError(
+                f"{file} is of another recording: it has {brief(actual)}, its description {brief(expected)}."
+            )
 
 
 def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:

@@ -54,8 +54,8 @@ class ParquetTable:
         def blocks() -> Iterator[Rows]:
             """The rows of several parts at a time: groups of rows that are read at once should not be small."""
             group: list[Rows] = []
-            for k, part in enumerate(sorted(self._parts.glob(f"*{self.suffix}")), start=1):
-                group += parquet_blocks(part, self._schema.names[len(KEYS) :])
+            for k, file in enumerate(sorted(self._parts.glob(f"*{self.suffix}")), start=1):
+                group += parquet_blocks(file, self._schema.names[len(KEYS) :])
                 if sum(map(len, group)) >= _ROW_GROUP:
                     yield joined(group, 0)
                     group = []

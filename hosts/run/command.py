@@ -65,9 +65,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    used = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
-    if used:
-        raise HostError(f"{used[0]} cannot be combined with --kerb, which defines the drive.")
+    conflicting = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
+    if conflicting:
+        raise HostError(f"{conflicting[0]} cannot be combined with --kerb, which defines the drive.")
     if options.fmu is not None and is_car(options.fmu):
         raise HostError(
             f"--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car {options.fmu} down a kerb."
@@ -91,12 +91,12 @@ def _run(options: argparse.Namespace) -> int:
     check_asked(options.manoeuvre)
     path, driver_settings = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
-        other: RenamedRun | None = None
+        renamed: RenamedRun | None = None
         if options.aliases is not None:
             from hosts.run.renamed_run import RenamedRun
 
-            other = RenamedRun(opened, options.aliases)
-        fmu: SimulatedFmu = opened if other is None else other.fmu
+            renamed = RenamedRun(opened, options.aliases)
+        fmu: SimulatedFmu = opened if renamed is None else renamed.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
         if driver_settings:
             from hosts.driving.driver import with_settings
@@ -109,7 +109,7 @@ def _run(options: argparse.Namespace) -> int:
             from hosts.driving.driver import driver_of
 
             driver = driver_of(fmu, manoeuvre)
-        set_all = partial(set_in, opened) if other is None else other.set_in
+        set_all = partial(set_in, opened) if renamed is None else renamed.set_in
         set_options = fmu_options(options)
         if options.road is not None:
             from hosts.common.road import options_with_road
@@ -120,8 +120,8 @@ def _run(options: argparse.Namespace) -> int:
         stem = _words(path.stem) if without_manoeuvre else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
-        every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
-        result = run_with_bar(fmu, manoeuvre, step, driver, every)
+        steps_per_row = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
+        result = run_with_bar(fmu, manoeuvre, step, driver, steps_per_row)
     course_rows: Sequence[tuple[str, str]] = ()
     gates: NDArray[np.float64] | None = None
     if driver is not None:
@@ -130,7 +130,7 @@ def _run(options: argparse.Namespace) -> int:
         course_rows, gates = course_result(result, driver)
     rows = summary(result, step, course_rows)
     write_csv(result, table)
-    names = None if other is None else other.names
+    names = None if renamed is None else renamed.names
     write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
     title = settings.title(path.stem if without_manoeuvre else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)

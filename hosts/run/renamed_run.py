@@ -28,5 +28,5 @@ class RenamedRun:
         self, manoeuvre: Manoeuvre, fmu_options: FmuOptions, fidelity: float | None = None
     ) -> tuple[Manoeuvre, Settings]:
         """See `hosts.driving.manoeuvre_settings.set_in`; options and settings are in the FMU's names and units."""
-        theirs, settings = set_in(self._own, manoeuvre, fmu_options, fidelity, self._source.theirs)
-        return replace(theirs, start=self._source.ours(theirs.start)), settings
+        fmu_manoeuvre, settings = set_in(self._own, manoeuvre, fmu_options, fidelity, self._source.theirs)
+        return replace(fmu_manoeuvre, start=self._source.ours(fmu_manoeuvre.start)), settings

@@ -116,11 +116,11 @@ def energy_balance(result: Result) -> list[tuple[str, str]]:
         return float(result[name][-1] - result[name][0])
 
     work_names = _WORKS | {name: what for name, what in _OTHER_WORKS.items() if name in result}
-    rest = "- structure, rest" if "energy.steering" in result else "- steering, structure, rest"
+    rest_label = "- structure, rest" if "energy.steering" in result else "- steering, structure, rest"
     stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in work_names}, change(_ERROR)
-    parts = {"change of the energy": stored} | {f"- work of {work_names[n]}": w for n, w in works.items()}
-    parts |= {rest: stored - sum(works.values()) - error, "- error of the steps": error}
-    rows = {what: f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ" for what, part in parts.items()}
+    terms = {"change of the energy": stored} | {f"- work of {work_names[n]}": w for n, w in works.items()}
+    terms |= {rest_label: stored - sum(works.values()) - error, "- error of the steps": error}
+    rows = {what: f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ" for what, part in terms.items()}
     for name in [n for n in _OTHER_WORKS if n in result]:
         largest = float(np.abs(result[name] - result[name][0]).max())
         if abs(error) > max(_OPEN * largest, 1e3 * _LEAST_OPEN) and largest > 1e3 * _LEAST_OPEN / _OPEN:

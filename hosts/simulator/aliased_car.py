@@ -30,8 +30,8 @@ class AliasedCar:
         self.names = self._row.names
         self.inputs = source.called(car.inputs)
         self.step = car.step
-        theirs = dict(zip(self.names, car.names, strict=False))
-        self.units = {n: "" if n in self._row.changed else car.units[theirs[n]] for n in self.names}
+        their_names = dict(zip(self.names, car.names, strict=False))
+        self.units = {n: "" if n in self._row.changed else car.units[their_names[n]] for n in self.names}
         self.constants = {**car.constants, **source.constants}
 
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:

@@ -103,20 +103,20 @@ class Car(Closable):
         """
         checked = []
         for name, (value, rate) in values.items():
-            place = self._places.get(name)
-            if place is None:
+            index = self._places.get(name)
+            if index is None:
                 raise HostError(f"The FMU has no input '{name}'; it has: {', '.join(self.inputs) or 'none'}.")
             if not math.isfinite(value):
                 raise HostError(f"The input '{name}' is wanted to be {value}; only finite numbers can be used.")
             if not rate > 0.0:
                 raise HostError(f"The input '{name}' is wanted to change by {rate} per second; it must be positive.")
-            low, high = self._ranges[place]
-            checked.append((place, min(max(value, low), high), rate))
+            low, high = self._ranges[index]
+            checked.append((index, min(max(value, low), high), rate))
         with self._lock:
             self._alive()
-            for place, value, rate in checked:
+            for index, value, rate in checked:
                 self._wishes += 1
-                self._wants[3 * place : 3 * place + 3] = value, rate, self._wishes
+                self._wants[3 * index : 3 * index + 3] = value, rate, self._wishes
             self._shared.wants.begin()[:] = self._wants
             self._shared.wants.finish()
 

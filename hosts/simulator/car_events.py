@@ -70,9 +70,9 @@ class CarState:
     def of(record: NDArray[np.float64]) -> CarState:
         """From the shared memory."""
         numbers = dict(zip(MOMENT, record.tolist(), strict=False))
-        whole = {name: int(numbers[name]) for name in ("count", "epoch", "missed")}
+        integers = {name: int(numbers[name]) for name in ("count", "epoch", "missed")}
         flags = {name: bool(numbers[name]) for name in ("running", "refused", "behind")}
-        return CarState(**(numbers | whole | flags), values=record[len(MOMENT) :])
+        return CarState(**(numbers | integers | flags), values=record[len(MOMENT) :])
 
 
 @dataclass(frozen=True)

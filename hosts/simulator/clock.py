@@ -80,9 +80,9 @@ class SleepingClock:
         return time.perf_counter()
 
     def sleep_until(self, until: float) -> None:
-        rest = until - time.perf_counter() - _SPIN
-        if rest > 0.0:
-            time.sleep(rest)
+        remaining = until - time.perf_counter() - _SPIN
+        if remaining > 0.0:
+            time.sleep(remaining)
         while time.perf_counter() < until:
             pass
 

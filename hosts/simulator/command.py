@@ -41,16 +41,16 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
 def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     from hosts.recordings.recording_actions import replay_recording, save_manoeuvre, show_recording
 
-    used = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
-    if used:
-        raise HostError(f"{used[0]} is for driving; with --recording nothing is driven, so leave it out.")
+    misplaced = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
+    if misplaced:
+        raise HostError(f"{misplaced[0]} is for driving; with --recording nothing is driven, so leave it out.")
     if options.replay and options.save_manoeuvre is not None:
         raise HostError("A recording is repeated by --replay or written by --save-manoeuvre; give one of them.")
     if options.save_manoeuvre is None and (options.begin, options.end) != (None, None):
         raise HostError("--from and --to are the part of a recording that --save-manoeuvre writes.")
     if options.save_manoeuvre is not None:
-        part = (options.begin, options.end)
-        return save_manoeuvre(options.recording, options.save_manoeuvre, part, options.fmu)
+        period = (options.begin, options.end)
+        return save_manoeuvre(options.recording, options.save_manoeuvre, period, options.fmu)
     return replay_recording(options.recording, options.fmu) if options.replay else show_recording(options.recording)
 
 
@@ -118,13 +118,15 @@ def _check(options: argparse.Namespace) -> None:
         raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
     recorded = {"--replay": options.replay or None, "--save-manoeuvre": options.save_manoeuvre}
     recorded |= {"--from": options.begin, "--to": options.end}
-    if used := [name for name, value in recorded.items() if value is not None]:
-        raise HostError(f"{used[0]} is for a recording; --recording names its folder.")
+    if misplaced := [name for name, value in recorded.items() if value is not None]:
+        raise HostError(f"{misplaced[0]} is for a recording; --recording names its folder.")
     if options.interval is not None and options.record is None:
         raise HostError("--interval is for what --record writes; name a folder for the recording.")
     alone = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
-    if not options.headless and (used := [name for name, value in alone.items() if value is not None]):
-        raise HostError(f"{used[0]} is for a run without a page; add --headless, or leave it out and end with Ctrl-C.")
+    if not options.headless and (misplaced := [name for name, value in alone.items() if value is not None]):
+        raise HostError(
+            f"{misplaced[0]} is for a run without a page; add --headless, or leave it out and end with Ctrl-C."
+        )
     if options.headless and options.stop_time is None and options.manoeuvre is None:
         raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
     if options.stop_time is not None and not 0.0 < options.stop_time <= _LONGEST:
@@ -167,8 +169,8 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
         if options.record is not None:
             report.tell(f"The recording {options.record} is put together ...")
         try:
-            with bar(total=1.0, desc="recording", bar_format=_BAR) as shown:
-                car.close(lambda share: shown.update(share - shown.n))
+            with bar(total=1.0, desc="recording", bar_format=_BAR) as progress_bar:
+                car.close(lambda share: progress_bar.update(share - progress_bar.n))
         finally:
             with suppress(HostError):  # a car that has ended by itself has been told of
                 for event in car.events():

@@ -24,14 +24,14 @@ def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], has_
     `inputs`, `outputs`: names, after aliases.
     """
     no_inputs, no_outputs = lacking(inputs, outputs)
-    parts = [f"no input {', '.join(no_inputs)}"] if no_inputs else []
-    parts += [f"no output {', '.join(no_outputs)}"] if no_outputs else []
-    if not parts:
+    lacks = [f"no input {', '.join(no_inputs)}"] if no_inputs else []
+    lacks += [f"no output {', '.join(no_outputs)}"] if no_outputs else []
+    if not lacks:
         return ""
-    still = "its inputs that have our names can be moved; it" if len(no_inputs) < len(PEDALS) + 1 else "it"
+    subject = "its inputs that have our names can be moved; it" if len(no_inputs) < len(PEDALS) + 1 else "it"
     picture = "" if has_drawing else ", but is not drawn, since it has no drawing"
     return (
-        f"{path.name} has {' and '.join(parts)}, which driving needs. If it has them under other names, an alias file "
+        f"{path.name} has {' and '.join(lacks)}, which driving needs. If it has them under other names, an alias file "
         f"says so (--aliases FILE). Its inputs are {some_of(inputs)}; its outputs {some_of(outputs)}. As it is, "
-        f"{still} runs, can be paused, slowed down, reset and recorded{picture}."
+        f"{subject} runs, can be paused, slowed down, reset and recorded{picture}."
     )

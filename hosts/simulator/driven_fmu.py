@@ -153,8 +153,8 @@ class DrivenFmu:
 
     def _held(self, names: Sequence[str]) -> list[float]:
         """Start values of inputs."""
-        own = self._fmu.start_values(names)
-        return [float(self._start.get(n, x)) for n, x in zip(names, own, strict=True)]
+        defaults = self._fmu.start_values(names)
+        return [float(self._start.get(n, x)) for n, x in zip(names, defaults, strict=True)]
 
     def _started(self) -> None:
         self._read()
@@ -164,8 +164,8 @@ class DrivenFmu:
     def _note_offset(self, start: Mapping[str, Value]) -> None:
         """Where the point that the FMU reports lies from the origin that it places, in axes of the car."""
         if self._poses:
-            own = self._fmu.start_values(_INITIAL)
-            x, y, yaw = (float(start.get(n, v)) for n, v in zip(_INITIAL, own, strict=True))
+            defaults = self._fmu.start_values(_INITIAL)
+            x, y, yaw = (float(start.get(n, v)) for n, v in zip(_INITIAL, defaults, strict=True))
             present = [float(self.values[self.names.index(n)]) for n in _POSE]
             dx, dy, cos, sin = present[0] - x, present[1] - y, math.cos(yaw), math.sin(yaw)
             self._offset = (dx * cos + dy * sin, dy * cos - dx * sin, present[2] - yaw)

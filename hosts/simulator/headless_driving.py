@@ -102,8 +102,8 @@ def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: 
     HostError
         The car computes no steps any more.
     """
-    places = [(name, car.names.index(name)) for name in OBSERVED if name in car.names]
-    _act(car, driver, places)
+    columns = [(name, car.names.index(name)) for name in OBSERVED if name in car.names]
+    _act(car, driver, columns)
     car.command("step", max(1, round(seconds / car.step)))
     last, since = -1, time.monotonic()
     try:
@@ -121,7 +121,7 @@ def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: 
                     last, since = moment.count, now
                 elif now - since > _STILL:
                     raise HostError(f"The car has computed no step for {_STILL:g} s; the run is aborted.")
-                _act(car, driver, places)
+                _act(car, driver, columns)
                 time.sleep(_PERIOD)
     finally:
         car.command("pause")

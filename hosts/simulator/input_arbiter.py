@@ -56,8 +56,8 @@ class InputArbiter:
                 state = self._inputs.get(name)
                 if state is None:
                     continue
-                rest = 0.0 if name in LET_GO else state.sent
-                before = state.seen.get(source, rest)
+                default = 0.0 if name in LET_GO else state.sent
+                before = state.seen.get(source, default)
                 if before is None or abs(value - before) > MOVED:
                     state.owner = source
                     state.seen[source] = value

@@ -48,5 +48,5 @@ class Inputs:
         for k, (target, rate) in enumerate(zip(self._targets, self._rates, strict=True)):
             value = float(values[k])
             if value != target:
-                most = rate * step
-                values[k] = target if abs(target - value) <= most else value + (most if target > value else -most)
+                limit = rate * step
+                values[k] = target if abs(target - value) <= limit else value + (limit if target > value else -limit)

@@ -37,6 +37,6 @@ class LateCauses:
         if not late:
             self._cause = ""
         elif elapsed > period or not self._cause:
-            parts = dict(zip(CAUSES, (ran, waited, elapsed - ran - waited), strict=True))
-            self._cause = max(parts, key=lambda name: parts[name])
+            durations = dict(zip(CAUSES, (ran, waited, elapsed - ran - waited), strict=True))
+            self._cause = max(durations, key=lambda name: durations[name])
         return self._cause

@@ -43,8 +43,8 @@ class Notices:
         """What is to be said after this step; that a value is not a number, once."""
         if self._zeros is not None and np.dot(car.values, self._zeros) != 0.0:  # NaN, of an infinite one too
             self._zeros = None
-            place = int(np.flatnonzero(~np.isfinite(car.values))[0])
-            return [Notice(NOT_FINITE, f"The output '{car.names[place]}' is {car.values[place]} at {car.time:.9g} s.")]
+            index = int(np.flatnonzero(~np.isfinite(car.values))[0])
+            return [Notice(NOT_FINITE, f"The output '{car.names[index]}' is {car.values[index]} at {car.time:.9g} s.")]
         if self._capped >= 0:
             self._count(car)
         for message in car.messages():
@@ -62,8 +62,8 @@ class Notices:
             messages.append(Notice("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
             self._steps, self._largest = 0.0, 0.0
         if self._messages:
-            more = f" (and {_number(self._messages - 1, 'message')} before it)" if self._messages > 1 else ""
-            messages.append(Notice("told", f"{self._message}{more}"))
+            suffix = f" (and {_number(self._messages - 1, 'message')} before it)" if self._messages > 1 else ""
+            messages.append(Notice("told", f"{self._message}{suffix}"))
             self._messages = 0
         return messages
 

@@ -106,7 +106,7 @@ def _add_devices(stack: ExitStack, server: Server, arbiter: InputArbiter, car: A
 
 def _torque(car: AliasedCar) -> Callable[[], float | None]:
     """The torque at the steering wheel while the car runs."""
-    place = car.names.index(_TORQUE)
+    index = car.names.index(_TORQUE)
 
     def torque() -> float | None:
         try:
@@ -115,7 +115,7 @@ def _torque(car: AliasedCar) -> Callable[[], float | None]:
             return None
         if not moment.running or moment.refused or time.perf_counter() - moment.wall > _OLD:
             return None
-        return float(moment.values[place])
+        return float(moment.values[index])
 
     return torque
 

@@ -24,8 +24,8 @@ def ask_for_priority() -> str:
         if process and thread:
             return "Real-time priority: class high, thread time critical."
         return "Windows allowed no priority above the usual, so that steps may come late."
-    got = _fifo() or _nice() or "This system allowed no priority above the usual, so that steps may come late."
-    return f"{got} {_keep_memory()}".strip()
+    message = _fifo() or _nice() or "This system allowed no priority above the usual, so that steps may come late."
+    return f"{message} {_keep_memory()}".strip()
 
 
 def _fifo() -> str:
@@ -57,5 +57,5 @@ def _keep_memory() -> str:
     unlimited = resource.getrlimit(resource.RLIMIT_MEMLOCK)[0] == resource.RLIM_INFINITY
     if not unlimited and os.geteuid() != 0:
         return ""
-    done = ctypes.CDLL(None).mlockall(_MCL_CURRENT | _MCL_FUTURE | _MCL_ONFAULT) == 0
-    return "Its memory is locked." if done else ""
+    locked = ctypes.CDLL(None).mlockall(_MCL_CURRENT | _MCL_FUTURE | _MCL_ONFAULT) == 0
+    return "Its memory is locked." if locked else ""

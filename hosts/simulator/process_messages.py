@@ -64,11 +64,11 @@ class ProcessMessages:
             self._end.set()
         if self._thread is not None and self._recorder is not None:
             self._thread.join()
-            whole = self._write()
+            complete = self._write()
             try:
                 self._recorder.close(progress)
             except (OSError, UserError) as error:
-                if whole:
+                if complete:
                     self._say(f"The recording could not be finished: {error} {_REMEDY}", kind=RECORDING_CUT)
 
     def _say(self, *texts: str, kind: str = "told", time: float = 0.0) -> None:
@@ -80,11 +80,11 @@ class ProcessMessages:
             self._events.append(Event(record["time"], record["kind"], record["text"]))
             if self._recorder is not None:
                 self._to_record.append(record)
-        for flag, what in ((LOST_ROWS, "rows of the recording"), (LOST_MESSAGES, "messages")):
+        for flag, subject in ((LOST_ROWS, "rows of the recording"), (LOST_MESSAGES, "messages")):
             lost = int(self._shared.flags[flag])
             if lost > self._lost[flag]:
                 self._lost[flag] = lost
-                text = f"{lost} {what} were lost so far: the computer did not take them in time."
+                text = f"{lost} {subject} were lost so far: the computer did not take them in time."
                 self._say(text, kind="overflow", time=float(self._shared.moments.read()[1]))
 
     def _write_on(self) -> None:

@@ -53,9 +53,9 @@ class SavedStates:
 
     def __init__(self, fmu: SavesStates, inputs: int, step: float) -> None:
         self._fmu, self._step = fmu, step
-        most = _MOST_BYTES // (8 * inputs + 16)
-        self._every = max(1, min(round(EVERY / step), most // 8))
-        self._length = max(1, min(round(SECONDS / step), most))
+        limit = _MOST_BYTES // (8 * inputs + 16)
+        self._every = max(1, min(round(EVERY / step), limit // 8))
+        self._length = max(1, min(round(SECONDS / step), limit))
         capacity = self._length + self._every + 1
         self._inputs = np.empty((capacity, inputs))
         self._marks: NDArray[np.int64] = np.empty((capacity, 2), np.int64)
@@ -122,9 +122,9 @@ class SavedStates:
         self._fmu.restore(saved.state)
         self._place = target
         k = np.arange(saved.place + 1, target + 1) % len(self._inputs)
-        here = target % len(self._inputs)
-        count, epoch = self._marks[here].tolist()
-        return Mark(count, epoch, saved.mark.begin, saved.mark.steps), self._inputs[here].copy(), self._inputs[k]
+        row = target % len(self._inputs)
+        count, epoch = self._marks[row].tolist()
+        return Mark(count, epoch, saved.mark.begin, saved.mark.steps), self._inputs[row].copy(), self._inputs[k]
 
     def clear(self) -> None:
         """Free all states."""

@@ -115,8 +115,8 @@ class Server:
             ready()
             tasks = [asyncio.create_task(self._pump()), asyncio.create_task(stop.wait())]
             try:
-                done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-                for task in done:
+                finished, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+                for task in finished:
                     task.result()
             except HostError as error:  # pages are told why, before they lose the server
                 for page in list(self._pages.values()):
@@ -233,16 +233,16 @@ class Server:
 
     async def _feed(self, page: ConnectedPage) -> None:
         """Texts and frames to a page; whoever does not read waits here alone."""
-        shown: object = None
+        last_sent: object = None
         with contextlib.suppress(ConnectionClosed, HostError):  # a car that has ended is seen by the pump
             while True:
                 while page.texts:
                     await page.connection.send(page.texts.popleft())
                 if page.takes_more:
                     moment = self._car.latest()
-                    now = (moment.count, moment.epoch, moment.running, moment.refused, moment.behind, moment.speed)
-                    if now != shown:
-                        shown = now
+                    state = (moment.count, moment.epoch, moment.running, moment.refused, moment.behind, moment.speed)
+                    if state != last_sent:
+                        last_sent = state
                         page.sent(moment.count)
                         await page.connection.send(protocol.frame(moment, self._car.step))
                         if self._first_frame is not None:
@@ -252,7 +252,7 @@ class Server:
 
     async def _pump(self) -> None:
         """Events of the car and devices to all pages; pages that stall let go."""
-        shown: list[dict[str, Any]] = []
+        device_states: list[dict[str, Any]] = []
         while True:
             for event in self._car.events():
                 self._report_all(event.kind, event.time, event.text)
@@ -261,7 +261,7 @@ class Server:
             for page in list(self._pages.values()):
                 if page.stalls():
                     self._let_go(page, "no longer sends messages")
-            shown = self._show_devices(shown)
+            device_states = self._show_devices(device_states)
             await asyncio.sleep(_PUMP_PERIOD)
 
     def _show_devices(self, before: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -270,10 +270,10 @@ class Server:
             return before
         state = self.devices.state()
         if state != before:
-            others = [device.get("id") for device in state] != [device.get("id") for device in before]
+            devices_changed = [device.get("id") for device in state] != [device.get("id") for device in before]
             text = _text("devices", devices=state)
             for page in self._pages.values():
-                if others or page.watches_devices:
+                if devices_changed or page.watches_devices:
                     page.texts.append(text)
         return state
 

@@ -153,11 +153,11 @@ class ByteRing:
         data = self._data[np.arange(read, written) % len(self._data)].tobytes()
         _fence()
         self._counters[1] = written
-        messages, place = [], 0
-        while place < len(data):
-            begin = place + self._HEAD
-            place = begin + int.from_bytes(data[place:begin], "little")
-            messages.append(data[begin:place])
+        messages, offset = [], 0
+        while offset < len(data):
+            begin = offset + self._HEAD
+            offset = begin + int.from_bytes(data[offset:begin], "little")
+            messages.append(data[begin:offset])
         return messages
 
 

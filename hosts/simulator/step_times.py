@@ -78,18 +78,18 @@ class Spread:
         total = float(self.counts.sum())
         if total == 0.0:
             return 0.0
-        place = int(np.searchsorted(np.cumsum(self.counts), part * total))
-        return min(self.largest, edge(place))
+        index = int(np.searchsorted(np.cumsum(self.counts), part * total))
+        return min(self.largest, edge(index))
 
     def report(self) -> dict[str, Any]:
-        used = np.flatnonzero(self.counts)
-        bins = [[min(edge(int(k)), self.largest), int(self.counts[k])] for k in used]
+        occupied = np.flatnonzero(self.counts)
+        bins = [[min(edge(int(k)), self.largest), int(self.counts[k])] for k in occupied]
         return {name: self.quantile(part) for name, part in _QUANTILES} | {"largest": self.largest, "bins": bins}
 
     def words(self) -> str:
-        parts = [self.quantile(part) for _, part in _QUANTILES]
-        named = zip(("median", "p99", "p99.9", "largest"), (*parts, self.largest), strict=True)
-        return ", ".join(f"{name} {1e3 * value:.3g} ms" for name, value in named)
+        quantiles = [self.quantile(part) for _, part in _QUANTILES]
+        pairs = zip(("median", "p99", "p99.9", "largest"), (*quantiles, self.largest), strict=True)
+        return ", ".join(f"{name} {1e3 * value:.3g} ms" for name, value in pairs)
 
     def lines(self) -> list[str]:
         """A bar for each part of a decade that has steps."""
@@ -97,9 +97,10 @@ class Spread:
         for k in np.flatnonzero(self.counts):
             top = next(t for t in _TOPS if t >= edge(int(k)) * (1.0 - 1e-9))
             rows[top] = rows.get(top, 0.0) + float(self.counts[k])
-        most = max(rows.values(), default=1.0)
+        highest = max(rows.values(), default=1.0)
         return [
-            f"  <= {1e3 * t:>8g} ms {int(n):>10}  {'#' * math.ceil(40.0 * n / most)}" for t, n in sorted(rows.items())
+            f"  <= {1e3 * t:>8g} ms {int(n):>10}  {'#' * math.ceil(40.0 * n / highest)}"
+            for t, n in sorted(rows.items())
         ]
 
 
@@ -199,10 +200,10 @@ class StepTimes:
                 f"missed deadlines: {self.missed} of {deadlines} ({100.0 * self.missed / deadlines:.3g} %)",
             ]
             if any(self.missed_by.values()):
-                ran, others, stolen = (self.missed_by[name] for name in CAUSES)
+                ran, waited, stolen = (self.missed_by[name] for name in CAUSES)
                 rows.append(
                     f"  while the step ran (work, interrupts, what a host took without a word): {ran}; other programs: "
-                    f"{others}; the processor stood still, as where the host of a virtual machine takes it: {stolen}"
+                    f"{waited}; the processor stood still, as where the host of a virtual machine takes it: {stolen}"
                 )
             if self.skipped:
                 rows.append(
@@ -210,6 +211,6 @@ class StepTimes:
                     f"{self.factor:.3f} of the speed that was asked for was reached"
                 )
         if self.capped:
-            left = f"the largest residual left was {1e3 * self.capped_residual:.3g} mm"
-            rows.append(f"inner steps stopped, or left whole, at the limit of iterations: {self.capped}; {left}")
+            residual = f"the largest residual left was {1e3 * self.capped_residual:.3g} mm"
+            rows.append(f"inner steps stopped, or left whole, at the limit of iterations: {self.capped}; {residual}")
         return "\n".join([*rows, "histogram of the costs:", *self.cost.lines()])

@@ -102,9 +102,9 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
 
 
 def _bound(address: str, port: int) -> socket.socket:
-    family, *_, place = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0]
-    both = place[0] == "::" and socket.has_dualstack_ipv6()  # the name of this machine may be one of IPv4 alone
-    with socket.create_server((str(place[0]), port), family=family, dualstack_ipv6=both) as bound:
+    family, *_, sockaddr = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0]
+    dual = sockaddr[0] == "::" and socket.has_dualstack_ipv6()  # the name of this machine may be one of IPv4 alone
+    with socket.create_server((str(sockaddr[0]), port), family=family, dualstack_ipv6=dual) as bound:
         if hasattr(socket, "TCP_DEFER_ACCEPT"):  # who is taken has sent first bytes, unless it is silent for a second
             bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_DEFER_ACCEPT, 1)
         return _Doors(family, socket.SOCK_STREAM, fileno=bound.detach())
@@ -218,8 +218,8 @@ async def _send(connection: ServerConnection, head: Response, body: bytes) -> No
     transport.set_write_buffer_limits(0)
     transport.write(head.serialize())
     try:
-        for place in range(0, max(len(body), 1), _PIECE):
-            transport.write(body[place : place + _PIECE])
+        for offset in range(0, max(len(body), 1), _PIECE):
+            transport.write(body[offset : offset + _PIECE])
             async with asyncio.timeout(READ_WITHIN):
                 await connection.drain()
             if transport.is_closing():  # the other side has gone

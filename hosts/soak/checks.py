@@ -134,5 +134,5 @@ class Watch:
 
     def _all(self, names: Iterable[str]) -> list[int]:
         """Places of several outputs, none if one is missing."""
-        places = [self._place.get(name, -1) for name in names]
-        return places if min(places) >= 0 else []
+        indices = [self._place.get(name, -1) for name in names]
+        return indices if min(indices) >= 0 else []

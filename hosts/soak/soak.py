@@ -63,13 +63,13 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     ]
     keys = [run_key(path, task, files=_files(task)) for task in tasks]
     with ResultStore[Outcome](out, Outcome, "drives", options.again) as store:
-        before = [store.find(key, key) for key in keys]
-        outcomes = [outcome or Outcome(task.seed, task.fidelity) for task, outcome in zip(tasks, before, strict=True)]
-        pending = [place for place, outcome in enumerate(before) if outcome is None]
+        stored = [store.find(key, key) for key in keys]
+        outcomes = [outcome or Outcome(task.seed, task.fidelity) for task, outcome in zip(tasks, stored, strict=True)]
+        pending = [index for index, outcome in enumerate(stored) if outcome is None]
         report_resumed(len(tasks) - len(pending), len(tasks), "drives")
         try:
-            for place in _driven(tasks, outcomes, pending, options.jobs or available_cores()):
-                store.add(keys[place], keys[place], outcomes[place])
+            for index in _driven(tasks, outcomes, pending, options.jobs or available_cores()):
+                store.add(keys[index], keys[index], outcomes[index])
         finally:  # after Ctrl-C too, of what is done
             print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
             if options.json is not None:
@@ -127,5 +127,5 @@ def _fidelities(fmu: Fmu, asked: Sequence[int]) -> list[int | None]:
 def _grounds(out: Path, worlds: Sequence[str]) -> list[Ground]:
     folder = out / "roads"
     jumps = [jump_ground(folder), jump_ground(folder, (1e5, -1e5))]
-    named = [world_ground(name, folder / f"world_{k}") for k, name in enumerate(worlds)]
-    return [*2 * jumps, *2 * named, *IN_THE_FMU]
+    world_grounds = [world_ground(name, folder / f"world_{k}") for k, name in enumerate(worlds)]
+    return [*2 * jumps, *2 * world_grounds, *IN_THE_FMU]

@@ -115,5 +115,5 @@ def world_ground(name: str, folder: Path) -> Ground:
     if not files:
         raise HostError(f"{name} is not a world.")
     world = read_json(files[-1], HostError)
-    places = tuple(Target(place["x"], place["y"], place["yaw"]) for place in world["places"])
-    return Ground(str((folder / world["road"]).absolute()), places)
+    targets = tuple(Target(place["x"], place["y"], place["yaw"]) for place in world["places"])
+    return Ground(str((folder / world["road"]).absolute()), targets)

@@ -122,8 +122,8 @@ def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | N
     from hosts.fmu.built_fmu import car_digest
 
     digest = car_digest(_car(study.car, file))
-    kept = before is not None and before.get("car") == digest and (folder / before["fmu"]).exists()
-    fmu = fmu_of_folder(folder, before) if before is not None and kept else fmu_of_study(study, file)
+    is_unchanged = before is not None and before.get("car") == digest and (folder / before["fmu"]).exists()
+    fmu = fmu_of_folder(folder, before) if before is not None and is_unchanged else fmu_of_study(study, file)
     plan = make_plan(study, file, fmu)
     return replace(plan, record={**plan.record, "car": digest})
 
@@ -164,10 +164,10 @@ def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, w
     print(f"measures    {some_of(plan.work.columns, 8)}")
     if plan.work.signals:
         print(f"signals     {some_of(plan.work.signals, 8)}")
-    whole = plan.runs * trial.seconds
+    total = plan.runs * trial.seconds
     where = "on one worker" if count == 1 else f"with {count} workers"
     print(
-        f"estimate    {trial.seconds:.3g} s a run, {duration(whole / count)} in all {where}; "
+        f"estimate    {trial.seconds:.3g} s a run, {duration(total / count)} in all {where}; "
         f"{_size(bytes_of(plan))} of results",
         flush=True,
     )

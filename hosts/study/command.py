@@ -29,8 +29,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
     add_option(parser, "--confined")
     add_option(parser, "--again", "failed runs are not repeated")
     parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run")
-    both = argparse.BooleanOptionalAction
-    parser.add_argument("--report", action=both, help="write only the report of existing results; or write none")
+    flag_action = argparse.BooleanOptionalAction
+    parser.add_argument("--report", action=flag_action, help="write only the report of existing results; or write none")
     parser.add_argument(
         "--target",
         action="append",
@@ -67,10 +67,10 @@ def _study(options: argparse.Namespace, prog: str) -> int:
     ended = run_study(options.study, options.out, options.scheduler, options.jobs, options.dry_run, options.again)
     if ended is None:
         return 0
-    kept = _keeps_limits(ended.folder)
+    within_limits = _keeps_limits(ended.folder)
     if options.report is not False:
         _report(ended.folder)
-    return 0 if ended.good and kept else NOT_GOOD
+    return 0 if ended.good and within_limits else NOT_GOOD
 
 
 def _keeps_limits(folder: Path) -> bool:
@@ -88,9 +88,9 @@ def _keeps_limits(folder: Path) -> bool:
 def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.study.target import find_target, target_of
 
-    others = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
-    if others:
-        raise HostError(f"{others[0]} cannot be combined with --target, which makes its own runs.")
+    conflicting = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
+    if conflicting:
+        raise HostError(f"{conflicting[0]} cannot be combined with --target, which makes its own runs.")
     if len(options.target) > 1:
         targets = " and ".join(options.target)
         raise HostError(f"--target is given {len(options.target)} times, {targets}; one parameter meets one value.")

@@ -27,8 +27,8 @@ class Counts:
     def said(self) -> list[str]:
         """The most frequent messages of the runs."""
         lines = [f"in {n} of {self.made} runs: {message}" for message, n in self._said.most_common(_TOLD)]
-        more = len(self._said) - len(lines)
-        return [*lines, f"and {more} other messages, in the column messages"] if more > 0 else lines
+        remaining = len(self._said) - len(lines)
+        return [*lines, f"and {remaining} other messages, in the column messages"] if remaining > 0 else lines
 
 
 def duration(seconds: float) -> str:

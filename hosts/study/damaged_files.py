@@ -28,7 +28,7 @@ def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool
     list of str
         What was taken out, a sentence for each.
     """
-    done, notes = np.zeros(record["runs"], dtype=np.bool_), []
+    sound, notes = np.zeros(record["runs"], dtype=np.bool_), []
     for file in part_files(folder):
         try:
             table = read_part(file, record)
@@ -43,5 +43,5 @@ def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool
             file.unlink()
             notes.append(f"{error.file} is damaged ({error.words}); its runs are repeated.")
         else:
-            marked(done, file, table)
-    return done, notes
+            marked(sound, file, table)
+    return sound, notes

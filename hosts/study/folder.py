@@ -167,8 +167,8 @@ def write_record(folder: Path, record: Mapping[str, Any]) -> None:
 
 def free_space(folder: Path) -> int:
     """Bytes that can be written there."""
-    place = next(p for p in (folder.absolute(), *folder.absolute().parents) if p.exists())
-    return shutil.disk_usage(place).free
+    existing = next(p for p in (folder.absolute(), *folder.absolute().parents) if p.exists())
+    return shutil.disk_usage(existing).free
 
 
 def sync(file: Path) -> None:

@@ -100,8 +100,8 @@ def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequenc
     for number, entry in enumerate(study.manoeuvres, start=1):
         where = f"{file}: manoeuvres[{number}]"
         job = _test(entry, study, fmu, where) if entry.test is not None else _drive(entry, study, file, fmu, where)
-        for other in jobs:
-            if other.label == job.label:
+        for earlier in jobs:
+            if earlier.label == job.label:
                 raise HostError(f"{where}: another manoeuvre is called '{job.label}'; give one of them another name.")
         if job.manoeuvre is not None:
             _check_effect(job.manoeuvre, parameters, where)

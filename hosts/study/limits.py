@@ -68,25 +68,25 @@ def shares(frame: pd.DataFrame) -> list[Share]:
     """
     about, results = frame.attrs, []
     points = frame["point"].to_numpy(dtype=np.int64)
-    broken, known = (np.zeros(points.max(initial=-1) + 1, dtype=bool) for _ in range(2))
+    broken, judged = (np.zeros(points.max(initial=-1) + 1, dtype=bool) for _ in range(2))
     lost = broken.copy()
     manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
     for column, record in about["limits"].items():
         lowest, highest = ends = limit_ends(record)
         values = frame[column].to_numpy(dtype=np.float64)
         for name in _of_column(column, about):
-            mine = manoeuvres == name
+            of_manoeuvre = manoeuvres == name
             finite = np.isfinite(values)
-            within = mine & finite & (values >= lowest) & (values <= highest)
-            bare = mine & ~finite & _should_be(column, frame)
-            outside = bare | (mine & finite & ~within)
-            absent = int((mine & ~finite & ~bare).sum())
+            within = of_manoeuvre & finite & (values >= lowest) & (values <= highest)
+            bare = of_manoeuvre & ~finite & _should_be(column, frame)
+            outside = bare | (of_manoeuvre & finite & ~within)
+            absent = int((of_manoeuvre & ~finite & ~bare).sum())
             broken[points[outside]] = lost[points[bare]] = True
-            known[points[within | outside]] = True
+            judged[points[within | outside]] = True
             results.append(_share(column, name, ends, record["unit"], (within, outside, bare), absent, about))
     if results:
-        sets = (known & ~broken, broken, lost)
-        absent = len(np.unique(points)) - int(known.sum())
+        sets = (judged & ~broken, broken, lost)
+        absent = len(np.unique(points)) - int(judged.sum())
         results.append(_share(ALL, "", limit_ends(None), "1", sets, absent, about))
     return results
 
@@ -97,8 +97,8 @@ def _should_be(column: str, frame: pd.DataFrame) -> NDArray[np.bool_]:
     if "missing" not in frame:
         return np.asarray(status != DONE)
     lacking = [None if names is None else names.split(MISSING) for names in frame["missing"].astype(object)]
-    named = [known is None or column in known for known in lacking]
-    return np.asarray((status == FAILED) | ((status != DONE) & np.array(named, dtype=np.bool_)))
+    lacks_column = [known is None or column in known for known in lacking]
+    return np.asarray((status == FAILED) | ((status != DONE) & np.array(lacks_column, dtype=np.bool_)))
 
 
 def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
@@ -109,8 +109,8 @@ def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
 
 def _of_column(column: str, about: Mapping[str, Any]) -> list[str]:
     """Manoeuvres whose runs have a measure: the test that it is named after, else all that are no tests."""
-    named = [n for n in about["tests"] if column.startswith(f"{n}.")]
-    return [max(named, key=len)] if named else [n for n in about["manoeuvres"] if n not in about["tests"]]
+    tests = [n for n in about["tests"] if column.startswith(f"{n}.")]
+    return [max(tests, key=len)] if tests else [n for n in about["manoeuvres"] if n not in about["tests"]]
 
 
 def _share(
@@ -160,8 +160,8 @@ def share_rows(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[tu
 
 def _allowed(s: Share) -> str:
     unit, factor = shown_in(s.unit, s.measure)
-    shown = Limit("", factor * s.lowest, factor * s.highest)
-    return "" if s.measure == ALL else shown.words(typeset(unit))
+    limit = Limit("", factor * s.lowest, factor * s.highest)
+    return "" if s.measure == ALL else limit.words(typeset(unit))
 
 
 def share_notes(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[str]:

@@ -102,12 +102,12 @@ class OutcomeTable:
         before = np.count_nonzero(self.done)
         for file in part_files(self._folder):
             table = read_part(file, self._record)
-            gone = goes(table)
-            self.done[table["index"].to_numpy()[gone]] = False
-            if gone.all():
+            removed = goes(table)
+            self.done[table["index"].to_numpy()[removed]] = False
+            if removed.all():
                 file.unlink()
-            elif gone.any():
-                write_part(table.filter(pa.array(~gone)), file)
+            elif removed.any():
+                write_part(table.filter(pa.array(~removed)), file)
         return int(before - np.count_nonzero(self.done))
 
 

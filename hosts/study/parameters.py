@@ -43,8 +43,8 @@ class Parameter:
         if self.values:
             return [self.values[k] for k in np.floor(u * len(self.values)).astype(int)]
         if self.kind != "Real":  # whole numbers, each as often as the others
-            whole = self.low + np.floor(u * (self.high - self.low + 1.0))
-            return [int(x) for x in np.minimum(whole, self.high)]
+            numbers = self.low + np.floor(u * (self.high - self.low + 1.0))
+            return [int(x) for x in np.minimum(numbers, self.high)]
         return np.clip(self._between(u), self.low, self.high).tolist()  # type: ignore[no-any-return]
 
     def _between(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -114,6 +114,6 @@ def in_unit(value: Value, unit: str | None, variable: Variable, where: str) -> V
     if unit is None or unit == variable.unit or isinstance(value, (str, bool)):
         return variable.check(value, where)
     if unit not in variable.displays:
-        others = " or ".join([variable.unit, *variable.displays])
-        raise HostError(f"{where}: the unit is '{unit}'; the FMU knows '{variable.name}' in {others}.")
+        units = " or ".join([variable.unit, *variable.displays])
+        raise HostError(f"{where}: the unit is '{unit}'; the FMU knows '{variable.name}' in {units}.")
     return variable.check(variable.from_display(float(value), unit, where), f"{where}, {value:g} {unit}")

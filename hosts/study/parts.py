@@ -87,17 +87,17 @@ def read_signals(part: Path, record: Mapping[str, Any]) -> Any:
 
 def _read(file: Path, schema: Any) -> Any:
     try:
-        with opened_parquet(file, checksums=True) as part:
-            table, laid_out = part.read(), _is_laid_out(part.metadata)
-            written = [part.metadata.num_rows, sum(g.num_rows for g in _row_groups(part.metadata))]
+        with opened_parquet(file, checksums=True) as parquet:
+            table, laid_out = parquet.read(), _is_laid_out(parquet.metadata)
+            written = [parquet.metadata.num_rows, sum(g.num_rows for g in _row_groups(parquet.metadata))]
     except HostError:
         raise
     except (pa.ArrowException, OSError, KeyError, ValueError) as error:
         raise DamagedPartError(file, one_line((str(error).strip() or repr(error)).splitlines()[0])) from None
     if not table.schema.equals(schema):
-        own = {field.name: str(field.type) for field in schema}
-        odd = [f.name for f in table.schema if own.get(f.name) != str(f.type)]
-        raise DamagedPartError(file, f"its columns are not those of the study: {some_of(odd or own, 3)}")
+        types = {field.name: str(field.type) for field in schema}
+        odd = [f.name for f in table.schema if types.get(f.name) != str(f.type)]
+        raise DamagedPartError(file, f"its columns are not those of the study: {some_of(odd or types, 3)}")
     if any(n != len(table) for n in written):  # the footer has no checksum
         raise DamagedPartError(file, f"{max(written)} rows were written, and it has {len(table)}")
     if not laid_out:

@@ -100,9 +100,11 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
         assert study.sampling.file is not None
         table = table_points(file.parent / study.sampling.file, variable_of, study.parameters)
         names = list(table.block(0, 0))
-        both = sorted(set(names) & set(study.start))
-        if both:
-            raise HostError(f"{file}: '{both[0]}' is a column of {study.sampling.file} and in [start]; give it once.")
+        duplicates = sorted(set(names) & set(study.start))
+        if duplicates:
+            raise HostError(
+                f"{file}: '{duplicates[0]}' is a column of {study.sampling.file} and in [start]; give it once."
+            )
         variables = {n: variable_of(n, "") for n in names}
         return table, {n: {"kind": v.kind, "unit": v.unit} for n, v in variables.items()}
     if not study.parameters:

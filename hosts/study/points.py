@@ -44,8 +44,8 @@ def grid(lengths: Sequence[int]) -> Places:
     """All combinations, the last dimension fastest: middles of equal parts of [0, 1), one for each value."""
 
     def block(first: int, count: int) -> NDArray[np.float64]:
-        places = np.unravel_index(np.arange(first, first + count), lengths)
-        return (np.stack(places, axis=1) + 0.5) / np.array(lengths, dtype=np.float64)
+        indices = np.unravel_index(np.arange(first, first + count), lengths)
+        return (np.stack(indices, axis=1) + 0.5) / np.array(lengths, dtype=np.float64)
 
     return block
 
@@ -91,9 +91,9 @@ def _drawn(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Places]:
 
 def digest(points: Points) -> str:
     """A hash of all points of a table, of the first and last where a rule draws them, which distinguishes plans."""
-    whole = _DIGESTED if points.parameters else points.count
-    ends = [points.block(0, min(points.count, whole))]
-    if points.count > whole:
+    limit = _DIGESTED if points.parameters else points.count
+    ends = [points.block(0, min(points.count, limit))]
+    if points.count > limit:
         ends.append(points.block(points.count - _DIGESTED, _DIGESTED))
     return hashlib.sha256(json.dumps([dict(end) for end in ends]).encode()).hexdigest()
 

@@ -130,9 +130,9 @@ class StudyFile(_Part):
                     raise ValueError(f"parameters.'{name}' needs a count, how many values of its range the grid has")
                 if self.sampling.method != "grid" and entry.count is not None:
                     raise ValueError(f"parameters.'{name}' has a count, which only the method grid uses")
-        both = sorted(set(self.start) & set(self.parameters))
-        if both:
-            raise ValueError(f"'{both[0]}' is a parameter and in [start]; give it once")
+        duplicates = sorted(set(self.start) & set(self.parameters))
+        if duplicates:
+            raise ValueError(f"'{duplicates[0]}' is a parameter and in [start]; give it once")
         return self
 
 
@@ -160,7 +160,7 @@ def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
 def _place(path: Sequence[str]) -> str:
     """A key path with places in lists from 1, as people count manoeuvres."""
     text = ""
-    for part in path:
-        name = part if part.replace("_", "").isalnum() else f"'{part}'"
-        text += f"[{int(part) + 1}]" if part.isdigit() else f".{name}" if text else name
+    for key in path:
+        name = key if key.replace("_", "").isalnum() else f"'{key}'"
+        text += f"[{int(key) + 1}]" if key.isdigit() else f".{name}" if text else name
     return text

@@ -89,10 +89,10 @@ class Bench:
         record = performed(job, self._work.fmu.path.name, self._source, values)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)
-        named = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]
+        pairs = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]
         if not self._work.columns:  # a trial: what it measures becomes the columns
             outcome.units = {column(job, m): m.unit for m in record.measures}
-        _take(outcome, [(name, m) for name, m in named if not self._work.columns or name in self._work.columns])
+        _take(outcome, [(name, m) for name, m in pairs if not self._work.columns or name in self._work.columns])
         return outcome
 
 
@@ -114,18 +114,18 @@ def column(job: Job, measure: Measure) -> str:
 
 def sampled(result: Result, names: Sequence[str], job: Job) -> NDArray[np.float64]:
     """Values of signals at the times that are kept, of shape (samples, signals); NaN after an early end."""
-    kept = np.full((job.samples, len(names)), np.nan)
+    values = np.full((job.samples, len(names)), np.nan)
     rows = result.values[:: job.every, [result.names.index(n) for n in names]][: job.samples]
-    kept[: len(rows)] = rows
-    return kept
+    values[: len(rows)] = rows
+    return values
 
 
 def _of_result(result: Result) -> Outcome:
     """Whether the run reached its end with numbers."""
     missed = [": ".join(parts).replace("--step ", "step = ") for parts in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
-    if what := result.not_finite():
-        end.status, end.reason = FAILED, what
+    if reason := result.not_finite():
+        end.status, end.reason = FAILED, reason
     elif result.refusal:
         end.status, end.reason = FAILED, sentence_of(result.refusal)
     return end
@@ -136,8 +136,8 @@ def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
     outcome.missing = tuple(name for name, m in measures if m.is_missing)
     missing = [f"{name}: {m.note or 'it is not a number'}" for name, m in measures if m.is_missing]
     if missing:
-        more = [f"and {len(missing) - _MOST_NOTES} more"] if len(missing) > _MOST_NOTES else []
-        outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MOST_NOTES] + more)
+        suffix = [f"and {len(missing) - _MOST_NOTES} more"] if len(missing) > _MOST_NOTES else []
+        outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MOST_NOTES] + suffix)
 
 
 def experiment_of(work: Work, path: Path) -> Experiment[Run, Outcome]:

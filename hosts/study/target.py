@@ -89,8 +89,8 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     is_named = target.by in variables.names or study.aliases is None  # else it may be a name of the aliases
     variable = variables.settable(target.by, "--by") if is_named else None
     if variable is not None and variable.kind != "Real":
-        what = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
-        message = what.get(variable.kind, f"of the kind {variable.kind}")
+        descriptions = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
+        message = descriptions.get(variable.kind, f"of the kind {variable.kind}")
         raise HostError(f"--by {target.by}: it is {message}; only real numbers can be sought.")
     ends, unit, log = target.range, None, entry.log
     if ends is not None:
@@ -135,9 +135,9 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     values: dict[str, Any] = {**study.start, by: value}
     values = plan.work.fmu.theirs(values)
     description = described(plan.fmu)
-    whole = parameter_set_of(Variables(description), description.modelName, values)
-    entries = [entry for entry in whole.entries if entry.name in values]
-    units = {entry.unit: whole.units[entry.unit] for entry in entries if entry.unit is not None}
+    parameter_set = parameter_set_of(Variables(description), description.modelName, values)
+    entries = [entry for entry in parameter_set.entries if entry.name in values]
+    units = {entry.unit: parameter_set.units[entry.unit] for entry in entries if entry.unit is not None}
     if entries:
-        write_parameter_set(replace(whole, entries=entries, units=units), file, as_built=False)
+        write_parameter_set(replace(parameter_set, entries=entries, units=units), file, as_built=False)
     return [f"{name}={value}" for name, value in values.items() if name not in {entry.name for entry in entries}]

@@ -37,9 +37,9 @@ def text_lines(runs: TargetRuns, search: SearchResult) -> list[str]:
     else:
         lines += _not_met(runs, search, search.best)
     if search.best is not None and math.isfinite(search.slope) and not _is_flat(runs, search):
-        slope, one, other = runs.shown.factor * search.slope, *map(runs.x_text, search.between)
+        slope, lower, upper = runs.shown.factor * search.slope, *map(runs.x_text, search.between)
         change = number_in(0.01 * search.best.x * slope, runs.shown.unit, ".5g")
-        lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {one} and {other}).")
+        lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {lower} and {upper}).")
     if search.met and search.rises and search.falls:
         lines.append(f"It is not monotone over {by} in these runs: another value may give the same.")
     if failed and search.best is not None:
@@ -62,11 +62,11 @@ def _not_met(runs: TargetRuns, search: SearchResult, best: Run) -> list[str]:
         changes, "does not change"
     )
     if search.crossed:
-        one, other = _around(runs, search)
+        left, right = _around(runs, search)
         lines.append(
-            f"Between {runs.x_text(one.x)} and {runs.x_text(other.x)} the measure goes from "
-            f"{runs.y_text(one.y)} to {runs.y_text(other.y)}: it jumps there, runs fail, or the range is too "
-            f"wide to resolve it; try --between={one.x:.6g}:{other.x:.6g}."
+            f"Between {runs.x_text(left.x)} and {runs.x_text(right.x)} the measure goes from "
+            f"{runs.y_text(left.y)} to {runs.y_text(right.y)}: it jumps there, runs fail, or the range is too "
+            f"wide to resolve it; try --between={left.x:.6g}:{right.x:.6g}."
         )
         return lines
     variable = _variable(runs)

@@ -50,15 +50,15 @@ class TargetRuns:
     def _job(self) -> tuple[Job, str]:
         """The manoeuvre that yields the measure, and its column."""
         name, jobs = self.target.measure, self.plan.work.jobs
-        named = [job for job in jobs if job.manoeuvre is None and name.startswith(f"{job.label}.")]
-        own = {c: self.plan.record["measures"][c] for c in self.plan.work.columns}
-        fit = named or [job for job in jobs if (job.manoeuvre is not None) == (name in own)]
+        by_prefix = [job for job in jobs if job.manoeuvre is None and name.startswith(f"{job.label}.")]
+        units = {c: self.plan.record["measures"][c] for c in self.plan.work.columns}
+        fit = by_prefix or [job for job in jobs if (job.manoeuvre is not None) == (name in units)]
         if not fit:
-            name, fit = column_of(name, own, "--target"), list(jobs)
+            name, fit = column_of(name, units, "--target"), list(jobs)
         if len(fit) > 1:
             labels = " and ".join(job.label for job in fit)
-            whole = "give MANOEUVRE.MEASURE" if fit[0].manoeuvre is None else "leave one of them in the study file"
-            raise HostError(f"--target {name}: it could be of {labels}; {whole}.")
+            remedy = "give MANOEUVRE.MEASURE" if fit[0].manoeuvre is None else "leave one of them in the study file"
+            raise HostError(f"--target {name}: it could be of {labels}; {remedy}.")
         job = fit[0]
         if job.manoeuvre is not None:
             return job, name

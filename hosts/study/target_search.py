@@ -121,10 +121,10 @@ class _Search:
         if (best := self._best()) is None or not self._meets(best):
             return self._result(())
         (low, high), aside = self._ends, _BESIDE * min(abs(best.x) or math.inf, self._ends[1] - self._ends[0])
-        place = self._place(best.x + aside if best.x + aside <= high else max(best.x - aside, low))
+        point = self._place(best.x + aside if best.x + aside <= high else max(best.x - aside, low))
         with contextlib.suppress(_End):
-            self._at(place)
-        return self._result([best, *([self._runs[place]] if place in self._runs else [])])
+            self._at(point)
+        return self._result([best, *([self._runs[point]] if point in self._runs else [])])
 
     def _x(self, u: float) -> float:
         low, high = self._ends
@@ -156,10 +156,10 @@ class _Search:
             self._tolerance = TOLERANCE * abs(self._at(last) - self._at(first))
         if not self._brackets():
             self._to_the_extremum(first, last)
-        tried: set[tuple[float, float]] = set()
-        while brackets := [b for b in self._brackets() if b not in tried and b[1] - b[0] > _CLOSEST]:
+        searched: set[tuple[float, float]] = set()
+        while brackets := [b for b in self._brackets() if b not in searched and b[1] - b[0] > _CLOSEST]:
             bracket = min(brackets, key=lambda b: max(b[0] - self._start, self._start - b[1]))
-            tried.add(bracket)
+            searched.add(bracket)
             try:
                 brentq(self._known, *bracket, xtol=_CLOSEST, rtol=1e-12, maxiter=self._most)
             except _New:  # a run between them failed: look on its other sides
@@ -169,10 +169,10 @@ class _Search:
 
     def _inward(self, end: float) -> float:
         """The place of a run that yields the measure, at an end of the range or near it."""
-        for part in _INWARD:
-            place = abs(end - part)
-            if math.isfinite(self._at(place)):
-                return place
+        for inset in _INWARD:
+            position = abs(end - inset)
+            if math.isfinite(self._at(position)):
+                return position
         raise _End
 
     def _known(self, u: float) -> float:

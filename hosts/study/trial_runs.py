@@ -44,8 +44,8 @@ def try_out(plan: Plan) -> Trial:
         outcome, point = None, 0
         for point in points:
             # with no columns known, a test tells which it has
-            tried = work if job.manoeuvre is not None else replace(work, columns=())
-            outcome = _outcomes(tried, plan, number, [point])[0]
+            trial_work = work if job.manoeuvre is not None else replace(work, columns=())
+            outcome = _outcomes(trial_work, plan, number, [point])[0]
             if outcome.status != FAILED:
                 break
             notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, fails: {outcome.reason}")
@@ -98,8 +98,8 @@ def _reuse(plan: Plan, good: list[tuple[int, Job, int, Outcome]]) -> tuple[bool,
     short = replace(job, manoeuvre=replace(job.manoeuvre, stop_time=stop), every=1, samples=samples)
     jobs = (*plan.work.jobs[:number], short, *plan.work.jobs[number + 1 :])
     work = replace(plan.work, jobs=jobs, reuse=True, measures=(), signals=plan.outputs)
-    other = (point + plan.points.count // 2) % plan.points.count
-    first, _, again = _outcomes(work, plan, number, (point, other, point))
+    other_point = (point + plan.points.count // 2) % plan.points.count
+    first, _, again = _outcomes(work, plan, number, (point, other_point, point))
     if first.status == FAILED or again.status == FAILED or first.signals is None or again.signals is None:
         return False, None
     same = first.signals.tobytes() == again.signals.tobytes()

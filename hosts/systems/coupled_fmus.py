@@ -225,10 +225,10 @@ class CoupledFmus(Closable):
         now, ends, stepped = dict(begin), (self._steps + 1) * self.step_length, set[str]()
         for p in self._parts:
             first = np.array([begin[w.source, w.output] for w in p.wires])
-            known = dict(now) if self.order == "in turn" else {}
+            current = dict(now) if self.order == "in turn" else {}
             ends_at = [end if follows else None for follows in p.follows]
             newest = np.array(
-                [(e or known or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
+                [(e or current or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
             )
             has_end_value = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
             try:
@@ -279,10 +279,10 @@ def _saved(fmus: Sequence[Fmu]) -> Iterator[Callable[[], None]]:
 
 
 def _part(name: str, fmu: Fmu, wires: Sequence[Wire]) -> _Part:
-    mine = tuple(w for w in wires if w.target == name)
-    inputs = [w.input for w in mine]
+    incoming = tuple(w for w in wires if w.target == name)
+    inputs = [w.input for w in incoming]
     outputs = tuple(dict.fromkeys(w.output for w in wires if w.source == name))
     real = [i for i in inputs if fmu.variables[i].type == "Real"]
     follows = np.array([i in real for i in inputs], bool)
     slopes = fmu.slope_setter(real) if fmu.follows_slopes and real else None
-    return _Part(name, fmu, mine, fmu.setter(inputs), slopes, follows, outputs, fmu.getter(outputs))
+    return _Part(name, fmu, incoming, fmu.setter(inputs), slopes, follows, outputs, fmu.getter(outputs))

@@ -82,10 +82,10 @@ def write_ssp(
                 parameter_file = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
                 write_parameter_set(ParameterSet(SET, _entries(fmus[part], values), {}), parameter_file, as_built=False)
         document = _document(name or file.stem, fmus, wires, content, version)
-        with atomic_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
+        with atomic_file(file) as temporary, zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("SystemStructure.ssd", document)
-            for place, path in content.items():
-                archive.write(path, place)
+            for member, path in content.items():
+                archive.write(path, member)
     return file
 
 

@@ -71,9 +71,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     foreign = _OF_SHOWN if options.live else _OF_LIVE
-    used = given_of(parser, options, foreign)
-    if used:
-        raise HostError(f"{used[0]} {'cannot be combined with' if options.live else 'needs'} --live.")
+    misplaced = given_of(parser, options, foreign)
+    if misplaced:
+        raise HostError(f"{misplaced[0]} {'cannot be combined with' if options.live else 'needs'} --live.")
     if options.live:
         from hosts.view.live_page import live
 

@@ -167,9 +167,9 @@ def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict
             raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
         results["step"] = options.step
     known_names = {name for fmu in fmus for name in fmu.variables.names}
-    shown = {n for fmu in fmus for n in known_names if _plottable(fmu, n)}
+    plottable = {n for fmu in fmus for n in known_names if _plottable(fmu, n)}
     for name in options.plot:
-        if name not in shown:
+        if name not in plottable:
             raise HostError(f"--plot: {name!r} is not an input or output of {' or '.join(f.name for f in fmus)}.")
     if options.plot:
         results["plots"] = list(options.plot)

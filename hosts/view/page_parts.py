@@ -53,25 +53,25 @@ class FmuParts:
         """Roads of the drawing by what the parameter `road.file` may be set to: none, or a road file in the FMU."""
         if ROAD not in self.variables.names:
             return {}
-        own = None if self.own_road is None else self.own_road.name
+        own_road = None if self.own_road is None else self.own_road.name
         names = ["", *(path.removeprefix(_ROADS) for path in self.resources if path.startswith(_ROADS))]
-        names = [name for name in names if name != own]
+        names = [name for name in names if name != own_road]
         with ThreadPoolExecutor() as pool:
             scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: name}), names))
         results = {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
-        return results if own is None else results | {own: self.scene["roads"]}
+        return results if own_road is None else results | {own_road: self.scene["roads"]}
 
     def record(self, title: str) -> dict[str, Any]:
         """The FMU as JSON of the page; `wasm` must be there."""
         assert self.wasm is not None
-        scene, own = self.scene, dict[str, Any]()
+        scene, additions = self.scene, dict[str, Any]()
         if self.own_road is not None:  # its drawing is long: it stands among the roads, once
             world = {"road": self.own_road.name, "scenery": scene.get("scenery", [])}
-            scene, own = scene | {"roads": [], "scenery": []}, {"world": packed(json.dumps(world).encode())}
+            scene, additions = scene | {"roads": [], "scenery": []}, {"world": packed(json.dumps(world).encode())}
         return {
             "title": title,
             "scene": packed(json.dumps(scene).encode()),
-            **own,
+            **additions,
             "roads": packed(json.dumps(self.roads()).encode()),
             "description": description_record(self.description, self.variables),
             "wasm": packed(self.wasm),

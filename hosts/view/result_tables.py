@@ -45,8 +45,8 @@ def read_table(path: Path) -> Table:
         raise HostError(f"{path} has a column of times and no other.")
     with open_file(path, LARGEST, HostError) as stream:
         rows = sum(block.count(b"\n") for block in iter(lambda: stream.read(1 << 20), b""))
-    every = max(1, -(-rows // max(_FEWEST_ROWS, _MOST_VALUES // text.width)))
-    data = text.values(every, finite=False)
-    note = f"One of every {every} of about {rows - 1} rows of {path.name} was read." if every > 1 else ""
+    stride = max(1, -(-rows // max(_FEWEST_ROWS, _MOST_VALUES // text.width)))
+    data = text.values(stride, finite=False)
+    note = f"One of every {stride} of about {rows - 1} rows of {path.name} was read." if stride > 1 else ""
     columns = {name: np.ascontiguousarray(data[:, k]) for k, name in enumerate(text.names) if k}
     return Table(np.ascontiguousarray(data[:, 0]), columns, text.units, note)

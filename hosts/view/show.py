@@ -128,5 +128,5 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes
 
 def _some(names: list[str], word: str) -> str:
     """A few of many names, those that are alike first."""
-    shown = near_names(word, names, 5, 0.4) or names[:5]
-    return ", ".join(shown) + (f" and {len(names) - len(shown)} more" if len(names) > len(shown) else "")
+    listed = near_names(word, names, 5, 0.4) or names[:5]
+    return ", ".join(listed) + (f" and {len(names) - len(listed)} more" if len(names) > len(listed) else "")

@@ -219,14 +219,18 @@ def _with_marks(scene: dict[str, Any], record: dict[str, Any], file: Path) -> di
 
 def _fmu_of(record: dict[str, Any], file: Path) -> Path:
     """The FMU of a record: as it was named, from here or from a folder above the record."""
-    named = Path(record["fmu"])
-    here = file.absolute().parent
-    tried = [named, *(folder / named for folder in (here, *here.parents))] if not named.is_absolute() else [named]
-    tried.append(here / named.name)
-    result = next((path for path in tried if is_file(path)), None)
+    fmu_path = Path(record["fmu"])
+    record_folder = file.absolute().parent
+    candidates = (
+        [fmu_path, *(folder / fmu_path for folder in (record_folder, *record_folder.parents))]
+        if not fmu_path.is_absolute()
+        else [fmu_path]
+    )
+    candidates.append(record_folder / fmu_path.name)
+    result = next((path for path in candidates if is_file(path)), None)
     if result is None:
         raise HostError(
-            f"{file} names the FMU {named}, which is not there any more; say where it is now by --geometry FMU."
+            f"{file} names the FMU {fmu_path}, which is not there any more; say where it is now by --geometry FMU."
         )
     return result
 

@@ -24,14 +24,14 @@ def head(cars: Sequence[TestedCar]) -> list[HtmlElement]:
     """The tables of cars."""
     facts = [_facts(car) for car in cars]
     rows: list[list[Content]] = [[name, *(f[name] for f in facts)] for name in facts[0]]
-    parts = [table("Cars", ["", *(car.label for car in cars)], rows)]
+    elements = [table("Cars", ["", *(car.label for car in cars)], rows)]
     changed = _changed(cars)
     if changed:
         caption = "Parameters that are not as built"
-        parts.append(table(caption, ["parameter", *(car.label for car in cars)], changed))
+        elements.append(table(caption, ["parameter", *(car.label for car in cars)], changed))
     else:
-        parts.append(element("p", "All parameters are as built."))
-    return parts
+        elements.append(element("p", "All parameters are as built."))
+    return elements
 
 
 def _facts(car: TestedCar) -> dict[str, Content]:
@@ -72,10 +72,10 @@ def _changed(cars: Sequence[TestedCar]) -> list[list[Content]]:
     names = list(dict.fromkeys(n for texts in by_car for n in texts))
     rows: list[list[Content]] = []
     for name in names:
-        shown = [texts.get(name, ("as built", "")) for texts in by_car]
-        if any(text != built and text != "as built" for text, built in shown):
+        entries = [texts.get(name, ("as built", "")) for texts in by_car]
+        if any(text != built and text != "as built" for text, built in entries):
             cells = [
-                element("td", text, element("small", f"as built {b}") if b and b != text else "") for text, b in shown
+                element("td", text, element("small", f"as built {b}") if b and b != text else "") for text, b in entries
             ]
             rows.append([element("code", name), *cells])
     return rows
@@ -95,7 +95,7 @@ def overview(
     records: Mapping[str, Mapping[str, TestRecord | str]],
 ) -> list[HtmlElement]:
     """The table of tests by car with their outcomes, then every measure of every car."""
-    done: list[list[Content]] = [
+    outcome_rows: list[list[Content]] = [
         [
             element("a", test.title, href=f"#{test.name}"),
             *(_outcome(records.get(test.name, {}).get(label)) for label in labels),
@@ -110,11 +110,11 @@ def overview(
             rows.append([test.title])
         for name in names:
             rows.append(_row(name, [measures.get(name) for measures in results]))
-    parts = [table("Tests", ["test", *labels], done)]
+    elements = [table("Tests", ["test", *labels], outcome_rows)]
     if rows:
-        more = f"; differences to {labels[0]}" if len(labels) > 1 else ""
-        parts.append(table(f"Measures{more}", ["measure", *labels, "limit"], rows))
-    return parts
+        suffix = f"; differences to {labels[0]}" if len(labels) > 1 else ""
+        elements.append(table(f"Measures{suffix}", ["measure", *labels, "limit"], rows))
+    return elements
 
 
 def _measures(record: TestRecord | str | None) -> dict[str, Measure]:
@@ -128,15 +128,15 @@ def _outcome(record: TestRecord | str | None) -> HtmlElement:
         return element("td", "not done", element("small", record))
     limited = [m for m in record.measures if m.is_kept is not None]
     notes = f"{len(record.notes)} note{'s' if len(record.notes) > 1 else ''}" if record.notes else ""
-    more: list[Content] = [element("small", notes)] if notes else []
+    remarks: list[Content] = [element("small", notes)] if notes else []
     if not limited:
-        return element("td", "done", *more)
-    kept = sum(m.is_kept is True for m in limited)
-    if kept == len(limited):
-        text = "limit kept" if kept == 1 else f"{kept} limits kept"
-        return element("td", kept_shown(True, text), *more)
-    text = "limit not kept" if len(limited) == 1 else f"{len(limited) - kept} of {len(limited)} limits not kept"
-    return element("td", kept_shown(False, text), *more)
+        return element("td", "done", *remarks)
+    kept_count = sum(m.is_kept is True for m in limited)
+    if kept_count == len(limited):
+        text = "limit kept" if kept_count == 1 else f"{kept_count} limits kept"
+        return element("td", kept_shown(True, text), *remarks)
+    text = "limit not kept" if len(limited) == 1 else f"{len(limited) - kept_count} of {len(limited)} limits not kept"
+    return element("td", kept_shown(False, text), *remarks)
 
 
 def _row(name: str, measures: Sequence[Measure | None]) -> list[Content]:
@@ -145,10 +145,10 @@ def _row(name: str, measures: Sequence[Measure | None]) -> list[Content]:
     first = present[0]
     tail = typeset(first.unit)
     shared = first.note if len(present) > 1 and all(m.note == first.note for m in present) else ""
-    what: list[Content] = [first.text or name, element("small", f" {name}{f', {tail}' if tail else ''}")]
+    label: list[Content] = [first.text or name, element("small", f" {name}{f', {tail}' if tail else ''}")]
     if shared:
-        what.append(element("small", f" {shared}"))
-    cells: list[Content] = [element("span", *what)]
+        label.append(element("small", f" {shared}"))
+    cells: list[Content] = [element("span", *label)]
     for k, measure in enumerate(measures):
         if measure is None:
             cells.append(element("td", NONE))
@@ -163,20 +163,20 @@ def _row(name: str, measures: Sequence[Measure | None]) -> list[Content]:
 
 def _value_cell(measure: Measure, first: Measure | None, known: Measure, note: str) -> HtmlElement:
     """A value, whether its limit is kept, its difference to that of the first car, and what is to be said of it."""
-    parts: list[Content] = [with_unit(measure.value, measure.unit)]
+    content: list[Content] = [with_unit(measure.value, measure.unit)]
     limit = measure.limit
     if limit is not None:
         if measure.is_kept is not None:
-            parts += [" ", kept_shown(measure.is_kept)]
+            content += [" ", kept_shown(measure.is_kept)]
         if limit != known.limit:
-            parts.append(element("small", f"here {limit.words(typeset(measure.unit))}"))
+            content.append(element("small", f"here {limit.words(typeset(measure.unit))}"))
     if first is not None:
         if first.unit == measure.unit:
             text = difference(measure.value, first.value)
         else:
             text = f"in {measure.unit}, the first in {first.unit}"
         if text:
-            parts.append(element("small", text))
+            content.append(element("small", text))
     if note:
-        parts.append(element("small", note))
-    return element("td", *parts, class_="value", title=repr(float(measure.value)))
+        content.append(element("small", note))
+    return element("td", *content, class_="value", title=repr(float(measure.value)))

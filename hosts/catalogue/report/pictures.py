@@ -146,8 +146,8 @@ def _name(label: str, line: Line, plot: Plot, many: bool) -> str:
 def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
     """`style` is shown by colour and dashes, which differ in grey too; `mark` by markers."""
     x, y = (np.atleast_1d(np.asarray(v, np.float64)) for v in (line.x, line.y))
-    kept = thinned(x, y)
-    x, y = x[kept], y[kept]
+    indices = thinned(x, y)
+    x, y = x[indices], y[indices]
     marker = _MARKERS[mark % len(_MARKERS)] or ("." if 0 < len(x) <= _FEW else "")
     axes.plot(
         x,

@@ -34,44 +34,44 @@ def section(
     `records`: by label of the car, in the order of the cars; `command`: that makes the whole report; empty where nobody
     knows it.
     """
-    done = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
-    parts: list[Content] = [_standard(s) for s in test.standards]
+    finished = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
+    content: list[Content] = [_standard(s) for s in test.standards]
     if not test.standards:
-        parts.append(paragraph("After no standard.", FAINT))
+        content.append(paragraph("After no standard.", FAINT))
     for label, record in records.items():
         if isinstance(record, str):
-            parts.append(element("p", element("strong", f"{label}: not done. "), record, class_=NOTE))
+            content.append(element("p", element("strong", f"{label}: not done. "), record, class_=NOTE))
         else:
-            parts += [element("p", element("strong", f"{label}: "), note, class_=NOTE) for note in record.notes]
+            content += [element("p", element("strong", f"{label}: "), note, class_=NOTE) for note in record.notes]
     if plots:
-        parts.append(element("div", *plots, class_="plots"))
-    parts += [
+        content.append(element("div", *plots, class_="plots"))
+    content += [
         _measures(label, test.title, [m.displayed() for m in record.measures])
-        for label, record in done.items()
+        for label, record in finished.items()
         if record.measures
     ]
     if test.settings:
-        parts.append(_settings(test, settings))
+        content.append(_settings(test, settings))
     if command:
         text = shlex.join(command_of(command, test.name))
-        parts.append(element("p", "This test again:"))
-        parts.append(element("pre", element("code", text)))
-    return Section(test.title, parts, test.name)
+        content.append(element("p", "This test again:"))
+        content.append(element("pre", element("code", text)))
+    return Section(test.title, content, test.name)
 
 
 def command_of(command: Sequence[str], test: str) -> list[str]:
     """The command for one test: without the list of tests and without settings of others."""
-    kept: list[str] = []
+    retained: list[str] = []
     words = iter(command)
     for word in words:
         name, equals, value = word.partition("=")
         if name not in (_OF_TESTS, _OF_SETTINGS):
-            kept.append(word)
+            retained.append(word)
             continue
         value = value if equals else next(words, "")
         if name == _OF_SETTINGS and value.startswith(f"{test}."):
-            kept += [_OF_SETTINGS, value]
-    return [*kept, _OF_TESTS, test]
+            retained += [_OF_SETTINGS, value]
+    return [*retained, _OF_TESTS, test]
 
 
 def _standard(standard: Standard) -> HtmlElement:

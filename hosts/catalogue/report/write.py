@@ -49,6 +49,6 @@ def write_report(
     for test in tests:
         results = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
         pictures = pictures_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})
-        shown = [plots.add(one, f"{test.name} {name}") for name, one in pictures.items()]
-        sections.append(section(test, results, settings.get(test.name, {}), command, shown))
+        plot_elements = [plots.add(one, f"{test.name} {name}") for name, one in pictures.items()]
+        sections.append(section(test, results, settings.get(test.name, {}), command, plot_elements))
     write_text(file, page(f"Standard tests of {', '.join(labels)}", head(cars), sections))

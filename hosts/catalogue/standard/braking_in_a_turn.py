@@ -37,13 +37,13 @@ def drive(sheet: Sheet) -> None:
 def add_stops(sheet: Sheet, stops: Sequence[Stop]) -> None:
     """The measures of stops with growing pedal."""
     braked = [s for s in stops if not math.isnan(s.onset)]
-    known = [{"d": s.deceleration, **s.values()} for s in braked]
-    known = sorted(
-        (v for v in known if len(v) > 1 and not math.isnan(sum(v.values()))), key=lambda v: tuple(v.values())
+    stop_values = [{"d": s.deceleration, **s.values()} for s in braked]
+    stop_values = sorted(
+        (v for v in stop_values if len(v) > 1 and not math.isnan(sum(v.values()))), key=lambda v: tuple(v.values())
     )
     first = braked[0] if braked else HostError("the car did not get onto the circle")
     sheet.add("circle", first=first)
-    present = {"braked": braked, "known": known} if braked else {"braked": first, "known": first}
+    present = {"braked": braked, "known": stop_values} if braked else {"braked": first, "known": first}
     sheet.add("stops", compared=COMPARED, **present)
 
 

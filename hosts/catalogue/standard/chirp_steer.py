@@ -65,8 +65,8 @@ def _table(
 
 def _response(run: SteeredRun, values: NDArray[np.float64], low: float, high: float) -> FrequencyResponse:
     """Response of a quantity; of length 0 where the car does not provide it, or the run is too short."""
-    kept, before = run.time >= 0.0, run.time < 0.0
+    during, before = run.time >= 0.0, run.time < 0.0
     if not run.whole or np.isnan(values).any() or not before.any():
         return FrequencyResponse(np.zeros(0), np.zeros(0, complex), np.zeros(0))
-    steering, answer = (x[kept] - x[before].mean() for x in (run.steering, values))
+    steering, answer = (x[during] - x[before].mean() for x in (run.steering, values))
     return frequency_response(steering, answer, run.interval, np.geomspace(low, high, _LINES))

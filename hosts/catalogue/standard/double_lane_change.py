@@ -68,11 +68,11 @@ def add_limit(sheet: Sheet, name: str, passed: Passage | None, failed: Passage |
     sheet.add("limit", fastest=passed, slowest=failed, **names)
     nothing = HostError("no speed was passed")
     sheet.add("fastest", passed=nothing if passed is None else passed, **names)
-    shown = {word: p for word, p in (("passed", passed), ("failed", failed)) if p is not None and p.after.any()}
-    for word, passage in shown.items():
+    passages = {word: p for word, p in (("passed", passed), ("failed", failed)) if p is not None and p.after.any()}
+    for word, passage in passages.items():
         sheet.add("path", passage=passage, word=word, **names)
-    if shown:
-        sheet.add("signals", best=next(iter(shown.values())), **names)
+    if passages:
+        sheet.add("signals", best=next(iter(passages.values())), **names)
 
 
 def limit(
@@ -88,13 +88,13 @@ def limit(
     """
     passed: Passage | None = None
     failed: Passage | None = None
-    speed, tried = settings["lowest"], 0
+    speed, attempts = settings["lowest"], 0
     bisections = math.ceil(math.log2(max(settings["increment"] / settings["resolution"], 1.0)))
-    most = math.ceil((settings["highest"] - settings["lowest"]) / settings["increment"]) + 1 + bisections
+    attempt_limit = math.ceil((settings["highest"] - settings["lowest"]) / settings["increment"]) + 1 + bisections
     while failed is None:
         passage = tries(car, layout, speed, passed)
-        tried += 1
-        progress(tried / most)
+        attempts += 1
+        progress(attempts / attempt_limit)
         if passage.clean:
             passed = passage
             if speed >= settings["highest"]:
@@ -107,8 +107,8 @@ def limit(
         return None, failed, (f"{layout.name}: already at {speed:g} km/h {why}; take a lower lowest, if slower helps.",)
     while failed.wanted - passed.wanted > settings["resolution"] * (1.0 + 1e-9):
         passage = tries(car, layout, 0.5 * (passed.wanted + failed.wanted), passed)
-        tried += 1
-        progress(min(tried / most, 1.0))
+        attempts += 1
+        progress(min(attempts / attempt_limit, 1.0))
         if passage.clean:
             passed = passage
         else:

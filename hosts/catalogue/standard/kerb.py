@@ -18,17 +18,17 @@ def drive(sheet: Sheet) -> None:
     down |= {"road.kerb_height": height, "road.kerb_x": ahead}
     # Upwards the car comes from the low side: turned round, and lower by the kerb.
     up = down | {"road.kerb_x": 0.0, "initial.x": ahead, "initial.yaw": math.pi, "initial.z": -height}
-    ways = {"down": (down, -height), "up": (up, height)}
+    directions = {"down": (down, -height), "up": (up, height)}
     missing = [n for n in up if n not in car.facts.parameters]
     if missing:
-        del ways["up"]
+        del directions["up"]
     sheet.add("ways", missing=missing)
     # In neutral and without a torque that creeps the car rolls.
     inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "selector": 0.0}
     stop_time = ahead / settings["speed"] * 3.6 + AFTER
-    for direction, (start, rise) in ways.items():
+    for direction, (start, rise) in directions.items():
         run = sheet.keep(direction, car.drive(held(car, f"kerb_{direction}", stop_time, inputs, start)))
-        sheet.progress(len(sheet.runs) / len(ways))
+        sheet.progress(len(sheet.runs) / len(directions))
         gauges = [n for n in run.names if n.startswith("stress.") and n != "stress.computed"]
         if "stress.computed" in run and not (run["stress.computed"] == 1.0).all():
             gauges = []

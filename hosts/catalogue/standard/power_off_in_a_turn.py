@@ -28,10 +28,10 @@ def drive(sheet: Sheet) -> None:
 
 def add_releases(sheet: Sheet, released: Sequence[tuple[float, Stop]]) -> None:
     """The measures of releases, each with the lateral acceleration that was asked for."""
-    known = [
+    release_values = [
         {"ay": r.lateral_acceleration_on_circle, "deceleration": r.deceleration, **values}
         for _, r in released
         if (values := r.values())
     ]
     rows = [{"asked": requested, "r": r} for requested, r in released]
-    sheet.add("releases", compared=COMPARED, released=rows, known=sorted(known, key=lambda v: v["ay"]))
+    sheet.add("releases", compared=COMPARED, released=rows, known=sorted(release_values, key=lambda v: v["ay"]))

@@ -41,6 +41,6 @@ def _one_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> 
     """From the beginning to when the car runs straight again, of signals less their values before."""
     if not run.whole:
         return NOTHING
-    before, kept = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)
-    steering, answer = (x[kept] - (x[before].mean() if before.any() else x[0]) for x in (run.steering, values))
-    return one_period(run.time[kept], steering, answer, longest=0.45 * period)
+    before, during = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)
+    steering, answer = (x[during] - (x[before].mean() if before.any() else x[0]) for x in (run.steering, values))
+    return one_period(run.time[during], steering, answer, longest=0.45 * period)

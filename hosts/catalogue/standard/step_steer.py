@@ -40,16 +40,16 @@ def drive(sheet: Sheet) -> None:
 
 def _to_the_left(sheet: Sheet, speed: float, acceleration: float, angle: float, done: float) -> dict[str, Any]:
     """The step of the wanted steady acceleration, by secants from an angle on; `done`: of the test before it."""
-    most, before = SteeringInput.of(sheet.car.facts).largest, (0.0, 0.0)
+    largest_angle, before = SteeringInput.of(sheet.car.facts).largest, (0.0, 0.0)
     for n in range(_MOST_RUNS):
         left = _step(sheet, speed, acceleration, angle)
         sheet.progress(done + 0.05 * (n + 1))
-        got = left["acceleration"].steady
-        slope = (got - before[1]) / (angle - before[0])
-        if not got > 0.0 or abs(got - acceleration) <= _CLOSE * acceleration or not slope > 0.0:
+        reached = left["acceleration"].steady
+        slope = (reached - before[1]) / (angle - before[0])
+        if not reached > 0.0 or abs(reached - acceleration) <= _CLOSE * acceleration or not slope > 0.0:
             break
         # at most half as much again: near the limit the slope says little
-        before, angle = (angle, got), min(angle + min((acceleration - got) / slope, 0.5 * angle), most)
+        before, angle = (angle, reached), min(angle + min((acceleration - reached) / slope, 0.5 * angle), largest_angle)
     return left
 
 

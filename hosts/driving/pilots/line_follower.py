@@ -49,15 +49,15 @@ class LineFollower:
         """See `hosts.driving.pilots.pilot.Pilot.act`; steering only."""
         x, y, speed = observation["chassis.x"], observation["chassis.y"], observation["speed"]
         travel = observation["chassis.yaw"] + observation.get("sideslip", 0.0)
-        place, slope, bend = self.course.path(x)
-        astray = math.remainder(travel - math.atan(slope), 2.0 * math.pi)
-        offset = (y - place) * math.cos(math.atan(slope))
+        course_y, slope, course_curvature = self.course.path(x)
+        heading_error = math.remainder(travel - math.atan(slope), 2.0 * math.pi)
+        offset = (y - course_y) * math.cos(math.atan(slope))
         # both errors as they will be when the car answers
-        offset += self.lead * speed * astray
+        offset += self.lead * speed * heading_error
         if "chassis.wz" in observation:
-            astray += self.lead * (observation["chassis.wz"] - speed * bend)
+            heading_error += self.lead * (observation["chassis.wz"] - speed * course_curvature)
         length = self.horizon * max(speed, 1.0)
         curvature = self.course.path(x + self.preview * speed * math.cos(travel))[2]
-        curvature -= 2.0 * astray / length + offset / length**2
+        curvature -= 2.0 * heading_error / length + offset / length**2
         steering = math.atan(self.wheelbase * curvature) / self.wheel_angle_max
         return {"steering": min(max(steering, -1.0), 1.0)}

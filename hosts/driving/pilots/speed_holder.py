@@ -67,10 +67,10 @@ class SpeedHolder:
         if self._first is not None:
             self._integral, self._first = (self._first - forward) / self.integral_gain, None
         pedal = self.gain * error + self.integral_gain * self._integral + forward
-        left = self._left(observation)
-        if self._lowest < pedal < 1.0 and left == 1.0:
+        throttle_factor = self._left(observation)
+        if self._lowest < pedal < 1.0 and throttle_factor == 1.0:
             self._integral += step * error
-        pedals = {"throttle": left * min(max(pedal, 0.0), 1.0)}
+        pedals = {"throttle": throttle_factor * min(max(pedal, 0.0), 1.0)}
         return pedals if self._lowest == 0.0 else pedals | {"brake": min(max(-pedal, 0.0), 1.0)}
 
     def _left(self, observation: Mapping[str, float]) -> float:

@@ -38,8 +38,8 @@ def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     `unit`: as it stands in the file; `variable`: that has it; its own definition of a unit of that name counts. Raises
     `HostError`: nobody knows the unit, or the FMU declares another.
     """
-    own = variable.definition if variable is not None and variable.unit == unit else None
-    known = own or (known_unit(unit) if isinstance(unit, str) else None)
+    declared_unit = variable.definition if variable is not None and variable.unit == unit else None
+    known = declared_unit or (known_unit(unit) if isinstance(unit, str) else None)
     if known is None:
         raise HostError(f"{where}: the unit {brief(unit)} is not known (such as m, km/h, deg or rpm); give a factor.")
     if known.offset:
@@ -59,19 +59,19 @@ def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: 
 
     Raises `HostError` with the unit and the factor, and what it would be.
     """
-    ours, theirs = unit_of(alias.ours), definition(variable)
-    if ours is None or theirs is None or by_constant:
+    ours, fmu_unit = unit_of(alias.ours), definition(variable)
+    if ours is None or fmu_unit is None or by_constant:
         return
-    mine = known_unit(ours)
-    if mine is not None and not same_quantity(mine, theirs):
+    our_unit = known_unit(ours)
+    if our_unit is not None and not same_quantity(our_unit, fmu_unit):
         raise HostError(
             f"{where} is in {ours}, but the FMU declares '{variable.name}' in {declared(variable)}, another quantity."
         )
-    if unit is not None or mine is None:
+    if unit is not None or our_unit is None:
         return
-    expected = [1.0 / theirs.factor]
-    if mine.exponents.get("rad") and not theirs.exponents.get("rad") and "s" in theirs.exponents:
-        expected.append(1.0 / (2.0 * math.pi * theirs.factor))  # revolutions
+    expected = [1.0 / fmu_unit.factor]
+    if our_unit.exponents.get("rad") and not fmu_unit.exponents.get("rad") and "s" in fmu_unit.exponents:
+        expected.append(1.0 / (2.0 * math.pi * fmu_unit.factor))  # revolutions
     if not any(math.isclose(abs(alias.factor), e, rel_tol=_TOLERANCE) for e in expected):
         raise HostError(
             f"{where} is in {ours} and '{variable.name}' in the FMU in {declared(variable)}: its factor must be "

@@ -23,8 +23,8 @@ class Derivation:
         self._derived = in_order([d for d in derived if d.ours not in names], names)[0]
         self.names = tuple(d.ours for d in self._derived)
         self._width = len(names)
-        place = {name: k for k, name in enumerate((*names, *self.names))}
-        self._arguments = [[place[a] if isinstance(a, str) else a for a in d.arguments] for d in self._derived]
+        column = {name: k for k, name in enumerate((*names, *self.names))}
+        self._arguments = [[column[a] if isinstance(a, str) else a for a in d.arguments] for d in self._derived]
         self._turning = [k for k, d in enumerate(self._derived) if d.how.turns]
         self._needs_past = any(d.how.needs_past for d in self._derived)
         self._past: deque[tuple[float, NDArray[np.float64]]] = deque(maxlen=_ROWS)

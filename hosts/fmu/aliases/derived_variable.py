@@ -38,15 +38,15 @@ def in_order(derived: Sequence[Derived], known: Collection[str]) -> tuple[list[D
 
     Returns
     -------
-    done : list of Derived
+    ordered : list of Derived
     missing : dict of str to str
         Of the others, a name that it lacks.
     """
-    present, open_ones, done = set(known), list(derived), list[Derived]()
+    present, open_ones, ordered = set(known), list(derived), list[Derived]()
     while True:
         ready = [d for d in open_ones if present.issuperset(d.names)]
         if not ready:
-            return done, {d.ours: next(n for n in d.names if n not in present) for d in open_ones}
-        done += ready
+            return ordered, {d.ours: next(n for n in d.names if n not in present) for d in open_ones}
+        ordered += ready
         present.update(d.ours for d in ready)
         open_ones = [d for d in open_ones if d not in ready]

@@ -72,11 +72,11 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
                     "FMU and no output"
                 )
     aliases = [a for a in aliases if not _is_there_itself(a, content.entries[a.ours], aliases, names)]
-    seen: dict[str, str] = {}
+    ours_by_theirs: dict[str, str] = {}
     for alias in aliases:
-        other = seen.setdefault(alias.theirs, alias.ours)
-        if other != alias.ours:
-            raise HostError(f"{file}: '{alias.theirs}' is named {other} and {alias.ours}; give it one name.")
+        ours = ours_by_theirs.setdefault(alias.theirs, alias.ours)
+        if ours != alias.ours:
+            raise HostError(f"{file}: '{alias.theirs}' is named {ours} and {alias.ours}; give it one name.")
     derived = _derived(content, constants, aliases, names, of_fmu, missing)
     _demand(needed | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
     if content.entries and not aliases and not derived:
@@ -179,7 +179,7 @@ def _derived(
         parsed = parse_derived(entry.ours, entry.value["from"], constants, entry.where)
         arguments = tuple(ours_of.get(a, a) if isinstance(a, str) else a for a in parsed.arguments)
         requested.append(replace(parsed, arguments=arguments))
-    done, lacking = in_order(requested, present | set(content.needs))
+    computable, lacking = in_order(requested, present | set(content.needs))
     for ours, name in lacking.items():
         entry = content.entries[ours]
         if not entry.partial:
@@ -189,7 +189,7 @@ def _derived(
             )
         why = missing.get(name, "which the FMU does not have")
         missing[ours] = f"{entry.file} computes '{ours}' from '{name}', {why}"
-    for d in done:
+    for d in computable:
         where = content.entries[d.ours].where
         for name in d.names:
             if (
@@ -202,4 +202,4 @@ def _derived(
                     f"{where}: '{name}' is in {declared(variables[name])} in the FMU, formulas take SI units; give it "
                     "a name of its own with that unit and use it here."
                 )
-    return tuple(done)
+    return tuple(computable)

@@ -67,8 +67,8 @@ class InputMapping:
         return math.copysign(size, -share if self.inverted else share) if size else 0.0
 
     def _pedal(self, at: float) -> float:
-        gone = self.high - at if self.inverted else at - self.low
-        share = max(0.0, min(1.0, gone / (self.high - self.low)))
+        travel = self.high - at if self.inverted else at - self.low
+        share = max(0.0, min(1.0, travel / (self.high - self.low)))
         return max(0.0, share - self.dead_zone) / (1.0 - self.dead_zone)
 
 
@@ -112,8 +112,8 @@ class DeviceMapping:
 
     def with_input(self, name: str, mapping: InputMapping | None) -> DeviceMapping:
         """A copy in which an input is driven by another source, or by none."""
-        rest = {k: v for k, v in self.inputs.items() if k != name}
-        return replace(self, inputs=rest if mapping is None else {**rest, name: mapping})
+        inputs = {k: v for k, v in self.inputs.items() if k != name}
+        return replace(self, inputs=inputs if mapping is None else {**inputs, name: mapping})
 
 
 def read_input(name: str, table: object) -> InputMapping:
@@ -156,12 +156,12 @@ def read_settings(table: object, base: DeviceSettings | None = None) -> DeviceSe
 
     Raises `HostError`: a field is unknown or has a value that cannot be.
     """
-    what, base = "The settings of the device", base or DeviceSettings()
-    fields = _fields(what, table, asdict(base))
-    _check_bool(what, fields, "force_inverted")
+    subject, base = "The settings of the device", base or DeviceSettings()
+    fields = _fields(subject, table, asdict(base))
+    _check_bool(subject, fields, "force_inverted")
     for name in fields:
         if name in _RANGES:
-            fields[name] = _number(what, name, fields[name], *_RANGES[name])
+            fields[name] = _number(subject, name, fields[name], *_RANGES[name])
     return replace(base, **fields)
 
 

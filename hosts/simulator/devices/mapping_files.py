@@ -76,8 +76,8 @@ class MappingFiles:
             self.read(device)
         except HostError:
             if file.is_file():
-                with atomic_file(file.with_name(file.name + ".damaged")) as kept:
-                    kept.write_bytes(read_bytes(file, LARGEST_TEXT))
+                with atomic_file(file.with_name(file.name + ".damaged")) as damaged:
+                    damaged.write_bytes(read_bytes(file, LARGEST_TEXT))
         with atomic_file(file) as temporary:
             temporary.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
 

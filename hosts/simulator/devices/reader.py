@@ -157,19 +157,19 @@ class Reader:
 
     def _add(self, joystick: Joystick) -> None:
         id = self._identities.take(joystick.guid, joystick.serial, joystick.path)
-        others = {device.label for device in self.devices.values()}
-        label = next(n for n in _labels(joystick.name) if n not in others)
+        labels = {device.label for device in self.devices.values()}
+        label = next(n for n in _labels(joystick.name) if n not in labels)
         try:
-            mapping, kept = self.files.read(id), True
+            mapping, from_file = self.files.read(id), True
         except HostError as error:
             self.tell(f"{error} {label} is driven as a device of its kind.")
             mapping = None
         if mapping is None:
-            mapping, kept = self.default(joystick), False
+            mapping, from_file = self.default(joystick), False
         device = Device(id, label, joystick, mapping, self.inputs, self._steering)
         with self.lock:
             self.devices[id] = device
-        self.tell(came(label, joystick.kind, mapping, kept, self.inputs))
+        self.tell(came(label, joystick.kind, mapping, from_file, self.inputs))
         missing = [m.source for m in mapping.inputs.values() if not Source.read(m.source).is_in(device.reading)]
         if missing:
             self.tell(f"{label} has no {and_list(missing)}, as its file says; it has {device.reading.counts()}.")

@@ -131,11 +131,11 @@ def study_data(frame: pd.DataFrame) -> StudyData:
         values = factor * frame[measure].to_numpy(dtype=np.float64)
         ends = [factor * end for end in limit_ends(attrs["limits"].get(measure))]
         for manoeuvre in names:
-            mine = manoeuvres == manoeuvre
-            rows = np.flatnonzero(mine & np.isfinite(values))
+            of_manoeuvre = manoeuvres == manoeuvre
+            rows = np.flatnonzero(of_manoeuvre & np.isfinite(values))
             # The measures of a test are in the rows of its own runs only.
             if len(rows):
-                requested, several = int(mine.sum()), len(names) > 1
+                requested, several = int(of_manoeuvre.sum()), len(names) > 1
                 limits = (ends[0], ends[1])
                 result = without_round_off(values[rows], unit)
                 responses.append(Response(measure, manoeuvre, unit, rows, result, requested, several, limits))

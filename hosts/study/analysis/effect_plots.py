@@ -70,18 +70,18 @@ def plot_main_effects(parameters: Sequence[Parameter], response: Response, effec
 def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffect]) -> Figure:
     """The measure of each run, its mean as a line, and failed runs as marks at the lower edge."""
     figure, axes = parameter_panels(data.parameters, response.title)
-    shown = drawn(len(response.rows), MOST_POINTS)
+    selected = drawn(len(response.rows), MOST_POINTS)
     # A few runs are to be seen, many are not to become one patch.
     size, alpha = (
-        float(np.clip(60.0 / len(shown) ** 0.4, 3.0, 10.0)),
-        float(np.clip(12.0 / len(shown) ** 0.45, 0.4, 0.9)),
+        float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0)),
+        float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9)),
     )
     failed = data.failed_of(response)
     failed = failed[drawn(len(failed), MOST_POINTS)]
     for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
-        x = data.x[response.rows[shown], k]
+        x = data.x[response.rows[selected], k]
         (points,) = panel.plot(
-            x, response.values[shown], ".", color=BLUE, markersize=size, alpha=alpha, markeredgewidth=0
+            x, response.values[selected], ".", color=BLUE, markersize=size, alpha=alpha, markeredgewidth=0
         )
         points.set_rasterized(len(x) > MANY_POINTS)
         mark = "_" if data.parameters[k].words else "-"

@@ -62,10 +62,10 @@ def saltelli_indices(names: Sequence[str], points: NDArray[np.int64], y: NDArray
             f"Only {whole.sum()} blocks of {width} runs of the design are whole; from {_FEWEST_BLOCKS} on indices are "
             "given."
         )
-    used = blocks[whole].ravel()
-    if same := _all_the_same(used):
+    retained = blocks[whole].ravel()
+    if same := _all_the_same(retained):
         return same
-    result = sobol.analyze(_problem(names), used, calc_second_order=False, seed=_SEED)
+    result = sobol.analyze(_problem(names), retained, calc_second_order=False, seed=_SEED)
     left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
     how = f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. {_BARS}"
     s1, s1_conf, st, st_conf = (np.asarray(result[k], dtype=np.float64) for k in ("S1", "S1_conf", "ST", "ST_conf"))
@@ -79,11 +79,11 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
     """
     codes = [np.unique(column, return_inverse=True) for column in x.T]
     shape = tuple(len(levels) for levels, _ in codes)
-    places = np.ravel_multi_index(tuple(code for _, code in codes), shape)
-    if len(y) != np.prod(shape) or len(np.unique(places)) != len(y):
-        return f"The grid is not full: {len(np.unique(places))} of {int(np.prod(shape))} points yield the measure."
+    positions = np.ravel_multi_index(tuple(code for _, code in codes), shape)
+    if len(y) != np.prod(shape) or len(np.unique(positions)) != len(y):
+        return f"The grid is not full: {len(np.unique(positions))} of {int(np.prod(shape))} points yield the measure."
     table = np.empty(len(y))
-    table[places] = y
+    table[positions] = y
     table = table.reshape(shape)
     variance = table.var()
     if same := _all_the_same(y):

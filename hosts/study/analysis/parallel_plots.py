@@ -22,26 +22,26 @@ _MOST_LEVELS = 6
 
 def plot_parallel(data: StudyData, response: Response) -> Figure:
     """Parameters and, on the last axis, the measure, which is the colour too; failed runs are dotted and end before."""
-    shown = drawn(len(response.rows), MOST_LINES)
+    selected = drawn(len(response.rows), MOST_LINES)
     # Extreme runs lie on top of those of the middle.
-    shown = shown[np.argsort(np.abs(response.values[shown] - np.median(response.values)), kind="stable")]
-    values = response.values[shown]
+    selected = selected[np.argsort(np.abs(response.values[selected] - np.median(response.values)), kind="stable")]
+    values = response.values[selected]
     failed = data.failed_of(response)
     failed = failed[drawn(len(failed), MOST_LINES // 5)]
 
-    places, ticks = [], []
+    heights, ticks = [], []
     for k, parameter in enumerate(data.parameters):
         scaled, marks = _axis(parameter, data.x[:, k])
-        places.append(scaled)
+        heights.append(scaled)
         ticks.append(marks)
     low, high = _range(response.values)
     last = (values - low) / (high - low)
-    x = np.stack(places, axis=1)
+    x = np.stack(heights, axis=1)
     figure, axes = plt.subplots(figsize=(WIDTH, 3.6), layout="constrained")
     colours = colormaps["viridis"](Normalize(low, high)(values))
-    width = 0.6 if len(shown) > 100 else 1.0
+    width = 0.6 if len(selected) > 100 else 1.0
     axes.add_collection(
-        LineCollection(_lines(np.column_stack([x[response.rows[shown]], last])), colors=colours, linewidths=width)
+        LineCollection(_lines(np.column_stack([x[response.rows[selected]], last])), colors=colours, linewidths=width)
     )
     if len(failed):
         axes.add_collection(
@@ -60,8 +60,8 @@ def _axis(parameter: Parameter, x: NDArray[np.float64]) -> tuple[NDArray[np.floa
         return (scaled - low) / (high - low), [((k - low) / (high - low), w) for k, w in enumerate(parameter.words)]
     levels = np.unique(scaled)
     marks = levels if len(levels) <= _MOST_LEVELS else np.linspace(low, high, _TICKS)
-    shown = np.exp(marks) if parameter.log else marks
-    ticks = [((float(m) - low) / (high - low), _short(v)) for m, v in zip(marks, shown, strict=True)]
+    values = np.exp(marks) if parameter.log else marks
+    ticks = [((float(m) - low) / (high - low), _short(v)) for m, v in zip(marks, values, strict=True)]
     return (scaled - low) / (high - low), ticks
 
 

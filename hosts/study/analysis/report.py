@@ -51,15 +51,15 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
     check_no_link(folder)
     data, plots = study_data(frame), Plots(folder / ANALYSIS)
-    shown = data.responses[:MOST_RESPONSES]
+    responses = data.responses[:MOST_RESPONSES]
     numbers: list[dict[str, object]] = []
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
         sections = [*limits_section(data), measures_section(data), *failed_sections(data, plots, commands)]
-        if shown and data.parameters:
+        if responses and data.parameters:
             message = "Spearman's: 1 or -1 where the measure only grows or only falls with it."
-            correlations = plots.add(drawing(plot_correlations(data, shown), "Rank correlations"), "correlations")
+            correlations = plots.add(drawing(plot_correlations(data, responses), "Rank correlations"), "correlations")
             sections.append(Section("Rank correlations", [paragraph(message, FAINT), correlations]))
-        for k, response in enumerate(bar_of(shown, desc="report", unit="measure")):
+        for k, response in enumerate(bar_of(responses, desc="report", unit="measure")):
             sections.append(measure_section(data, response, k, plots, commands, numbers))
     file, rows = folder / "report.html", make_folder(folder / ANALYSIS) / "effects.csv"
     write_text(file, page(f"Study {data.about['study']}", facts(data), sections))

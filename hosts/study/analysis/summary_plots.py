@@ -69,9 +69,9 @@ def plot_indices(axes: Axes, indices: Indices) -> None:
     """Indices with their intervals; hollow where the interval reaches zero, so that the index may be none."""
     order = np.argsort(np.where(np.isnan(indices.total), indices.first, indices.total))
     at = np.arange(len(order), dtype=float)
-    both = bool(np.isfinite(indices.total).any())
+    has_total = bool(np.isfinite(indices.total).any())
     for values, conf, label, colour, shift in (
-        (indices.first, indices.first_conf, "first order", BLUE, 0.2 if both else 0.0),
+        (indices.first, indices.first_conf, "first order", BLUE, 0.2 if has_total else 0.0),
         (indices.total, indices.total_conf, "total", ORANGE, -0.2),
     ):
         if np.isfinite(values).any():

@@ -91,7 +91,7 @@ def _with_ranges(texts: list[str]) -> str:
     spans = iter([(min(column, key=float), max(column, key=float)) for column in columns])
 
     def span(_: re.Match[str]) -> str:
-        least, most = next(spans)
-        return least if float(least) == float(most) else f"{least} to {most}"
+        lowest, highest = next(spans)
+        return lowest if float(lowest) == float(highest) else f"{lowest} to {highest}"
 
     return _NUMBER.sub(span, texts[0])

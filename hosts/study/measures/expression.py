@@ -126,8 +126,8 @@ def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
     """
     where = f"The measure '{text}'"
     evaluator = simpleeval.SimpleEval(operators=dict(_OPERATORS), functions=dict(_FUNCTIONS))
-    kept = (ast.UnaryOp, ast.BinOp, ast.Call, ast.keyword)
-    evaluator.nodes = {node: evaluator.nodes[node] for node in kept}
+    node_types = (ast.UnaryOp, ast.BinOp, ast.Call, ast.keyword)
+    evaluator.nodes = {node: evaluator.nodes[node] for node in node_types}
     evaluator.nodes |= dict.fromkeys((ast.Name, ast.Attribute, ast.Subscript), lambda node: signals[_name(node)])
     evaluator.nodes[ast.Constant] = lambda node: signals[node.value] if node.value in signals else _number(node)
     try:
@@ -175,10 +175,10 @@ def _parse(text: str) -> tuple[ast.expr, frozenset[str]]:
 
 def _signals(node: ast.AST) -> Iterator[str]:
     """What an expression names as signals: with dots and indices, or as a text in quotation marks."""
-    place = node
-    while isinstance(place, (ast.Attribute, ast.Subscript)):
-        place = place.value
-    if isinstance(place, ast.Name) or (isinstance(node, ast.Constant) and isinstance(node.value, str)):
+    root = node
+    while isinstance(root, (ast.Attribute, ast.Subscript)):
+        root = root.value
+    if isinstance(root, ast.Name) or (isinstance(node, ast.Constant) and isinstance(node.value, str)):
         yield _name(node)
     else:
         inner = [*node.args, *node.keywords] if isinstance(node, ast.Call) else ast.iter_child_nodes(node)

@@ -71,11 +71,11 @@ class UserFunction:
             note = sentence_of(result.refusal)
         else:
             try:
-                named = self._named(self._call(result, dict(parameters or {})), columns)
-                values = {name: _number(value) for name, value in named.items()}
+                values_by_name = self._named(self._call(result, dict(parameters or {})), columns)
+                values = {name: _number(value) for name, value in values_by_name.items()}
                 notes = {
                     name: f"{self.text} gave {value!r:.60} for it, not a finite number."
-                    for name, value in named.items()
+                    for name, value in values_by_name.items()
                     if not math.isfinite(values[name])
                 }
             except Exception as error:
@@ -173,6 +173,6 @@ def _number(value: Any) -> float:
 def _words(function: UserFunction, error: BaseException) -> str:
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == function.file]
     line = error.lineno if isinstance(error, SyntaxError) else lines[-1] if lines else None
-    what = error.msg if isinstance(error, SyntaxError) else str(error)
+    message = error.msg if isinstance(error, SyntaxError) else str(error)
     where = f"{function.text}, line {line}" if line is not None else function.text
-    return f"{where}: {type(error).__name__}: {what}".rstrip(": ") + "."
+    return f"{where}: {type(error).__name__}: {message}".rstrip(": ") + "."
