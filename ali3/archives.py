@@ -144,8 +144,8 @@ def _opened(
         if directory is None:
             raise error(f"{name} is not {kind} (not a zip archive).")
         if directory > raised(MOST_ENTRIES * _ENTRY):  # which is read whole
-            most = at_most(directory, MOST_ENTRIES * _ENTRY)
-            raise error(f"{name} has a directory of {directory} bytes; it must have {most}.")
+            limit_text = at_most(directory, MOST_ENTRIES * _ENTRY)
+            raise error(f"{name} has a directory of {directory} bytes; it must have {limit_text}.")
         try:
             archive = zipfile.ZipFile(stream)
         except _DAMAGED as fault:
@@ -160,12 +160,12 @@ def _directory_size(stream: BinaryIO) -> int | None:
     stream.seek(max(0, size - _END_SIZE - _MOST_COMMENT - _END_64_SIZE))
     tail = stream.read()
     plain = len(tail) - _END_SIZE
-    place = plain if plain >= 0 and tail[plain:].startswith(_END) and tail.endswith(b"\0\0") else tail.rfind(_END)
-    if place < 0 or len(tail) < place + _END_SIZE:
+    offset = plain if plain >= 0 and tail[plain:].startswith(_END) and tail.endswith(b"\0\0") else tail.rfind(_END)
+    if offset < 0 or len(tail) < offset + _END_SIZE:
         return None
-    begin, end = place + 12, place + 16
-    if (long := place - _END_64_SIZE) >= 0 and tail[long : long + 4] == _END_64:
-        begin, end = long + 40, long + 48
+    begin, end = offset + 12, offset + 16
+    if (offset_64 := offset - _END_64_SIZE) >= 0 and tail[offset_64 : offset_64 + 4] == _END_64:
+        begin, end = offset_64 + 40, offset_64 + 48
     return int.from_bytes(tail[begin:end], "little")
 
 
@@ -173,11 +173,11 @@ def _faults(archive: zipfile.ZipFile, unpacked: int) -> list[Fault]:
     entries = archive.infolist()
     results = [fault for info in entries if (fault := _fault_of(info)) is not None]
     counts = Counter(info.filename.rstrip("/").casefold() for info in entries)
-    if twice := next((name for name, count in counts.items() if count > 1), None):
-        results.append(Fault(f"has the entry {brief(twice)} twice"))
+    if duplicate_name := next((name for name, count in counts.items() if count > 1), None):
+        results.append(Fault(f"has the entry {brief(duplicate_name)} twice"))
     files = {info.filename.casefold() for info in entries if not info.filename.endswith("/")}
-    if inside := next((name for name in counts for n in _folders(name) if n in files), None):
-        results.append(Fault(f"has the entry {brief(inside)} in a folder that is a file too"))
+    if nested_name := next((name for name in counts for n in _folders(name) if n in files), None):
+        results.append(Fault(f"has the entry {brief(nested_name)} in a folder that is a file too"))
     if len(entries) > raised(MOST_ENTRIES):
         results.append(Fault(f"has {len(entries)} entries; it must have {at_most(len(entries), MOST_ENTRIES)}"))
     size = sum(info.file_size for info in entries)

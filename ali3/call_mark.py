@@ -55,9 +55,9 @@ def last_call(folder: Path) -> str:
         return ""
     if len(content) != _RECORD.size:  # the process has overwritten it
         return ""
-    inside, name, time = _RECORD.unpack(content)
+    is_running, name, time = _RECORD.unpack(content)
     message = name.rstrip(b"\0").decode("utf-8", "replace")
     if not message.isidentifier():
         return ""
     at = f" at {time:.9g} s" if time >= 0.0 and message.endswith("DoStep") else ""
-    return f" {'in' if inside else 'after'} {message}{at}"
+    return f" {'in' if is_running else 'after'} {message}{at}"

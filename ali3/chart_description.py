@@ -45,7 +45,7 @@ def description_of(file: Path) -> str:
 def _panel(axes: Axes) -> list[str]:
     title = " ".join(filter(None, map(axes.get_title, ("left", "center", "right"))))  # type: ignore[arg-type]
     curves = axes.get_legend_handles_labels()[1]
-    parts = {"panel": title, "x": axes.get_xlabel(), "y": axes.get_ylabel(), "curves": ", ".join(curves)}
+    labels = {"panel": title, "x": axes.get_xlabel(), "y": axes.get_ylabel(), "curves": ", ".join(curves)}
     rows = groupby(axes.texts, lambda text: text.get_position()[1])
     texts = [": ".join(filter(None, (text.get_text() for text in row))) for _, row in rows]
-    return ["; ".join(f"{name} {message}" for name, message in parts.items() if message), *filter(None, texts)]
+    return ["; ".join(f"{name} {message}" for name, message in labels.items() if message), *filter(None, texts)]

@@ -54,12 +54,12 @@ def _however_long() -> Iterator[None]:
 def drawing(figure: Figure, message: str) -> Drawing:
     """Draw a figure as SVG, and close it; the same figure gives the same bytes.
 
-    `words`: what it shows, in a sentence; its title in the file, which tells what each panel shows too; empty: as the
+    `message`: what it shows, in a sentence; its title in the file, which tells what each panel shows too; empty: as the
     figure is titled.
     """
     content = io.BytesIO()
-    shown = described(figure)
-    title, description = (escape(clean(text)) for text in (message or shown.partition("\n")[0], shown))
+    figure_text = described(figure)
+    title, description = (escape(clean(text)) for text in (message or figure_text.partition("\n")[0], figure_text))
     figure.set_dpi(_DOTS)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
         # once: savefig draws a figure and its layout twice
@@ -68,10 +68,10 @@ def drawing(figure: Figure, message: str) -> Drawing:
     plt.close(figure)
     width, height = (round(_PIXELS * length) for length in figure.get_size_inches())
     # matplotlib writes a title, but no description, and screen readers read neither of a drawing without a role.
-    before, root, rest = content.getvalue().partition(b"<svg ")
-    tag, _, content_of_it = rest.partition(b">")
-    named = f' role="img">\n <title>{title}</title>\n <desc>{description}</desc>'.encode()
-    return Drawing(before + root + tag + named + content_of_it, message, (width, height))
+    prolog, root, remainder = content.getvalue().partition(b"<svg ")
+    tag, _, elements = remainder.partition(b">")
+    accessible_text = f' role="img">\n <title>{title}</title>\n <desc>{description}</desc>'.encode()
+    return Drawing(prolog + root + tag + accessible_text + elements, message, (width, height))
 
 
 def save_picture(figure: Figure, file: Path) -> None:

@@ -21,13 +21,13 @@ def stop_signals_blocked() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)  # children inherit the mask
+    previous_mask = signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)  # children inherit the mask
     try:
         resource_tracker.ensure_running()  # Python's own process; this call unblocks SIGINT and SIGTERM
         signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, previous_mask)
 
 
 def ignore_stopping() -> None:
@@ -39,17 +39,17 @@ def ignore_stopping() -> None:
 def how_ended(code: int | None, message: str = "", call: str = "") -> str:
     """How a process has ended that was to go on, as the end of a sentence, such as ``crashed (SIGSEGV)``.
 
-    `code`: as `subprocess` and `multiprocessing` give it; `said`: what it wrote to its standard error; the last line is
-    quoted; `call`: during what, such as `` in fmi2DoStep at 0.1 s``.
+    `code`: as `subprocess` and `multiprocessing` give it; `message`: what it wrote to its standard error; the last line
+    is quoted; `call`: during what, such as `` in fmi2DoStep at 0.1 s``.
     """
-    last = (message.strip().splitlines() or [""])[-1]
-    words = f"{call}: {last}" if last else call
+    last_line = (message.strip().splitlines() or [""])[-1]
+    details = f"{call}: {last_line}" if last_line else call
     if code is not None and code < 0:
         signal_names = {int(number): number.name for number in signal.Signals}
         name = signal_names.get(-code, f"signal {-code}")
         if name == "SIGKILL":  # no program does that to itself
             return f"was killed (SIGKILL){call}, by a user or by the system because memory ran out"
-        return f"crashed ({name}){words}" if name in _CRASHES else f"was ended by {name}{words}"
+        return f"crashed ({name}){details}" if name in _CRASHES else f"was ended by {name}{details}"
     if sys.platform == "win32" and code is not None and code >= _WINDOWS_CRASH:
-        return f"crashed (0x{code:08X}){words}"
-    return f"ended with exit code {code}{words}"
+        return f"crashed (0x{code:08X}){details}"
+    return f"ended with exit code {code}{details}"

@@ -9,11 +9,11 @@ _APART = 5.0  # m, about
 
 def cone_places(gates: Sequence[Gate]) -> list[tuple[float, float]]:
     """Positions (x, y) in m of cones along both edges of lanes: at their ends and about every 5 m."""
-    places = []
+    positions = []
     for gate in gates:
         length = gate.x_end - gate.x_start
-        parts = max(1, round(length / _APART))
-        for k in range(parts + 1):
-            x = gate.x_start + length * k / parts
-            places += [(x, gate.y_right), (x, gate.y_left)]
-    return places
+        n_intervals = max(1, round(length / _APART))
+        for k in range(n_intervals + 1):
+            x = gate.x_start + length * k / n_intervals
+            positions += [(x, gate.y_right), (x, gate.y_left)]
+    return positions

@@ -59,16 +59,16 @@ def _bubblewrap() -> tuple[str, ...]:
         raise UserError(f"--confined is not possible here, and nothing was run: {why}.")
     system = tuple(word for place in _SYSTEM for word in ("--ro-bind-try", place, place))
     errors_text = ""
-    for more in ((), ("--unshare-user",)):
-        start = (program, *_APART, *more, *system)
-        tried = [*start, "--proc", "/proc", "--dev", "/dev", "--", "/usr/bin/env", "true"]
+    for options in ((), ("--unshare-user",)):
+        command = (program, *_APART, *options, *system)
+        probe_command = [*command, "--proc", "/proc", "--dev", "/dev", "--", "/usr/bin/env", "true"]
         try:
-            done = subprocess.run(tried, capture_output=True, text=True, check=False, timeout=_PATIENCE)
+            process = subprocess.run(probe_command, capture_output=True, text=True, check=False, timeout=_PATIENCE)
         except (OSError, subprocess.TimeoutExpired) as error:
             raise UserError(f"--confined is not possible here, and nothing was run: {error}.") from None
-        if done.returncode == 0:
-            return start
-        errors_text = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+        if process.returncode == 0:
+            return command
+        errors_text = (process.stderr.strip().splitlines() or [f"exit code {process.returncode}"])[-1]
     raise UserError(f"--confined is not possible here, and nothing was run: {program} says: {errors_text}.")
 
 

@@ -57,9 +57,9 @@ def extras() -> dict[str, set[str]]:
 
 def _extra_of(package: str, wanted: str = "") -> str | None:
     """The extra of the command that runs, the wanted one, or the smallest; None: no extra brings the package."""
-    bringing = {extra: names for extra, names in extras().items() if _distribution(package) in names}
-    chosen = next((extra for extra in (_extra, wanted) if extra in bringing), None)
-    return min(bringing, key=lambda extra: len(bringing[extra]), default=None) if chosen is None else chosen
+    providing = {extra: names for extra, names in extras().items() if _distribution(package) in names}
+    preferred = next((extra for extra in (_extra, wanted) if extra in providing), None)
+    return min(providing, key=lambda extra: len(providing[extra]), default=None) if preferred is None else preferred
 
 
 def _askers(place: TracebackType | None) -> list[str]:

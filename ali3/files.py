@@ -66,11 +66,11 @@ def check_writable(file: str | os.PathLike[str]) -> None:
     """Raise the `FileError` that writing this file would end with, before the work that fills it."""
     target = Path(os.path.realpath(file))
     _check_file(file, target)
-    nearest = next(place for place in target.parents if place.exists())
-    if not nearest.is_dir():
-        raise FileError(f"The folder {target.parent} cannot be made: {nearest} is a file.")
+    nearest_parent = next(parent for parent in target.parents if parent.exists())
+    if not nearest_parent.is_dir():
+        raise FileError(f"The folder {target.parent} cannot be made: {nearest_parent} is a file.")
     try:
-        with tempfile.TemporaryFile(dir=nearest):
+        with tempfile.TemporaryFile(dir=nearest_parent):
             pass
     except OSError as error:
         raise FileError(f"{file} cannot be written: {reason(error)}.") from None

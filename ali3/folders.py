@@ -23,8 +23,8 @@ def atomic_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     target = Path(folder)
     parent = make_folder(target.parent)
     try:
-        with temporary_folder(parent) as room:
-            temporary = room / target.name
+        with temporary_folder(parent) as staging_folder:
+            temporary = staging_folder / target.name
             temporary.mkdir()
             yield temporary
             try:
@@ -43,11 +43,11 @@ def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
 
     `kept`: how many stay; `in_use`: those that were used in so many seconds stay too, s.
     """
-    used: dict[Path, float] = {}
+    use_times: dict[Path, float] = {}
     for folder in room.iterdir():
         with suppress(FileNotFoundError):
             if folder.is_dir() and not folder.name.startswith("."):
-                used[folder] = folder.stat().st_mtime
-    for folder in sorted(used, key=used.__getitem__, reverse=True)[kept:]:
-        if used[folder] <= time.time() - in_use:
+                use_times[folder] = folder.stat().st_mtime
+    for folder in sorted(use_times, key=use_times.__getitem__, reverse=True)[kept:]:
+        if use_times[folder] <= time.time() - in_use:
             shutil.rmtree(folder, ignore_errors=True)

@@ -29,10 +29,10 @@ class FrameError(Exception):
 
 def write_frame(stream: IO[bytes], kind: int, value: Any) -> None:
     """Write a value: numbers, text, bytes, lists, mappings, arrays, and dataclasses of these. `kind`: 0 to 255."""
-    parts: list[bytes] = []
-    text = json.dumps(_plain(value, parts)).encode()
-    stream.write(_HEAD.pack(kind, len(text), sum(map(len, parts))))
-    stream.writelines((text, *parts))
+    blocks: list[bytes] = []
+    text = json.dumps(_plain(value, blocks)).encode()
+    stream.write(_HEAD.pack(kind, len(text), sum(map(len, blocks))))
+    stream.writelines((text, *blocks))
     stream.flush()
 
 
@@ -41,12 +41,12 @@ def read_frame(stream: IO[bytes], types: Mapping[int, Any]) -> tuple[int, Any]:
 
     `types`: the type of the value by its kind; None: any plain value. Raises `EOFError`: there is none; `FrameError`.
     """
-    kind, text, behind = _HEAD.unpack(_exactly(stream, _HEAD.size))
-    if kind not in types or text > MOST_TEXT or behind > MOST_BYTES:
-        raise FrameError(f"a frame of kind {kind} with {text} and {behind} bytes")
-    written, block = _exactly(stream, text), _exactly(stream, behind)
+    kind, text_size, block_size = _HEAD.unpack(_exactly(stream, _HEAD.size))
+    if kind not in types or text_size > MOST_TEXT or block_size > MOST_BYTES:
+        raise FrameError(f"a frame of kind {kind} with {text_size} and {block_size} bytes")
+    text, block = _exactly(stream, text_size), _exactly(stream, block_size)
     try:
-        value = _whole(json.loads(written), block)
+        value = _whole(json.loads(text), block)
         return kind, value if types[kind] is None else _adapter(types[kind]).validate_python([value])[0]
     except (ValueError, TypeError, KeyError, IndexError, RecursionError, UnicodeDecodeError) as error:
         raise FrameError(str(error)) from None
@@ -99,11 +99,11 @@ def _whole(value: Any, block: bytes) -> Any:
     if not isinstance(value, dict):
         return value
     if _ARRAY in value:
-        dtype, shape, first, size = value[_ARRAY]
+        dtype, shape, offset, size = value[_ARRAY]
         if np.dtype(dtype).kind not in _KINDS:
             raise ValueError(f"an array of {dtype}")
-        return np.frombuffer(bytearray(block[first : first + size]), np.dtype(dtype)).reshape(shape)
+        return np.frombuffer(bytearray(block[offset : offset + size]), np.dtype(dtype)).reshape(shape)
     if _BYTES in value:
-        first, size = value[_BYTES]
-        return block[first : first + size]
+        offset, size = value[_BYTES]
+        return block[offset : offset + size]
     return {key: _whole(item, block) for key, item in value.items()}

@@ -53,8 +53,8 @@ def page(
         "base-uri": "'none'",
         "form-action": "'none'",
     }
-    for directive, more in (sources or {}).items():
-        allowed[directive] = f"{allowed.get(directive, '')} {more}".removeprefix("'none' ").strip()
+    for directive, added_sources in (sources or {}).items():
+        allowed[directive] = f"{allowed.get(directive, '')} {added_sources}".removeprefix("'none' ").strip()
     policy = "; ".join(f"{directive} {value}" for directive, value in allowed.items())
     lines = [
         "<!DOCTYPE html>",

@@ -45,17 +45,19 @@ def table(
     over the next ones; a cell that is itself a ``td`` is taken as it is; `kind`: class of the table.
     """
     body = []
-    for first, *others in rows:
-        if others:
-            cells = [c if not isinstance(c, str) and c.tag == "td" else element("td", c) for c in others]
-            body.append(element("tr", element("th", first, scope="row"), *cells))
+    for header, *contents in rows:
+        if contents:
+            cells = [c if not isinstance(c, str) and c.tag == "td" else element("td", c) for c in contents]
+            body.append(element("tr", element("th", header, scope="row"), *cells))
         else:
-            body.append(element("tr", element("th", first, colspan=len(head), scope="colgroup", class_="group")))
+            body.append(element("tr", element("th", header, colspan=len(head), scope="colgroup", class_="group")))
     heads = [element("th", cell, scope="col") if cell else element("td") for cell in head]
-    above, named = ([element("caption", caption)], {"role": "region", "aria_label": caption}) if caption else ([], {})
-    parts = [*above, element("thead", element("tr", *heads)), element("tbody", *body)]
-    content = element("table", *parts) if kind is None else element("table", *parts, class_=kind)
-    return element("div", content, class_="wide", tabindex=0, **named)
+    caption_elements, region_attributes = (
+        ([element("caption", caption)], {"role": "region", "aria_label": caption}) if caption else ([], {})
+    )
+    children = [*caption_elements, element("thead", element("tr", *heads)), element("tbody", *body)]
+    content = element("table", *children) if kind is None else element("table", *children, class_=kind)
+    return element("div", content, class_="wide", tabindex=0, **region_attributes)
 
 
 def picture(drawing: Drawing) -> HtmlElement:

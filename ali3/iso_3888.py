@@ -42,13 +42,17 @@ def lanes(track: Track, vehicle_width: float, x_start: float = 0.0) -> tuple[Gat
     and 0.25 m but at least 3 m wide; the second one begins 1 m to the left of the first one, and the right edges of the
     first and the last one are in one line. From public summaries of the standards, not from their text.
     """
-    ends = [x_start + end for end in accumulate((0.0, *_SECTIONS[track]))]
-    first = 0.5 * (1.1 * vehicle_width + 0.25)
+    x_ends = [x_start + end for end in accumulate((0.0, *_SECTIONS[track]))]
+    first_half = 0.5 * (1.1 * vehicle_width + 0.25)
     if track == "ISO 3888-1":
-        second, third = (0.5 * (factor * vehicle_width + 0.25) for factor in (1.2, 1.3))
-        edges = ((-first, first), (3.5 - second, 3.5 + second), (-third, third))
+        second_half, third_half = (0.5 * (factor * vehicle_width + 0.25) for factor in (1.2, 1.3))
+        edges = ((-first_half, first_half), (3.5 - second_half, 3.5 + second_half), (-third_half, third_half))
     else:
-        beside = first + 1.0
-        last = max(1.3 * vehicle_width + 0.25, 3.0)
-        edges = ((-first, first), (beside, beside + vehicle_width + 1.0), (-first, last - first))
-    return tuple(Gate(ends[2 * k], ends[2 * k + 1], right, left) for k, (right, left) in enumerate(edges))
+        second_right = first_half + 1.0
+        last_width = max(1.3 * vehicle_width + 0.25, 3.0)
+        edges = (
+            (-first_half, first_half),
+            (second_right, second_right + vehicle_width + 1.0),
+            (-first_half, last_width - first_half),
+        )
+    return tuple(Gate(x_ends[2 * k], x_ends[2 * k + 1], right, left) for k, (right, left) in enumerate(edges))

@@ -73,7 +73,7 @@ class _Process:
             life, self._life = os.pipe()
             self._memory = os.memfd_create("store")
             self.store = Path(f"/proc/self/fd/{self._memory}")
-        passed = (life, self._memory) if life >= 0 else ()
+        passed_descriptors = (life, self._memory) if life >= 0 else ()
         command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
         variables = {**os.environ, **environment}
         environment = variables | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
@@ -89,7 +89,7 @@ class _Process:
                 stderr=subprocess.PIPE,
                 cwd=self.folder,
                 env=environment,
-                pass_fds=passed,
+                pass_fds=passed_descriptors,
                 start_new_session=sys.platform != "win32",
             )
         except BaseException:
@@ -142,7 +142,7 @@ class _Process:
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             with suppress(OSError):
                 stream.close()  # type: ignore[union-attr]
-        call, left, kept = last_call(self.folder), self._left(), finish(None, self.store)
+        call, survivors, stored = last_call(self.folder), self._left(), finish(None, self.store)
         self._close()
         if self.unread:
             how = self.unread
@@ -152,7 +152,7 @@ class _Process:
             code = self.process.returncode
             code = 128 - code if self._confined and code > 128 else code  # as bubblewrap tells signals
             how = how_ended(code, self._said.decode("utf-8", "replace"), call)
-        return how, call, kept, left
+        return how, call, stored, survivors
 
     def _left(self) -> int:
         with suppress(OSError, ValueError):
@@ -179,9 +179,9 @@ class _Process:
         assert self.process.stderr is not None
         printed = 0
         with suppress(OSError, ValueError):
-            while part := os.read(self.process.stderr.fileno(), 65536):
-                self._said = (self._said + part)[-_MOST_SAID:]
-                printed += len(part)
+            while chunk := os.read(self.process.stderr.fileno(), 65536):
+                self._said = (self._said + chunk)[-_MOST_SAID:]
+                printed += len(chunk)
                 if printed > _MOST_PRINTED:
                     self.flooded = True
                     self.kill()
@@ -230,11 +230,11 @@ class Isolated(Generic[T, R]):
         ended it is given None, and makes what is kept. Raises `UserError`: the work has raised one, or another error
         that `run_command` would show.
         """
-        data, late = pickle.dumps(task), threading.Event()
+        data, expired = pickle.dumps(task), threading.Event()
         process, is_new = self._started()
 
         def end() -> None:
-            late.set()
+            expired.set()
             process.kill()
 
         process.send(data)
@@ -253,14 +253,14 @@ class Isolated(Generic[T, R]):
             self._end()
             raise
         if answer is None:
-            how, call, kept = self._end(finish)
-            if late.is_set():
+            how, call, stored = self._end(finish)
+            if expired.is_set():
                 how = f"took more than {limit:g} s" if process.number else f"had not begun after {_START:g} s"
                 how += call
-            return Lost(how, late.is_set(), kept)
+            return Lost(how, expired.is_set(), stored)
         kind, content = answer
         result: R | None = finish(content, process.store) if kind == DONE else None
-        if late.is_set():
+        if expired.is_set():
             self._end()
         if kind == ERROR:
             error = UserError(content[0])
@@ -325,6 +325,6 @@ class Isolated(Generic[T, R]):
             process, self._process = self._process, None
         if process is None:
             return "was ended", "", None
-        how, call, kept, survivors = process.end(finish)
+        how, call, stored, survivors = process.end(finish)
         self.left += survivors
-        return how, call, kept
+        return how, call, stored

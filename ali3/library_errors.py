@@ -10,8 +10,8 @@ from ali3.message_text import one_line
 
 def reader_stops(error: BaseException) -> str:
     """The end of a sentence: what a library raises on a damaged file is often none."""
-    words = (str(error).strip() or repr(error)).splitlines()[0].rstrip(".!")
-    return f"it is damaged or of another format; its reader stops with '{one_line(words)}'."
+    first_line = (str(error).strip() or repr(error)).splitlines()[0].rstrip(".!")
+    return f"it is damaged or of another format; its reader stops with '{one_line(first_line)}'."
 
 
 @contextmanager

@@ -42,8 +42,8 @@ def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, pol
         raise ValueError(f"A phaseless filter has an even number of poles, not {poles}.")
     x = np.asarray(values, float)
     sections = butter(poles // 2, frequency, fs=1.0 / interval, output="sos")
-    mirrored = min(len(x) - 1, round(3.0 / (frequency * interval)))
-    return np.asarray(sosfiltfilt(sections, x, padtype="odd", padlen=mirrored))
+    pad_length = min(len(x) - 1, round(3.0 / (frequency * interval)))
+    return np.asarray(sosfiltfilt(sections, x, padtype="odd", padlen=pad_length))
 
 
 def low_pass(values: ArrayLike, interval: float, frequency: float = 10.0) -> NDArray[np.float64]:

@@ -47,7 +47,7 @@ def shortened(sentence: str) -> str:
     a terminal what to do.
     """
     sentence = "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in sentence)
-    sentence = re.sub(rf"\S{{{_WORD},}}", lambda found: f"{found[0][:100]}...{found[0][-60:]}", sentence)
+    sentence = re.sub(rf"\S{{{_WORD},}}", lambda match: f"{match[0][:100]}...{match[0][-60:]}", sentence)
     return sentence if len(sentence) <= _MESSAGE else f"{sentence[: _MESSAGE // 2]} ... {sentence[-_MESSAGE // 2 :]}"
 
 
@@ -86,7 +86,7 @@ def range_text(low: float, high: float, unit: str) -> str:
 
     `low`, `high`: infinite where open; `unit`: "1" where there is none.
     """
-    end = unit_text(unit)
+    unit_suffix = unit_text(unit)
     if math.isinf(low):
-        return "" if math.isinf(high) else f"up to {high:.10g}{end}"
-    return f"from {low:.10g}{end}" if math.isinf(high) else f"{low:.10g} to {high:.10g}{end}"
+        return "" if math.isinf(high) else f"up to {high:.10g}{unit_suffix}"
+    return f"from {low:.10g}{unit_suffix}" if math.isinf(high) else f"{low:.10g} to {high:.10g}{unit_suffix}"

@@ -23,20 +23,20 @@ class NamedFiles:
 
     def file(self, name: str, beside: Path, where: str = "") -> Path:
         """A regular file by its name in a file of the folder `beside`; `where`: file and line that name it."""
-        place = f"{where}: " if where else ""
+        location = f"{where}: " if where else ""
         try:
-            result = beside / name
-            if not result.resolve().is_relative_to(self._folder.resolve()):
-                raise self._error(f"{place}{brief(name)} is not below the folder {self._folder}.")
+            path = beside / name
+            if not path.resolve().is_relative_to(self._folder.resolve()):
+                raise self._error(f"{location}{brief(name)} is not below the folder {self._folder}.")
         except (OSError, ValueError, RuntimeError) as fault:  # a circle of links is a RuntimeError
             if isinstance(fault, self._error):
                 raise
-            raise self._error(f"{place}{brief(name)} is not a file name.") from None
+            raise self._error(f"{location}{brief(name)} is not a file name.") from None
         self._count += 1
         if self._count > raised(MOST_FILES):
             raise self._error(
-                f"{place}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
+                f"{location}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
             )
-        check_file(result, self._left, self._error, f"{place}{brief(name)}")
-        self._left -= int(result.stat().st_size / factor())
-        return result
+        check_file(path, self._left, self._error, f"{location}{brief(name)}")
+        self._left -= int(path.stat().st_size / factor())
+        return path

@@ -18,14 +18,16 @@ def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: flo
     `difflib.get_close_matches`; 0 to 1.
     """
     requested = name[:_LONGEST].lower()
-    spelt: dict[str, list[str]] = {}
-    for one in known:
-        spelt.setdefault(one.lower(), []).append(one)
-    near = [requested] if requested in spelt else get_close_matches(requested, spelt, most, closeness)
-    near = near or [one for one in spelt if one.rpartition(".")[2] == requested.rpartition(".")[2]]
+    spellings: dict[str, list[str]] = {}
+    for known_name in known:
+        spellings.setdefault(known_name.lower(), []).append(known_name)
+    near = [requested] if requested in spellings else get_close_matches(requested, spellings, most, closeness)
+    near = near or [
+        known_name for known_name in spellings if known_name.rpartition(".")[2] == requested.rpartition(".")[2]
+    ]
     if not near and len(requested) >= _SHORTEST:
-        near = [one for one in spelt if requested in one]
-    return [one for key in near for one in spelt[key]][:most]
+        near = [known_name for known_name in spellings if requested in known_name]
+    return [known_name for key in near for known_name in spellings[key]][:most]
 
 
 def did_you_mean(

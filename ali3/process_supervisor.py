@@ -82,8 +82,8 @@ def _wait(process: int, life: int) -> None:
 def _end_children() -> int:
     """End all processes that are below this one; how many were alive."""
     ended: set[int] = set()
-    end = time.monotonic() + _PATIENCE
-    while time.monotonic() < end:
+    deadline = time.monotonic() + _PATIENCE
+    while time.monotonic() < deadline:
         for child in _children():
             ended.add(child)
             with suppress(ProcessLookupError, PermissionError):

@@ -87,6 +87,8 @@ def module_command(module: str, *arguments: str) -> list[str]:
 
     ``python -m`` would look into the current folder first, where files of the user may have any name.
     """
-    places = [str(Path(place).absolute()) for place in sys.path]  # the new Python may begin in another folder
-    start = f"import sys; sys.path[:] = {places!r}; import runpy; runpy.run_module({module!r}, None, '__main__', True)"
-    return [sys.executable, "-c", start, *arguments]
+    search_path = [str(Path(entry).absolute()) for entry in sys.path]  # the new Python may begin in another folder
+    code = (
+        f"import sys; sys.path[:] = {search_path!r}; import runpy; runpy.run_module({module!r}, None, '__main__', True)"
+    )
+    return [sys.executable, "-c", code, *arguments]

@@ -74,9 +74,9 @@ def _schema(root: Any, file: object) -> Any:
     from pyssp_standard.standard import ModelicaStandard
 
     if root.tag != f"{{{ModelicaStandard.namespaces['ssv']}}}ParameterSet":
-        what = etree.QName(root).localname
+        root_name = etree.QName(root).localname
         raise ParameterSetError(
-            f"{file} is not an SSV file: its root is '{what}' where ParameterSet of the SSP standard must be."
+            f"{file} is not an SSV file: its root is '{root_name}' where ParameterSet of the SSP standard must be."
         )
     form = root.get("version", "")
     if form[:1] not in _SCHEMAS:
@@ -101,13 +101,13 @@ def _check_number(text: str, what: str) -> None:
 
 def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
     """An entry from its element; the library does not know the types of SSP 2.0."""
-    typed = element[0]
-    value = typed.get("value")
+    value_element = element[0]
+    value = value_element.get("value")
     if value is None:
-        inner = [v.get("value") for v in typed.iterfind("{*}Value")]
-        if len(inner) != 1:
-            raise ParameterSetError(f"{where}: '{name}' has {len(inner)} values; one is needed.")
-        value = inner[0]
+        values = [v.get("value") for v in value_element.iterfind("{*}Value")]
+        if len(values) != 1:
+            raise ParameterSetError(f"{where}: '{name}' has {len(values)} values; one is needed.")
+        value = values[0]
     kind = KINDS.get(kind, kind)
     if kind in ("Real", "Integer", "Boolean") and len(value.split()) != 1:
         raise ParameterSetError(f"{where}: '{name}' has {len(value.split())} values; one is needed.")
@@ -115,7 +115,7 @@ def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
         value = value.strip()
     if kind == "Real":
         _check_number(value, f"{where}: '{name}' is")
-    return Entry(name, kind, value, typed.get("unit"), element.get("description", ""))
+    return Entry(name, kind, value, value_element.get("unit"), element.get("description", ""))
 
 
 def _check_once(names: Iterable[str], what: str, rule: str) -> None:

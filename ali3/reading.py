@@ -43,17 +43,17 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     """
     name = name or str(file)
     try:
-        path = Path(file).stat()
+        status = Path(file).stat()
     except FileNotFoundError:
         raise error(f"{name} cannot be read: there is no such file.") from None
     except OSError as fault:
         raise error(f"{name} cannot be read: {reason(fault)}.") from None
     except ValueError as fault:
         raise error(f"{brief(name)} is not a file name: {fault}.") from None
-    if not stat.S_ISREG(path.st_mode):
-        raise error(_no_regular(name, path.st_mode))
-    if path.st_size > raised(largest):
-        raise error(f"{name} has {path.st_size} bytes; it must have {at_most(path.st_size, largest)}.")
+    if not stat.S_ISREG(status.st_mode):
+        raise error(_no_regular(name, status.st_mode))
+    if status.st_size > raised(largest):
+        raise error(f"{name} has {status.st_size} bytes; it must have {at_most(status.st_size, largest)}.")
     return Path(file)
 
 
@@ -100,16 +100,16 @@ def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     name = name or str(file)
     try:
         with open_file(file, largest, error, name) as stream:
-            size, most = os.fstat(stream.fileno()).st_size, raised(largest)
-            data = stream.read(min(size, most) + 1)  # as much memory as it asks for is taken
-            if size < len(data) <= most:  # files of the system have more than they say
-                data += stream.read(most + 1 - len(data))
+            size, limit = os.fstat(stream.fileno()).st_size, raised(largest)
+            data = stream.read(min(size, limit) + 1)  # as much memory as it asks for is taken
+            if size < len(data) <= limit:  # files of the system have more than they say
+                data += stream.read(limit + 1 - len(data))
     except OSError as fault:
         if isinstance(fault, error):
             raise
         raise error(f"{name} cannot be read: {reason(fault)}.") from None
-    if len(data) > most:
-        raise error(f"{name} has more than {most} bytes.")
+    if len(data) > limit:
+        raise error(f"{name} has more than {limit} bytes.")
     return data
 
 
@@ -158,12 +158,12 @@ def file_text(data: bytes, error: Error, name: str) -> str:
 
 def other_encoding(data: bytes) -> str:
     """Words for a text in UTF-16 or UTF-32, by its byte order mark or its zero bytes; empty for others."""
-    wide = data.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE))
-    short = len(data) > 3 and data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    if not wide and not short:
+    is_utf_32 = data.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE))
+    is_utf_16 = len(data) > 3 and data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    if not is_utf_32 and not is_utf_16:
         zeros = [k % 2 for k, byte in enumerate(data[:200]) if not byte]
-        short = len(zeros) > max(3, len(data[:200]) // 4) and len({*zeros}) == 1
-    return f"written in UTF-{32 if wide else 16}; it must be in UTF-8" if wide or short else ""
+        is_utf_16 = len(zeros) > max(3, len(data[:200]) // 4) and len({*zeros}) == 1
+    return f"written in UTF-{32 if is_utf_32 else 16}; it must be in UTF-8" if is_utf_32 or is_utf_16 else ""
 
 
 def too_deep(error: Error, name: str) -> NoReturn:
@@ -173,19 +173,19 @@ def too_deep(error: Error, name: str) -> NoReturn:
 
 def check_content(content: Any, error: Error, name: str, finite: bool) -> None:
     """Refuse what the programs behind a parser cannot take."""
-    waiting: list[tuple[Any, tuple[Any, ...], int]] = [([content], (), 0)]
-    while waiting:
-        content_part, place, depth = waiting.pop()
+    stack: list[tuple[Any, tuple[Any, ...], int]] = [([content], (), 0)]
+    while stack:
+        content_part, key_chain, depth = stack.pop()
         if depth > DEEPEST:
             too_deep(error, name)
         for key, value in content_part.items() if isinstance(content_part, dict) else enumerate(content_part):
             if isinstance(value, (dict, list)):
-                waiting.append((value, (place, key), depth + 1))
+                stack.append((value, (key_chain, key), depth + 1))
             elif isinstance(value, int):
                 if abs(value) > LARGEST_WHOLE:
-                    raise error(f"{name}: {_words((place, key))} is a whole number of more than 19 digits.")
+                    raise error(f"{name}: {_words((key_chain, key))} is a whole number of more than 19 digits.")
             elif finite and isinstance(value, float) and not math.isfinite(value):
-                raise error(f"{name}: {_words((place, key))} is {value}; it must be a finite number.")
+                raise error(f"{name}: {_words((key_chain, key))} is {value}; it must be a finite number.")
 
 
 def _words(place: tuple[Any, ...]) -> str:

@@ -16,9 +16,9 @@ def forget_current_folder() -> None:
     except OSError:  # the folder is gone
         return
     library = os.path.dirname(os.path.realpath(os.__file__))
-    named = [os.path.realpath(place) for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place]
-    if current in (os.path.dirname(os.path.dirname(os.path.realpath(__file__))), library, *named):
+    python_path = [os.path.realpath(entry) for entry in os.environ.get("PYTHONPATH", "").split(os.pathsep) if entry]
+    if current in (os.path.dirname(os.path.dirname(os.path.realpath(__file__))), library, *python_path):
         return
-    places = [os.path.realpath(place) for place in sys.path]
-    first = places.index(library) if library in places else len(places)
-    sys.path[:] = [entry for k, entry in enumerate(sys.path) if k >= first or places[k] != current]
+    search_path = [os.path.realpath(entry) for entry in sys.path]
+    library_index = search_path.index(library) if library in search_path else len(search_path)
+    sys.path[:] = [entry for k, entry in enumerate(sys.path) if k >= library_index or search_path[k] != current]

@@ -31,12 +31,12 @@ def heeded() -> list[signal.Signals]:
 @contextmanager
 def handled(stop: Callable[[signal.Signals, Any], None], numbers: Collection[signal.Signals]) -> Iterator[None]:
     """A context in which signals call `stop`, with what handled them before, which comes back at its end."""
-    before = {number: signal.getsignal(number) for number in numbers}
+    previous_handlers = {number: signal.getsignal(number) for number in numbers}
 
     def handle(number: int, _: FrameType | None) -> None:
         if number == getattr(signal, "SIGHUP", None):
             _lose_terminals()
-        stop(signal.Signals(number), before[signal.Signals(number)])
+        stop(signal.Signals(number), previous_handlers[signal.Signals(number)])
 
     try:
         for number in numbers:
@@ -44,7 +44,7 @@ def handled(stop: Callable[[signal.Signals, Any], None], numbers: Collection[sig
         yield
     finally:
         for number in numbers:
-            signal.signal(number, before[number])
+            signal.signal(number, previous_handlers[number])
 
 
 @contextmanager
@@ -53,7 +53,7 @@ def stopped_by_signals() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
         yield
         return
-    _terminals[:] = [place for place in (1, 2) if os.isatty(place)]
+    _terminals[:] = [descriptor for descriptor in (1, 2) if os.isatty(descriptor)]
 
     def stop(number: signal.Signals, _: object) -> None:
         raise Stopped(number)
@@ -65,5 +65,5 @@ def stopped_by_signals() -> Iterator[None]:
 def _lose_terminals() -> None:
     """After SIGHUP: a terminal that was closed can be written to no more, and tells so more than once."""
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
-    for place in _terminals:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), place)
+    for descriptor in _terminals:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)

@@ -114,10 +114,10 @@ class TextTable:
             if k % every == 0:
                 cells = self._cells(line, text)
                 if len(cells) != self.width:
-                    what = "heading" if self.names else "first line"
+                    line_name = "heading" if self.names else "first line"
                     hint = "; decimal marks must be points." if self._mark == "," and len(cells) > self.width else "."
-                    result = f"{len(cells)} values where the {what} has {self.width} columns"
-                    raise self.error(f"{self.name}, line {line}: {result}{hint}")
+                    fault_text = f"{len(cells)} values where the {line_name} has {self.width} columns"
+                    raise self.error(f"{self.name}, line {line}: {fault_text}{hint}")
                 yield Row(line, cells)
 
     def numbers(self, row: Row, finite: bool = True, first: int = 0) -> list[float]:
@@ -138,8 +138,8 @@ class TextTable:
             return results
         k = next(k for k, cell in enumerate(row.cells) if k >= first and not is_number(cell, self.decimal, finite))
         label = f", column {brief(self.names[k])}" if self.names else ""
-        word = "finite number" if is_number(row.cells[k], self.decimal, finite=False) else "number"
-        raise self.error(f"{self.name}, line {row.line}{label}: {brief(row.cells[k])} is not a {word}.")
+        expected_text = "finite number" if is_number(row.cells[k], self.decimal, finite=False) else "number"
+        raise self.error(f"{self.name}, line {row.line}{label}: {brief(row.cells[k])} is not a {expected_text}.")
 
     def values(self, every: int = 1, finite: bool = True, least: int = 1) -> NDArray[np.float64]:
         """Numbers of the lines, shape (n, columns). `every`, `finite`: as of `rows` and `numbers`; `least`: least n."""

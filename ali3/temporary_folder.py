@@ -24,11 +24,11 @@ def temporary_folder(parent: str | os.PathLike[str] | None = None) -> Iterator[P
 
     `parent`: by default where temporary files go. Raises `OSError`: none can be made there.
     """
-    place = Path(tempfile.gettempdir() if parent is None else parent).absolute()
-    if place not in _cleared:
-        _cleared.add(place)
-        _clear(place)
-    folder, lock = _locked_folder(place)
+    parent_folder = Path(tempfile.gettempdir() if parent is None else parent).absolute()
+    if parent_folder not in _cleared:
+        _cleared.add(parent_folder)
+        _clear(parent_folder)
+    folder, lock = _locked_folder(parent_folder)
     owner = os.getpid()
     try:
         yield folder

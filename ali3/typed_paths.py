@@ -34,14 +34,14 @@ def templates(annotation: Any) -> list[Table]:
 
 def value_type_of(annotation: Any) -> Any | None:
     """Type of the values of a table whose keys the user chooses; None for any other type."""
-    result = _dict_of(annotation)
-    return None if result is None else result[1]
+    type_arguments = _dict_of(annotation)
+    return None if type_arguments is None else type_arguments[1]
 
 
 def key_type_of(annotation: Any) -> Any:
     """Type of the keys of such a table; text for any other type."""
-    result = _dict_of(annotation)
-    return str if result is None else result[0]
+    type_arguments = _dict_of(annotation)
+    return str if type_arguments is None else type_arguments[0]
 
 
 def _dict_of(annotation: Any) -> tuple[Any, ...] | None:
@@ -85,11 +85,11 @@ def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
 
 def chosen(annotation: Any, data: Any) -> Table | None:
     """The table among those of a type that the data name by `kind`."""
-    result = templates(annotation)
-    if len(result) == 1:
-        return result[0]
+    tables = templates(annotation)
+    if len(tables) == 1:
+        return tables[0]
     kind = data.get("kind") if isinstance(data, Mapping) else None
-    return next((table for table in result if kind in kinds_of(table)), None)
+    return next((table for table in tables if kind in kinds_of(table)), None)
 
 
 def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
@@ -107,12 +107,12 @@ def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
 def all_keys(table: Table, path: str = "") -> Iterator[str]:
     """Key paths of a table and all in it, of all templates. `path`: where it stands."""
     for key, field in keys_of(table).items():
-        place = f"{path}.{key}" if path else key
-        yield place
+        key_path = f"{path}.{key}" if path else key
+        yield key_path
         inner = value_type_of(field.annotation)
-        within = field.annotation if inner is None else inner
-        for below in templates(_element(within, "0") or within):
-            yield from all_keys(below, place if inner is None else f"{place}.NAME")
+        value_type = field.annotation if inner is None else inner
+        for template in templates(_element(value_type, "0") or value_type):
+            yield from all_keys(template, key_path if inner is None else f"{key_path}.NAME")
 
 
 def title_of(annotation: Any) -> str:
@@ -142,8 +142,10 @@ def words(annotation: Any) -> str:
         limits += [m for item in inner[1:] if isinstance(item, FieldInfo) for m in item.metadata]
         return words(inner[0]) + _limit_text(limits)
     if origin in (Union, types.UnionType):
-        whole = {int} if float in inner else set()  # a whole number is a number
-        return " or ".join(dict.fromkeys(words(item) for item in inner if item is not NOTHING and item not in whole))
+        redundant_types = {int} if float in inner else set()  # a whole number is a number
+        return " or ".join(
+            dict.fromkeys(words(item) for item in inner if item is not NOTHING and item not in redundant_types)
+        )
     if origin is Literal:
         return " or ".join(map(repr, inner))
     if origin in (tuple, list):
@@ -153,22 +155,22 @@ def words(annotation: Any) -> str:
 
 def _limit_text(limits: Sequence[Any]) -> str:
     """The ends of a range."""
-    names = {"ge": "from", "gt": "above", "le": "up to", "lt": "below"}
-    ends = {name: getattr(item, name) for item in limits for name in names if isinstance(item, Ge | Gt | Le | Lt)
+    words_of = {"ge": "from", "gt": "above", "le": "up to", "lt": "below"}
+    ends = {name: getattr(item, name) for item in limits for name in words_of if isinstance(item, Ge | Gt | Le | Lt)
             and hasattr(item, name)}  # fmt: skip
-    shown = {name: f"{end:.12g}" if isinstance(end, float) else str(end) for name, end in ends.items()}
-    if shown.keys() == {"ge", "le"}:
-        return f" from {shown['ge']} to {shown['le']}"
-    return "".join(f" {word} {shown[name]}" for name, word in names.items() if name in shown)
+    limit_texts = {name: f"{end:.12g}" if isinstance(end, float) else str(end) for name, end in ends.items()}
+    if limit_texts.keys() == {"ge", "le"}:
+        return f" from {limit_texts['ge']} to {limit_texts['le']}"
+    return "".join(f" {word} {limit_texts[name]}" for name, word in words_of.items() if name in limit_texts)
 
 
 def _list_text(inner: tuple[Any, ...]) -> str:
     if inner[-1] is not Ellipsis and any(item != inner[0] for item in inner):
         return f"a list of {' and '.join(words(item) for item in inner)}"
-    each = words(inner[0])
-    first, _, rest = each.partition(" of ")
-    plural = {"a list": "lists", "text": "texts", "a table": "tables"}.get(first, first.replace("a number", "numbers"))
-    plural += f" of {rest}" if rest else ""
+    element_text = words(inner[0])
+    noun, _, elements_text = element_text.partition(" of ")
+    plural = {"a list": "lists", "text": "texts", "a table": "tables"}.get(noun, noun.replace("a number", "numbers"))
+    plural += f" of {elements_text}" if elements_text else ""
     if inner[-1] is Ellipsis:
         return f"a list of {plural}"
     return f"a list of {len(inner)} {plural}"

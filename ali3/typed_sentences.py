@@ -68,25 +68,25 @@ class Sentences:
         """A sentence for each fault; a misspelt key is not told as missing too."""
         items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
         missing = [self._path(item["loc"]) for item in items if item["type"] == MISSING]
-        results, meant = [], []
+        sentences, misspelt_paths = [], []
         for item in items:
             if item["type"] == UNKNOWN:
                 path = self._path(item["loc"])
                 near = None if self.place(path) in self._places(path) else self._near(path, _in_table(missing, path))
-                meant += [[*path[:-1], near]] if near else []
-                results.append(self._unknown(path, near))
-            elif item["type"] != MISSING or self._path(item["loc"]) not in meant:
-                results.append(self._sentence(item))
-        gone = [self._missing(path) for path in meant]
-        return [one_line(sentence) for sentence in dict.fromkeys(results) if sentence not in gone]
+                misspelt_paths += [[*path[:-1], near]] if near else []
+                sentences.append(self._unknown(path, near))
+            elif item["type"] != MISSING or self._path(item["loc"]) not in misspelt_paths:
+                sentences.append(self._sentence(item))
+        replaced_sentences = [self._missing(path) for path in misspelt_paths]
+        return [one_line(sentence) for sentence in dict.fromkeys(sentences) if sentence not in replaced_sentences]
 
     def _sentence(self, item: Any) -> str:
         kind, loc = item["type"], item["loc"]
         path = self._path(loc)
         if loc and loc[-1] == "[key]":
-            right = words(key_type_of(annotation_at(self.top, path[:-1], self.data)))
-            right = self.names if right == "text" else right
-            return f"{self.place(path[:-1])} has the name {value_text(path[-1])}; a name is {right}."
+            requirement = words(key_type_of(annotation_at(self.top, path[:-1], self.data)))
+            requirement = self.names if requirement == "text" else requirement
+            return f"{self.place(path[:-1])} has the name {value_text(path[-1])}; a name is {requirement}."
         if kind == MISSING and isinstance(loc[-1], str):
             return self._missing(path)
         if kind == "value_error":  # of a rule between several keys
@@ -107,9 +107,9 @@ class Sentences:
         value: Any = self.data
         for key in path:
             value = item_of(value, key)
-        right = "right" if annotation is None else words(annotation)
+        requirement = "right" if annotation is None else words(annotation)
         limits = "" if title_of(annotation) else _limits(item)
-        return f"{self._coordinate(path)} is {value_text(value)}; it must be {right}{limits}."
+        return f"{self._coordinate(path)} is {value_text(value)}; it must be {requirement}{limits}."
 
     def _form(self, item: Any) -> str:
         """The form that a text with a pattern must have."""
@@ -122,20 +122,20 @@ class Sentences:
         if table is None:
             return f"{self.place(path)} is missing."
         text = (keys_of(table)[path[-1]].description or "").rstrip(".").replace("\n", " ")
-        right = words(annotation_at(self.top, path, self.data))
+        requirement = words(annotation_at(self.top, path, self.data))
         meaning = f": {text[:1].lower()}{text[1:]}" if text else ""
-        return f"{self.place(path)} is missing; it must be {right}{meaning}."
+        return f"{self.place(path)} is missing; it must be {requirement}{meaning}."
 
     def _unknown(self, path: Sequence[str], near: str | None) -> str:
         if near is not None:
             return f"{self.place(path)} is not known; did you mean '{near}'?"
-        places = self._places(path)
-        if places and self.place(path) not in places:
-            return f"{self.place(path)} is not known; '{path[-1]}' stands at {some_of(places, ELSEWHERE)}."
+        locations = self._places(path)
+        if locations and self.place(path) not in locations:
+            return f"{self.place(path)} is not known; '{path[-1]}' stands at {some_of(locations, ELSEWHERE)}."
         table = table_at(self.top, path[:-1], self.data)
         known_names = ", ".join(keys_of(table)) if table else "none"
-        why = f"belongs to another kind than {value_text(self._kind(path))}" if places else "is not known"
-        return f"{self.place(path)} {why}; the keys of {self.place(path[:-1])} are {known_names}."
+        fault = f"belongs to another kind than {value_text(self._kind(path))}" if locations else "is not known"
+        return f"{self.place(path)} {fault}; the keys of {self.place(path[:-1])} are {known_names}."
 
     def _places(self, path: Sequence[str]) -> list[str]:
         """Where a key of that name stands, in all templates."""
@@ -180,8 +180,8 @@ class Sentences:
     def _coordinate(self, path: Sequence[str]) -> str:
         """A key path; the coordinates of a point with their axes."""
         if path and path[-1].isdigit() and int(path[-1]) < 3:
-            whole = annotation_at(self.top, path[:-1], self.data)
-            if whole is not None and words(whole).startswith("a list of 3 numbers, between -"):
+            list_type = annotation_at(self.top, path[:-1], self.data)
+            if list_type is not None and words(list_type).startswith("a list of 3 numbers, between -"):
                 return f"{self.place(path)} ({'xyz'[int(path[-1])]})"
         return self.place(path)
 

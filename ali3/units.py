@@ -127,12 +127,16 @@ def misread(unit: str) -> list[Misread]:
     """The mistakes that are made with values in a unit, the usual ones first; "" for one that is not known: all."""
     results = []
     for group in _MISTAKEN:
-        own = _named(unit) if unit else group[0]
-        if own not in group:
+        unit_name = _named(unit) if unit else group[0]
+        if unit_name not in group:
             continue
-        first = group[own == group[0]]
-        pairs = [(first, own), (own, first), *((other, own) for other in group if other not in (own, first))]
-        results += [Misread(_scale(a) / _scale(b), a, b, first in (a, b)) for a, b in pairs]
+        si_unit = group[unit_name == group[0]]
+        pairs = [
+            (si_unit, unit_name),
+            (unit_name, si_unit),
+            *((other_unit, unit_name) for other_unit in group if other_unit not in (unit_name, si_unit)),
+        ]
+        results += [Misread(_scale(a) / _scale(b), a, b, si_unit in (a, b)) for a, b in pairs]
         if unit:
             break  # a number in degrees is an angle first
     return sorted(results, key=lambda one: not one.usual)
@@ -154,7 +158,7 @@ def typeset(unit: str) -> str:
     if unit in ("1", ""):
         return ""
     text = re.sub(r"\.(?=[a-zA-Z])", "·", unit)
-    return _EXPONENT.sub(lambda found: f"^{found[0]}" if found[2] else found[0].translate(_SMALL), text)
+    return _EXPONENT.sub(lambda match: f"^{match[0]}" if match[2] else match[0].translate(_SMALL), text)
 
 
 def known_unit(text: str) -> UnitDefinition | None:
@@ -195,8 +199,8 @@ def plain_unit(text: str) -> str:
     word = text.strip()
     while word[:1] + word[-1:] in ("[]", "()") and len(word) > 1:
         word = word[1:-1].strip()
-    for written, plain in (("²", "2"), ("^", ""), ("**", ""), ("·", "."), ("*", "."), ("º", "°")):
-        word = word.replace(written, plain)
+    for notation, replacement in (("²", "2"), ("^", ""), ("**", ""), ("·", "."), ("*", "."), ("º", "°")):
+        word = word.replace(notation, replacement)
     return re.sub(r"\s+", ".", re.sub(r"\s*([./])\s*", r"\1", word))
 
 
@@ -214,13 +218,17 @@ def number_with_unit(text: str, unit: str) -> float:
     except ValueError:
         if match is None:
             raise
-    own, source = known_unit(unit), known_unit(match["unit"])
-    if not unit or own is None:
+    target_unit, given_unit = known_unit(unit), known_unit(match["unit"])
+    if not unit or target_unit is None:
         raise ValueError(f"{short(word)} is not a number; write it without a unit, such as {match['number']}")
-    if source is None or source.exponents != own.exponents:
-        which = f"in {unit}, or with a unit of the same quantity behind it" if own.exponents else "without a unit"
-        raise ValueError(f"{short(word)} is not a number; write one {which}, such as {match['number']}{_example(unit)}")
-    return source.convert(parse_number(match["number"]), own)
+    if given_unit is None or given_unit.exponents != target_unit.exponents:
+        form_text = (
+            f"in {unit}, or with a unit of the same quantity behind it" if target_unit.exponents else "without a unit"
+        )
+        raise ValueError(
+            f"{short(word)} is not a number; write one {form_text}, such as {match['number']}{_example(unit)}"
+        )
+    return given_unit.convert(parse_number(match["number"]), target_unit)
 
 
 def _example(unit: str) -> str:

@@ -45,8 +45,8 @@ def parameter_set_bytes(parameters: ParameterSet, as_built: bool) -> bytes:
             Parameter(name=entry.name, type_name=entry.kind, type_value=ParameterType(entry.kind, attributes))
         )
         # the library keeps what it knows of a kind and gives None to the rest
-        entries = content.parameters[-1]["type_value"].parameter
-        content.parameters[-1]["type_value"].parameter = {k: v for k, v in entries.items() if v is not None}
+        attributes_of_kind = content.parameters[-1]["type_value"].parameter
+        content.parameters[-1]["type_value"].parameter = {k: v for k, v in attributes_of_kind.items() if v is not None}
     for name, unit in parameters.units.items():
         numbers = {"factor": unit.factor} | ({"offset": unit.offset} if unit.offset else {})
         content.units.add_unit(Unit(name, BaseUnit(dict(unit.exponents) | numbers)))

@@ -15,11 +15,11 @@ def commands() -> dict[str, Path]:
 
 def main() -> int:
     """Print each command with the first words of its documentation."""
-    results = {
+    descriptions = {
         name: ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) for name, file in commands().items()
     }
-    width = max(map(len, results))
-    for name, text in sorted(results.items()):
+    width = max(map(len, descriptions))
+    for name, text in sorted(descriptions.items()):
         print(f"python -m benchmarks.{name:{width}}  {' '.join((text or '').split()).partition(':')[0]}")
     return 0
 

@@ -41,8 +41,8 @@ def _rows(options: Namespace) -> list[dict[str, Any]]:
     missing = [car for car, needs in PEERS.items() if not all(importlib.util.find_spec(module) for module in needs)]
     for car in missing:
         say_missing(f"{car}'s car: {' and '.join(PEERS[car])} not installed (python -m pip install 'ali3[peers]')")
-    present = [car for car in PEERS if car not in missing]
-    return [row for scene in watched(SCENES) for row in measure(*scene, peers=present)]
+    installed = [car for car in PEERS if car not in missing]
+    return [row for scene in watched(SCENES) for row in measure(*scene, peers=installed)]
 
 
 def measure(

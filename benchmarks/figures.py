@@ -62,8 +62,8 @@ def paper_table_2() -> list[RemadeTable]:
     """Errors of the PUMA with the default and the two most exact methods."""
     system = mbs.compile(puma_scene.build())
     runs = [(method, h) for method in ("ali3p", "energy_momentum_4", "radau_5") for h in (0.1, 0.05, 0.01)]
-    block = puma.puma_blocks([puma.measure(system, method, h, 1) for method, h in runs])["table 2"]
-    return [RemadeTable(PAPER, block, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
+    text = puma.puma_blocks([puma.measure(system, method, h, 1) for method, h in runs])["table 2"]
+    return [RemadeTable(PAPER, text, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
 
 
 def stability_map() -> list[RemadeTable]:
@@ -73,8 +73,8 @@ def stability_map() -> list[RemadeTable]:
     points = [(m, h, e) for m in ("ali3p", "energy_momentum") for h in steps for e in eps]
     rows = [stability.kernel_point("double_four_bar", *point) for point in points]
     text = stability_margins.margin_table(stability_margins.margins(rows))
-    below = ("smallest fine h s", "decades below", "decades above")  # of the smaller steps, too
-    return [RemadeTable(STABILITY, text, "margins", ("scene", "method"), below)]
+    excluded_columns = ("smallest fine h s", "decades below", "decades above")  # of the smaller steps, too
+    return [RemadeTable(STABILITY, text, "margins", ("scene", "method"), excluded_columns)]
 
 
 def honest_crank() -> list[RemadeTable]:
@@ -93,8 +93,8 @@ def honest_crank() -> list[RemadeTable]:
 def trusted() -> list[RemadeTable]:
     """The tables of the page of trust."""
     keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",), "acceleration": ("manoeuvre", "h s")}
-    made = error_limits.trust_blocks(error_limits.measure())
-    return [RemadeTable("docs/trust.md", made[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
+    blocks = error_limits.trust_blocks(error_limits.measure())
+    return [RemadeTable("docs/trust.md", blocks[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
 
 
 def car() -> list[RemadeTable]:
@@ -225,11 +225,15 @@ def readme() -> list[RemadeTable]:
 def elements(whole: bool) -> list[RemadeTable]:
     """Mass models and modes of the prototype's frame, and CalculiX beside two theories of beams."""
     page, frame = "docs/finite_elements.md", frame_tables
-    made = [
+    remade_tables = [
         RemadeTable(page, frame.mass_table(), "masses", ("mass, no rotary inertia",)),
         RemadeTable(page, frame.modes_table(), "modes", ("modes",)),
     ]
-    return [*made, RemadeTable(page, frame.calculix_table(), "calculix", ("quantity",))] if whole else made
+    return (
+        [*remade_tables, RemadeTable(page, frame.calculix_table(), "calculix", ("quantity",))]
+        if whole
+        else remade_tables
+    )
 
 
 def bending() -> list[RemadeTable]:
@@ -325,20 +329,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     makers = {name: partial(make, options.write) for name, make in WRITTEN.items()}
     makers |= {} if options.write else MADE
-    chosen = [make for name, make in makers.items() if options.only.lower() in name.lower()]
-    if not chosen:
+    selected_makers = [make for name, make in makers.items() if options.only.lower() in name.lower()]
+    if not selected_makers:
         parser.error(f"no table is called {options.only!r}: {names}")
-    made = [again for make in watched(chosen) for again in make()]
+    remade_tables = [remade_table for make in watched(selected_makers) for remade_table in make()]
     if options.write:
-        for again in made:
-            if again.picture:
-                (DOCS.parent / again.page).write_bytes(again.picture)
+        for remade_table in remade_tables:
+            if remade_table.picture:
+                (DOCS.parent / remade_table.page).write_bytes(remade_table.picture)
             else:
-                write_text(DOCS.parent / again.page, written(again, read(again.page)))
-        print(f"{len(made)} tables and charts written")
+                write_text(DOCS.parent / remade_table.page, written(remade_table, read(remade_table.page)))
+        print(f"{len(remade_tables)} tables and charts written")
         return 0
-    reported = all_differences(made)
-    print("\n".join(reported) or f"{len(made)} tables, sentences and charts of the pages are as they are made now.")
+    reported = all_differences(remade_tables)
+    print(
+        "\n".join(reported)
+        or f"{len(remade_tables)} tables, sentences and charts of the pages are as they are made now."
+    )
     return 1 if reported else 0
 
 

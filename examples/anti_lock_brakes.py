@@ -34,7 +34,7 @@ def stop(plant, controller, on, start):
 
 def main(picture: str = "anti_lock_brakes.png", car: str = "prototype") -> float:
     """Way to stand with the controller over that with locked wheels, on a wet road."""
-    figure, ways = Figure(figsize=(9.0, 3.6), layout="constrained"), {}
+    figure, distances = Figure(figsize=(9.0, 3.6), layout="constrained"), {}
     panels = dict(zip(("wet", "split"), figure.subplots(1, 2), strict=True))
     inputs = ["steering", *(f"wheel_{w}.brake_torque_demand" for w in WHEELS)]
     with tempfile.TemporaryDirectory() as folder, Car(car, ports="brakes", step=STEP, inputs=inputs) as plant:
@@ -44,14 +44,14 @@ def main(picture: str = "anti_lock_brakes.png", car: str = "prototype") -> float
                 with Fmu(path) as controller:
                     rows = stop(plant, controller, on, start)
                 rows[:, 2] = np.unwrap(rows[:, 2])
-                ways[road, on], turned = rows[-1, [0, 2]]
-                print(f"{road} road, wheels {label}: stands after {ways[road, on]:.1f} m, turned by {turned:.2f} rad")
+                distances[road, on], yaw = rows[-1, [0, 2]]
+                print(f"{road} road, wheels {label}: stands after {distances[road, on]:.1f} m, turned by {yaw:.2f} rad")
                 panels[road].plot(rows[:, 0], rows[:, 1 if road == "wet" else 2], label=label)
     panels["wet"].set(xlabel="way, m", ylabel="speed, m/s", title="wet road")
     panels["split"].set(xlabel="way, m", ylabel="yaw angle, rad", title="right wheels on ice")
     panels["wet"].legend()
     figure.savefig(picture, dpi=90)
-    return float(ways["wet", 1.0] / ways["wet", 0.0])
+    return float(distances["wet", 1.0] / distances["wet", 0.0])
 
 
 if __name__ == "__main__":

@@ -19,8 +19,8 @@ def flexible_beam() -> mbs.Model:
     """A tube on a hub that turns about the horizontal y axis; finite elements, reduced to modes."""
     nodes = np.column_stack([np.linspace(0.0, LENGTH, ELEMENTS + 1), np.zeros((ELEMENTS + 1, 2))])
     frame = Frame(nodes, [Beam(i, i + 1, SECTION, ALUMINIUM) for i in range(ELEMENTS)])
-    end = [Interface(ELEMENTS, rotations=True)]
-    reduced = craig_bampton(frame.finite_element_model(), reference=0, interfaces=end, inertia_modes=True)
+    interfaces = [Interface(ELEMENTS, rotations=True)]
+    reduced = craig_bampton(frame.finite_element_model(), reference=0, interfaces=interfaces, inertia_modes=True)
     m = mbs.Model("flexible beam", gravity=(0.0, 0.0, -GRAVITY))
     m.start_in_equilibrium = True
     beam = m.flexible_body("beam", reduced)
@@ -38,17 +38,17 @@ def main(picture: str = "flexible_beam.png") -> float:
     """Largest difference of the deflection from that of a slowly turned cantilever, over the largest deflection."""
     run = mbs.simulate(mbs.compile(flexible_beam()), t_end=TURN, h=0.02)
     angle, load = ANGLE(run.t), ALUMINIUM.rho * SECTION.area * GRAVITY
-    across = np.sin(angle) * run["tip.x"] + np.cos(angle) * run["tip.z"]
+    deflection = np.sin(angle) * run["tip.x"] + np.cos(angle) * run["tip.z"]
     closed_form = -load * LENGTH**4 / (8.0 * ALUMINIUM.E * SECTION.Iy) * np.cos(angle)
-    difference = float(np.abs(across - closed_form).max() / np.abs(closed_form).max())
-    print(f"deflection up to {1e3 * np.abs(across).max():.2f} mm, {difference:.1e} of that from the closed form")
+    difference = float(np.abs(deflection - closed_form).max() / np.abs(closed_form).max())
+    print(f"deflection up to {1e3 * np.abs(deflection).max():.2f} mm, {difference:.1e} of that from the closed form")
     figure = Figure(figsize=(9.0, 3.4), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(1.0, 1.6))
     left.plot(run["tip.x"], run["tip.z"])
     for i in range(0, len(run.t), 300):
         left.plot([0.0, run["tip.x"][i]], [0.0, run["tip.z"][i]], "k-", lw=0.4)
     left.set(xlabel="x of the free end, m", ylabel="z, m", aspect="equal")
-    right.plot(np.degrees(angle), 1e3 * across)
+    right.plot(np.degrees(angle), 1e3 * deflection)
     right.plot(np.degrees(angle[::150]), 1e3 * closed_form[::150], "k.")
     right.set(xlabel="angle of the hub, deg", ylabel="deflection, mm; dots: closed form")
     figure.savefig(picture, dpi=90)

@@ -27,9 +27,9 @@ def quarter_car() -> mbs.Model:
 
 def closed_form(damping: float) -> np.ndarray:
     """Eigenvalues with positive imaginary part, 1/s, from the matrices of the two masses."""
-    apart = np.array([[1.0, -1.0], [-1.0, 1.0]])
-    K, M = SPRING * apart + np.diag([TYRE, 0.0]), np.diag([WHEEL, BODY])
-    A = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(M, K), -np.linalg.solve(M, damping * apart)]])
+    coupling = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    K, M = SPRING * coupling + np.diag([TYRE, 0.0]), np.diag([WHEEL, BODY])
+    A = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(M, K), -np.linalg.solve(M, damping * coupling)]])
     return np.sort_complex([v for v in np.linalg.eigvals(A) if v.imag > 0.0])
 
 

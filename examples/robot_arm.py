@@ -16,16 +16,16 @@ PATH = [PPoly.from_bernstein_basis(BPoly.from_derivatives(TIMES, [[a, 0.0, 0.0] 
 def robot_arm() -> mbs.Model:
     """Two links in a vertical plane, drawn stretched out; each hinge follows its path."""
     m = mbs.Model("robot arm", dimension=2, gravity=(0.0, -GRAVITY))
-    before, start = m.ground, 0.0
+    previous, hinge_x = m.ground, 0.0
     for k, (mass, length) in enumerate(zip(MASS, LENGTH, strict=True)):
-        link = m.body(f"link {k}", mass=mass, com=(start + 0.5 * length, 0.0), inertia=mass * length**2 / 12.0)
-        m.revolute(f"hinge {k}", before, link, point=(start, 0.0))
-        angle = m.relative_angle(f"angle {k}", before, link)
+        link = m.body(f"link {k}", mass=mass, com=(hinge_x + 0.5 * length, 0.0), inertia=mass * length**2 / 12.0)
+        m.revolute(f"hinge {k}", previous, link, point=(hinge_x, 0.0))
+        angle = m.relative_angle(f"angle {k}", previous, link)
         motor = m.drive(f"motor {k}", angle, m.guide_time(f"path {k}", PATH[k], unit="rad"))
         m.sense_joint(f"torque {k}", motor, "drive")
-        before, start = link, start + length
+        previous, hinge_x = link, hinge_x + length
         for component in "xy":
-            m.sense_position(f"end {k} {component}", link, (start, 0.0), component)
+            m.sense_position(f"end {k} {component}", link, (hinge_x, 0.0), component)
     return m
 
 
@@ -33,9 +33,11 @@ def closed_form(t: np.ndarray) -> np.ndarray:
     """Both torques, N m, from Lagrange's equations of the two angles."""
     (m1, m2), (l1, l2) = MASS, LENGTH
     (a, b), (ad, bd), (add, bdd) = ([p(t, k) for p in PATH] for k in range(3))
-    far, both, pull = m2 * l2**2 / 3.0, 0.5 * m2 * l1 * l2 * np.cos(b), 0.5 * m2 * l1 * l2 * np.sin(b)
-    second = (far + both) * add + far * bdd + pull * ad**2 + 0.5 * m2 * l2 * GRAVITY * np.cos(a + b)
-    first = (m1 / 3.0 + m2) * l1**2 * add + both * (add + bdd) - pull * (ad + bd) ** 2
+    inertia_2, coupling, centrifugal = m2 * l2**2 / 3.0, 0.5 * m2 * l1 * l2 * np.cos(b), 0.5 * m2 * l1 * l2 * np.sin(b)
+    second = (
+        (inertia_2 + coupling) * add + inertia_2 * bdd + centrifugal * ad**2 + 0.5 * m2 * l2 * GRAVITY * np.cos(a + b)
+    )
+    first = (m1 / 3.0 + m2) * l1**2 * add + coupling * (add + bdd) - centrifugal * (ad + bd) ** 2
     return np.array([first + (0.5 * m1 + m2) * l1 * GRAVITY * np.cos(a) + second, second])
 
 

@@ -24,8 +24,8 @@ def disc(spin: float) -> mbs.Model:
     inertia = 0.25 * MASS * RADIUS**2 * (np.eye(3) + np.outer(axis, axis))
     wheel = m.body("wheel", mass=MASS, com=RADIUS * up, inertia=inertia)
     m.rolling("ground", wheel, radius=RADIUS, centre=RADIUS * up, axis=axis)
-    turning = TURN * np.cos(LEAN) * up + spin * axis
-    m.initial_velocity(wheel, linear=np.cross(turning, RADIUS * up), angular=turning)
+    angular_velocity = TURN * np.cos(LEAN) * up + spin * axis
+    m.initial_velocity(wheel, linear=np.cross(angular_velocity, RADIUS * up), angular=angular_velocity)
     for component in "xyz":
         m.sense_position(f"centre.{component}", wheel, None, component)
     m.sense_energy("energy")
@@ -43,14 +43,14 @@ def main(picture: str = "rolling_disc.png") -> float:
         right.plot(run.t, run["centre.z"])
         print(f"{name}: energy changes by {np.ptp(run['energy']):.1e} J of {run['energy'][0]:.1f} J")
     radius = spin * RADIUS / TURN  # signed: the middle of the circle is beside the centre as drawn
-    across = np.hypot(run["centre.x"], run["centre.y"] - run["centre.y"][0] - radius) - abs(radius)
-    off = float(np.hypot(across, run["centre.z"] - RADIUS * np.cos(LEAN)).max())
-    print(f"in steady rolling the centre stays within {off:.1e} m of its circle of {abs(radius):.3f} m radius")
+    radial_error = np.hypot(run["centre.x"], run["centre.y"] - run["centre.y"][0] - radius) - abs(radius)
+    error = float(np.hypot(radial_error, run["centre.z"] - RADIUS * np.cos(LEAN)).max())
+    print(f"in steady rolling the centre stays within {error:.1e} m of its circle of {abs(radius):.3f} m radius")
     left.set(xlabel="x of the centre, m", ylabel="y, m", aspect="equal")
     right.set(xlabel="time, s", ylabel="height of the centre, m")
     figure.legend(loc="outside upper left", ncols=2)
     figure.savefig(picture, dpi=90)
-    return off
+    return error
 
 
 if __name__ == "__main__":

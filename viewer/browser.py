@@ -57,19 +57,19 @@ def find_chromium() -> Path:
     BrowserError
         There is none, or the variable names no program.
     """
-    named = os.environ.get(VARIABLE)
-    if named:
-        result = shutil.which(named)
-        if result is None:
-            raise BrowserError(f"The environment variable {VARIABLE} names {named}, which is not a program.")
-        return Path(result)
+    program = os.environ.get(VARIABLE)
+    if program:
+        path = shutil.which(program)
+        if path is None:
+            raise BrowserError(f"The environment variable {VARIABLE} names {program}, which is not a program.")
+        return Path(path)
     for name in _NAMES:
-        result = shutil.which(name)
-        if result is not None:
-            return Path(result)
-    for place in _places():
-        if place.is_file() and os.access(place, os.X_OK):
-            return place
+        path = shutil.which(name)
+        if path is not None:
+            return Path(path)
+    for candidate in _places():
+        if candidate.is_file() and os.access(candidate, os.X_OK):
+            return candidate
     raise BrowserError(
         "There is no Chromium, Chrome or Edge on this machine, which pictures need; install one, or name its program "
         f"in the environment variable {VARIABLE}."
@@ -117,15 +117,15 @@ def screenshot(
         try:
             browser = play.chromium.launch(executable_path=executable, args=launch_arguments(), timeout=60_000)
         except Error as error:
-            words = str(error).strip().splitlines()[0]
-            raise BrowserError(f"{executable} does not start: {words}") from None
+            reason = str(error).strip().splitlines()[0]
+            raise BrowserError(f"{executable} does not start: {reason}") from None
         try:
             view = browser.new_page(viewport={"width": width, "height": height})
             view.set_default_timeout(120_000)
             yield from _pictures(view, file, times, camera)
         except Error as error:
-            words = str(error).strip().splitlines()[0]
-            raise BrowserError(f"{page} cannot be drawn by {executable}: {words}") from None
+            reason = str(error).strip().splitlines()[0]
+            raise BrowserError(f"{page} cannot be drawn by {executable}: {reason}") from None
         finally:
             browser.close()
 
@@ -140,7 +140,7 @@ def _places() -> Iterator[Path]:
     yield from map(Path, _PLACES)
     for folder in ("PROGRAMFILES", "PROGRAMFILES(X86)", "LOCALAPPDATA"):
         if os.environ.get(folder):
-            yield from (Path(os.environ[folder], *place.split("\\")) for place in _WINDOWS)
+            yield from (Path(os.environ[folder], *path.split("\\")) for path in _WINDOWS)
 
 
 def _pictures(view: Page, file: Path, times: Iterable[float], camera: str | None) -> Iterator[bytes]:
@@ -152,9 +152,9 @@ def _pictures(view: Page, file: Path, times: Iterable[float], camera: str | None
     if problem:
         raise BrowserError(f"{file} cannot be drawn: {problem}")
     if camera is not None:
-        wrong = view.evaluate("name => window.player.camera(name)", camera)
-        if wrong:
-            raise BrowserError(str(wrong))
+        fault = view.evaluate("name => window.player.camera(name)", camera)
+        if fault:
+            raise BrowserError(str(fault))
     for time in times:
         view.evaluate("t => window.player.seek(t)", float(time))
         yield view.screenshot(animations="disabled")

@@ -39,8 +39,8 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
                 if not _fresh(page, out):  # another process may have built it meanwhile
                     build(page, out, (SCRIPT, GLTF, LICENCES), STAMP, _hash(page))
         except OSError as error:
-            why = f" in {out}: {error.strerror}." if error.strerror else f": {error}"
-            raise RuntimeError(f"The page that draws cannot be built{why}") from None
+            reason = f" in {out}: {error.strerror}." if error.strerror else f": {error}"
+            raise RuntimeError(f"The page that draws cannot be built{reason}") from None
     return out / SCRIPT
 
 

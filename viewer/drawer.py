@@ -23,10 +23,10 @@ def show(recordings: Sequence[Recording], options: Mapping[str, Any]) -> Path:
     Raises `BrowserError`: there is no browser, or no screen; `ViewerError`: the script of the page is not there.
     """
     page = Path(tempfile.mkdtemp(prefix="ali3-animation-"), "animation.html")
-    written = write_page(page, recordings, options=options).path
-    if not open_in_browser(written):
+    path = write_page(page, recordings, options=options).path
+    if not open_in_browser(path):
         raise BrowserError(
-            f"No browser can be opened here; the page is {written}, and save(path) writes it elsewhere: open it "
+            f"No browser can be opened here; the page is {path}, and save(path) writes it elsewhere: open it "
             "in a browser on any machine."
         )
-    return written
+    return path

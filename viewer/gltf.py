@@ -81,13 +81,13 @@ def write_gltf(
     scene = _checked(target, recording, rate, speed, deformation)
     check_writable(path)
     begin, span = float(recording.t[0]), float(recording.t[-1] - recording.t[0]) / speed
-    looked = chosen_times(recording.t, max(_LOOKED_AT, math.ceil(2.0 * rate * span)), recording.epoch)
-    columns = {name: recording.columns[name][looked] for name in pose_columns(scene)}
+    indices = chosen_times(recording.t, max(_LOOKED_AT, math.ceil(2.0 * rate * span)), recording.epoch)
+    columns = {name: recording.columns[name][indices] for name in pose_columns(scene)}
     scene["flexible"] = [_bent(part, number, columns) for number, part in enumerate(scene.get("flexible") or [])]
     question = {
         "scene": scene,
         "names": list(columns),
-        "count": len(looked),
+        "count": len(indices),
         "name": recording.name,
         "rate": float(rate),
         "speed": float(speed),
@@ -95,7 +95,7 @@ def write_gltf(
         "deformation": float(deformation),
         "ground": bool(road),
     }
-    numbers = [(recording.t[looked] - begin) / speed, recording.epoch[looked], *columns.values()]
+    numbers = [(recording.t[indices] - begin) / speed, recording.epoch[indices], *columns.values()]
     answer, content = _answer(question, np.array(numbers))
     if not content:
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
@@ -112,8 +112,8 @@ def write_gltf(
         notes.append(f"A second of the file is {speed:g} s of the recording.")
     if scene.get("arrows"):
         notes.append("The arrows of forces are not in a glTF file.")
-    off, turned = answer["error"]
-    return WrittenGltf(target, len(content), answer["times"], 1000.0 * off, math.degrees(turned), notes)
+    distance, angle = answer["error"]
+    return WrittenGltf(target, len(content), answer["times"], 1000.0 * distance, math.degrees(angle), notes)
 
 
 def _checked(target: Path, recording: Recording, rate: float, speed: float, deformation: float) -> dict[str, Any]:
@@ -125,8 +125,8 @@ def _checked(target: Path, recording: Recording, rate: float, speed: float, defo
         raise ViewerError(f"{recording.name!r} has no scene: there are no shapes to write to {target}.")
     limits = (("rate", rate, 1.0, MOST_RATE), ("speed", speed, 1e-6, 1e4), ("deformation", deformation, 0.0, 1e6))
     for name, value, low, high in limits:
-        good = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-        if not good or not low <= value <= high:
+        is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+        if not is_number or not low <= value <= high:
             raise ViewerError(f"The {name} is {value!r}; it must be a number from {low:g} to {high:g}.")
     return dict(recording.scene)
 
@@ -156,14 +156,14 @@ def _answer(question: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[
     except RuntimeError as error:
         raise ViewerError(f"A glTF file cannot be written. {error}") from None
     with temporary_folder() as folder:
-        question_file, written = folder / "question", folder / "written"
+        question_file, gltf_file = folder / "question", folder / "written"
         question_file.write_bytes(json.dumps(question).encode() + b"\n" + numbers.astype("<f8").tobytes())
         try:
-            done = subprocess.run([*command, str(question_file), str(written)], capture_output=True, check=False)
+            process = subprocess.run([*command, str(question_file), str(gltf_file)], capture_output=True, check=False)
         except OSError as error:
             raise ViewerError(f"A glTF file cannot be written: {command[0]} does not start: {reason(error)}.") from None
-        if done.returncode != 0:
-            lines = done.stderr.decode(errors="replace").splitlines()  # the message stands before Node's stack
-            why = next((line.strip() for line in lines if _ERROR.match(line)), " ".join(lines)[:400])
-            raise ViewerError(f"A glTF file cannot be written: the program that writes it failed ({why}).")
-        return json.loads(done.stdout), written.read_bytes() if written.exists() else b""
+        if process.returncode != 0:
+            lines = process.stderr.decode(errors="replace").splitlines()  # the message stands before Node's stack
+            fault = next((line.strip() for line in lines if _ERROR.match(line)), " ".join(lines)[:400])
+            raise ViewerError(f"A glTF file cannot be written: the program that writes it failed ({fault}).")
+        return json.loads(process.stdout), gltf_file.read_bytes() if gltf_file.exists() else b""

@@ -39,9 +39,9 @@ def morph_targets(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) 
         u, s, v = np.linalg.svd(amplitudes @ r.T, full_matrices=False)
         shapes, weights = q @ v[:MOST].T, u[:, :MOST] * s[:MOST]
     largest = np.abs(weights).max(axis=0)
-    moves = largest > 0.0
-    shapes, weights = shapes[:, moves] * largest[moves], weights[:, moves] / largest[moves]
-    looked = np.linspace(0, len(weights) - 1, min(len(weights), _SAMPLES)).astype(np.intp)
-    off = amplitudes[looked] @ modes.T - weights[looked] @ shapes.T
-    error = np.linalg.norm(off.reshape(len(looked), -1, 3), axis=2).max(initial=0.0)
+    is_moving = largest > 0.0
+    shapes, weights = shapes[:, is_moving] * largest[is_moving], weights[:, is_moving] / largest[is_moving]
+    samples = np.linspace(0, len(weights) - 1, min(len(weights), _SAMPLES)).astype(np.intp)
+    deviations = amplitudes[samples] @ modes.T - weights[samples] @ shapes.T
+    error = np.linalg.norm(deviations.reshape(len(samples), -1, 3), axis=2).max(initial=0.0)
     return MorphTargets(shapes.T.reshape(-1, len(part["nodes"]), 3), weights, float(error))

@@ -35,9 +35,12 @@ def html_of(
     """
     if not isinstance(height, int) or isinstance(height, bool) or not 200 <= height <= 4000:
         raise ViewerError(f"The height of the frame is {height!r}; it must be a whole number of pixels, 200 to 4000.")
-    shown = thinned(recordings)
-    page = page_html(shown, None, options)
-    notes = [f"This animation takes {1e-6 * len(page.encode('utf-8')):.1f} MB of the notebook.", *notes_of(shown)]
+    thinned_recordings = thinned(recordings)
+    page = page_html(thinned_recordings, None, options)
+    notes = [
+        f"This animation takes {1e-6 * len(page.encode('utf-8')):.1f} MB of the notebook.",
+        *notes_of(thinned_recordings),
+    ]
     return (
         f'<iframe srcdoc="{html.escape(page, quote=True)}" style="width:100%;height:{height}px;border:0" '
         'allow="fullscreen" sandbox="allow-scripts allow-downloads"></iframe>'

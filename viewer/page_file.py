@@ -50,11 +50,11 @@ def write_page(
         The file cannot be written; an older one is then unchanged.
     """
     check_writable(path)
-    shown = thinned(recordings, most)
-    text = page_html(shown, title, options)
+    thinned_recordings = thinned(recordings, most)
+    text = page_html(thinned_recordings, title, options)
     with atomic_file(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
-    return WrittenPage(Path(path), len(text.encode("utf-8")), notes_of(shown))
+    return WrittenPage(Path(path), len(text.encode("utf-8")), notes_of(thinned_recordings))
 
 
 def page_html(
@@ -63,15 +63,15 @@ def page_html(
     options: Mapping[str, Any] | None = None,
 ) -> str:
     """The text of the page that `write_page` writes, with all times; see there."""
-    shown = _listed(recordings)
+    recording_list = _listed(recordings)
     checked = check_options(options or {})
-    known_names = dict.fromkeys(name for recording in shown for name in recording.columns)
+    known_names = dict.fromkeys(name for recording in recording_list for name in recording.columns)
     for name in checked.get("plots", ()):
         if name not in known_names:
             near = near_names(name, known_names, closeness=0.4) or list(known_names)[:3]
             raise ViewerError(f"There is no signal {name!r} to be plotted; there is {', '.join(near) or 'none'}.")
-    data = page_data(shown, checked)
-    heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in shown))
+    data = page_data(recording_list, checked)
+    heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in recording_list))
     return html_document(heading, data, "ALi3Viewer.playPage")
 
 
@@ -84,20 +84,20 @@ def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES)
 
 
 def _listed(recordings: Recording | Sequence[Recording]) -> list[Recording]:
-    listed = [recordings] if isinstance(recordings, Recording) else list(recordings)
-    if not listed:
+    recording_list = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    if not recording_list:
         raise ViewerError("There is no recording to show.")
-    for item in listed:
+    for item in recording_list:
         if not isinstance(item, Recording):
             raise ViewerError(f"A page shows objects of the class Recording; this is one of {type(item).__name__}.")
-    return listed
+    return recording_list
 
 
 def notes_of(recordings: Sequence[Recording]) -> list[str]:
     """What there is to say of recordings, with their names where there are several."""
-    results = []
+    notes = []
     for recording in recordings:
         head = f"{recording.name}: " if len(recordings) > 1 else ""
-        results += [head + note for note in recording.notes]
-        results += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
-    return results
+        notes += [head + note for note in recording.notes]
+        notes += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
+    return notes

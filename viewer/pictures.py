@@ -45,11 +45,11 @@ def pictures(
     BrowserError
         There is no browser that draws.
     """
-    shown = thinned(recordings)
-    if all(recording.scene is None for recording in shown):
+    thinned_recordings = thinned(recordings)
+    if all(recording.scene is None for recording in thinned_recordings):
         raise ViewerError("There is nothing to draw: no recording has a scene.")
     with temporary_folder() as folder:
-        page = write_page(Path(folder, "page.html"), shown, options={"controls": False, **(options or {})})
+        page = write_page(Path(folder, "page.html"), thinned_recordings, options={"controls": False, **(options or {})})
         yield from screenshot(page.path, times, size, camera)
 
 
@@ -89,11 +89,11 @@ def write_picture(
     if Path(path).suffix.lower() != ".png":
         raise ViewerError(f"{path} would be a picture; it must end with .png.")
     check_writable(path)
-    shown = thinned(recordings)
-    begin, end = min(r.t[0] for r in shown), max(r.t[-1] for r in shown)
+    thinned_recordings = thinned(recordings)
+    begin, end = min(r.t[0] for r in thinned_recordings), max(r.t[-1] for r in thinned_recordings)
     if not begin <= time <= end:
         raise ViewerError(f"There is no picture at {time:g} s; it was recorded from {begin:g} s to {end:g} s.")
-    (picture,) = pictures(shown, [time], size, camera, options)
+    (picture,) = pictures(thinned_recordings, [time], size, camera, options)
     with atomic_file(path) as temporary:
         temporary.write_bytes(picture)
-    return notes_of(shown)
+    return notes_of(thinned_recordings)

@@ -33,14 +33,14 @@ def _without_nulls(schema: Any) -> Any:
         return [_without_nulls(item) for item in schema]
     if not isinstance(schema, dict):
         return schema
-    kept = {key: value for key, value in schema.items() if key != "discriminator" and not _title(key, value)}
-    choices = [choice for choice in kept.get("anyOf", []) if choice != {"type": "null"}]
-    if "anyOf" in kept and len(choices) < len(kept["anyOf"]):
-        del kept["anyOf"]
-        kept = ({"anyOf": choices} if len(choices) > 1 else choices[0]) | kept
-        if kept.get("default", 0) is None:
-            del kept["default"]
-    return {key: _without_nulls(value) for key, value in kept.items()}
+    entries = {key: value for key, value in schema.items() if key != "discriminator" and not _title(key, value)}
+    choices = [choice for choice in entries.get("anyOf", []) if choice != {"type": "null"}]
+    if "anyOf" in entries and len(choices) < len(entries["anyOf"]):
+        del entries["anyOf"]
+        entries = ({"anyOf": choices} if len(choices) > 1 else choices[0]) | entries
+        if entries.get("default", 0) is None:
+            del entries["default"]
+    return {key: _without_nulls(value) for key, value in entries.items()}
 
 
 def _title(key: str, value: object) -> bool:

@@ -97,19 +97,19 @@ def write_mp4(
         The file cannot be written; an older one is then unchanged.
     """
     target = Path(path)
-    shown = thinned(recordings)
-    times = _times(target, shown[0], fps, size, speed, begin, end)
+    thinned_recordings = thinned(recordings)
+    times = _times(target, thinned_recordings[0], fps, size, speed, begin, end)
     check_writable(path)
     encode = _mp4_encoder(fps, size) if target.suffix.lower() == ".mp4" else _animation_encoder(target, fps)
     with temporary_folder() as folder:
         page = Path(folder, "page.html")
-        chosen = {**(options or {}), "controls": False, "play": False}
-        write_page(page, shown, options=chosen)
+        player_options = {**(options or {}), "controls": False, "play": False}
+        write_page(page, thinned_recordings, options=player_options)
         pictures = _told(screenshot(page, times, size, camera), len(times), progress)
         with closing(pictures), atomic_file(path) as temporary:
             encode(temporary, pictures)
-            written = temporary.stat().st_size
-    return WrittenFilm(target, written, len(times), len(times) / fps, notes_of(shown))
+            file_size = temporary.stat().st_size
+    return WrittenFilm(target, file_size, len(times), len(times) / fps, notes_of(thinned_recordings))
 
 
 def _times(
@@ -152,8 +152,8 @@ def _check_number(name: str, value: object, low: float, high: float) -> None:
 
 
 def _check_size(target: Path, size: Any) -> None:
-    listed = list(size) if isinstance(size, (tuple, list)) else []
-    if len(listed) != 2 or not all(type(n) is int and 16 <= n <= 8192 for n in listed):
+    sides = list(size) if isinstance(size, (tuple, list)) else []
+    if len(sides) != 2 or not all(type(n) is int and 16 <= n <= 8192 for n in sides):
         raise ViewerError(f"The size of the film is {size!r}; it must be two numbers of pixels from 16 to 8192.")
     if target.suffix.lower() == ".mp4" and any(n % 2 for n in size):
         raise ViewerError(f"The size of the film is {size!r}; both numbers must be even for an MP4 file.")
@@ -214,10 +214,10 @@ def _animation_encoder(target: Path, fps: float) -> Callable[[Path, Iterator[Ima
     kind = target.suffix.lower()[1:]
 
     def encode(path: Path, pictures: Iterator[Image]) -> None:
-        first = next(pictures)
+        first_picture = next(pictures)
         options: dict[str, Any] = dict(_WEBP) if kind == "webp" else {"optimize": False, "disposal": 1}
         # Whole milliseconds whose sum is that of the film; a GIF has hundredths of a second.
-        first.save(
+        first_picture.save(
             path,
             format=kind.upper(),
             save_all=True,

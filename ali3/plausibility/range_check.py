@@ -101,23 +101,23 @@ class Plausibility:
         Quantities of `columns` are below those of the whole.
         """
         n = max(len(self.columns), 1)
-        whole, parts = [], []
+        rows, column_rows = [], []
         for q in dict.fromkeys(v.quantity for v in self.values):
-            own = [v for v in self.values if v.quantity is q]
-            inside = all(v.inside(self.kind) for v in own)
-            if q.shown_outside and inside:
+            row_values = [v for v in self.values if v.quantity is q]
+            is_inside = all(v.inside(self.kind) for v in row_values)
+            if q.shown_outside and is_inside:
                 continue
-            usual = (_range(q, self.kind), "" if inside else "<- outside")
-            cells = [_cell([v for v in own if v.of.startswith(side)], side) for side in self.columns]
+            range_cells = (_range(q, self.kind), "" if is_inside else "<- outside")
+            cells = [_cell([v for v in row_values if v.of.startswith(side)], side) for side in self.columns]
             if any(cells):
-                parts.append((q.name, *cells, *usual))
+                column_rows.append((q.name, *cells, *range_cells))
             else:
-                whole.append((q.name, _cell(own), *[""] * (n - 1), *usual))
-        if whole:
-            whole.insert(0, ("quantity", "value", *[""] * (n - 1), "usual", ""))
-        if parts:
-            parts.insert(0, ("" if whole else "quantity", *self.columns, "" if whole else "usual", ""))
-        return "\n".join(in_columns(whole + parts))
+                rows.append((q.name, _cell(row_values), *[""] * (n - 1), *range_cells))
+        if rows:
+            rows.insert(0, ("quantity", "value", *[""] * (n - 1), "usual", ""))
+        if column_rows:
+            column_rows.insert(0, ("" if rows else "quantity", *self.columns, "" if rows else "usual", ""))
+        return "\n".join(in_columns(rows + column_rows))
 
     def to_json(self) -> list[dict[str, Any]]:
         """A record for each value: name, of, symbol, unit, value, range (None: open), inside, follows, keys, source."""
@@ -146,23 +146,23 @@ class Plausibility:
         outside; of several the one that mends most, and of those that mend the same at most two. What no mistake
         explains is told once for what shares a key.
         """
-        left, sentences = self.outside, []
-        undone = _undone(self.mistakes, left)
-        while left:
-            names = {v.name for v in left}
-            mended = [(m, after, self._mended(names, after, m.keys)) for m, after in undone]
-            best = max((names for *_, names in mended), key=len, default=frozenset())
-            if not best:
+        outside, sentences = self.outside, []
+        undone = _undone(self.mistakes, outside)
+        while outside:
+            names = {v.name for v in outside}
+            mended = [(m, corrected, self._mended(names, corrected, m.keys)) for m, corrected in undone]
+            best_names = max((names for *_, names in mended), key=len, default=frozenset())
+            if not best_names:
                 break
-            results = [(m, after) for m, after, names in mended if names == best]
-            named = [(m, after) for m, after in results if not m.guessed] or results
-            causes, after = [m.words for m, _ in named][:MOST_CAUSES], named[0][1]
-            first = next(v for v in left if v.name in best)
-            value = next(v for v in after if v.name == first.name)
+            results = [(m, corrected) for m, corrected, names in mended if names == best_names]
+            candidates = [(m, corrected) for m, corrected in results if not m.guessed] or results
+            causes, corrected = [m.words for m, _ in candidates][:MOST_CAUSES], candidates[0][1]
+            first_value = next(v for v in outside if v.name in best_names)
+            value = next(v for v in corrected if v.name == first_value.name)
             cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
-            sentences.append(self._sentence([v for v in left if v.name in best], cause))
-            left = [v for v in left if v.name not in best]
-        for group in _sharing(left):  # what follows from the fewest names says most of the cause
+            sentences.append(self._sentence([v for v in outside if v.name in best_names], cause))
+            outside = [v for v in outside if v.name not in best_names]
+        for group in _sharing(outside):  # what follows from the fewest names says most of the cause
             sentences.append(self._sentence(sorted(group, key=lambda v: len(v.keys)), ""))
         return sentences
 
@@ -177,15 +177,15 @@ class Plausibility:
         Nor where one comes to lie less near than it was, nor what a key that it does not change has in common with
         one that stays outside.
         """
-        before = {v.name for v in self.outside}
-        wrong = {v.name for v in after if not v.inside(self.kind)}
-        own = {v.name for v in self.values if changed & set(v.keys)}
-        poor = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
-        wrong |= {v.name for v in after if v.name in own - poor and not v.mended(self.kind)}
-        mended = (names & {v.name for v in after}) - wrong
+        outside_before = {v.name for v in self.outside}
+        outside_after = {v.name for v in after if not v.inside(self.kind)}
+        affected = {v.name for v in self.values if changed & set(v.keys)}
+        marginal = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
+        outside_after |= {v.name for v in after if v.name in affected - marginal and not v.mended(self.kind)}
+        mended = (names & {v.name for v in after}) - outside_after
         outside_keys = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
         mended -= {v.name for v in self.outside if outside_keys & set(v.keys)}
-        return frozenset() if wrong & own or wrong - before else frozenset(mended)
+        return frozenset() if outside_after & affected or outside_after - outside_before else frozenset(mended)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity
@@ -206,25 +206,25 @@ class Plausibility:
 def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which of some values are the one that lies farther from the others than ten times their range."""
     levels = np.unique(values)
-    for level, rest in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
-        if len(rest) >= FEWEST_OTHERS and np.abs(level - rest).min() > 10.0 * np.ptp(rest) > 0.0:
+    for level, remaining in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
+        if len(remaining) >= FEWEST_OTHERS and np.abs(level - remaining).min() > 10.0 * np.ptp(remaining) > 0.0:
             return np.asarray(values == level)
     return np.zeros(values.shape, bool)
 
 
 def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
     keys = {key for v in outside for key in v.keys}
-    tried = ((m, m.undo()) for m in mistakes if m.keys & keys)
-    return [(m, after) for m, after in tried if after is not None]
+    corrections = ((m, m.undo()) for m in mistakes if m.keys & keys)
+    return [(m, corrected) for m, corrected in corrections if corrected is not None]
 
 
 def _sharing(values: Sequence[Value]) -> list[list[Value]]:
     """Values in groups, each with those that share a key with its first; of one quantity, all."""
-    many = {q for q, times in Counter(v.quantity for v in values).items() if times > 1}
+    repeated = {q for q, times in Counter(v.quantity for v in values).items() if times > 1}
     groups: list[list[Value]] = []
     for v in values:
         for group in groups:
-            if set(group[0].keys) & set(v.keys) or (v.quantity in many and v.quantity is group[0].quantity):
+            if set(group[0].keys) & set(v.keys) or (v.quantity in repeated and v.quantity is group[0].quantity):
                 group.append(v)
                 break
         else:

@@ -36,11 +36,11 @@ class Summarised:
 
 def summary_of(plausibilities: Sequence[Plausibility]) -> str:
     """Tables of text, each below its title; those of the same quantities are columns of one."""
-    alike: dict[frozenset[Quantity], list[Plausibility]] = {}
+    groups: dict[frozenset[Quantity], list[Plausibility]] = {}
     for plausibility in plausibilities:
         if plausibility.values:
-            alike.setdefault(frozenset(v.quantity for v in plausibility.values), []).append(plausibility)
-    return "\n\n".join(f"{one.title}\n{one.text()}".lstrip("\n") for one in map(_beside, alike.values()))
+            groups.setdefault(frozenset(v.quantity for v in plausibility.values), []).append(plausibility)
+    return "\n\n".join(f"{group.title}\n{group.text()}".lstrip("\n") for group in map(_beside, groups.values()))
 
 
 def _beside(plausibilities: Sequence[Plausibility]) -> Plausibility:

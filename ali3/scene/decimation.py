@@ -22,13 +22,13 @@ def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) 
     """
     if len(t) <= most:
         return np.arange(len(t))
-    before = np.flatnonzero((t[1:] == t[:-1]) | (epoch[1:] != epoch[:-1]))
-    steps = np.union1d(before, before + 1)
+    indices_before = np.flatnonzero((t[1:] == t[:-1]) | (epoch[1:] != epoch[:-1]))
+    steps = np.union1d(indices_before, indices_before + 1)
     if len(steps) > most // 2:
         steps = steps[:0]
     grid = np.linspace(t[0], t[-1], most - len(steps))
-    after = np.clip(np.searchsorted(t, grid), 1, len(t) - 1)
-    nearest = np.where(grid - t[after - 1] < t[after] - grid, after - 1, after)
+    indices_after = np.clip(np.searchsorted(t, grid), 1, len(t) - 1)
+    nearest = np.where(grid - t[indices_after - 1] < t[indices_after] - grid, indices_after - 1, indices_after)
     nearest[0], nearest[-1] = 0, len(t) - 1
     return np.union1d(nearest, steps)
 
@@ -55,36 +55,42 @@ def largest_gap_of_motion(
     epoch : array of shape (n,)
         Where it changes between two kept times, the drawing stands still.
     """
-    looked = np.unique(np.linspace(0, len(t) - 1, min(len(t), _LOOKED_AT)).astype(np.intp))
-    left = np.clip(np.searchsorted(kept, looked, side="right") - 1, 0, len(kept) - 2)
-    a, b = kept[left], kept[left + 1]
-    step = t[b] - t[a]
-    share = np.divide(t[looked] - t[a], step, out=np.zeros(len(looked)), where=(step > 0.0) & (epoch[a] == epoch[b]))
-    far, turned, moves, turns = 0.0, 0.0, "", ""
+    samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _LOOKED_AT)).astype(np.intp))
+    intervals = np.clip(np.searchsorted(kept, samples, side="right") - 1, 0, len(kept) - 2)
+    a, b = kept[intervals], kept[intervals + 1]
+    durations = t[b] - t[a]
+    share = np.divide(
+        t[samples] - t[a], durations, out=np.zeros(len(samples)), where=(durations > 0.0) & (epoch[a] == epoch[b])
+    )
+    largest_distance, largest_angle, distance_frame, angle_frame = 0.0, 0.0, "", ""
     for name, frame in scene["frames"].items():
         if "position" in frame:
-            square = np.zeros(len(looked))
+            squared_distance = np.zeros(len(samples))
             for column in frame["position"]:
                 x = columns[column]
-                square += (x[looked] - (x[a] + share * (x[b] - x[a]))) ** 2
-            off = float(np.sqrt(_largest(square)))
-            far, moves = (off, name) if off > far else (far, moves)
+                squared_distance += (x[samples] - (x[a] + share * (x[b] - x[a]))) ** 2
+            distance = float(np.sqrt(_largest(squared_distance)))
+            largest_distance, distance_frame = (
+                (distance, name) if distance > largest_distance else (largest_distance, distance_frame)
+            )
             q = np.stack([columns[column] for column in frame["quaternion"]])
-            angle = _turn_off(q[:, a], q[:, b], q[:, looked], share)
+            angle = _turn_off(q[:, a], q[:, b], q[:, samples], share)
         elif "angle" in frame or "way" in frame:
             x = columns[frame.get("angle", frame.get("way"))]
-            angle = off = _largest(np.abs(x[looked] - (x[a] + share * (x[b] - x[a]))))
+            angle = distance = _largest(np.abs(x[samples] - (x[a] + share * (x[b] - x[a]))))
             if "way" in frame:
                 angle = 0.0
-                far, moves = (off, name) if off > far else (far, moves)
+                largest_distance, distance_frame = (
+                    (distance, name) if distance > largest_distance else (largest_distance, distance_frame)
+                )
         else:
             continue
-        turned, turns = (angle, name) if angle > turned else (turned, turns)
+        largest_angle, angle_frame = (angle, name) if angle > largest_angle else (largest_angle, angle_frame)
     notes = []
-    if far > _FAR * scene["extent"]:
-        notes.append(f"the place of {moves!r} by up to {far:.2g} m")
-    if turned > _TURNED:
-        notes.append(f"the direction of {turns!r} by up to {np.degrees(turned):.2g} deg")
+    if largest_distance > _FAR * scene["extent"]:
+        notes.append(f"the place of {distance_frame!r} by up to {largest_distance:.2g} m")
+    if largest_angle > _TURNED:
+        notes.append(f"the direction of {angle_frame!r} by up to {np.degrees(largest_angle):.2g} deg")
     return f" Between them the drawing differs from the record: {', '.join(notes)}." if notes else ""
 
 
@@ -96,18 +102,18 @@ def _turn_off(
         a, b, q = (x / np.linalg.norm(x, axis=0) for x in (a, b, q))
         dot = np.einsum("in,in->n", a, b)
         b = np.where(dot < 0.0, -b, b)
-        half = np.arccos(np.clip(np.abs(dot), 0.0, 1.0))
-        small = half < 1e-6
-        sine = np.where(small, 1.0, np.sin(half))
-        first = np.where(small, 1.0 - share, np.sin((1.0 - share) * half) / sine)
-        second = np.where(small, share, np.sin(share * half) / sine)
-        between = first * a + second * b
-        between /= np.linalg.norm(between, axis=0)
+        half_angle = np.arccos(np.clip(np.abs(dot), 0.0, 1.0))
+        small = half_angle < 1e-6
+        sine = np.where(small, 1.0, np.sin(half_angle))
+        weight_a = np.where(small, 1.0 - share, np.sin((1.0 - share) * half_angle) / sine)
+        weight_b = np.where(small, share, np.sin(share * half_angle) / sine)
+        interpolated = weight_a * a + weight_b * b
+        interpolated /= np.linalg.norm(interpolated, axis=0)
         # The chord keeps what the arc cosine of a number near 1 loses.
-        chord = np.minimum(np.linalg.norm(between - q, axis=0), np.linalg.norm(between + q, axis=0))
+        chord = np.minimum(np.linalg.norm(interpolated - q, axis=0), np.linalg.norm(interpolated + q, axis=0))
         return _largest(4.0 * np.arcsin(np.clip(0.5 * chord, 0.0, 1.0)))
 
 
 def _largest(values: NDArray[np.float64]) -> float:
-    good = values[np.isfinite(values)]
-    return float(good.max(initial=0.0))
+    finite_values = values[np.isfinite(values)]
+    return float(finite_values.max(initial=0.0))

@@ -94,14 +94,14 @@ def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = 
         raise MeshError(f"{path} is not a mesh: its points do not have three coordinates each.")
     if triangles.min() < 0 or triangles.max() >= len(points):
         raise MeshError(f"{path} is not a mesh: a triangle refers to a point that does not exist.")
-    used = points[triangles]
-    largest = float(np.finfo(np.float32).max)
-    bad = int((~(np.abs(used) < largest).all(axis=(1, 2))).sum())
-    if bad:
+    corners = points[triangles]
+    largest_float = float(np.finfo(np.float32).max)
+    n_bad = int((~(np.abs(corners) < largest_float).all(axis=(1, 2))).sum())
+    if n_bad:
         raise MeshError(
-            f"{path} is not a mesh: {bad} of its {len(triangles)} triangles have coordinates that are not numbers."
+            f"{path} is not a mesh: {n_bad} of its {len(triangles)} triangles have coordinates that are not numbers."
         )
-    return used
+    return corners
 
 
 def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
@@ -111,17 +111,17 @@ def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
 
 
 def _load(file: Path, extra: str) -> trimesh.Trimesh:
-    kind = file.suffix.lower()
-    options = {"skip_materials": True} if kind == ".obj" else {}
+    suffix = file.suffix.lower()
+    options = {"skip_materials": True} if suffix == ".obj" else {}
     content = read_bytes(file, _LARGEST)
     with read_by_library(str(file), MeshError, "be read as a mesh", extra):
         import trimesh
 
-        if kind in (".gltf", ".glb"):
+        if suffix in (".gltf", ".glb"):
             check_memory(_gltf_memory(content, str(file)), MeshError, str(file))
         # `process` would remove what is not finite without a word.
         return trimesh.load_mesh(
-            BytesIO(content), file_type=kind[1:], resolver=_NamedBytes(file), process=False, **options
+            BytesIO(content), file_type=suffix[1:], resolver=_NamedBytes(file), process=False, **options
         )
 
 
@@ -147,8 +147,8 @@ def _gltf_memory(content: bytes, name: str) -> int:
     counts: list[int] = [int(accessor["count"]) for accessor in document.get("accessors", [])]
     sizes: list[int] = []
     for mesh in document.get("meshes", []):
-        used = [k for part in mesh["primitives"] for k in (part.get("indices"), *part["attributes"].values())]
-        sizes.append(sum(counts[k] for k in used if k is not None))
+        accessors = [k for part in mesh["primitives"] for k in (part.get("indices"), *part["attributes"].values())]
+        sizes.append(sum(counts[k] for k in accessors if k is not None))
     placed: list[int] = [sizes[node["mesh"]] for node in document.get("nodes", []) if "mesh" in node]
     return _OF_POINT * (sum(counts) + sum(placed))
 
@@ -169,24 +169,24 @@ def _thinned(
     path: str | os.PathLike[str], points: NDArray[np.float64], triangles: NDArray[np.int64], most: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Merge the points of each cube of a grid, which is made coarser until few enough triangles are left."""
-    low, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
+    lower, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
     cells = math.sqrt(most)
     while True:
-        cubes = np.floor((points - low) * (cells / size)).astype(np.int64)
+        cubes = np.floor((points - lower) * (cells / size)).astype(np.int64)
         _, index = np.unique(cubes, axis=0, return_inverse=True)
         index = index.ravel()
         count = np.bincount(index)
         merged = np.column_stack([np.bincount(index, points[:, k]) / count for k in range(3)])
         proper = _proper(index[triangles])
-        _, first = np.unique(np.sort(proper, axis=1), axis=0, return_index=True)
-        if len(first) <= most:
+        _, retained = np.unique(np.sort(proper, axis=1), axis=0, return_index=True)
+        if len(retained) <= most:
             break
         cells *= 0.8
-    moved = float(np.linalg.norm(merged[index] - points, axis=1).max())
+    largest_shift = float(np.linalg.norm(merged[index] - points, axis=1).max())
     warnings.warn(
-        f"The mesh {path} has {len(triangles)} triangles and is drawn with {len(first)}: "
-        f"points that are close to each other were merged and moved by up to {1000.0 * moved:.3g} mm.",
+        f"The mesh {path} has {len(triangles)} triangles and is drawn with {len(retained)}: "
+        f"points that are close to each other were merged and moved by up to {1000.0 * largest_shift:.3g} mm.",
         UserWarning,
         stacklevel=3,
     )
-    return merged, proper[np.sort(first)]
+    return merged, proper[np.sort(retained)]

@@ -104,15 +104,15 @@ class Recording:
         count = len(self.t)
         if count <= most:
             return self
-        kept = chosen_times(self.t, int(most), self.epoch)
+        indices = chosen_times(self.t, int(most), self.epoch)
         shorter = object.__new__(Recording)
         shorter.name, shorter.scene, shorter.units, shorter.missing = self.name, self.scene, self.units, self.missing
-        shorter.t, shorter.epoch = self.t[kept], self.epoch[kept]
-        shorter.columns = {name: values[kept] for name, values in self.columns.items()}
+        shorter.t, shorter.epoch = self.t[indices], self.epoch[indices]
+        shorter.columns = {name: values[indices] for name, values in self.columns.items()}
         span = float(self.t[-1] - self.t[0])
-        note = f"{len(kept)} of {count} times are shown, one every {span / (len(kept) - 1):.2g} s."
+        note = f"{len(indices)} of {count} times are shown, one every {span / (len(indices) - 1):.2g} s."
         if self.scene is not None:
-            note += largest_gap_of_motion(self.scene, self.t, self.columns, kept, self.epoch)
+            note += largest_gap_of_motion(self.scene, self.t, self.columns, indices, self.epoch)
         shorter.notes = [*self.notes, note]
         return shorter
 
@@ -129,20 +129,20 @@ class Recording:
         ViewerError
             There is no recorded time between them.
         """
-        kept = (self.t >= begin) & (self.t <= end)
-        if not kept.any():
+        is_between = (self.t >= begin) & (self.t <= end)
+        if not is_between.any():
             raise ViewerError(
                 f"There is no time from {begin:g} s to {end:g} s in {self.name!r}; it was recorded from "
                 f"{self.t[0]:g} s to {self.t[-1]:g} s."
             )
-        part = object.__new__(Recording)
-        part.__dict__ |= self.__dict__ | {
-            "t": self.t[kept],
-            "epoch": self.epoch[kept],
-            "columns": {name: values[kept] for name, values in self.columns.items()},
+        section = object.__new__(Recording)
+        section.__dict__ |= self.__dict__ | {
+            "t": self.t[is_between],
+            "epoch": self.epoch[is_between],
+            "columns": {name: values[is_between] for name, values in self.columns.items()},
             "notes": list(self.notes),
         }
-        return part
+        return section
 
     def __repr__(self) -> str:
         span = f"{len(self.t)} times from {self.t[0]:g} s to {self.t[-1]:g} s"
@@ -152,17 +152,17 @@ class Recording:
 
     def _take(self, scene: dict[str, Any]) -> None:
         """Take out of the scene what the columns do not move, and say so."""
-        needed = pose_columns(scene)
-        if needed and not any(name in self.columns for name in needed):
+        needed_columns = pose_columns(scene)
+        if needed_columns and not any(name in self.columns for name in needed_columns):
             self.notes.append(
-                f"{scene['name']} is not drawn: the result has none of its poses, such as the column '{needed[0]}'; "
-                "its signals can be plotted."
+                f"{scene['name']} is not drawn: the result has none of its poses, such as the column "
+                f"'{needed_columns[0]}'; its signals can be plotted."
             )
             self._note_gaps(self.columns)
             return
-        for name in needed:
+        for name in needed_columns:
             self._cut(name)
-        empty = {name for name in needed if name in self.columns and not _any_number(self.columns[name])}
+        empty = {name for name in needed_columns if name in self.columns and not _any_number(self.columns[name])}
 
         def fault(name: str) -> str | None:
             if name not in self.columns:
@@ -184,47 +184,51 @@ class Recording:
         if "start" in frame or "position" not in frame:
             return frame
         names = [*frame["position"], *frame["quaternion"]]
-        good = np.logical_and.reduce([np.isfinite(self.columns[name]) for name in names])
-        if not good.any():
+        is_finite = np.logical_and.reduce([np.isfinite(self.columns[name]) for name in names])
+        if not is_finite.any():
             return frame
-        first = [float(self.columns[name][good.argmax()]) for name in names]
-        return frame | {"start": [first[:3], first[3:]]}
+        first_pose = [float(self.columns[name][is_finite.argmax()]) for name in names]
+        return frame | {"start": [first_pose[:3], first_pose[3:]]}
 
     def _note_gaps(self, names: Any) -> None:
         gaps: dict[bytes, list[str]] = {}
         for name in names:
-            if (bad := ~np.isfinite(self.columns[name])).any():
-                gaps.setdefault(bad.tobytes(), []).append(name)
-        for mask, who in gaps.items():
-            bad = np.frombuffer(mask, bool)
-            more = f" and {len(who) - _NAMED} more" if len(who) > _NAMED else ""
-            listed = ", ".join(f"'{name}'" for name in who[:_NAMED]) + more
+            if (is_gap := ~np.isfinite(self.columns[name])).any():
+                gaps.setdefault(is_gap.tobytes(), []).append(name)
+        for mask, column_names in gaps.items():
+            is_gap = np.frombuffer(mask, bool)
+            more = f" and {len(column_names) - _NAMED} more" if len(column_names) > _NAMED else ""
+            names_text = ", ".join(f"'{name}'" for name in column_names[:_NAMED]) + more
             self.notes.append(
-                f"The column{'s' * (len(who) > 1)} {listed} {'have each' if len(who) > 1 else 'has'} {bad.sum()} of "
-                f"{len(self.t)} values that are not numbers, the first at {self.t[bad.argmax()]:g} s; there is nothing "
-                "drawn for them."
+                f"The column{'s' * (len(column_names) > 1)} {names_text} "
+                f"{'have each' if len(column_names) > 1 else 'has'} {is_gap.sum()} of {len(self.t)} values that are "
+                f"not numbers, the first at {self.t[is_gap.argmax()]:g} s; there is nothing drawn for them."
             )
 
     def _cut(self, name: str) -> None:
         """Take out numbers of poses that no picture can hold, and say so."""
         values = self.columns.get(name)
-        if values is None or not (wild := np.abs(values) > _LARGEST).any():
+        if values is None or not (is_too_large := np.abs(values) > _LARGEST).any():
             return
-        self.columns[name] = np.where(wild, np.nan, values)
-        self.notes.append(f"The column '{name}' has {int(wild.sum())} of {len(wild)} values beyond {_LARGEST:g}.")
+        self.columns[name] = np.where(is_too_large, np.nan, values)
+        self.notes.append(
+            f"The column '{name}' has {int(is_too_large.sum())} of {len(is_too_large)} values beyond {_LARGEST:g}."
+        )
 
     def _unwrap(self, name: str) -> None:
         """An angle that was given within one turn becomes continuous, so that it can be interpolated and thinned."""
         angle = self.columns[name]
-        good = np.isfinite(angle)
-        if not good.any():
+        is_finite = np.isfinite(angle)
+        if not is_finite.any():
             return
-        low, high = float(angle[good].min()), float(angle[good].max())
-        within = (low >= -0.5 * _TURN - 1e-6 and high <= 0.5 * _TURN + 1e-6) or (low >= -1e-6 and high <= _TURN + 1e-6)
-        values = angle[good]
-        if within and np.abs(np.diff(values)).max(initial=0.0) > 0.5 * _TURN:
+        low, high = float(angle[is_finite].min()), float(angle[is_finite].max())
+        is_within_turn = (low >= -0.5 * _TURN - 1e-6 and high <= 0.5 * _TURN + 1e-6) or (
+            low >= -1e-6 and high <= _TURN + 1e-6
+        )
+        values = angle[is_finite]
+        if is_within_turn and np.abs(np.diff(values)).max(initial=0.0) > 0.5 * _TURN:
             self.columns[name] = angle.copy()
-            self.columns[name][good] = np.unwrap(values)
+            self.columns[name][is_finite] = np.unwrap(values)
             self.notes.append(f"The column '{name}' was given within one turn; it is shown as a continuous angle.")
 
 
@@ -238,9 +242,9 @@ def _times(t: ArrayLike, name: str) -> NDArray[np.float64]:
     if not np.isfinite(times).all():
         k = int((~np.isfinite(times)).argmax())
         raise ViewerError(f"The times of {name!r} must be numbers; time {k} (from 0 on) is {times[k]}.")
-    back = np.diff(times) < 0.0
-    if back.any():
-        k = int(back.argmax())
+    decreases = np.diff(times) < 0.0
+    if decreases.any():
+        k = int(decreases.argmax())
         raise ViewerError(
             f"The times of {name!r} go back from {times[k]:g} s to {times[k + 1]:g} s; they must not decrease."
         )
@@ -248,14 +252,14 @@ def _times(t: ArrayLike, name: str) -> NDArray[np.float64]:
 
 
 def _column(name: str, values: ArrayLike, count: int) -> NDArray[np.float64]:
-    result = np.asarray(values)
-    if result.dtype.kind not in "fiub":
-        raise ViewerError(f"The column {name!r} contains no numbers, but {result.dtype}.")
-    if result.shape != (count,):
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise ViewerError(f"The column {name!r} contains no numbers, but {array.dtype}.")
+    if array.shape != (count,):
         raise ViewerError(
-            f"The column {name!r} has the shape {result.shape}; there are {count} times, so it must be ({count},)."
+            f"The column {name!r} has the shape {array.shape}; there are {count} times, so it must be ({count},)."
         )
-    return result.astype(np.float64, copy=False)
+    return array.astype(np.float64, copy=False)
 
 
 def _any_number(values: NDArray[np.float64]) -> bool:

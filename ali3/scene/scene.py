@@ -91,8 +91,8 @@ def plain_scene(scene: Any) -> Any:
 def _plain(value: Any, by_name: bool) -> Any:
     """Tables whose keys are names of the user's keep them all."""
     if isinstance(value, Mapping):
-        kept = {key: item for key, item in value.items() if by_name or item is not None}
-        return {key: _plain(item, not by_name and key in ("frames", "meshes")) for key, item in kept.items()}
+        entries = {key: item for key, item in value.items() if by_name or item is not None}
+        return {key: _plain(item, not by_name and key in ("frames", "meshes")) for key, item in entries.items()}
     if isinstance(value, (list, tuple)):
         return [_plain(item, False) for item in value]
     return value

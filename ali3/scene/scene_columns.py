@@ -28,8 +28,8 @@ def pose_columns(scene: Mapping[str, Any]) -> list[str]:
 def all_columns(scene: Mapping[str, Any]) -> list[str]:
     """Columns that any part of a scene reads, each once."""
     gauges = [gauge for part in scene.get("flexible") or [] for gauge in part.get("gauges") or []]
-    read = [name for part in (*(scene.get("arrows") or []), *gauges) for name in columns_of(part)]
-    return list(dict.fromkeys([*pose_columns(scene), *read]))
+    columns = [name for part in (*(scene.get("arrows") or []), *gauges) for name in columns_of(part)]
+    return list(dict.fromkeys([*pose_columns(scene), *columns]))
 
 
 def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tuple[dict[str, Any], dict[str, str]]:
@@ -49,40 +49,40 @@ def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tu
     def lacks(part: Mapping[str, Any]) -> str | None:
         return next((reason for name in columns_of(part) if (reason := fault(name)) is not None), None)
 
-    lost: dict[str, str] = {}
-    waiting = dict(scene["frames"])
-    while waiting:  # a frame stands on others that are decided before it
-        for name, frame in list(waiting.items()):
-            if any(other in waiting for other in frames_of(frame)):
+    faulty_frames: dict[str, str] = {}
+    undecided_frames = dict(scene["frames"])
+    while undecided_frames:  # a frame stands on others that are decided before it
+        for name, frame in list(undecided_frames.items()):
+            if any(parent in undecided_frames for parent in frames_of(frame)):
                 continue
-            del waiting[name]
-            on = next((other for other in frames_of(frame) if other in lost), None)
-            reason = lacks(frame) or (lost[on] if on is not None else None)
+            del undecided_frames[name]
+            faulty_parent = next((parent for parent in frames_of(frame) if parent in faulty_frames), None)
+            reason = lacks(frame) or (faulty_frames[faulty_parent] if faulty_parent is not None else None)
             if reason is not None:
-                lost[name] = reason
+                faulty_frames[name] = reason
                 why[name] = reason
 
     def stands(part: Mapping[str, Any]) -> bool:
-        return not any(other in lost for other in frames_of(part))
+        return not any(parent in faulty_frames for parent in frames_of(part))
 
-    drawn: dict[str, Any] = dict(scene)
-    drawn["frames"] = {name: frame for name, frame in scene["frames"].items() if name not in lost}
-    drawn["shapes"] = []
+    drawable_scene: dict[str, Any] = dict(scene)
+    drawable_scene["frames"] = {name: frame for name, frame in scene["frames"].items() if name not in faulty_frames}
+    drawable_scene["shapes"] = []
     for shape in scene["shapes"]:
         if stands(shape):
-            drawn["shapes"].append(shape)
+            drawable_scene["shapes"].append(shape)
             continue
         body = shape.get("body") or shape.get("name")
         if body is not None and body not in why:
-            why[body] = next(lost[other] for other in frames_of(shape) if other in lost)
+            why[body] = next(faulty_frames[parent] for parent in frames_of(shape) if parent in faulty_frames)
     for key, noun in (("flexible", "deformation of"), ("arrows", "arrow")):
-        drawn[key] = []
+        drawable_scene[key] = []
         for part in scene.get(key) or []:
             reason = lacks(part)
             if reason is None and stands(part):
-                drawn[key].append(part)
+                drawable_scene[key].append(part)
             elif reason is not None:
                 why[f"{noun} {part.get('name') or part.get('frame', '')}"] = reason
-    if drawn.get("focus", "") not in ("", GROUND, *drawn["frames"]):
-        drawn["focus"] = ""
-    return drawn, why
+    if drawable_scene.get("focus", "") not in ("", GROUND, *drawable_scene["frames"]):
+        drawable_scene["focus"] = ""
+    return drawable_scene, why

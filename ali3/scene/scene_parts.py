@@ -10,12 +10,12 @@ def anchors_of(shape: Mapping[str, Any]) -> list[Any]:
     """Points of other frames that a shape or an arrow lies on."""
     if "frame" in shape:
         return []
-    ends = shape.get("points") or shape.get("ends") or shape.get("between") or []
-    return [*ends, *([shape["at"]] if shape.get("vector") else [])]
+    anchors = shape.get("points") or shape.get("ends") or shape.get("between") or []
+    return [*anchors, *([shape["at"]] if shape.get("vector") else [])]
 
 
 def frames_of(part: Mapping[str, Any]) -> list[str]:
     """Frames that a shape, an arrow, a flexible part or a frame needs."""
-    named = [part[key] for key in ("frame", "parent", "axes") if isinstance(part.get(key), str)]
+    frames = [part[key] for key in ("frame", "parent", "axes") if isinstance(part.get(key), str)]
     anchors = part["on"] if "on" in part else anchors_of(part)
-    return [*named, *(anchor[0] for anchor in anchors)]
+    return [*frames, *(anchor[0] for anchor in anchors)]

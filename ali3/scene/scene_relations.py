@@ -49,15 +49,15 @@ def _no_frame(scene: Mapping[str, Any], path: tuple[str | int, ...], name: str) 
 
 def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
     frames = _known(scene)
-    good = True
+    frames_exist = True
     for name, frame in scene["frames"].items():
         path = ("frames", name)
         if name == GROUND:
             yield f"{place(path)} is given; the frame 'ground' is there always: earth axes."
-        for other in frames_of(frame):
-            if other not in frames:
-                good = False
-                yield _no_frame(scene, (*path, "parent" if "parent" in frame else "on"), other)
+        for needed_frame in frames_of(frame):
+            if needed_frame not in frames:
+                frames_exist = False
+                yield _no_frame(scene, (*path, "parent" if "parent" in frame else "on"), needed_frame)
         for key in ("axis", "direction"):
             if key in frame:
                 yield from _direction(frame[key], (*path, key))
@@ -65,22 +65,22 @@ def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
             yield from _direction(frame["start"][1], (*path, "start", 1))
         if "points" in frame:
             a, b, c = (np.array(p, float) for p in frame["points"])
-            least = 1e-9 * np.maximum(np.linalg.norm(b - a), 1e-12) ** 2
-            if not least < np.linalg.norm(np.cross(b - a, c - a)):
+            least_area = 1e-9 * np.maximum(np.linalg.norm(b - a), 1e-12) ** 2
+            if not least_area < np.linalg.norm(np.cross(b - a, c - a)):
                 yield f"{place((*path, 'points'))} lie on a line; three points of a plane are needed."
-    if good:
+    if frames_exist:
         yield from _circles(scene)
 
 
 def _circles(scene: Mapping[str, Any]) -> Iterator[str]:
-    done = {GROUND}
+    resolved = {GROUND}
     remaining = dict(scene["frames"])
     while remaining:
-        ready = [name for name, frame in remaining.items() if done.issuperset(frames_of(frame))]
+        ready = [name for name, frame in remaining.items() if resolved.issuperset(frames_of(frame))]
         if not ready:
             yield f"{place(('frames', next(iter(remaining))))} stands on itself through other frames."
             return
-        done.update(ready)
+        resolved.update(ready)
         for name in ready:
             del remaining[name]
 
@@ -167,8 +167,8 @@ def _flexible(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str
             yield f"{place((*path, 'beams', k))} names node {max(beam)}; the largest is {nodes - 1}."
     for k, gauge in enumerate(part.get("gauges") or []):
         if max(gauge["nodes"]) >= nodes:
-            where = place((*path, "gauges", k, "nodes"))
-            yield f"{where} names node {max(gauge['nodes'])}; the largest is {nodes - 1}."
+            location = place((*path, "gauges", k, "nodes"))
+            yield f"{location} names node {max(gauge['nodes'])}; the largest is {nodes - 1}."
     stress = part.get("stress")
     if stress is not None:
         if stress.get("rule") == "round" and stress["fibres"] != 3:
@@ -201,15 +201,15 @@ def _terrain(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[s
     for k, patch in enumerate(road["patches"]):
         size = patch["shape"][0] * patch["shape"][1]
         yield from _array(patch["heights"], "f", (*path, "patches", k, "heights"), size)
-    surface, where = road["surface"], (*path, "surface")
-    yield from _length(len(surface["frictions"]), len(surface["names"]), (*where, "frictions"), "name")
+    surface, prefix = road["surface"], (*path, "surface")
+    yield from _length(len(surface["frictions"]), len(surface["names"]), (*prefix, "frictions"), "name")
     try:
         cells = octets(surface["classes"])
     except ValueError as error:
-        yield f"{place((*where, 'classes'))} {error}."
+        yield f"{place((*prefix, 'classes'))} {error}."
         return
     size = surface["shape"][0] * surface["shape"][1]
     if len(cells) != size:
-        yield f"{place((*where, 'classes'))} has {len(cells)} numbers; it must have {size}."
+        yield f"{place((*prefix, 'classes'))} has {len(cells)} numbers; it must have {size}."
     elif cells.max() >= len(surface["names"]):
-        yield f"{place((*where, 'classes'))} names surface {cells.max()}; the largest is {len(surface['names']) - 1}."
+        yield f"{place((*prefix, 'classes'))} names surface {cells.max()}; the largest is {len(surface['names']) - 1}."

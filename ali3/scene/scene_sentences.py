@@ -71,20 +71,20 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
         if item["type"] == MISSING and isinstance(item["loc"][-1], int):
             path = _path(scene, item["loc"])[:-1]
             lengths[path] = max(lengths.get(path, 0), item["loc"][-1] + 1)
-    lost = {_path(scene, item["loc"]) for item in items if item["type"] == MISSING}
+    missing_paths = {_path(scene, item["loc"]) for item in items if item["type"] == MISSING}
     results: list[str] = []
     for item in items:
         path = _path(scene, item["loc"])
         if item["type"] == UNKNOWN:
-            keys = [other[-1] for other in lost if other[:-1] == path[:-1]]
+            keys = [other[-1] for other in missing_paths if other[:-1] == path[:-1]]
             near = _near(str(path[-1]), keys) or _near(str(path[-1]), _keys(item["loc"]))
             if near is not None:
-                lost.discard((*path[:-1], near))
+                missing_paths.discard((*path[:-1], near))
                 results.append(f"{place(path)} is not known; did you mean '{near}'?")
             else:
                 known_names = ", ".join(_keys(item["loc"]))
                 results.append(f"{place(path)} is not known; the keys of {place(path[:-1])} are {known_names}.")
-        elif item["type"] != MISSING or path in lost:
+        elif item["type"] != MISSING or path in missing_paths:
             results.append(_sentence(scene, item, path, lengths))
     return list(dict.fromkeys(results))
 
@@ -100,8 +100,8 @@ def _sentence(
     """Sentence for one fault. `item`: as pydantic reports it; `lengths`: least lengths of lists that are too short."""
     kind, value = item["type"], item["input"]
     if kind == MISSING and isinstance(path[-1], str):
-        why = _description(item["loc"])
-        return f"{place(path)} is missing{f': {why}' if why else ''}."
+        description = _description(item["loc"])
+        return f"{place(path)} is missing{f': {description}' if description else ''}."
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         return _choice_sentence(item, path)
     if kind in (MISSING, "too_short", "too_long"):
@@ -113,8 +113,8 @@ def _sentence(
         requirement = "a text that is not empty"
     else:
         requirement = str(item["msg"])
-        for theirs, ours in _REPLACEMENTS:
-            requirement = re.sub(theirs, ours, requirement)
+        for pattern, replacement in _REPLACEMENTS:
+            requirement = re.sub(pattern, replacement, requirement)
     if key:
         return f"{place(path[:-1])} has the key {value_text(value)}; it must be {requirement}."
     return f"{place(path)} is {value_text(value)}; it must be {requirement}."
@@ -131,12 +131,12 @@ def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
         unknown = next((key for key in entry if key not in ("name", "unit", "start")), None)
         hint = "" if unknown is None else f" ({brief(str(unknown))} is not known)"
         return f"{place(path)} must have {_CHOICES[path[:1]]}{hint}."
-    known = item.get("ctx", {}).get("expected_tags") or ", ".join(map(repr, _kinds_at(path)))
-    where = place((*path, "kind"))
+    kinds_text = item.get("ctx", {}).get("expected_tags") or ", ".join(map(repr, _kinds_at(path)))
+    location = place((*path, "kind"))
     if "kind" in entry:
-        return f"{where} is {value_text(entry['kind'])}; it must be one of {known}."
+        return f"{location} is {value_text(entry['kind'])}; it must be one of {kinds_text}."
     near = _near("kind", list(map(str, entry)))
-    return f"{where} is missing{f' ({near!r} is not known)' if near else ''}; it is one of {known}."
+    return f"{location} is missing{f' ({near!r} is not known)' if near else ''}; it is one of {kinds_text}."
 
 
 def _length_sentence(
@@ -147,8 +147,8 @@ def _length_sentence(
     limits = item.get("ctx", {})
     count = limits.get("max_length", limits.get("min_length", lengths.get(path)))
     at_least = "at least " if item["type"] == "too_short" and "min_length" in limits else ""
-    right = ", too few" if count is None else f"; it must have {at_least}{count}"
-    return f"{place(path)} has {len(_at(scene, path))} entries{right}."
+    requirement = ", too few" if count is None else f"; it must have {at_least}{count}"
+    return f"{place(path)} has {len(_at(scene, path))} entries{requirement}."
 
 
 def _at(scene: Any, path: Sequence[str | int]) -> Any:
@@ -162,12 +162,12 @@ def _path(scene: Any, loc: Sequence[str | int]) -> tuple[str | int, ...]:
     path: list[str | int] = []
     node: Any = scene
     for k, part in enumerate(loc):
-        last = k == len(loc) - 1
+        is_last = k == len(loc) - 1
         if isinstance(node, Mapping):
-            if part in node and not (part == node.get("kind") and not last and _is_tag(node, loc, k)):
+            if part in node and not (part == node.get("kind") and not is_last and _is_tag(node, loc, k)):
                 path.append(part)
                 node = node[part]
-            elif last and part != "[key]" and part not in _MODELS:
+            elif is_last and part != "[key]" and part not in _MODELS:
                 path.append(part)
         elif isinstance(node, (list, tuple)) and isinstance(part, int):
             path.append(part)

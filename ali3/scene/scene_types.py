@@ -82,14 +82,14 @@ def _frame_kind(value: Any) -> str | None:
     keys = set(value) if isinstance(value, dict) else set()
     if isinstance(value, Part):
         keys = set(type(value).model_fields)
-    count = {
+    scores = {
         "SlidingFrame": 2 * len(keys & {"direction", "way"}),
         "TurningFrame": len(keys & {"parent", "axis", "angle", "at"}),
         "CarriedFrame": len(keys & {"points", "on"}),
         "MovingFrame": len(keys & {"position", "quaternion"}),
     }
-    best = max(reversed(count), key=lambda kind: count[kind])
-    return best if count[best] else None
+    frame_kind = max(reversed(scores), key=lambda kind: scores[kind])
+    return frame_kind if scores[frame_kind] else None
 
 
 Frame = Annotated[

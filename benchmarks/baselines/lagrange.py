@@ -33,17 +33,19 @@ class Lagrange:
         m = self.mechanism
         q, qd = x[: m.nq], x[m.nq :]
         phi, J, gamma, Q = m.evaluate(t, q, qd)
-        right = -gamma - 2.0 * self.b * (J @ qd) - self.b**2 * phi
+        right_side = -gamma - 2.0 * self.b * (J @ qd) - self.b**2 * phi
         m.factorizations += 1
         if self.root is not None:
             # qdd = free + L^-T y with y the least one that J L^-T y = right - J free allows
             free = scipy.linalg.cho_solve((self.root, True), Q)
             scaled = scipy.linalg.solve_triangular(self.root, J.T, lower=True).T
-            y = np.linalg.lstsq(scaled, right - J @ free, rcond=CUT)[0]
+            y = np.linalg.lstsq(scaled, right_side - J @ free, rcond=CUT)[0]
             return np.concatenate([qd, free + scipy.linalg.solve_triangular(self.root, y, lower=True, trans="T")])
         bordered = np.block([[m.M, J.T], [J, np.zeros((m.nc, m.nc))]])
         if self.minimum_norm:
-            return np.concatenate([qd, np.linalg.lstsq(bordered, np.concatenate([Q, right]), rcond=CUT)[0][: m.nq]])
+            return np.concatenate(
+                [qd, np.linalg.lstsq(bordered, np.concatenate([Q, right_side]), rcond=CUT)[0][: m.nq]]
+            )
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
@@ -53,4 +55,4 @@ class Lagrange:
         reciprocal = scipy.linalg.lapack.dgecon(lu, np.linalg.norm(bordered, 1))[0]
         if not reciprocal > SINGULAR:
             raise RefusedError(f"bordered matrix singular (1/condition {reciprocal:.0e}); {m.rank(t, q)}", t)
-        return np.concatenate([qd, scipy.linalg.lu_solve((lu, pivots), np.concatenate([Q, right]))[: m.nq]])
+        return np.concatenate([qd, scipy.linalg.lu_solve((lu, pivots), np.concatenate([Q, right_side]))[: m.nq]])

@@ -78,8 +78,8 @@ class Mechanism:
 
     def _signal(self, k: int, q: Array) -> Array:
         a = self.arrays
-        part = slice(*a["sig_ptr"][k : k + 2])
-        return np.asarray(q[..., a["sig_col"][part]] @ a["sig_val"][part] + a["sig_const"][k])
+        selection = slice(*a["sig_ptr"][k : k + 2])
+        return np.asarray(q[..., a["sig_col"][selection]] @ a["sig_val"][selection] + a["sig_const"][k])
 
     def _dense(self, pointer: str, column: str, values: Array, rows: int) -> Array:
         ptr = self.arrays[pointer]

@@ -37,13 +37,13 @@ class Penalty:
         q, qd = x[: m.nq], x[m.nq :]
         phi, J, gamma, Q = m.evaluate(t, q, qd)
         factor = self._factor(t, J)
-        right = J.T @ (self.a * (gamma + 2.0 * DAMPING * FREQUENCY * (J @ qd) + FREQUENCY**2 * phi))
-        qdd = scipy.linalg.cho_solve(factor, Q - right)
+        right_side = J.T @ (self.a * (gamma + 2.0 * DAMPING * FREQUENCY * (J @ qd) + FREQUENCY**2 * phi))
+        qdd = scipy.linalg.cho_solve(factor, Q - right_side)
         for _ in range(ITERATIONS if self.augmented else 0):
             # M qdd_new = M qdd - Phi_q' a Phi'' in the limit: multipliers that take over what the penalty left
-            new = scipy.linalg.cho_solve(factor, m.M @ qdd - right)
-            change = np.abs(new - qdd).max()
-            qdd = new
+            next_qdd = scipy.linalg.cho_solve(factor, m.M @ qdd - right_side)
+            change = np.abs(next_qdd - qdd).max()
+            qdd = next_qdd
             if change <= SETTLED * (1.0 + np.abs(qdd).max()):
                 break
         return np.concatenate([qd, qdd])

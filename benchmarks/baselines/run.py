@@ -79,22 +79,22 @@ def run(
     mechanism = Mechanism(system)
     options = {} if penalty is None else {"penalty": penalty}
     times, states = [0.0], [mechanism.start]
-    status, reason, stopped = "finished", "", None
+    status, reason, stop_time = "finished", "", None
     steps = round(t_end / h)
     begin = time.perf_counter()
     try:
         with np.errstate(all="ignore"):
-            chosen = METHODS[method](mechanism, **options)
+            method_instance = METHODS[method](mechanism, **options)
             mechanism.evaluations = mechanism.factorizations = 0
             if solver == "RK4":
-                for k, x in _runge_kutta(chosen, mechanism.start, h, steps):
+                for k, x in _runge_kutta(method_instance, mechanism.start, h, steps):
                     if k % every == 0:
                         times.append(k * h)
                         states.append(x)
             else:
                 t_eval = h * every * np.arange(1, steps // every + 1)
                 solution = solve_ivp(
-                    chosen.rates,
+                    method_instance.rates,
                     (0.0, t_end),
                     mechanism.start,
                     method=solver,
@@ -108,14 +108,22 @@ def run(
                     raise RefusedError(f"scipy's {solver} gave up: {solution.message}", float(times[-1]))
     except RefusedError as refusal:
         status = "diverged" if "infinite" in str(refusal) else "refused"
-        reason, stopped = str(refusal), refusal.time
-    wall = time.perf_counter() - begin
+        reason, stop_time = str(refusal), refusal.time
+    wall_time = time.perf_counter() - begin
     counts = mechanism.evaluations, mechanism.factorizations
     x = np.array(states)
     n = mechanism.nq
     energy = np.array([mechanism.energy(s[:n], s[n:]) for s in states])
     return Run(
-        np.array(times), mechanism.positions(x[:, :n], sensors), energy, status, reason, stopped, *counts, steps, wall
+        np.array(times),
+        mechanism.positions(x[:, :n], sensors),
+        energy,
+        status,
+        reason,
+        stop_time,
+        *counts,
+        steps,
+        wall_time,
     )
 
 

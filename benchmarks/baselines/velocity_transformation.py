@@ -74,6 +74,8 @@ class VelocityTransformation:
         reciprocal = scipy.linalg.lapack.dgecon(lu, np.linalg.norm(block, 1))[0] if len(block) else 1.0
         if not reciprocal > SINGULAR:
             names = m.system.meta["coordinates"]
-            chosen = ", ".join(names[k] for k in self.independent[:3])
-            raise RefusedError(f"the dependent block lost its rank for the fixed choice ({chosen}); {m.rank(t, q)}", t)
+            chosen_names = ", ".join(names[k] for k in self.independent[:3])
+            raise RefusedError(
+                f"the dependent block lost its rank for the fixed choice ({chosen_names}); {m.rank(t, q)}", t
+            )
         return lu, pivots

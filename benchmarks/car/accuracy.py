@@ -66,10 +66,10 @@ def run_of_fmu(
         fmu.initialise(start | manoeuvre.at(0.0) | {"step_size": h if inner is None else inner})
         rows = [get()]
         for k in range(round(manoeuvre.stop_time / h)):
-            now, then = manoeuvre.at(k * h), manoeuvre.at((k + 1) * h - BEFORE)
-            set_inputs(list(now.values()))
+            inputs_now, inputs_after = manoeuvre.at(k * h), manoeuvre.at((k + 1) * h - BEFORE)
+            set_inputs(list(inputs_now.values()))
             if follow:
-                set_slopes([(then[n] - now[n]) / (h - BEFORE) for n in inputs])
+                set_slopes([(inputs_after[n] - inputs_now[n]) / (h - BEFORE) for n in inputs])
             fmu.step(k * h, h)
             if (k + 1) % every == 0:
                 rows.append(get())
@@ -79,37 +79,37 @@ def run_of_fmu(
 def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = manoeuvres.PROTOTYPE) -> dict[str, Any]:
     """One row: a manoeuvre with one step."""
     t, values, length = trajectories.read(name, car)
-    result: Trajectory = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
-    report = result.report
+    trajectory: Trajectory = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
+    report = trajectory.report
     assert report is not None
-    if len(result.t) != len(t) or not np.allclose(result.t, t, rtol=0.0, atol=1e-6):
+    if len(trajectory.t) != len(t) or not np.allclose(trajectory.t, t, rtol=0.0, atol=1e-6):
         raise UserError(
             f"The reference of {name} is of another duration; "
             f"run python -m benchmarks.car references --car {car} --only {name}."
         )
-    error = trajectories.path_error(result, values)
-    duration = float(result.t[-1])
+    error = trajectories.path_error(trajectory, values)
+    duration = float(trajectory.t[-1])
     system, manoeuvre = manoeuvres.system_of(name, car), manoeuvres.load(name, car)
-    spent = manoeuvres.time_on(system, manoeuvre, h, repeats, time.process_time)
-    held, followed = "_fmpy_held", "_fmpy_followed"
+    cpu_time = manoeuvres.time_on(system, manoeuvre, h, repeats, time.process_time)
+    held_suffix, followed_suffix = "_fmpy_held", "_fmpy_followed"
     row: dict[str, Any] = {
         "car": car,
         "manoeuvre": name,
         "h_s": h,
         "path_error_m": error,
         "path_error_rel": error / length,
-        "wheel_load_error_rel": trajectories.load_error(result, values),
+        "wheel_load_error_rel": trajectories.load_error(trajectory, values),
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,
         "halvings": report.halvings,
-        "us_per_step": 1e6 * spent * h / duration,
-        "realtime_factor": duration / spent,
-        **{f"{key}{suffix}": None for suffix in (held, followed) for key in ERRORS},
+        "us_per_step": 1e6 * cpu_time * h / duration,
+        "realtime_factor": duration / cpu_time,
+        **{f"{key}{suffix}": None for suffix in (held_suffix, followed_suffix) for key in ERRORS},
     }
     if fmu is not None and name not in manoeuvres.OTHER_ROAD:
-        for key_suffix in (held, followed):
-            through = run_of_fmu(fmu, name, h, key_suffix == followed, car)
-            errors = trajectories.path_error(through, values) / length, trajectories.load_error(through, values)
+        for key_suffix in (held_suffix, followed_suffix):
+            fmu_values = run_of_fmu(fmu, name, h, key_suffix == followed_suffix, car)
+            errors = trajectories.path_error(fmu_values, values) / length, trajectories.load_error(fmu_values, values)
             row |= {f"{key}{key_suffix}": value for key, value in zip(ERRORS, errors, strict=True)}
     return row
 

@@ -69,11 +69,11 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     scene_steps = json.dumps([[scene.name, scene.step] for scene in scenes])
     command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), scene_steps, str(steps)]
     environment = os.environ | {"PYTHONPATH": str(checkout)}
-    done = subprocess.run(command, cwd=checkout, env=environment, capture_output=True, text=True)
-    if done.returncode != 0:
-        last = done.stderr.strip().rsplit("\n", 1)[-1]
-        raise RuntimeError(f"The packages of {checkout} do not make these scenes: {last}")
-    record: dict[str, list[str]] = json.loads(done.stdout.rsplit("\n", 2)[-2])
+    process = subprocess.run(command, cwd=checkout, env=environment, capture_output=True, text=True)
+    if process.returncode != 0:
+        last_line = process.stderr.strip().rsplit("\n", 1)[-1]
+        raise RuntimeError(f"The packages of {checkout} do not make these scenes: {last_line}")
+    record: dict[str, list[str]] = json.loads(process.stdout.rsplit("\n", 2)[-2])
     return record
 
 
@@ -99,15 +99,15 @@ def measure(
     steps : int
         Of each scene; 0: its own number.
     """
-    with tempfile.TemporaryDirectory() as place:
+    with tempfile.TemporaryDirectory() as folder:
         sides = []
         for name, checkout in (("here", ROOT), ("there", other)):
-            Path(place, name).mkdir()
-            sides.append(commands_of(checkout.resolve(), scenes, Path(place, name), steps))
+            Path(folder, name).mkdir()
+            sides.append(commands_of(checkout.resolve(), scenes, Path(folder, name), steps))
         for scene in watched([s for s in scenes if f"{s.name} {s.step}" in sides[1]]):
             key = f"{scene.name} {scene.step}"
-            both = [Side(name, side[key]) for name, side in zip(("here", "there"), sides, strict=True)]
-            yield row_of(scene, both, steps or scene.steps, rounds, repeats, counted)
+            two_sides = [Side(name, side[key]) for name, side in zip(("here", "there"), sides, strict=True)]
+            yield row_of(scene, two_sides, steps or scene.steps, rounds, repeats, counted)
 
 
 class Side(NamedTuple):
@@ -125,11 +125,11 @@ def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats:
     for k in range(2 * rounds):
         side = (k + k // 2) % 2  # here, there, there, here: a drift of the machine's pace is on both sides
         command = [*both[side].command, str(repeats), *both[side].code]
-        done = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-        if done[0] != "0":
-            raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {done[0]}).")
-        counts[side] = [int(count) for count in done[1:4]]
-        times[side].append(1e6 * float(done[4]) / steps)
+        output = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+        if output[0] != "0":
+            raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {output[0]}).")
+        counts[side] = [int(count) for count in output[1:4]]
+        times[side].append(1e6 * float(output[4]) / steps)
     row: dict[str, Any] = {"scene": scene.name, "step, ms": 1e3 * scene.step}
     names = [side.name for side in both]
     for side, name in enumerate(names):
@@ -143,6 +143,6 @@ def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats:
         }
     if counted and scene_instructions.counter() is not None:
         for name, command, code in both:
-            taken = [instructions([*command[:5], n, "1", *code]) for n in (str(steps), "0")]
-            row[f"instructions {name}"] = round((taken[0] - taken[1]) / steps)  # type: ignore[operator]
+            counts_of_runs = [instructions([*command[:5], n, "1", *code]) for n in (str(steps), "0")]
+            row[f"instructions {name}"] = round((counts_of_runs[0] - counts_of_runs[1]) / steps)  # type: ignore[operator]
     return row

@@ -31,8 +31,8 @@ def measure(cars: Sequence[str], repeats: int) -> list[dict[str, Any]]:
     with tempfile.TemporaryDirectory() as folder:
         program = compiled(Path(folder))
         rows = [row_of(car, repeats, program, Path(folder)) for car in watched(cars)]
-    results = {row["car"]: row for row in (*json.loads(STORED.read_text("utf-8"))["rows"], *rows)}
-    return [results[car] for car in manoeuvres.CARS if car in results]
+    rows_by_car = {row["car"]: row for row in (*json.loads(STORED.read_text("utf-8"))["rows"], *rows)}
+    return [rows_by_car[car] for car in manoeuvres.CARS if car in rows_by_car]
 
 
 def inside(row: Row) -> bool:
@@ -49,8 +49,8 @@ def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any
         if not inside(row):
             finer = (accuracy.measure(row["manoeuvre"], h, None, 1, car) for h in SMALLER)
             needs[row["manoeuvre"]] = next((r["h_s"] for r in finer if inside(r)), None)
-    worst = load["manoeuvre"]
-    result, fine = (manoeuvres.run(worst, h, car=car) for h in (STEP, FINE))
+    worst_manoeuvre = load["manoeuvre"]
+    result, fine = (manoeuvres.run(worst_manoeuvre, h, car=car) for h in (STEP, FINE))
     slowest = min(rows, key=lambda row: row["realtime_factor"])
     scene = Scene(car, STEP, COUNTED, lambda: manoeuvres.system_of("slalom", car), "slalom")
     return {

@@ -62,9 +62,9 @@ def deck(frame: Frame, steps: str) -> str:
         number = len(frame.beams) + int(node) + 1
         lines += [f"*ELEMENT,TYPE=MASS,ELSET=M{number}", f"{number},{node + 1}"]
         lines += [f"*MASS,ELSET=M{number}", f"{frame.masses[node]:.9g}"]
-    places = [f"{i},{x[0]:.9g},{x[1]:.9g},{x[2]:.9g}" for i, x in enumerate(nodes, 1)]
+    node_lines = [f"{i},{x[0]:.9g},{x[1]:.9g},{x[2]:.9g}" for i, x in enumerate(nodes, 1)]
     material = ["*MATERIAL,NAME=STEEL", "*ELASTIC", f"{STEEL.E:g},{STEEL.nu:g}", "*DENSITY", f"{STEEL.rho:g}"]
-    return "\n".join(["*NODE,NSET=ALL", *places, *material, *lines, steps])
+    return "\n".join(["*NODE,NSET=ALL", *node_lines, *material, *lines, steps])
 
 
 def run(text: str, suffix: str = ".dat") -> str:
@@ -74,9 +74,9 @@ def run(text: str, suffix: str = ".dat") -> str:
         raise FileNotFoundError("CalculiX (ccx) is not installed; on Debian: apt-get install calculix-ccx.")
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "deck.inp").write_text(text)
-        done = subprocess.run([program, "deck"], cwd=folder, capture_output=True, text=True, check=False)
-        if "Job finished" not in done.stdout:
-            raise RuntimeError(f"CalculiX stopped: {done.stdout[-500:]}")
+        process = subprocess.run([program, "deck"], cwd=folder, capture_output=True, text=True, check=False)
+        if "Job finished" not in process.stdout:
+            raise RuntimeError(f"CalculiX stopped: {process.stdout[-500:]}")
         return (Path(folder) / f"deck{suffix}").read_text()
 
 
@@ -107,9 +107,9 @@ def clamped_frequencies(elements: int) -> list[float]:
 
 def torsional_stiffness(frame: Frame, drop: float) -> float:
     """Torsional stiffness, N m/deg, from the difference in height of the front towers under `TOWER_FORCE`."""
-    places = [frame.positions[frame.names.index(n)] for n in ("TFL", "TFR")]
-    base = float(places[0][1] - places[1][1])
-    return TOWER_FORCE * base / float(np.degrees(drop / base))
+    towers = [frame.positions[frame.names.index(n)] for n in ("TFL", "TFR")]
+    tower_distance = float(towers[0][1] - towers[1][1])
+    return TOWER_FORCE * tower_distance / float(np.degrees(drop / tower_distance))
 
 
 def frame_torsion(refinement: int) -> float:
@@ -152,13 +152,13 @@ def gauge_moments(refinement: int) -> list[float]:
 
 def _bending_moments(frd: str) -> dict[int, float]:
     """Fifth section force of every node of a result file: bending in the plane of the section's second axis."""
-    block, results = "", {}
+    block, moments = "", {}
     for line in frd.splitlines():
         if line.startswith(" -4"):
             block = line.split()[1]
         elif line.startswith(" -1") and block == "STRESS":
-            results[int(line[3:13])] = float(line[61:73])
-    return results
+            moments[int(line[3:13])] = float(line[61:73])
+    return moments
 
 
 def _pipe(section: Section) -> tuple[float, float]:

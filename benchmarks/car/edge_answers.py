@@ -37,14 +37,14 @@ def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x:
     """
     if kind == HEIGHT:
         return (contact_x, float(centre[1]), edge if contact_x >= EDGE else 0.0, *UP)
-    away = np.array([min(centre[0] - EDGE, 0.0), 0.0, centre[2] - edge])
-    far, ground = float(np.linalg.norm(away)), radius - centre[2] if centre[0] < EDGE else -np.inf
-    depth = UP * ground if centre[0] < EDGE else UP * (radius - far)
-    if far < radius:
-        at_edge = (radius - far) / far * away
+    from_edge = np.array([min(centre[0] - EDGE, 0.0), 0.0, centre[2] - edge])
+    distance, ground = float(np.linalg.norm(from_edge)), radius - centre[2] if centre[0] < EDGE else -np.inf
+    depth = UP * ground if centre[0] < EDGE else UP * (radius - distance)
+    if distance < radius:
+        at_edge = (radius - distance) / distance * from_edge
         if kind == SUM:
             depth = at_edge + UP * max(ground, 0.0)
-        elif radius - far > ground:
+        elif radius - distance > ground:
             depth = at_edge
     deep = float(np.linalg.norm(depth)) * (1.0 if depth[2] > 0.0 else -1.0)
     normal = depth / deep if deep else UP
@@ -66,19 +66,22 @@ def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[fl
     data = load(car)
     system = with_port(car) if kind else mbs.compile(data.model(KerbRoad(EDGE, edge, upper="after")))
     s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs={"selector": 0.0})
-    radius, largest, turn = {"F": data.front.tyre.radius, "R": data.rear.tyre.radius}, 0.0, 0.0
-    last = dict.fromkeys(WHEELS, UP)
+    radius, largest_load, largest_turn = {"F": data.front.tyre.radius, "R": data.rear.tyre.radius}, 0.0, 0.0
+    last_normals = dict.fromkeys(WHEELS, UP)
     for _ in range(round(time / STEP)):
-        now = s.sensors
-        largest = max(largest, now["wheel_FL.Fz"])
+        sensors = s.sensors
+        largest_load = max(largest_load, sensors["wheel_FL.Fz"])
         for w in WHEELS if kind else ():
-            centre = np.array([now[f"wheel_{w}.{a}"] for a in "xyz"])
-            road = answer(kind, edge, centre, radius[w[0]], now[f"wheel_{w}.contact_x"])
-            turn, last[w] = max(turn, float(np.linalg.norm(last[w] - road[3:]))), np.array(road[3:])
+            centre = np.array([sensors[f"wheel_{w}.{a}"] for a in "xyz"])
+            road = answer(kind, edge, centre, radius[w[0]], sensors[f"wheel_{w}.contact_x"])
+            largest_turn, last_normals[w] = (
+                max(largest_turn, float(np.linalg.norm(last_normals[w] - road[3:]))),
+                np.array(road[3:]),
+            )
             for name, value in zip(ANSWER, (*road, data.road.friction), strict=True):
                 s.set_input(f"wheel_{w}.road_{name}", float(value))
         s.step(STEP)
-    return largest, turn, s
+    return largest_load, largest_turn, s
 
 
 def measure(car: str, edge: float) -> Row:

@@ -41,13 +41,13 @@ def frequency(steps: int) -> dict[str, Any]:
     h = 1.0 / steps
     run = mbs.simulate(system, float(PERIODS), h, progress=False, estimate_error=False)
     x = run["x"]
-    falls = np.flatnonzero((x[:-1] > 0.0) & (x[1:] <= 0.0))  # a quarter, five quarters ... of a period
-    last = falls[-1]
-    turns = len(falls) - 0.75
-    time = run.t[last] + h * x[last] / (x[last] - x[last + 1])
+    crossings = np.flatnonzero((x[:-1] > 0.0) & (x[1:] <= 0.0))  # a quarter, five quarters ... of a period
+    last_crossing = crossings[-1]
+    periods = len(crossings) - 0.75
+    time = run.t[last_crossing] + h * x[last_crossing] / (x[last_crossing] - x[last_crossing + 1])
     return {
         "steps_in_a_period": steps,
-        "frequency_error": 1.0 - turns / time,
+        "frequency_error": 1.0 - periods / time,
         "closed_form": (2.0 * np.pi * h) ** 2 / 12.0,
     }
 
@@ -74,14 +74,14 @@ def kerb(speed: float) -> dict[str, Any]:
 def acceleration(name: str, h: float) -> dict[str, Any]:
     """Errors of a hard manoeuvre against its stored reference, and its largest horizontal acceleration."""
     t, values, length = trajectories.read(name)
-    result = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
-    size = values["chassis.ay"] if HARD[name] == "vy" else np.gradient(values["speed"], t)
+    trajectory = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
+    accelerations = values["chassis.ay"] if HARD[name] == "vy" else np.gradient(values["speed"], t)
     return {
         "manoeuvre": name.replace("_", " "),
-        "largest_m_s2": float(np.abs(size).max()),
+        "largest_m_s2": float(np.abs(accelerations).max()),
         "h_s": h,
-        "path_error": trajectories.path_error(result, values) / length,
-        "load_error": trajectories.load_error(result, values),
+        "path_error": trajectories.path_error(trajectory, values) / length,
+        "load_error": trajectories.load_error(trajectory, values),
     }
 
 

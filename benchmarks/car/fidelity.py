@@ -60,12 +60,12 @@ def errors_of(trajectory: Trajectory, name: str, fidelity: Fidelity, h: float) -
 
 def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
     """The row of a model: errors and cost."""
-    result = fidelity_runs.run(name, fidelity, h)
-    report = result.report
+    trajectory = fidelity_runs.run(name, fidelity, h)
+    report = trajectory.report
     assert report is not None
-    error = errors_of(result, name, fidelity, h)
-    duration = float(result.t[-1])
-    spent = fidelity_runs.cpu_time(name, fidelity, h, repeats)
+    error = errors_of(trajectory, name, fidelity, h)
+    duration = float(trajectory.t[-1])
+    cpu_time = fidelity_runs.cpu_time(name, fidelity, h, repeats)
     return {
         "manoeuvre": name,
         "fidelity": fidelity.name.lower(),
@@ -74,8 +74,8 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
         **error,
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,
-        "us_per_step": 1e6 * spent * h / duration,
-        "realtime_factor": duration / spent,
+        "us_per_step": 1e6 * cpu_time * h / duration,
+        "realtime_factor": duration / cpu_time,
     }
 
 
@@ -94,24 +94,28 @@ def chart(rows: Sequence[Row], file: Path) -> None:
     """Stress and motion errors over time per step, one column per manoeuvre."""
     plt = pyplot()
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
-    parts = (
+    quantities = (
         ("moment", "gauge moments, low-pass 10 Hz:\nlargest error / largest change"),
         ("motion", "place of the reference point:\nlargest error, m"),
     )
     figure, panels = plt.subplots(2, len(names), figsize=(5.2 * len(names), 8), layout="constrained", squeeze=False)
     for column, name in enumerate(names):
-        for line, (key, label) in enumerate(parts):
+        for line, (key, label) in enumerate(quantities):
             axes = panels[line][column]
             for fidelity in map(Fidelity.of, dict.fromkeys(row["fidelity"] for row in rows)):
-                mine = [r for r in rows if r["manoeuvre"] == name and r["fidelity"] == fidelity.name.lower()]
-                mine = [r for r in mine if r[key] is not None]
-                if not mine:
+                chosen_rows = [r for r in rows if r["manoeuvre"] == name and r["fidelity"] == fidelity.name.lower()]
+                chosen_rows = [r for r in chosen_rows if r[key] is not None]
+                if not chosen_rows:
                     continue
                 text = f"{fidelity.value}: {fidelity.description}"
                 axes.loglog(
-                    [r["us_per_step"] for r in mine], [r[key] for r in mine], "o-", color=COLOURS[fidelity], label=text
+                    [r["us_per_step"] for r in chosen_rows],
+                    [r[key] for r in chosen_rows],
+                    "o-",
+                    color=COLOURS[fidelity],
+                    label=text,
                 )
-                for r in mine:
+                for r in chosen_rows:
                     axes.annotate(
                         f"{1e3 * r['h_s']:g} ms",
                         (r["us_per_step"], r[key]),
@@ -139,14 +143,14 @@ def choice_blocks(rows: Sequence[Row]) -> dict[str, str]:
     lines = []
     for title, (output, tolerance) in REQUIRED.items():
         try:
-            c = cheapest(rows, output, tolerance)
+            level = cheapest(rows, output, tolerance)
         except ValueError as error:
             raise UserError(f"The table of docs/flexible_car.md needs all manoeuvres and steps: {error}") from error
         choice = {
-            "cheapest fidelity, step": f"{int(c.fidelity)}, {1e3 * c.h:g} ms",
-            "ms per s": f"{c.ms_per_second:.0f}",
+            "cheapest fidelity, step": f"{int(level.fidelity)}, {1e3 * level.h:g} ms",
+            "ms per s": f"{level.ms_per_second:.0f}",
         }
-        lines.append({"required": title, **choice, "error": _error(output, c.error)})
+        lines.append({"required": title, **choice, "error": _error(output, level.error)})
     return {"cheapest": table(lines, dict.fromkeys(lines[0], ""))}
 
 

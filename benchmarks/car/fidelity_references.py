@@ -20,10 +20,10 @@ def write(name: str) -> str:
         "5 dynamic modes": fidelity_runs.sampled(fidelity_runs.run(name, Fidelity.DYNAMIC, STEP), STEP),
     }
     differences = []
-    for what, other in checks.items():
-        e = fidelity_runs.errors(other, values)
+    for label, values_of_check in checks.items():
+        e = fidelity_runs.errors(values_of_check, values)
         differences.append(
-            f"{what}: moments {e['moment']:.1e} after the low-pass and {e['moment_unfiltered']:.1e} before it, "
+            f"{label}: moments {e['moment']:.1e} after the low-pass and {e['moment_unfiltered']:.1e} before it, "
             f"place {e['motion']:.1e} m, wheel loads {e['wheel_load']:.1e}"
         )
     signals = (*POSITION, *LOADS, *MOMENTS, *(FILTERED + s for s in MOMENTS))

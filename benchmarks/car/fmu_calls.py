@@ -59,10 +59,10 @@ def time_from_c(folder: Path, steps: int, repeats: int, instances: int) -> dict[
     )
     numbers = (float(description.defaultExperiment.stepSize), steps, repeats, len(outputs), outputs[0], instances)
     command = [str(program), str(library), folder.joinpath("resources").as_uri(), description.guid, *map(str, numbers)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        print(f"the C host cannot run it: {done.stderr.strip()}", file=sys.stderr)
-    pairs = (line.split() for line in done.stdout.splitlines())
+    process = subprocess.run(command, capture_output=True, text=True, check=False)
+    if process.returncode != 0:
+        print(f"the C host cannot run it: {process.stderr.strip()}", file=sys.stderr)
+    pairs = (line.split() for line in process.stdout.splitlines())
     return {name: float(value) for name, value in pairs}
 
 

@@ -48,8 +48,8 @@ def kerb_picture(folder: Path) -> None:
     recording = run.recording()
     (part,) = (recording.scene or {})["flexible"]
     motion = motion_of(frame, body, run.t, np.column_stack([recording.columns[name] for name in part["amplitudes"]]))
-    rest, peak = motion.stress[0].max() / 1e6, motion.stress.max() / 1e6
-    print(f"largest normal stress {rest:.1f} MPa at rest, {peak:.1f} MPa in the test")
+    stress_at_rest, peak_stress = motion.stress[0].max() / 1e6, motion.stress.max() / 1e6
+    print(f"largest normal stress {stress_at_rest:.1f} MPa at rest, {peak_stress:.1f} MPa in the test")
     folder.mkdir(parents=True, exist_ok=True)
     picture = folder / "frame_stress.png"
     draw(recording, motion, picture)
@@ -58,10 +58,10 @@ def kerb_picture(folder: Path) -> None:
 
 def motion_of(frame: Frame, body: ReducedBody, t: Array, eta: Array, scale: float = SCALE) -> Motion:
     """Shapes and stresses from modal amplitudes of shape (n, modes)."""
-    moved = np.einsum("kij,nj->nki", body.node_translations, eta)
+    displacements = np.einsum("kij,nj->nki", body.node_translations, eta)
     forces = body.recovery(section_force_field(frame))
     stress = np.array([peak_tube_stress(frame, forces @ e) for e in eta])
-    return Motion(t, frame.positions + scale * moved, stress)
+    return Motion(t, frame.positions + scale * displacements, stress)
 
 
 def frame_alone(recording: Recording, limit: float) -> Recording:
@@ -81,9 +81,11 @@ def frame_alone(recording: Recording, limit: float) -> Recording:
 
 def draw(recording: Recording, motion: Motion, picture: Path) -> None:
     """Draw the frame at the time of the largest stress."""
-    shown = frame_alone(recording, float(np.percentile(motion.stress, PERCENTILE)))
+    frame_recording = frame_alone(recording, float(np.percentile(motion.stress, PERCENTILE)))
     options = {"stress": True, "deformation": SCALE}
-    write_picture(picture, shown, motion.t[int(motion.stress.max(axis=(1, 2)).argmax())], (1000, 600), None, options)
+    write_picture(
+        picture, frame_recording, motion.t[int(motion.stress.max(axis=(1, 2)).argmax())], (1000, 600), None, options
+    )
 
 
 def draw_gauges(car: Car, file: str) -> None:
@@ -110,12 +112,17 @@ def _frame_and_gauges(a: Any, car: Car, i: int, j: int) -> None:
     names: dict[tuple[float, float], list[str]] = {}
     for gauge in tubular.strain_gauges(tubes):
         beam = frame.beams[gauge.element]
-        place = (1.0 - gauge.xi) * x[beam.i] + gauge.xi * x[beam.j]
-        names.setdefault((round(float(place[i]), 3), round(float(place[j]), 3)), []).append(gauge.name)
+        position = (1.0 - gauge.xi) * x[beam.i] + gauge.xi * x[beam.j]
+        names.setdefault((round(float(position[i]), 3), round(float(position[j]), 3)), []).append(gauge.name)
     if names:
         a.plot(*np.array(list(names)).T, "s", ms=8, color="tab:red", label="strain gauges")
-    places = list(names)
-    for k, (place, gauges) in enumerate(names.items()):
-        beside = any(abs(place[0] - x0) < NEAR[0] and abs(place[1] - y0) < NEAR[1] for x0, y0 in places[:k])
-        style = {"xytext": (0, 9 if beside else -17), "textcoords": "offset points", "ha": "center", "color": "tab:red"}
-        a.annotate(", ".join(gauges), place, **style)
+    positions = list(names)
+    for k, (position, gauges) in enumerate(names.items()):
+        overlaps = any(abs(position[0] - x0) < NEAR[0] and abs(position[1] - y0) < NEAR[1] for x0, y0 in positions[:k])
+        style = {
+            "xytext": (0, 9 if overlaps else -17),
+            "textcoords": "offset points",
+            "ha": "center",
+            "color": "tab:red",
+        }
+        a.annotate(", ".join(gauges), position, **style)

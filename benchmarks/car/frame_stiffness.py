@@ -47,13 +47,13 @@ def stiffness(car: Car) -> Stiffness:
     for name, sign in ((front, 1.0), (rear, -1.0)):
         load[_up(model, flexible.place(name)), 0] = sign * COUPLE / _width(flexible.place(name)) * np.array([1.0, -1.0])
     # the couples balance each other: what holds the frame takes no force
-    moved = FixedInterface(model, flexible.reference, ()).solve(load)[:, 0]
-    turned = [
-        float(np.array([1.0, -1.0]) @ moved[_up(model, flexible.place(n))]) / _width(flexible.place(n))
+    displacements = FixedInterface(model, flexible.reference, ()).solve(load)[:, 0]
+    angles = [
+        float(np.array([1.0, -1.0]) @ displacements[_up(model, flexible.place(n))]) / _width(flexible.place(n))
         for n in (front, rear)
     ]
     hertz, _ = natural_modes(model, RIGID + MODES)
-    return Stiffness((front, rear), COUPLE / float(np.degrees(turned[0] - turned[1])), hertz[RIGID:])
+    return Stiffness((front, rear), COUPLE / float(np.degrees(angles[0] - angles[1])), hertz[RIGID:])
 
 
 def _width(place: NDArray[np.float64]) -> float:
@@ -62,5 +62,7 @@ def _width(place: NDArray[np.float64]) -> float:
 
 def _up(model: FiniteElementModel, place: NDArray[np.float64]) -> NDArray[np.int64]:
     """Freedoms along z of the node at a place and of its image."""
-    results = [int(np.linalg.norm(model.positions - place * [1.0, side, 1.0], axis=1).argmin()) for side in (1.0, -1.0)]
-    return np.array(model.dof[results, 2])
+    node_indices = [
+        int(np.linalg.norm(model.positions - place * [1.0, side, 1.0], axis=1).argmin()) for side in (1.0, -1.0)
+    ]
+    return np.array(model.dof[node_indices, 2])

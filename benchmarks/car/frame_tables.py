@@ -50,8 +50,8 @@ def mass_table() -> str:
     rows = []
     for kind in ("consistent", "lumped"):
         errors = 100.0 * mass_errors(kind)
-        first, all_of_them = (max(part, key=abs) for part in (errors[:FIRST], errors))
-        rows.append({"mass, no rotary inertia": kind, "first five, %": first, "first fifteen, %": all_of_them})
+        first_errors, all_errors = (max(errors_of_modes, key=abs) for errors_of_modes in (errors[:FIRST], errors))
+        rows.append({"mass, no rotary inertia": kind, "first five, %": first_errors, "first fifteen, %": all_errors})
     return table(rows, dict(zip(rows[0], ("", "+.2f", "+.2f"), strict=True)))
 
 
@@ -102,12 +102,12 @@ def frame_figures(theory: str) -> dict[str, Array]:
     frame, _ = FRAME.frame(theory, 2)
     model = frame.finite_element_model()
     bare = FRAME.frame(theory, 2, carried_masses=False)[0].finite_element_model()
-    fixed = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
-    free = np.setdiff1d(np.arange(model.n_dof), fixed)
+    fixed_dofs = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
+    free_dofs = np.setdiff1d(np.arange(model.n_dof), fixed_dofs)
     left, right = (model.freedoms(n)[2] for n in ("TFL", "TFR"))
     F, u = np.zeros(model.n_dof), np.zeros(model.n_dof)
     F[left], F[right] = calculix.TOWER_FORCE, -calculix.TOWER_FORCE
-    u[free] = spsolve(sp.csc_matrix(model.K[free][:, free]), F[free])
+    u[free_dofs] = spsolve(sp.csc_matrix(model.K[free_dofs][:, free_dofs]), F[free_dofs])
     return {
         "frame_torsional_stiffness_Nm_per_deg": np.array(calculix.torsional_stiffness(frame, u[left] - u[right])),
         "frame_loaded_free_hz": natural_modes(model, 11)[0][6:],
@@ -120,8 +120,11 @@ def calculix_table() -> str:
     """CalculiX between two theories of beams; moments at rest of a mesh that changes them no more."""
     stored = json.loads(calculix.STORED.read_text(encoding="utf-8"))
     tube, steel = calculix.SECTIONS["M"], calculix.STEEL
-    bent = calculix.TIP_FORCE * calculix.TUBE_LENGTH**3 / (3.0 * steel.E * tube.Iy)
-    theories = {"Timoshenko": ("timoshenko", tube_figures()[0]), "Euler-Bernoulli": ("euler_bernoulli", bent)}
+    bending_deflection = calculix.TIP_FORCE * calculix.TUBE_LENGTH**3 / (3.0 * steel.E * tube.Iy)
+    theories = {
+        "Timoshenko": ("timoshenko", tube_figures()[0]),
+        "Euler-Bernoulli": ("euler_bernoulli", bending_deflection),
+    }
     columns = {"CalculiX": {name: np.asarray(stored[name]["extrapolated"]) for name in FIGURES}}
     for title, (theory, deflection) in theories.items():
         figures = frame_figures(theory) | {"frame_gauge_moments_Nm": moments(theory, CONVERGED)}

@@ -40,8 +40,8 @@ def _row(scene: Scene, program: Path, folder: Path, rounds: int, repeats: int) -
     system = scene.system()
     command = scene_instructions.command_of(scene._replace(system=lambda: system), program, folder)
     code = library_of(system)
-    both = [Side("generated", command, (str(code),)), Side("loops", command)]
-    row = row_of(scene, both, scene.steps, rounds, repeats, counted=True)
+    two_sides = [Side("generated", command, (str(code),)), Side("loops", command)]
+    row = row_of(scene, two_sides, scene.steps, rounds, repeats, counted=True)
     if row["iterations generated"] != row["iterations loops"]:
         raise RuntimeError(f"Generated code does not make the iterations of the loops in the scene {scene.name!r}.")
     return row | {"kB": round(code.stat().st_size / 1000)}
@@ -49,7 +49,7 @@ def _row(scene: Scene, program: Path, folder: Path, rounds: int, repeats: int) -
 
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Instructions and time of a step, the code in kB."""
-    named = {
+    keys_by_title = {
         "instructions, loops": "instructions loops",
         "generated": "instructions generated",
         "us, loops": "us loops",
@@ -57,7 +57,7 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
     }
     lines = [
         {"scene": r["scene"], "step, ms": f"{r['step, ms']:g}"}
-        | {name: r.get(key) for name, key in named.items()}
+        | {name: r.get(key) for name, key in keys_by_title.items()}
         | {"times as fast": 1.0 / r["ratio"], "code, kB": r["kB"]}
         for r in rows
     ]

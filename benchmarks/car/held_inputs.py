@@ -50,9 +50,11 @@ def draw(rows: Sequence[Row], file: Path) -> None:
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
     figure, axes = pyplot().subplots(1, len(names), figsize=(4.2 * len(names), 3.6), sharey=True, layout="constrained")
     for name, ax in zip(names, axes, strict=True):
-        mine = [row for row in rows if row["manoeuvre"] == name]
+        manoeuvre_rows = [row for row in rows if row["manoeuvre"] == name]
         for (*_, title), mark in zip(WAYS.values(), ("o-", "s-", "x--"), strict=True):
-            ax.loglog([row["H, ms"] for row in mine], [row[title] for row in mine], mark, label=title)
+            ax.loglog(
+                [row["H, ms"] for row in manoeuvre_rows], [row[title] for row in manoeuvre_rows], mark, label=title
+            )
         ax.set_title(name)
         ax.set_xlabel("communication step, ms")
         ax.set_xticks([1000.0 * step for step in STEPS], [f"{1000.0 * step:g}" for step in STEPS])

@@ -40,32 +40,32 @@ def port_forces(car: Car, name: str) -> NDArray[np.float64]:
     system = compile(model)
     parameters, pose = manoeuvres.start_of(manoeuvre, system)
     signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
-    driven = Simulation(system, parameters=parameters, pose=pose)
+    simulation = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]
     interfaces = car.flexible_frame.interfaces
     rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in interfaces]
     scale = system.arrays["row_scale"]
-    results = []
+    snapshots = []
     inputs = list(signals.columns())
     for k in range(round(manoeuvre.stop_time / H)):
         values = signals.at(np.array([(k + 1) * H]), 1e-6 * H)[0]
         for column, value in zip(inputs, values, strict=True):
-            driven.instance.set_input(column, float(value))
-        driven.step(H)
+            simulation.instance.set_input(column, float(value))
+        simulation.step(H)
         if k % EVERY == 0:
-            s = driven.sensors
+            s = simulation.sensors
             A = Rotation.from_quat([s[f"chassis.q{c}"] for c in "xyzw"]).as_matrix()
-            lam = driven.state.lam * scale
-            results.append(np.concatenate([A.T @ lam[r] for r in rows]))
-    return np.array(results).T
+            lam = simulation.state.lam * scale
+            snapshots.append(np.concatenate([A.T @ lam[r] for r in rows]))
+    return np.array(snapshots).T
 
 
 def mirrored(frame: FlexibleFrame, forces: NDArray[np.float64]) -> NDArray[np.float64]:
     """The same with left and right exchanged."""
-    places = list(frame.joints.interfaces.values())
-    other = [places.index((x, -y, z)) for x, y, z in places]
-    parts = forces.reshape(len(places), 3, -1)[other] * np.array([1.0, -1.0, 1.0])[:, None]
-    return parts.reshape(forces.shape)
+    positions = list(frame.joints.interfaces.values())
+    mirror_indices = [positions.index((x, -y, z)) for x, y, z in positions]
+    mirrored_forces = forces.reshape(len(positions), 3, -1)[mirror_indices] * np.array([1.0, -1.0, 1.0])[:, None]
+    return mirrored_forces.reshape(forces.shape)
 
 
 def principal_loads(
@@ -99,7 +99,7 @@ def write_loads(car: Car, names: Sequence[str], output: Path | None) -> None:
         lines.append(",".join([frame.interfaces[k // 3], "xyz"[k % 3], *(f"{v:.7g}" for v in row)]))
     file = output or frame.folder / (frame.section.loads or "loads.csv")
     write_text(file, "\n".join(lines) + "\n")
-    shown = np.array2string(sizes, precision=2)
-    print(f"{2 * forces.shape[1]} snapshots, {loads.shape[1]} loads; sizes {shown}")
+    sizes_text = np.array2string(sizes, precision=2)
+    print(f"{2 * forces.shape[1]} snapshots, {loads.shape[1]} loads; sizes {sizes_text}")
     if frame.section.loads is None:
         print(f'{file}: add loads = "{file.name}" to [chassis.frame] of the car')

@@ -43,9 +43,9 @@ CARS = (
 
 def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:
     """A manoeuvre of a car by name: one of `NAMES` or any other of the host."""
-    own = FOLDER / car / f"{name}.toml"
-    if own.is_file():
-        return load_manoeuvre(str(own))
+    own_file = FOLDER / car / f"{name}.toml"
+    if own_file.is_file():
+        return load_manoeuvre(str(own_file))
     return load_manoeuvre(str(FOLDER / f"{name}.toml") if name in OWN else name)
 
 

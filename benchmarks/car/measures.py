@@ -116,9 +116,9 @@ def _front_share(model: LinearModel, mode: Mode) -> float:
     """The share of the front axle's parts in a mode."""
     size = {"F": 0.0, "R": 0.0}
     for name, value in zip(model.coordinates, mode.shape, strict=True):
-        words = name.partition(".")[0].split()
-        if words[-1] in ("FL", "FR", "RL", "RR") and words[0] != "wheel":
-            size[words[-1][0]] += abs(value) ** 2
+        name_parts = name.partition(".")[0].split()
+        if name_parts[-1] in ("FL", "FR", "RL", "RR") and name_parts[0] != "wheel":
+            size[name_parts[-1][0]] += abs(value) ** 2
     return size["F"] / (size["F"] + size["R"])
 
 
@@ -151,11 +151,11 @@ def steady_turn(car: Car, system: System) -> dict[str, float]:
         rows.append([s["speed"], s["chassis.wz"], s["steering_wheel_angle"], s["chassis.roll"], ahead])
     speed, yaw_rate, angle, roll, lateral = np.array(rows).T
     g = speed * yaw_rate / GRAVITY
-    inside = (g > TURN_RANGE[0]) & (g < TURN_RANGE[1])
+    in_range = (g > TURN_RANGE[0]) & (g < TURN_RANGE[1])
     ackermann = car.wheelbase * yaw_rate / speed
     curves = {"roll_gradient": roll, "understeer_gradient": angle / ratio - ackermann}
     curves["sideslip_gradient"] = np.arctan2(lateral, speed)
-    return {name: math.degrees(np.polyfit(g[inside], curve[inside], 1)[0]) for name, curve in curves.items()}
+    return {name: math.degrees(np.polyfit(g[in_range], curve[in_range], 1)[0]) for name, curve in curves.items()}
 
 
 def _hold_speed(target: float) -> Callable[[float], float]:
@@ -176,14 +176,14 @@ def _straight(system: System) -> dict[str, float]:
     run.set_input("throttle", 1.0)
     to_hundred = math.inf
     for k in range(round(120.0 / INTERVAL)):
-        before = run.sensors["speed"]
+        previous_speed = run.sensors["speed"]
         run.step(STEP, round(INTERVAL / STEP))
-        now = run.sensors["speed"]
-        if before < HUNDRED <= now:
-            to_hundred = INTERVAL * (k + (HUNDRED - before) / (now - before))
-    top = now
+        speed = run.sensors["speed"]
+        if previous_speed < HUNDRED <= speed:
+            to_hundred = INTERVAL * (k + (HUNDRED - previous_speed) / (speed - previous_speed))
+    top = speed
     stops = [_stop(system, pedal) for pedal in PEDALS]
-    return {"time_to_100": to_hundred, "top_speed": 3.6 * top} | max(stops, key=lambda found: found["deceleration"])
+    return {"time_to_100": to_hundred, "top_speed": 3.6 * top} | max(stops, key=lambda stop: stop["deceleration"])
 
 
 def _stop(system: System, pedal: float) -> dict[str, float]:

@@ -51,16 +51,16 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
             ONE: _one(single),
             **{way: _several(vector_env, way, last) for way, vector_env in together.items()},
         }
-        walls, spent = {way: np.full(steps, np.inf) for way in ways}, dict.fromkeys(ways, 0.0)
+        wall_times, spent = {way: np.full(steps, np.inf) for way in ways}, dict.fromkeys(ways, 0.0)
         for _ in range(repeats):
             for way, (begin, advance) in ways.items():
                 begin()
-                own = time.process_time()
+                cpu_begin = time.process_time()
                 for k in range(steps):
-                    wall = time.perf_counter()
+                    wall_begin = time.perf_counter()
                     advance(k)
-                    walls[way][k] = min(walls[way][k], time.perf_counter() - wall)
-                spent[way] += (time.process_time() - own) / repeats
+                    wall_times[way][k] = min(wall_times[way][k], time.perf_counter() - wall_begin)
+                spent[way] += (time.process_time() - cpu_begin) / repeats
         one, *others = last.values()
         if any((other != one).any() for other in others):
             raise RuntimeError(f"{name}: several environments are not the same in all ways.")
@@ -75,7 +75,7 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
             "environment": name,
             "step_ms": 1e3 * plain.car.step_length,
             "way": way,
-            "steps_a_second": count[way] / float(walls[way].sum()),
+            "steps_a_second": count[way] / float(wall_times[way].sum()),
             "us_of_processor": None if "Async" in way else 1e6 * spent[way] / count[way],
         }
         for way in ways

@@ -89,7 +89,7 @@ def write_ground(file: Path) -> list[Target]:
 
 def real_time_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Worst steps of wild driving without a limit, and what limits leave at 2 ms."""
-    free = [
+    unlimited = [
         {
             "fidelity": r["fidelity"],
             "step, ms": f"{r['step_ms']:g}",
@@ -113,7 +113,7 @@ def real_time_blocks(rows: Sequence[Row]) -> dict[str, str]:
         if r["limit"] > 0 and r["step_ms"] == LIMITED_STEP
     ]
     blocks = {}
-    for name, lines in (("wild steps", free), ("wild limits", limited)):
+    for name, lines in (("wild steps", unlimited), ("wild limits", limited)):
         if lines:
             columns = {key: ".0f" if isinstance(value, float) else "" for key, value in lines[0].items()}
             blocks[name] = table(lines, columns)

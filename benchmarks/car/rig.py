@@ -79,9 +79,9 @@ def moved(car: Car, motion: str) -> Trajectory:
 
 def slope(x: NDArray[np.float64], y: NDArray[np.float64], near: float) -> float:
     """Slope of a cubic through what lies near zero in the middle half of a motion."""
-    inside = np.abs(x) < near
-    inside[: len(x) // 4] = inside[-(len(x) // 4) :] = False
-    return float(np.polyfit(x[inside], y[inside], 3)[-2])
+    in_range = np.abs(x) < near
+    in_range[: len(x) // 4] = in_range[-(len(x) // 4) :] = False
+    return float(np.polyfit(x[in_range], y[in_range], 3)[-2])
 
 
 def contact_y(run: Trajectory, wheel: str) -> NDArray[np.float64]:

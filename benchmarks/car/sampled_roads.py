@@ -18,6 +18,6 @@ def sampled_table(spacings: Sequence[float] = SPACINGS) -> str:
         for spacing in spacings:
             road = read_road(FOLDER / name, spacing=(spacing, spacing))
             assert isinstance(road, SampledRoad)
-            off = {"at most, mm": 1e3 * road.largest, "rms, mm": 1e3 * road.rms}
-            rows.append({"file": f"`{name}`", "spacing, m": spacing, **off})
-    return table(rows, {"file": "", "spacing, m": "g", **dict.fromkeys(off, ".2g")})
+            deviations = {"at most, mm": 1e3 * road.largest, "rms, mm": 1e3 * road.rms}
+            rows.append({"file": f"`{name}`", "spacing, m": spacing, **deviations})
+    return table(rows, {"file": "", "spacing, m": "g", **dict.fromkeys(deviations, ".2g")})

@@ -39,8 +39,8 @@ def instructions(command: Sequence[str]) -> int | None:
     if valgrind is None:
         return None
     options = ("--tool=callgrind", "--callgrind-out-file=/dev/null")
-    done = subprocess.run([valgrind, *options, *command], capture_output=True, text=True, check=True)
-    result = _COLLECTED.search(done.stderr)
+    process = subprocess.run([valgrind, *options, *command], capture_output=True, text=True, check=True)
+    result = _COLLECTED.search(process.stderr)
     if result is None:
         raise RuntimeError(f"{valgrind} did not say how many instructions it has counted.")
     return int(result[1])
@@ -90,9 +90,9 @@ SCENES = (
 
 def compiled(folder: Path) -> Path:
     """The program that repeats steps."""
-    program, what = folder / "run_system", "the program that repeats steps"
+    program, label = folder / "run_system", "the program that repeats steps"
     sources, include = [SOURCE, *build.sources(lanes=False)], (build.HERE / "include",)
-    build.compile_c(sources, build.host_target(), program, include=include, what=what, shared=False)
+    build.compile_c(sources, build.host_target(), program, include=include, what=label, shared=False)
     return program
 
 
@@ -117,15 +117,15 @@ def command_of(scene: Scene, program: Path, folder: Path) -> list[str]:
 def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
     """A row of the table."""
     command = command_of(scene, program, folder)
-    still = [*command[:-1], "0"]
+    command_without_steps = [*command[:-1], "0"]
     output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     status, *counts = map(int, output.split())
     if status != 0:
         raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {status}).")
-    whole, before = instructions(command), instructions(still)
+    total, start_count = instructions(command), instructions(command_without_steps)
     row: dict[str, Any] = {"scene": scene.name, "step_ms": 1e3 * scene.step, "steps": scene.steps}
     row |= {k: n / scene.steps for k, n in zip(("iterations", "factorizations", "solves"), counts, strict=True)}
-    result = None if whole is None or before is None else round((whole - before) / scene.steps)
+    result = None if total is None or start_count is None else round((total - start_count) / scene.steps)
     return row | {"instructions": result}
 
 
@@ -151,11 +151,13 @@ def compared(rows: Sequence[Row], stored: Sequence[Row]) -> list[str]:
     stored_rows = {(row["scene"], row["step_ms"]): row for row in stored}
     lines = []
     for row in rows:
-        before = stored_rows.get((row["scene"], row["step_ms"]))
-        if before is None:
+        stored_row = stored_rows.get((row["scene"], row["step_ms"]))
+        if stored_row is None:
             continue
-        what = "instructions" if row["instructions"] and before["instructions"] else "factorizations"
-        ratio = row[what] / before[what]
+        quantity = "instructions" if row["instructions"] and stored_row["instructions"] else "factorizations"
+        ratio = row[quantity] / stored_row[quantity]
         if ratio > MOST:
-            lines.append(f"{row['scene']}, {row['step_ms']:g} ms: {what} {100.0 * (ratio - 1.0):.1f} % more a step.")
+            lines.append(
+                f"{row['scene']}, {row['step_ms']:g} ms: {quantity} {100.0 * (ratio - 1.0):.1f} % more a step."
+            )
     return lines

@@ -40,8 +40,8 @@ class _Corner:
     def _wrench(self, body: str, force: np.ndarray, point: np.ndarray) -> np.ndarray:
         w = np.zeros(6 * len(self.bodies))
         if body in self.bodies:
-            at = 6 * self.bodies.index(body)
-            w[at : at + 3], w[at + 3 : at + 6] = force, np.cross(point, force)
+            offset = 6 * self.bodies.index(body)
+            w[offset : offset + 3], w[offset + 3 : offset + 6] = force, np.cross(point, force)
         return w
 
     def unknown(
@@ -78,19 +78,19 @@ def front_forces() -> dict[str, np.ndarray]:
     axes = np.eye(3)
     for end, node in (("front", "F"), ("rear", "R")):
         for arm, letter in (("lower", "L"), ("upper", "U")):
-            at = p[f"{arm}_pivot_{end}"]
-            c.unknown(letter + node, "frame", arm, axes, at, at)
+            point = p[f"{arm}_pivot_{end}"]
+            c.unknown(letter + node, "frame", arm, axes, point, point)
     for arm in ("lower", "upper"):
-        at = p[f"{arm}_ball_joint"]
-        c.unknown(f"ball {arm}", arm, "upright", axes, at, at)
+        point = p[f"{arm}_ball_joint"]
+        c.unknown(f"ball {arm}", arm, "upright", axes, point, point)
     spring = p["spring_upper"] - p["spring_lower"]
     c.unknown("TF", "frame", "lower", (spring / np.linalg.norm(spring))[None], p["spring_upper"], p["spring_lower"])
     rod = p["tie_rod_inner"] - p["tie_rod_outer"]
     c.unknown("RK", "frame", "upright", (rod / np.linalg.norm(rod))[None], p["tie_rod_inner"], p["tie_rod_outer"])
     for body, name in (("lower", "lower_wishbone"), ("upper", "upper_wishbone"), ("upright", "upright")):
         _weigh(c, body, getattr(CAR.front.suspension.bodies, name))
-    up = wheel_loads()[0] - CAR.front.wheel.mass * GRAVITY
-    c.known("upright", np.array([0.0, 0.0, up]), np.array(CAR.front.wheel.centre))
+    tyre_force = wheel_loads()[0] - CAR.front.wheel.mass * GRAVITY
+    c.known("upright", np.array([0.0, 0.0, tyre_force]), np.array(CAR.front.wheel.centre))
     solution = c.solve()
     return {n: solution[n] for n in FRONT_NODES}
 
@@ -109,8 +109,8 @@ def rear_forces() -> dict[str, np.ndarray]:
     bodies = CAR.rear.suspension.bodies
     _weigh(c, "arm", bodies.lower_arm)
     _weigh(c, "upright", bodies.upright)
-    up = wheel_loads()[1] - CAR.rear.wheel.mass * GRAVITY
-    c.known("upright", np.array([0.0, 0.0, up]), np.array(CAR.rear.wheel.centre))
+    tyre_force = wheel_loads()[1] - CAR.rear.wheel.mass * GRAVITY
+    c.known("upright", np.array([0.0, 0.0, tyre_force]), np.array(CAR.rear.wheel.centre))
     solution = c.solve()
     return {n: solution[n] for n in REAR_NODES}
 

@@ -89,7 +89,7 @@ class _Drive:
         self.steps, self.lying, self.seen = 0, 0.0, self.read()
 
     def go(self, n: int, progress: Callable[[float], None]) -> Costs:
-        whole = [np.zeros(n, dtype=np.int64) for _ in range(3)]
+        counts = [np.zeros(n, dtype=np.int64) for _ in range(3)]
         us, residual = np.zeros(n), np.zeros(n)
         refused: list[str] = []
         self.begin()
@@ -104,8 +104,12 @@ class _Drive:
                     refused.append(refusal)
                 else:
                     roll, iterations, halvings, capped, residual[k] = self.seen[len(OBSERVED) :]
-                    before = self.last
-                    whole[0][k], whole[1][k], whole[2][k] = iterations, halvings - before[0], capped - before[1]
+                    previous_counts = self.last
+                    counts[0][k], counts[1][k], counts[2][k] = (
+                        iterations,
+                        halvings - previous_counts[0],
+                        capped - previous_counts[1],
+                    )
                     self.last = halvings, capped
                     self.lying = self.lying + self.h if abs(roll) > ROLLED else 0.0
                 if refusal or self.lying > LYING or self.steps * self.h >= RUN:
@@ -114,7 +118,7 @@ class _Drive:
         finally:
             if collecting:
                 gc.enable()
-        return Costs(us, *whole, residual, refused)
+        return Costs(us, *counts, residual, refused)
 
     last = (0.0, 0.0)  # halvings and capped steps since the start, before the present step
 

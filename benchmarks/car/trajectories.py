@@ -87,7 +87,7 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
         errors.append(path_error(coarse, values))
         loads.append(load_error(coarse, values))
     order = np.log2(errors[0] / errors[1])
-    own = errors[-1] / ((CHECKS[-1] / STEP) ** 2 - 1.0)
+    own_error = errors[-1] / ((CHECKS[-1] / STEP) ** 2 - 1.0)
     report = fine.report
     assert report is not None
     lines = [
@@ -96,11 +96,11 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
         f"# path_length_m: {length:.9g}",
         "# path error and relative wheel load error of larger steps: "
         + "; ".join(f"{h:g} s {e:.2e} m, {w:.1e}" for h, e, w in zip(CHECKS, errors, loads, strict=True)),
-        f"# order in the step {order:.2f}; error of this path if it is 2: {own:.1e} m",
+        f"# order in the step {order:.2f}; error of this path if it is 2: {own_error:.1e} m",
     ]
     write_csv(folder_of(car) / f"{name}.csv", lines, {"time": fine.t[::every]} | values, 8)
     return (
-        f"{name:<26} path {length:8.3f} m, order {order:5.2f}, own error {own:.1e} m, "
+        f"{name:<26} path {length:8.3f} m, order {order:5.2f}, own error {own_error:.1e} m, "
         f"iterations {report.mean_iterations:.2f} (at most {report.max_iterations}), {report.halvings} halvings"
     )
 

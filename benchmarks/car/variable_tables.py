@@ -44,16 +44,21 @@ def shown(tables: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     """The variables of all cars in the order of the first, without repetition for wheels and axles."""
     merged: dict[tuple[str, str, str], Shown] = {}
     for car, table in tables.items():
-        present = {v.name for v in table}
+        names = {v.name for v in table}
         alike = Counter(_alike(v) for v in table)
         for v in table:
-            family = _alike(v) if v.causality == "parameter" and alike[_alike(v)] > 1 else _family(v, present)
+            family = _alike(v) if v.causality == "parameter" and alike[_alike(v)] > 1 else _family(v, names)
             one_of_its_own = v.causality == "output" and not _WHEEL.search(v.name)
             description = v.description if one_of_its_own else ""  # cars differ: driven wheels, gear
             key = (v.causality, family, description)
-            one = merged.setdefault(key, Shown(v.name, [], v, {}))
-            starts = {**one.starts, car: [*one.starts.get(car, []), *([] if v.start is None else [v.start])]}
-            merged[key] = replace(one, names=list(dict.fromkeys([*one.names, v.name])), starts=starts)
+            merged_variable = merged.setdefault(key, Shown(v.name, [], v, {}))
+            starts = {
+                **merged_variable.starts,
+                car: [*merged_variable.starts.get(car, []), *([] if v.start is None else [v.start])],
+            }
+            merged[key] = replace(
+                merged_variable, names=list(dict.fromkeys([*merged_variable.names, v.name])), starts=starts
+            )
     return sorted(merged.values(), key=lambda s: list(_TITLES).index(s.variable.causality))
 
 

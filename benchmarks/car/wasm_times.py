@@ -174,9 +174,9 @@ def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
         hosts, versions = open_hosts(fmu, Path(folder, "unpacked"), stack)
         results: dict[tuple[int, str, str], list[float]] = {}
         for fidelity in watched(FIDELITIES):
-            many = max(INNER, (steps if fidelity == 0 else steps // 2) // INNER * INNER)
+            total_steps = max(INNER, (steps if fidelity == 0 else steps // 2) // INNER * INNER)
             start = {"initial.speed": 15.0, "fidelity": fidelity}
-            plan = {**PLAN, "h": h, "start": start, "steps": many, "warmUp": 1, "repeats": repeats}
+            plan = {**PLAN, "h": h, "start": start, "steps": total_steps, "warmUp": 1, "repeats": repeats}
             ends = set()
             for _ in range(rounds):
                 for host, timed in hosts.items():

@@ -88,17 +88,17 @@ def exponents(rows: Sequence[Row], size: str) -> dict[str, float]:
 def growth_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Growth and its exponents, of four-bars from `FITTED_FROM` windows on."""
     four_bars, frames = ([r for r in rows if r["table"] == name] for name in ("windows", "chassis"))
-    fitted = []
+    exponent_rows = []
     for method in METHODS:
-        part = [r for r in four_bars if r["method"] == method and r["N"] >= FITTED_FROM]
-        fitted.append({"method": method} | exponents(part, "N"))
+        method_rows = [r for r in four_bars if r["method"] == method and r["N"] >= FITTED_FROM]
+        exponent_rows.append({"method": method} | exponents(method_rows, "N"))
     columns = {"N": "d", "method": "", "us_per_step": ".3g", "iterations": ".2f", "factor_nonzeros": "d"}
     of_frame = dict.fromkeys(("dynamic_modes", "modes"), "d") | SHOWN | dict.fromkeys(TIMES, ".0f")
     slopes = ", ".join(f"{key.replace('_', ' ')} {value:.2f}" for key, value in exponents(frames, "modes").items())
     caption = f"Steps of {CHASSIS_STEP:g} s. Exponents b of cost = a n^b in all modes n: {slopes}."
     return {
         "growth": table(four_bars, columns | {"system_bytes": "d"}),
-        "exponents": table(fitted, {"method": ""} | dict.fromkeys(EXPONENTS, ".2f")),
+        "exponents": table(exponent_rows, {"method": ""} | dict.fromkeys(EXPONENTS, ".2f")),
         "chassis growth": f"{table(frames, of_frame)}\n\n{caption}",
     }
 
@@ -109,13 +109,15 @@ def draw(rows: Sequence[Row], file: Path) -> None:
     plt = pyplot()
     figure, ax = plt.subplots(figsize=(6.2, 4.4), layout="constrained")
     for method, colour, marker in zip(METHODS, ("#0072B2", "#CC79A7"), "ov", strict=True):
-        part = [r for r in rows if r["method"] == method]
-        x = [r["N"] for r in part]
-        ax.loglog(x, [r["us_per_step"] for r in part], f"{marker}-", color=colour, label=f"{method}: µs per step")
-    part = [r for r in rows if r["method"] == METHODS[0]]
-    x = np.array([r["N"] for r in part], dtype=float)
-    ax.loglog(x, [r["factor_nonzeros"] for r in part], "s--", color="#009E73", label="non-zeros of the factor")
-    ax.loglog(x, part[-1]["us_per_step"] * x / x[-1], ":", color="black", label="slope 1")
+        method_rows = [r for r in rows if r["method"] == method]
+        x = [r["N"] for r in method_rows]
+        ax.loglog(
+            x, [r["us_per_step"] for r in method_rows], f"{marker}-", color=colour, label=f"{method}: µs per step"
+        )
+    method_rows = [r for r in rows if r["method"] == METHODS[0]]
+    x = np.array([r["N"] for r in method_rows], dtype=float)
+    ax.loglog(x, [r["factor_nonzeros"] for r in method_rows], "s--", color="#009E73", label="non-zeros of the factor")
+    ax.loglog(x, method_rows[-1]["us_per_step"] * x / x[-1], ":", color="black", label="slope 1")
     ax.set_xlabel(f"N of the N-four-bar ({machine()['processor']})")
     ax.grid(True, which="major", alpha=0.35)
     ax.legend(fontsize=8)

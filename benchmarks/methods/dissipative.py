@@ -74,8 +74,8 @@ def four_bar(settings: mbs.Settings, h: float) -> CaseRun:
 def rest(settings: mbs.Settings, h: float) -> CaseRun:
     """Displacement of the braked car in 100 s."""
     t = _run("car", 100.0, h, settings, 0.1, {"brake": 1.0})
-    place = np.array([t[f"chassis.{c}"] for c in "xyz"])
-    return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t
+    position = np.array([t[f"chassis.{c}"] for c in "xyz"])
+    return float(np.linalg.norm(position - position[:, :1], axis=0).max()), t
 
 
 def kerb(settings: mbs.Settings, h: float) -> CaseRun:
@@ -86,8 +86,8 @@ def kerb(settings: mbs.Settings, h: float) -> CaseRun:
 
 def drive(settings: mbs.Settings, h: float) -> CaseRun:
     """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
-    when = np.arange(0.0, 1001.0, 1.0)
-    inputs = {"throttle": 0.2, "steering": (when, 0.02 * np.sin(2.0 * np.pi * when / 40.0))}
+    times = np.arange(0.0, 1001.0, 1.0)
+    inputs = {"throttle": 0.2, "steering": (times, 0.02 * np.sin(2.0 * np.pi * times / 40.0))}
     t = _run("car", 1000.0, h, settings, 0.1, inputs)
     loads = sum(np.asarray(t[f"wheel_{w}.Fz"]) for w in ("FL", "FR", "RL", "RR"))
     return float(abs(np.mean(loads) / (prototype_car.car().vehicle.mass * GRAVITY) - 1.0)), t
@@ -128,11 +128,16 @@ def dissipative_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Flexible scenes and the car: a line for each scene and method."""
     lines = []
     for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows):
-        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
-        line = {"scene": scene, "method": method, "error": part[0]["quantity"], "wrong from": f"{part[0]['limit']:g}"}
-        for r in sorted(part, key=lambda r: -r["h_s"]):
+        scene_rows = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
+        line = {
+            "scene": scene,
+            "method": method,
+            "error": scene_rows[0]["quantity"],
+            "wrong from": f"{scene_rows[0]['limit']:g}",
+        }
+        for r in sorted(scene_rows, key=lambda r: -r["h_s"]):
             cell_text = r["outcome"] if r["error"] is None else f"{r['outcome']}, {r['error']:.1e}"
             line["by step, s"] = "; ".join(filter(None, (line.get("by step, s"), f"{r['h_s']:g}: {cell_text}")))
-        line["first stop"] = next((r["reason"].partition(". Worst")[0] for r in part if r["reason"]), "-")
+        line["first stop"] = next((r["reason"].partition(". Worst")[0] for r in scene_rows if r["reason"]), "-")
         lines.append(line)
     return {"dissipative": table(lines, dict.fromkeys(lines[0], ""))}

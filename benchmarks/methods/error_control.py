@@ -31,17 +31,17 @@ def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str
     row: dict[str, Any] = {"scene": scene, "tolerance": tolerance, "method": method}
     row |= dict.fromkeys(("error_over_tolerance", "cpu_ms", "ratio", "warned"))
     times = np.linspace(0.0, case.end, SAMPLES + 1)
-    spent = []
+    cpu_times = []
     for _ in range(repeats):
-        with warnings.catch_warnings(record=True) as caught:
+        with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always")
             begin = time.process_time()
             try:
                 run = mbs.simulate(system, case.end, tolerance=tolerance, method=method, times=times, progress=False)
             except mbs.SimulationError as error:
                 return row | {"ended": f"refused at {error.time:.4g} s: {error}"}
-        spent.append(time.process_time() - begin)
-        if spent[0] > LONG:
+        cpu_times.append(time.process_time() - begin)
+        if cpu_times[0] > LONG:
             break
     control = run.control
     assert control is not None
@@ -51,11 +51,11 @@ def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str
         "method": method if method != CHOSEN else f"{CHOSEN}: {control.method}",
         "error_over_tolerance": error / tolerance,
         "estimate_over_tolerance": control.error / tolerance,
-        "cpu_ms": 1e3 * min(spent),
+        "cpu_ms": 1e3 * min(cpu_times),
         "steps": control.steps,
         "rejected": control.rejected,
         "runs": control.runs,
-        "warned": "yes" if caught else "",
+        "warned": "yes" if caught_warnings else "",
         "ended": "finished",
     }
 
@@ -68,10 +68,10 @@ def methods_of(scene: str, tolerance: float) -> list[str]:
 
 def compare(rows: list[dict[str, Any]]) -> None:
     """Fills in the time of each row over the best that kept its error."""
-    good = [r["cpu_ms"] for r in rows if r["cpu_ms"] and r["error_over_tolerance"] <= MOST_ERROR]
+    accurate_times = [r["cpu_ms"] for r in rows if r["cpu_ms"] and r["error_over_tolerance"] <= MOST_ERROR]
     for row in rows:
-        if good and row["cpu_ms"]:
-            row["ratio"] = row["cpu_ms"] / min(r for r in good)
+        if accurate_times and row["cpu_ms"]:
+            row["ratio"] = row["cpu_ms"] / min(r for r in accurate_times)
 
 
 def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
@@ -80,7 +80,7 @@ def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
     for r in rows:
         if not r["method"].startswith(CHOSEN):
             continue
-        others = [
+        accurate_rows = [
             x
             for x in rows
             if (x["scene"], x["tolerance"]) == (r["scene"], r["tolerance"])
@@ -88,9 +88,11 @@ def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
             and x["cpu_ms"]
             and x["error_over_tolerance"] <= MOST_ERROR
         ]
-        best = min(others, key=lambda x: x["cpu_ms"], default=None)
+        best = min(accurate_rows, key=lambda x: x["cpu_ms"], default=None)
         miss = [
-            what for what, there in (("slow", (r["ratio"] or 0.0) > MOST_TIME), ("refused", not r["cpu_ms"])) if there
+            label
+            for label, applies in (("slow", (r["ratio"] or 0.0) > MOST_TIME), ("refused", not r["cpu_ms"]))
+            if applies
         ]
         if (r["error_over_tolerance"] or 0.0) > MOST_ERROR:
             miss.append("wrong" + (", warned" if r["warned"] else ""))

@@ -99,8 +99,8 @@ def spatial(rng: np.random.Generator) -> Case:
 def machines(rng: np.random.Generator) -> Case:
     """Masses on a line with belts, brakes, plays, cams, impacts and stops."""
     kind, machine = random_machines.machine(rng)
-    result = masses_on_a_line.motion(machine)
-    truth = {f"x{i}": result[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
+    positions = masses_on_a_line.motion(machine)
+    truth = {f"x{i}": positions[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
     return Case(kind, truth=truth, **simulated(mbs.compile(random_machines.model_of(machine)), machine.span))
 
 
@@ -154,14 +154,14 @@ def jumps(rng: np.random.Generator) -> Case:
     kind, drawing = _swinging(rng)
     t = np.concatenate([[0.0], np.sort(rng.uniform(0.1, drawing.span, int(rng.integers(2, 5)))), [2.0 * drawing.span]])
     scale, jumping = np.sqrt(9.81 / drawing.size), rng.random() < 0.7
-    angle, rate, pieces = 0.0, float(rng.normal(0.0, 1.0) * scale), []
+    angle, rate, coefficients = 0.0, float(rng.normal(0.0, 1.0) * scale), []
     for length in np.diff(t):
         bend = 0.0 if jumping else float(rng.normal(0.0, 1.0) * scale**2)
-        pieces.append((bend, rate, angle))
+        coefficients.append((bend, rate, angle))
         angle += (rate + bend * length) * length
         rate = float(rng.normal(0.0, 1.0) * scale) if jumping else rate + 2.0 * bend * length
-    moved = replace(drawing, drive=PPoly(np.array(pieces).T, t), torque=0.0)
-    return _drawn(f"{kind}, its {'rate' if jumping else 'acceleration'} jumps", moved)
+    driven_drawing = replace(drawing, drive=PPoly(np.array(coefficients).T, t), torque=0.0)
+    return _drawn(f"{kind}, its {'rate' if jumping else 'acceleration'} jumps", driven_drawing)
 
 
 def switches(rng: np.random.Generator) -> Case:
@@ -208,8 +208,8 @@ def flexible(rng: np.random.Generator) -> Case:
     stop = EndStops(
         height - gap, float(10.0 ** rng.uniform(3.0, 5.0)), 0.0, 0.0, bump_loss=float(rng.uniform(0.0, 0.5))
     )
-    drawn = tip.point((length, 0.0, 0.0)) - m.ground.point((length, 0.0, -height))
-    m.add(SpringDamper(0.0, 0.0, height, stop).record("stop", drawn))
+    gap_vector = tip.point((length, 0.0, 0.0)) - m.ground.point((length, 0.0, -height))
+    m.add(SpringDamper(0.0, 0.0, height, stop).record("stop", gap_vector))
     m.initial_velocity(beam, angular=(0.0, float(rng.uniform(-2.0, 2.0)), 0.0))
     for c in "xz":
         m.sense_position(f"tip.{c}", tip, (length, 0.0, 0.0), c)
@@ -269,9 +269,9 @@ def tumbling(rng: np.random.Generator) -> Case:
     rate = float(rng.uniform(1.0, 6.0))
     drive = PPoly(np.array([[0.2], [rate], [0.0]]), [0.0, 2.0 * drawing.span]) if driven else None
     drawing = replace(drawing, drive=drive, torque=0.0)
-    seen = newton_euler.motion(drawing, rates=True)
+    rates = newton_euler.motion(drawing, rates=True)
     names = [f"rate{i}.{c}" for i in range(len(drawing.links)) for c in ("z" if drawing.dimension == 2 else "xyz")]
-    truth = dict(zip([*names, "motor.torque"] if driven else names, seen.T, strict=False))
+    truth = dict(zip([*names, "motor.torque"] if driven else names, rates.T, strict=False))
     kind = f"chain in {'the plane' if drawing.dimension == 2 else 'space'}, {'driven' if driven else 'free'}"
     system = mbs.compile(random_mechanisms.model_of(drawing, rates=True))
     return Case(kind, truth=truth, **simulated(system, drawing.span), tolerances=())

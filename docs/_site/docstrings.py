@@ -11,9 +11,9 @@ CODE = re.compile(r"(``.+?``|`[^`]+`)")
 
 def escaped(line: str) -> str:
     """`line` with the characters escaped that reStructuredText would take for markup, outside of code."""
-    parts = CODE.split(line)
-    parts[::2] = [MARKUP.sub(r"\\\g<0>", part) for part in parts[::2]]
-    return "".join(parts)
+    segments = CODE.split(line)
+    segments[::2] = [MARKUP.sub(r"\\\g<0>", segment) for segment in segments[::2]]
+    return "".join(segments)
 
 
 def plain(app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]) -> None:

@@ -38,21 +38,21 @@ logger = logging.getLogger(__name__)
 
 def digest() -> str:
     """Of all that the pages are made from."""
-    found = hashlib.sha256()
+    content_hash = hashlib.sha256()
     for folder in SOURCES:
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix in SUFFIXES and not LEFT_OUT & set(path.parts):
-                found.update(f"{path.relative_to(ROOT)} {path.stat().st_size}\n".encode())
-                found.update(path.read_bytes())
-    return found.hexdigest()
+                content_hash.update(f"{path.relative_to(ROOT)} {path.stat().st_size}\n".encode())
+                content_hash.update(path.read_bytes())
+    return content_hash.hexdigest()
 
 
 def make(names: Sequence[str], out: Path) -> str:
     """Make pages in a program of their own; what went wrong in one line, or nothing."""
     command = [sys.executable, str(Path(__file__).with_name("make_live_page.py")), *names, str(out)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
-    words = [f"exit code {done.returncode}", *done.stderr.strip().splitlines()][-1]
-    return "" if done.returncode == 0 else f"{' and '.join(names)}: {words}"
+    process = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    last_line = [f"exit code {process.returncode}", *process.stderr.strip().splitlines()][-1]
+    return "" if process.returncode == 0 else f"{' and '.join(names)}: {last_line}"
 
 
 def build(app: Sphinx) -> None:
@@ -61,21 +61,21 @@ def build(app: Sphinx) -> None:
     mode = os.environ.get(MODE, "")
     if app.builder.format != "html" or mode == "none":
         return
-    out, began = Path(app.outdir) / PLACE, time.monotonic()
-    stamp, known = out / "sources.sha256", digest()
-    if not (stamp.is_file() and stamp.read_text() == known):
+    out, start_time = Path(app.outdir) / PLACE, time.monotonic()
+    stamp, current_digest = out / "sources.sha256", digest()
+    if not (stamp.is_file() and stamp.read_text() == current_digest):
         out.mkdir(parents=True, exist_ok=True)
         stamp.unlink(missing_ok=True)
         programs = [OF_ONE_FMU, *((name,) for name in PAGES if name not in OF_ONE_FMU)]
         with ThreadPoolExecutor(2) as pool:
-            wrong = [words for words in pool.map(lambda names: make(names, out), programs) if words]
-        if wrong and mode == "required":
-            raise ExtensionError(f"Pages that run FMUs could not be made: {'; '.join(wrong)}")
-        if wrong:  # a plain line: the rest of the site is as good, also where warnings are errors
-            print(f"warning: pages that run FMUs are left out of the site: {'; '.join(wrong)}", file=sys.stderr)
+            failures = [failure for failure in pool.map(lambda names: make(names, out), programs) if failure]
+        if failures and mode == "required":
+            raise ExtensionError(f"Pages that run FMUs could not be made: {'; '.join(failures)}")
+        if failures:  # a plain line: the rest of the site is as good, also where warnings are errors
+            print(f"warning: pages that run FMUs are left out of the site: {'; '.join(failures)}", file=sys.stderr)
         else:
-            stamp.write_text(known)
-            logger.info("pages that run FMUs: %.0f s", time.monotonic() - began)
+            stamp.write_text(current_digest)
+            logger.info("pages that run FMUs: %.0f s", time.monotonic() - start_time)
     app.config.live_pages = [name for name in PAGES if (out / f"{name}.html").is_file()]
 
 
@@ -83,13 +83,13 @@ def listed(app: Sphinx, page: str, source: list[str]) -> None:
     """Put the list of the pages into the document that asks for it."""
     if MARK not in source[0]:
         return
-    there = [
+    entries = [
         f'- {PAGES[name]} <a href="{PLACE}/{name}.html">Open it</a> '
         f"({(Path(app.outdir) / PLACE / f'{name}.html').stat().st_size / 1e6:.1f} MB)."
         for name in app.config.live_pages
     ]
     absent = "This copy of the site was built without the pages; `ali3 view FMU --live` makes one."
-    source[0] = source[0].replace(MARK, "\n".join(there) or absent)
+    source[0] = source[0].replace(MARK, "\n".join(entries) or absent)
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

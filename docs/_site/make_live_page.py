@@ -42,8 +42,8 @@ def prototype(folder: Path) -> str:
 
 def proving_ground(folder: Path) -> str:
     """The paper's car in the world of the simulator."""
-    more = ("--world", "proving_ground", "--title", "The proving ground")
-    return written(built(folder, "--car", "prototype"), folder, *more)
+    options = ("--world", "proving_ground", "--title", "The proving ground")
+    return written(built(folder, "--car", "prototype"), folder, *options)
 
 
 def hatchback(folder: Path) -> str:
@@ -59,17 +59,19 @@ def double_four_bar_beside(folder: Path) -> str:
     try:
         mbs.simulate(system, 10.0, h=0.01, settings=mbs.Settings(method=_FAILS), progress=False)
     except mbs.SimulationError as error:
-        run, why = error.trajectory, str(error).split(". Worst")[0]
+        trajectory, reason = error.trajectory, str(error).split(". Worst")[0]
     else:
         raise SystemExit(f"the double four-bar passes its singular positions with {_FAILS}")
-    recording = Recording(system.scene, run.poses.t, dict(run.poses.items()), name="the same without projections")
-    shown = Page(
+    recording = Recording(
+        system.scene, trajectory.poses.t, dict(trajectory.poses.items()), name="the same without projections"
+    )
+    page = Page(
         *([fmu], ["ALi3 with projections: it runs on"]),
         {"name": "double_four_bar", "run": True, "step": 0.01, "plots": ["energy.total", "B0.position.y"]},
         recordings=[recording],
-        ends=[f"{why}."],
+        ends=[f"{reason}."],
     )
-    return shown.text("The double four-bar through its singular positions")
+    return page.text("The double four-bar through its singular positions")
 
 
 def puma(folder: Path) -> str:
@@ -77,19 +79,25 @@ def puma(folder: Path) -> str:
     fmu = built(folder, "--scene", "puma")
     text = files("mbs.scenes.puma").joinpath("manoeuvre.csv").read_text(encoding="utf-8")
     rows = [[float(x) for x in row] for row in csv.reader(text.splitlines()[1:])]
-    there = [row[1:8] for row in rows if row[0] == 1]
+    torque_rows = [row[1:8] for row in rows if row[0] == 1]
     table = folder / "manoeuvre.csv"
-    table.write_text("\n".join(["time," + ",".join(f"torque_{k}" for k in range(1, 7)), *_to_and_fro(there, 1)]))
-    small = ["--set", "step_size=0.002", "--step", "0.002"]
-    return written(fmu, folder, "--title", "The PUMA robot", "--manoeuvre", str(table), "--plot", "angle_2", *small)
+    table.write_text("\n".join(["time," + ",".join(f"torque_{k}" for k in range(1, 7)), *_to_and_fro(torque_rows, 1)]))
+    step_options = ["--set", "step_size=0.002", "--step", "0.002"]
+    return written(
+        fmu, folder, "--title", "The PUMA robot", "--manoeuvre", str(table), "--plot", "angle_2", *step_options
+    )
 
 
 def _to_and_fro(rows: Sequence[Sequence[float]], times: int) -> list[str]:
     """A motion without friction, and the same backwards: torques in the opposite order lead back to its start."""
     length = rows[-1][0]
-    back = [[2.0 * length - row[0], *row[1:]] for row in reversed(rows[:-1])]
-    once = [*rows, *back]
-    all_rows = [[row[0] + 2.0 * length * k, *row[1:]] for k in range(times) for row in (once if k == 0 else once[1:])]
+    reversed_rows = [[2.0 * length - row[0], *row[1:]] for row in reversed(rows[:-1])]
+    round_trip = [*rows, *reversed_rows]
+    all_rows = [
+        [row[0] + 2.0 * length * k, *row[1:]]
+        for k in range(times)
+        for row in (round_trip if k == 0 else round_trip[1:])
+    ]
     return [",".join(repr(x) for x in row) for row in all_rows]
 
 

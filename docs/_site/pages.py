@@ -36,21 +36,23 @@ def with_file(app: Sphinx, page: str, source: list[str]) -> None:
 def _target(file: Path, link: str) -> str:
     """What a link of the file leads to, as seen from `docs/`."""
     path, mark, anchor = link.partition("#")
-    place = (file.parent / path).resolve().relative_to(ROOT).as_posix()
-    page = next((page for page, source in PAGES.items() if source == place), None)
-    seen = f"{page}.md" if page else place.removeprefix("docs/") if place.startswith("docs/") else f"../{place}"
-    return seen + mark + anchor
+    location = (file.parent / path).resolve().relative_to(ROOT).as_posix()
+    page = next((page for page, source in PAGES.items() if source == location), None)
+    target = (
+        f"{page}.md" if page else location.removeprefix("docs/") if location.startswith("docs/") else f"../{location}"
+    )
+    return target + mark + anchor
 
 
 def with_short_menu(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: object) -> None:
     """Make the menu from titles: Sphinx copies all headings and objects of each page for each page, and drops them."""
-    whole = context["toctree"]
+    full_menu = context["toctree"]
 
     def menu(**options: Any) -> str:
         if not options.get("titles_only"):
-            return whole(**options)
+            return full_menu(**options)
         with patch.object(app.env, "tocs", _titles(app)):
-            return whole(**options)
+            return full_menu(**options)
 
     context["toctree"] = menu
 
@@ -62,13 +64,13 @@ def _titles(app: Sphinx) -> dict[str, nodes.bullet_list]:
 
 def _title(toc: nodes.bullet_list) -> nodes.bullet_list:
     """What a menu of titles keeps of a page's contents."""
-    kept = toc.copy()
+    titles = toc.copy()
     for entry in toc.children:
-        kept += nodes.list_item("", *(part.deepcopy() for part in entry[:1]))
-        below = [tree.deepcopy() for tree in entry.findall(addnodes.toctree)]
-        if below:
-            kept[-1] += nodes.bullet_list("", *below)
-    return kept
+        titles += nodes.list_item("", *(child.deepcopy() for child in entry[:1]))
+        subtrees = [tree.deepcopy() for tree in entry.findall(addnodes.toctree)]
+        if subtrees:
+            titles[-1] += nodes.bullet_list("", *subtrees)
+    return titles
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -17,6 +17,6 @@ class BrakePulse(Fmi2Slave):
             self.register_variable(Real(name, causality=Fmi2Causality.output))
 
     def do_step(self, current_time, step_size):
-        part = min(max((current_time + step_size - BEGIN) / LAST, 0.0), 1.0)
-        self.brake = BRAKE * sin(pi * part) ** 2
+        phase = min(max((current_time + step_size - BEGIN) / LAST, 0.0), 1.0)
+        self.brake = BRAKE * sin(pi * phase) ** 2
         return True

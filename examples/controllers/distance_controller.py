@@ -20,8 +20,8 @@ class DistanceController(Fmi2Slave):
 
     def do_step(self, current_time, step_size):
         self.gap = self.x_ahead - self.x - LENGTH
-        wanted = STANDSTILL + TIME_GAP * self.speed
-        demand = 0.25 * (self.gap - wanted) + 0.8 * (self.speed_ahead - self.speed)  # m/s2
+        desired_gap = STANDSTILL + TIME_GAP * self.speed
+        demand = 0.25 * (self.gap - desired_gap) + 0.8 * (self.speed_ahead - self.speed)  # m/s2
         self.throttle = min(max(0.15 * demand + 0.08, 0.0), 1.0)
         self.brake = min(max(-0.1 * (demand + 0.8), 0.0), 1.0)
         return True

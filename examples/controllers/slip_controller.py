@@ -17,10 +17,10 @@ class SlipController(Fmi2Slave):
             self.register_variable(Real(name, causality=Fmi2Causality[("output", "input")[name in INPUTS]]))
 
     def do_step(self, current_time, step_size):
-        for wheel, most in MOST.items():
+        for wheel, max_torque in MOST.items():
             excess = 1.0 - getattr(self, f"omega_{wheel}") * RADIUS / max(self.speed, 0.5) - SLIP
             slips = self.on and self.speed > 1.5 and excess > 0.0
             rate = -15e3 * min(max(10.0 * excess, 0.3), 3.0) if slips else 3e3 if self.on else 20e3  # N m/s
             torque = getattr(self, f"torque_{wheel}") + step_size * rate
-            setattr(self, f"torque_{wheel}", min(max(torque, 0.0), most))
+            setattr(self, f"torque_{wheel}", min(max(torque, 0.0), max_torque))
         return True

@@ -20,8 +20,8 @@ class TorqueVectoring(Fmi2Slave):
         self.do_step(0.0, 0.0)
 
     def do_step(self, current_time, step_size):
-        wanted = self.speed * STEERED * self.steering / (WHEELBASE + UNDERSTEER * self.speed**2)
-        turn = self.on * GAIN * (wanted - self.yaw_rate)
+        reference_yaw_rate = self.speed * STEERED * self.steering / (WHEELBASE + UNDERSTEER * self.speed**2)
+        yaw_torque = self.on * GAIN * (reference_yaw_rate - self.yaw_rate)
         for name, sign in (("torque_RL", -1.0), ("torque_RR", 1.0)):
-            setattr(self, name, min(max(0.5 * self.demand + sign * turn, -MOST), MOST))
+            setattr(self, name, min(max(0.5 * self.demand + sign * yaw_torque, -MOST), MOST))
         return True

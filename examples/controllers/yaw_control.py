@@ -18,9 +18,11 @@ class YawControl(Fmi2Slave):
             self.register_variable(Real(name, causality=Fmi2Causality[("output", "input")[name in INPUTS]]))
 
     def do_step(self, current_time, step_size):
-        wanted = self.speed * STEERED * self.steering / (WHEELBASE + UNDERSTEER * self.speed**2)
-        most = GRIP / max(self.speed, 1.0)
-        error = self.yaw_rate - min(max(wanted, -most), most)  # positive: turned too far to the left
+        reference_yaw_rate = self.speed * STEERED * self.steering / (WHEELBASE + UNDERSTEER * self.speed**2)
+        yaw_rate_limit = GRIP / max(self.speed, 1.0)
+        error = self.yaw_rate - min(
+            max(reference_yaw_rate, -yaw_rate_limit), yaw_rate_limit
+        )  # positive: turned too far to the left
         torque = self.on * min(GAIN * max(abs(error) - FREE, 0.0), MOST)
         self.torque_FL, self.torque_FR = (torque, 0.0) if error < 0.0 else (0.0, torque)
         return True

@@ -24,8 +24,8 @@ def systems_by_number(system: Systems) -> dict[int, mbs.System]:
         systems = dict(enumerate(systems))
     elif not isinstance(systems, Mapping):
         systems = {0: systems}
-    for each in systems.values():
-        instance_of(mbs.System, each, "the system of an FMU", "a System, which compile(model) makes")
+    for item in systems.values():
+        instance_of(mbs.System, item, "the system of an FMU", "a System, which compile(model) makes")
     numbers = list(systems)
     if not numbers:
         raise ValueError("An FMU needs a System; none was given.")
@@ -53,10 +53,10 @@ def known_platforms(platforms: Sequence[str] | None, able: Sequence[str], kind: 
         return tuple(name for name in able if name in PLATFORMS)
     if isinstance(platforms, str) or not isinstance(platforms, Iterable):
         raise ArgumentTypeError(f"The platforms of an FMU must be a list of names, not {shown(platforms)}.")
-    asked = tuple(platforms)
-    unknown = sorted(str(name) for name in asked if name not in able)
-    if not asked:
+    requested = tuple(platforms)
+    unknown = sorted(str(name) for name in requested if name not in able)
+    if not requested:
         raise ValueError(f"An FMU needs a platform; a {kind} FMU runs on {', '.join(able)}.")
     if unknown:
         raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
-    return asked
+    return requested

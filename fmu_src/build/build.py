@@ -112,11 +112,13 @@ def build_fmu(
     """
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"There is no FMU kind '{kind}'; the kinds are {', '.join(KINDS)}.")
-    chosen = known_platforms(platforms, able_platforms(kind), kind)
+    platform_names = known_platforms(platforms, able_platforms(kind), kind)
     file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
     check_writable(file)
     # one library is there soon enough
-    with compiled_ahead([(face_name(kind), platform) for platform in chosen] if len(chosen) > 1 else []):
+    with compiled_ahead(
+        [(face_name(kind), platform) for platform in platform_names] if len(platform_names) > 1 else []
+    ):
         builder = FmuBuilder(
             system,
             name,
@@ -126,7 +128,7 @@ def build_fmu(
             names=names,
             plain=plain,
         )
-        return builder.build(kind, chosen, file)
+        return builder.build(kind, platform_names, file)
 
 
 class FmuBuilder:
@@ -164,9 +166,9 @@ class FmuBuilder:
         names: Content | None = None,
         plain: bool = False,
     ) -> None:
-        offered = systems_by_number(system)
-        systems, followers = following(list(offered.values()))
-        fidelity = default_fidelity(fidelity, len(offered))
+        systems_by_fidelity = systems_by_number(system)
+        systems, followers = following(list(systems_by_fidelity.values()))
+        fidelity = default_fidelity(fidelity, len(systems_by_fidelity))
         metas = [s.meta for s in systems]
         check_fidelities(metas)
         meta = metas[fidelity]
@@ -174,7 +176,7 @@ class FmuBuilder:
             meta,
             pose=bool(meta["floating"]),
             step_size=float(meta["experiment"]["step_s"]),
-            fidelities=[_label(k) for k in offered],
+            fidelities=[_label(k) for k in systems_by_fidelity],
             fidelity=fidelity,
         )
         table = with_uncomputed(table, metas)
@@ -228,8 +230,8 @@ class FmuBuilder:
             if not self._runs:
                 with self._told("running the default experiment"):
                     runs = reference_runs(contents.system, contents.follower)
-                named = by_name_in_system(contents.table, contents.system.meta)
-                self._runs = tuple(with_other_names(run, named) for run in runs)
+                variables_by_name = by_name_in_system(contents.table, contents.system.meta)
+                self._runs = tuple(with_other_names(run, variables_by_name) for run in runs)
             pack_native(contents, _FACES[kind], self._runs, platforms, file, self._told, self._libraries)
         return file
 

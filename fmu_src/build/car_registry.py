@@ -67,24 +67,24 @@ def build_car(
     data, name = load(Path(car) if _is_path(car) else car), None
     if ports is not None:
         name = f"{data.name}_ports"
-        chosen = chosen_ports(ports)
-        data = data.changed({f"ports.{key}": kind for key, kind in chosen.items()})
+        port_kinds = chosen_ports(ports)
+        data = data.changed({f"ports.{key}": kind for key, kind in port_kinds.items()})
     if fidelity is not None:
-        only = Fidelity.of(int(fidelity) if fidelity % 1.0 == 0.0 else fidelity)  # type: ignore[arg-type]
-        name = f"{name or data.name}_{only.name.lower()}"
-    where = f"{data.folder / _FILE}: the car '{data.name}' cannot be built"
+        single_fidelity = Fidelity.of(int(fidelity) if fidelity % 1.0 == 0.0 else fidelity)  # type: ignore[arg-type]
+        name = f"{name or data.name}_{single_fidelity.name.lower()}"
+    prefix = f"{data.folder / _FILE}: the car '{data.name}' cannot be built"
     try:
         makers: Mapping[Any, Maker] = data.fidelities()
         if fidelity is not None:
-            makers = {0: partial(data.model, None, only)}
+            makers = {0: partial(data.model, None, single_fidelity)}
         systems = posed_systems(makers, min(makers), poses, tell)
     except (ValueError, RuntimeError) as error:
-        raise SceneError(f"{where}: {error}") from error
+        raise SceneError(f"{prefix}: {error}") from error
     except (ArithmeticError, LookupError) as error:
-        raise SceneError(f"{where}: {type(error).__name__}: {error}.") from error
+        raise SceneError(f"{prefix}: {type(error).__name__}: {error}.") from error
     files = car_files(data)
     if ports is not None and b"[ports]" not in files[f"{FOLDER}/{_FILE}"]:  # so that the FMU can be built again from it
-        table = "\n".join(["\n[ports]", *(f'{key} = "{kind}"' for key, kind in chosen.items()), ""])
+        table = "\n".join(["\n[ports]", *(f'{key} = "{kind}"' for key, kind in port_kinds.items()), ""])
         files[f"{FOLDER}/{_FILE}"] += table.encode()
     return BuiltCar(name or data.name, data.description, systems, files, grip_of(data))
 
@@ -101,8 +101,8 @@ def car_text(car: str) -> str:
     """
     if _is_path(car) or car not in car_names():
         return shortened(car)
-    own = f" (the folder {car} here would be ./{car})" if is_file(Path(car) / _FILE) else ""
-    return f"{car} of the package{own}"
+    note = f" (the folder {car} here would be ./{car})" if is_file(Path(car) / _FILE) else ""
+    return f"{car} of the package{note}"
 
 
 def car_files(car: Car) -> dict[str, bytes]:
@@ -111,10 +111,10 @@ def car_files(car: Car) -> dict[str, bytes]:
     `car`: as `mbs.vehicle.load` gives it.
     """
     folder = car.folder.resolve()
-    named = {(folder / text).resolve() for text in _texts(car.model_dump())}
-    files = {folder / _FILE} | {file for file in named if folder in file.parents and is_file(file)}
-    places = {f"{FOLDER}/{file.relative_to(folder).as_posix()}": file for file in sorted(files)}
-    return {place: read_bytes(file, LARGEST_UNPACKED) for place, file in places.items()}
+    named_files = {(folder / text).resolve() for text in _texts(car.model_dump())}
+    files = {folder / _FILE} | {file for file in named_files if folder in file.parents and is_file(file)}
+    files_by_path = {f"{FOLDER}/{file.relative_to(folder).as_posix()}": file for file in sorted(files)}
+    return {path: read_bytes(file, LARGEST_UNPACKED) for path, file in files_by_path.items()}
 
 
 def _texts(data: Any) -> Iterator[str]:

@@ -27,29 +27,29 @@ _KINDS = "native,fmi3,python"
 def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
     """Run the command; `prog` is how the user typed it."""
     parser = Parser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
-    what = parser.add_mutually_exclusive_group()
-    what.add_argument(
+    target_group = parser.add_mutually_exclusive_group()
+    target_group.add_argument(
         "car",
         nargs="?",
         default=argparse.SUPPRESS,  # else its absence takes away what --car gave
         metavar="CAR",
         help="a car of the package by its name, a folder with a file car.toml, or such a file",
     )
-    what.add_argument("--car", help=argparse.SUPPRESS)
-    what.add_argument(
+    target_group.add_argument("--car", help=argparse.SUPPRESS)
+    target_group.add_argument(
         "--scene",
         default="prototype_car",
         metavar="NAME",
         help="a scene of mbs.scenes, or path/to/file.py:function (a function that returns an mbs.Model or mbs.System); "
         "default: prototype_car",
     )
-    what.add_argument(
+    target_group.add_argument(
         "--fmu",
         type=Path,
         metavar="FMU",
         help="an FMU of the kind native: its own sources are compiled for the --platforms, existing binaries stay",
     )
-    what.add_argument("--kernel", action="store_true", help="the C kernel in place of an FMU, in a clone")
+    target_group.add_argument("--kernel", action="store_true", help="the C kernel in place of an FMU, in a clone")
     add_option(parser, "--out", "dist; of the kernel: its place in the package")
     parser.add_argument(
         "--kind",
@@ -100,8 +100,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     if options.fidelity is not None and options.car is None:
         parser.error("--fidelity needs a car, as in ali3 build prototype")
     if options.plain and (options.kernel or options.fmu is not None):
-        other = "the kernel has no code of a model" if options.kernel else "--fmu compiles the C in the FMU"
-        parser.error(f"--plain needs a car or a scene to build; {other}")
+        reason = "the kernel has no code of a model" if options.kernel else "--fmu compiles the C in the FMU"
+        parser.error(f"--plain needs a car or a scene to build; {reason}")
     if options.kernel:
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")
@@ -160,13 +160,13 @@ def _build(options: argparse.Namespace) -> int:
     _need("ziglang")
     _need("pyssp_standard")
 
-    first, rest = (
+    host_platforms, other_platforms = (
         [p for p in platforms if p == host_platform],
         [p for p in TARGETS if p in platforms and p != host_platform],
     )
-    ahead = [(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]
-    with compiled_ahead(ahead), warning_lines():
-        return _build_kinds(options, kinds, first, rest)
+    libraries = [(face_name(kind), p) for p in host_platforms + other_platforms for kind in kinds if _able(kind, p)]
+    with compiled_ahead(libraries), warning_lines():
+        return _build_kinds(options, kinds, host_platforms, other_platforms)
 
 
 def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Sequence[str], rest: Sequence[str]) -> int:
@@ -183,34 +183,34 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     if options.names is not None:
         name = f"{name}_{Path(options.names).stem}"
     files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
-    beside = options.out / f"{fmu_name(name)}.ssv"
-    for file in (*files.values(), beside):
+    parameter_file = options.out / f"{fmu_name(name)}.ssv"
+    for file in (*files.values(), parameter_file):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
     _report_names(builder.renamed, len(builder.renamed.table))
     platforms = [p for p in TARGETS if p in first or p in rest]
-    able = {kind: [p for p in platforms if _able(kind, p)] for kind in kinds}
-    for kind in [k for k in kinds if not able[k]]:
+    available = {kind: [p for p in platforms if _able(kind, p)] for kind in kinds}
+    for kind in [k for k in kinds if not available[k]]:
         print(f"{kind}: left out, it runs on {', '.join(able_platforms(kind))} only", flush=True)
-        del able[kind]
+        del available[kind]
     # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
-    first_builds = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
-    everywhere = {kind: places for kind, places in able.items() if first_builds.get(kind) != places}
+    first_builds = {kind: list(first) for kind in available if first and set(first) <= set(available[kind])}
+    full_builds = {kind: targets for kind, targets in available.items() if first_builds.get(kind) != targets}
     meta = systems[fidelity].meta
     parameters_written = False
-    for chosen in (first_builds, everywhere):
-        line.expect(builder.pieces(chosen))
-        for kind, places in chosen.items():
-            file = builder.build(kind, places, files[kind])
+    for builds in (first_builds, full_builds):
+        line.expect(builder.pieces(builds))
+        for kind, targets in builds.items():
+            file = builder.build(kind, targets, files[kind])
             print(
                 f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(meta['inputs'])} inputs, "
-                f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
+                f"{len(meta['sensors'])} sensors; for {', '.join(targets)}",
                 flush=True,
             )
-        if chosen and not parameters_written:
-            parameters_written = _write_parameters(builder.parameters, beside)
-        if chosen is first_builds and first_builds and everywhere:
+        if builds and not parameters_written:
+            parameters_written = _write_parameters(builder.parameters, parameter_file)
+        if builds is first_builds and first_builds and full_builds:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
 
@@ -249,14 +249,14 @@ def _report_names(renamed: Renamed, variables: int) -> None:
     named = renamed.named.values()
     if not named:
         return
-    odd = {v.unit for v in named if v.scale != 1.0}
-    units = f", in {', '.join(sorted(odd))} where they have another unit" if odd else ""
+    other_units = {v.unit for v in named if v.scale != 1.0}
+    units = f", in {', '.join(sorted(other_units))} where they have another unit" if other_units else ""
     print(f"{len(named)} of {variables} variables have other names{units}; the rest keep theirs", flush=True)
     reasons: dict[str, list[str]] = {}
-    for ours, why in renamed.left_out.items():
-        reasons.setdefault(why, []).append(ours)
-    for why, names in reasons.items():
-        print(f"{', '.join(names)}: no other name; {why}", flush=True)
+    for name, reason in renamed.left_out.items():
+        reasons.setdefault(reason, []).append(name)
+    for reason, names in reasons.items():
+        print(f"{', '.join(names)}: no other name; {reason}", flush=True)
 
 
 def _report_grip(grip: Mapping[str, str]) -> None:
@@ -284,18 +284,18 @@ def _able(kind: str, platform: str) -> bool:
 def _platforms(text: str, here: str | None) -> list[str]:
     from fmu_src.native.platforms import PLATFORMS, TARGETS
 
-    asked = text.split(",")
-    if "this" in asked and here is None:
+    requested = text.split(",")
+    if "this" in requested and here is None:
         raise UserError(f"No FMU runs on this machine; --platforms all builds for {', '.join(PLATFORMS)}.")
-    words = {"this": (here or "",), "all": PLATFORMS}
-    chosen = list(dict.fromkeys(platform for word in asked for platform in words.get(word, (word,))))
-    if set(chosen) - set(TARGETS):
-        near = did_you_mean(text, [*TARGETS, "this", "all"], f"the platforms are {', '.join(TARGETS)}, this and all")
-        raise UserError(f"Platform '{text}' is not known{near}")
-    return chosen
+    groups = {"this": (here or "",), "all": PLATFORMS}
+    names = list(dict.fromkeys(platform for word in requested for platform in groups.get(word, (word,))))
+    if set(names) - set(TARGETS):
+        hint = did_you_mean(text, [*TARGETS, "this", "all"], f"the platforms are {', '.join(TARGETS)}, this and all")
+        raise UserError(f"Platform '{text}' is not known{hint}")
+    return names
 
 
 def _need(package: str) -> None:
     if importlib.util.find_spec(package) is None:
-        more = ", or leave out --kind python" if package == "pythonfmu" else ""
-        raise UserError(missing_package(package) + more)
+        advice = ", or leave out --kind python" if package == "pythonfmu" else ""
+        raise UserError(missing_package(package) + advice)

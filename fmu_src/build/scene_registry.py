@@ -76,10 +76,10 @@ def load_fidelities(
     """
     with _scene(scene) as (name, build):
         module = sys.modules[build.__module__]
-        offered = getattr(module, "fidelities", None)
-        if not callable(offered) or build.__name__ != "build":
+        fidelities = getattr(module, "fidelities", None)
+        if not callable(fidelities) or build.__name__ != "build":
             return name, posed_systems({0: lambda: _built(scene, build)}, 0, poses, tell), 0
-        makers = offered()
+        makers = fidelities()
         numbers = sorted(makers)
         if numbers != list(range(len(makers))):
             raise SceneError(
@@ -180,9 +180,9 @@ def _own_text(error: Exception, path: Path) -> Exception:
     frames = traceback.extract_tb(error.__traceback__)
     if isinstance(error, (ValueError, RuntimeError)) and _ENGINE in Path(frames[-1].filename).parents:
         return error
-    own = [frame for frame in frames if Path(frame.filename).parent == path.parent]
-    place = own[-1] if own else frames[-1]
-    return SceneError(f"{place.filename}, line {place.lineno}: {type(error).__name__}: {error}")
+    own_frames = [frame for frame in frames if Path(frame.filename).parent == path.parent]
+    fault_frame = own_frames[-1] if own_frames else frames[-1]
+    return SceneError(f"{fault_frame.filename}, line {fault_frame.lineno}: {type(error).__name__}: {error}")
 
 
 def _is_path(scene: str) -> bool:

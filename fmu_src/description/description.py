@@ -92,9 +92,9 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
     `head`: attributes and default experiment; `table`: all variables; the place is the value reference. Result: UTF-8,
     the same for the same arguments.
     """
-    own = {"fmiVersion": "2.0", "modelName": head.model_name, "guid": head.guid}
-    root = ElementTree.Element("fmiModelDescription", {**own, **about(head), "numberOfEventIndicators": "0"})
-    face = ElementTree.SubElement(
+    identification = {"fmiVersion": "2.0", "modelName": head.model_name, "guid": head.guid}
+    root = ElementTree.Element("fmiModelDescription", {**identification, **about(head), "numberOfEventIndicators": "0"})
+    co_simulation = ElementTree.SubElement(
         root,
         "CoSimulation",
         modelIdentifier=head.model_identifier,
@@ -110,7 +110,7 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
         providesDirectionalDerivative="true",
     )
     if head.sources:
-        files = ElementTree.SubElement(face, "SourceFiles")
+        files = ElementTree.SubElement(co_simulation, "SourceFiles")
         for name in head.sources:
             ElementTree.SubElement(files, "File", name=name)
     units(root, table)
@@ -124,9 +124,9 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
         _variable(variables, reference, v, types)
     for reference, text in enumerate(head.texts, start=len(table)):
         fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
-        named = {"name": text.name, "valueReference": str(reference), "description": text.description}
+        text_attributes = {"name": text.name, "valueReference": str(reference), "description": text.description}
         ElementTree.SubElement(
-            ElementTree.SubElement(variables, "ScalarVariable", named | fixed), "String", start=text.start
+            ElementTree.SubElement(variables, "ScalarVariable", text_attributes | fixed), "String", start=text.start
         )
     _structure(root, with_texts(table, reach, head.texts))
     return to_bytes(root)
@@ -145,8 +145,8 @@ def span_of_derivatives(table: Sequence[Variable]) -> ElementTree.Element:
     """
     answers = [i for i, v in enumerate(table) if v.role == Role.ANSWER]
     reached = " ".join(table[i + k].name for i in answers for k in range(len(ANSWER)))
-    more = {"addedAlong": reached} if reached else {}
-    return ElementTree.Element("DirectionalDerivatives", {"span": "communicationStep"} | more)
+    attributes = {"addedAlong": reached} if reached else {}
+    return ElementTree.Element("DirectionalDerivatives", {"span": "communicationStep"} | attributes)
 
 
 def categories_and_experiment(root: ElementTree.Element, head: Description) -> None:
@@ -255,13 +255,15 @@ def with_texts(table: Sequence[Variable], reach: Dependencies, texts: Sequence[T
 
     A road decides where a start stands: what depends on the initial place depends on the road.
     """
-    places = [i for i, v in enumerate(table) if v.source == "pose"]
-    if not texts or not places:
+    pose_indices = [i for i, v in enumerate(table) if v.source == "pose"]
+    if not texts or not pose_indices:
         return reach
-    more = tuple(range(len(table), len(table) + len(texts)))
+    indices_of_texts = tuple(range(len(table), len(table) + len(texts)))
     initial = {
-        i: known if known is None or not set(places) & set(known) else (*known, *more)
-        for i, known in reach.initial.items()
+        i: dependencies
+        if dependencies is None or not set(pose_indices) & set(dependencies)
+        else (*dependencies, *indices_of_texts)
+        for i, dependencies in reach.initial.items()
     }
     return replace(reach, initial=initial)
 
@@ -270,10 +272,10 @@ def _structure(root: ElementTree.Element, reach: Dependencies) -> None:
     """Outputs depend on no input before the next step, initial ones on all that was found to change them."""
     structure = ElementTree.SubElement(root, "ModelStructure")
     initial = reach.initial
-    for tag, of in (("Outputs", dict.fromkeys(initial, ())), ("InitialUnknowns", initial)):
+    for tag, dependencies in (("Outputs", dict.fromkeys(initial, ())), ("InitialUnknowns", initial)):
         group = ElementTree.Element(tag)
-        for i in of:
-            ElementTree.SubElement(group, "Unknown", {"index": str(i + 1)} | dependency_attributes(of[i], 1))
+        for i in dependencies:
+            ElementTree.SubElement(group, "Unknown", {"index": str(i + 1)} | dependency_attributes(dependencies[i], 1))
         if len(group):
             structure.append(group)
 

@@ -33,12 +33,12 @@ def documentation(
     """
     columns = ("name", "causality", "variability", "unit", "start", "min", "max", "description")
     rows = markup([html_table("", columns, ([_cell(getattr(v, c)) for c in columns] for v in table))])
-    words = "\n".join(f"<p>{escape(p)}</p>" for p in paragraphs)
+    paragraphs_html = "\n".join(f"<p>{escape(p)}</p>" for p in paragraphs)
     body = (
         f"<h1>{escape(name)}</h1><p>{escape(description)}</p>\n"
         f"<p>Made by ALi3 {escape(version)}. Default step {step_size:g} s. Inputs are held over a communication "
         "step or follow the derivatives that are set; outputs belong to its end. A step that fails is refused and the "
-        f"last good state is kept.</p>\n{words}\n<h2>Axes</h2>\n{_AXES}\n"
+        f"last good state is kept.</p>\n{paragraphs_html}\n<h2>Axes</h2>\n{_AXES}\n"
         "<p>Earth axes with z up; a vehicle's axes are those of ISO 8855: x forward, y left, z up, angles "
         "Z-Y'-X'' (yaw, pitch, roll), quaternions scalar first (qw). SI units throughout.</p>\n"
         f"<h2>Variables</h2>\n{rows}"

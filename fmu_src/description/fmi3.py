@@ -38,8 +38,8 @@ def model_description_fmi3(
 
     `table`: all scalars, for units and types; `reach`: which variables of the table reach which outputs.
     """
-    own = {"fmiVersion": "3.0", "modelName": head.model_name, "instantiationToken": head.guid}
-    root = ElementTree.Element("fmiModelDescription", own | about(head))
+    identification = {"fmiVersion": "3.0", "modelName": head.model_name, "instantiationToken": head.guid}
+    root = ElementTree.Element("fmiModelDescription", identification | about(head))
     ElementTree.SubElement(
         root,
         "CoSimulation",
@@ -62,16 +62,18 @@ def model_description_fmi3(
     categories_and_experiment(root, head)
     variables = ElementTree.SubElement(root, "ModelVariables")
     numbers, time = references(arrays)
-    for place, (reference, array) in enumerate(zip(numbers, arrays, strict=True)):
-        if place == time:
+    for index, (reference, array) in enumerate(zip(numbers, arrays, strict=True)):
+        if index == time:
             _time(variables, time)
         _variable(variables, reference, array, types, table)
     if time == len(arrays):
         _time(variables, time)
     for reference, text in enumerate(head.texts, start=len(arrays) + 1):
         fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
-        named = {"name": text.name, "valueReference": str(reference), "description": text.description}
-        ElementTree.SubElement(ElementTree.SubElement(variables, "String", named | fixed), "Start", value=text.start)
+        text_attributes = {"name": text.name, "valueReference": str(reference), "description": text.description}
+        ElementTree.SubElement(
+            ElementTree.SubElement(variables, "String", text_attributes | fixed), "Start", value=text.start
+        )
     _structure(root, arrays, with_texts(table, reach, head.texts), (len(table), len(head.texts)))
     annotation = ElementTree.SubElement(ElementTree.SubElement(root, "Annotations"), "Annotation", type=DERIVATIVES)
     annotation.append(span_of_derivatives(table))
@@ -83,8 +85,8 @@ def element_names(table: Sequence[Variable], arrays: Sequence[Array]) -> dict[st
 
     They stand beside the description, for FMI Library looks for the dimension of a variable before its annotations.
     """
-    named = [[array.name, *(table[k].name for k in array.items)] for array in arrays if len(array.items) > 1]
-    return {ELEMENTS: "".join(" ".join(names) + "\n" for names in named).encode()} if named else {}
+    name_lists = [[array.name, *(table[k].name for k in array.items)] for array in arrays if len(array.items) > 1]
+    return {ELEMENTS: "".join(" ".join(names) + "\n" for names in name_lists).encode()} if name_lists else {}
 
 
 def build_description(model_identifier: str, sources: Sequence[str]) -> bytes:
@@ -108,25 +110,25 @@ def terminals(arrays: Sequence[Array]) -> bytes:
     """terminalsAndIcons.xml: the place of the icon; a terminal per part of the model that has a name and more than one
     variable from outside or to outside, one of the inputs without such a name, and one per table.
     """
-    parts: dict[str, list[Array]] = {}
+    groups: dict[str, list[Array]] = {}
     for array in arrays:
         prefix, _, _ = array.name.rpartition(".")
         if array.of.causality == "input" or (prefix and array.of.causality == "output"):
-            parts.setdefault(prefix, []).append(array)
-    controls = parts.pop("", [])
+            groups.setdefault(prefix, []).append(array)
+    controls = groups.pop("", [])
     if controls:
-        driven = "steering" in {array.name for array in controls}
-        parts = {"driver" if driven and "driver" not in parts else "inputs": controls} | parts
+        has_steering = "steering" in {array.name for array in controls}
+        groups = {"driver" if has_steering and "driver" not in groups else "inputs": controls} | groups
     root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
     picture = ElementTree.SubElement(root, "GraphicalRepresentation")
     corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
     ElementTree.SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
     ElementTree.SubElement(picture, "Icon", corners)
-    parts = {name: members for name, members in parts.items() if len(members) > 1}
+    groups = {name: members for name, members in groups.items() if len(members) > 1}
     plugs, tables = _plugs(arrays), tables_of(arrays)
-    holder = ElementTree.SubElement(root, "Terminals") if parts or plugs or tables else root
-    for name, members in parts.items():
-        terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="bus")
+    parent = ElementTree.SubElement(root, "Terminals") if groups or plugs or tables else root
+    for name, members in groups.items():
+        terminal = ElementTree.SubElement(parent, "Terminal", name=name, matchingRule="bus")
         for member in members:
             ElementTree.SubElement(
                 terminal,
@@ -136,17 +138,17 @@ def terminals(arrays: Sequence[Array]) -> bytes:
                 variableKind="signal",
             )
     for name, members in tables.items():
-        kinds = {"name": name, "terminalKind": f"{MAPS}.rectilinearGrid", "matchingRule": MAPS}
-        terminal = ElementTree.SubElement(holder, "Terminal", kinds)
+        attributes = {"name": name, "terminalKind": f"{MAPS}.rectilinearGrid", "matchingRule": MAPS}
+        terminal = ElementTree.SubElement(parent, "Terminal", attributes)
         for member in members:
-            named = {"variableName": member.name, "memberName": member.name.rpartition(".")[2]}
-            named["variableKind"] = f"{MAPS}.{'domain' if member is members[0] else 'codomain'}"
-            ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
+            member_attributes = {"variableName": member.name, "memberName": member.name.rpartition(".")[2]}
+            member_attributes["variableKind"] = f"{MAPS}.{'domain' if member is members[0] else 'codomain'}"
+            ElementTree.SubElement(terminal, "TerminalMemberVariable", member_attributes)
     for name, ports in plugs:
-        terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="plug")
-        for place, called, kind in ports:
-            named = {"variableName": place, "memberName": called, "variableKind": kind}
-            ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
+        terminal = ElementTree.SubElement(parent, "Terminal", name=name, matchingRule="plug")
+        for variable, member_name, kind in ports:
+            member_attributes = {"variableName": variable, "memberName": member_name, "variableKind": kind}
+            ElementTree.SubElement(terminal, "TerminalMemberVariable", member_attributes)
     return to_bytes(root)
 
 
@@ -168,8 +170,8 @@ def map_manifest(arrays: Sequence[Array]) -> dict[str, bytes]:
     """Manifest of the layered standard by which terminals are maps, by its path; nothing where there are none."""
     if not tables_of(arrays):
         return {}
-    what = "Layered standard for structuring of variables"
-    root = manifest("fmiLayeredStandardManifest", name=LS_STRUCT, version="1.0.0-rc.1", description=what)
+    description = "Layered standard for structuring of variables"
+    root = manifest("fmiLayeredStandardManifest", name=LS_STRUCT, version="1.0.0-rc.1", description=description)
     return {f"extra/{LS_STRUCT}/fmi-ls-manifest.xml": to_bytes(root)}
 
 
@@ -222,14 +224,16 @@ def _plugs(arrays: Sequence[Array]) -> list[tuple[str, list[tuple[str, str, str]
     names = {(array.of.ours if len(array.items) == 1 else "") or array.name: array.name for array in arrays}
     plugs = []
     for ours, array in zip(names, arrays, strict=True):
-        prefix, dot, last = ours.rpartition(".")
-        if not array.of.port or last not in _PLUGS:
+        prefix, dot, suffix = ours.rpartition(".")
+        if not array.of.port or suffix not in _PLUGS:
             continue
-        called, members = _PLUGS[last]
-        there = [(f"{prefix}{dot}{name}", member, kind) for name, member, kind in members]
-        there = [(names[place], member, kind) for place, member, kind in there if place in names]
-        if len(there) > 1:
-            plugs.append((f"{prefix}{dot}{called}", there))
+        terminal_name, members = _PLUGS[suffix]
+        candidates = [(f"{prefix}{dot}{name}", member, kind) for name, member, kind in members]
+        candidates = [
+            (names[variable_name], member, kind) for variable_name, member, kind in candidates if variable_name in names
+        ]
+        if len(candidates) > 1:
+            plugs.append((f"{prefix}{dot}{terminal_name}", candidates))
     return plugs
 
 
@@ -277,11 +281,13 @@ def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Depend
     array_of = {k: i for i, a in enumerate(arrays) for k in a.items}
     array_of |= {texts[0] + k: len(arrays) + 1 + k for k in range(texts[1])}
     initial = reach.initial
-    for tag, of in (("Output", dict.fromkeys(initial, ())), ("InitialUnknown", initial)):
+    for tag, dependencies_of in (("Output", dict.fromkeys(initial, ())), ("InitialUnknown", initial)):
         for i, a in enumerate(arrays):
             if a.of.causality == "output":
-                reached = [of[item] for item in a.items]
+                dependency_lists = [dependencies_of[item] for item in a.items]
                 dependencies = (
-                    None if None in reached else sorted({array_of[k] for places in reached for k in places or ()})
+                    None
+                    if None in dependency_lists
+                    else sorted({array_of[k] for indices in dependency_lists for k in indices or ()})
                 )
                 ElementTree.SubElement(structure, tag, {"valueReference": str(i)} | dependency_attributes(dependencies))

@@ -52,9 +52,9 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
 
     Result: by their places in the table.
     """
-    sensed = {i: v.index for i, v in enumerate(table) if v.source == "sensor"}
-    moved = [v for v in table if v.source == "input" and not v.whole]
-    largest = np.zeros(max(sensed.values(), default=-1) + 1)
+    sensor_numbers = {i: v.index for i, v in enumerate(table) if v.source == "sensor"}
+    inputs = [v for v in table if v.source == "input" and not v.whole]
+    largest = np.zeros(max(sensor_numbers.values(), default=-1) + 1)
     for system in systems:
         kernel = Instance(LoadedSystem(system.kernel_bytes()))
         h = float(system.meta["experiment"]["step_s"])
@@ -63,13 +63,13 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
                 kernel.set_pose(speed=_SPEED)
             kernel.initialise(0.0)
             for k in range(min(round(SECONDS / h), _MOST_STEPS)):
-                for n, v in enumerate(moved):
+                for n, v in enumerate(inputs):
                     kernel.set_input(v.index, _moved(v, math.sin(math.tau * _FIRST * _RATIO**n * k * h)))
                 kernel.step(h)  # before it drag and traction are new to a flexible frame, whose points jump
                 largest = np.maximum(largest, np.abs(kernel.sensors()))
         except KernelError:
             continue
-    return {i: float(largest[index]) for i, index in sensed.items()}
+    return {i: float(largest[index]) for i, index in sensor_numbers.items()}
 
 
 def _moved(v: Variable, part: float) -> float:

@@ -28,23 +28,23 @@ def parameter_groups(
     arrays = system.arrays
     moving: list[int] = []
     roads: list[int] = []
-    others: list[int] = []
+    other_parameters: list[int] = []
     static = {int(p) for p in arrays["static_par"]}  # their values do not count while the equilibrium is sought
     settles = len(arrays["static_start"]) > 0
-    places = [place for d in _DISPLACEMENTS for place in _beside(arrays["q0"].tolist(), d, rng)]
-    forces = [_force(kernel, q) for q in places]
+    configurations = [configuration for d in _DISPLACEMENTS for configuration in _beside(arrays["q0"].tolist(), d, rng)]
+    forces = [_force(kernel, q) for q in configurations]
     for p in range(len(arrays["par_value"])):
         targets = set(arrays["par_target"][arrays["par_ptr"][p] : arrays["par_ptr"][p + 1]].tolist())
         if ParameterTarget.GUIDE in targets:
             moving.append(p)
         elif ParameterTarget.ROAD in targets:
             roads.append(p)
-        elif settles and p not in static and _changes_force(kernel, p, value, places, forces):
+        elif settles and p not in static and _changes_force(kernel, p, value, configurations, forces):
             moving.append(p)
         else:
-            others.append(p)
+            other_parameters.append(p)
     kernel.reset()
-    return [group for group in (moving, roads, others) if group]
+    return [group for group in (moving, roads, other_parameters) if group]
 
 
 def _beside(q0: list[float], size: float, rng: random.Random) -> list[list[float]]:
@@ -57,17 +57,17 @@ def _changes_force(
     kernel: Instance, p: int, value: Callable[[int], float], places: list[list[float]], forces: list[bytes]
 ) -> bool:
     """Whether a force at rest is another one with other values; also where none of them is taken."""
-    tried = False
+    is_compared = False
     for q, force in zip(places, forces, strict=True):
         kernel.reset()
         try:
             kernel.set_parameter(p, value(p))
         except KernelError:
             continue
-        tried = True
+        is_compared = True
         if _force(kernel, q) != force:
             return True
-    return not tried
+    return not is_compared
 
 
 def _force(kernel: Instance, q: list[float]) -> bytes:

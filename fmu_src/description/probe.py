@@ -97,18 +97,18 @@ class _Tries:
             if starts[-1] is None:  # there is nothing to compare with
                 continue
             for group, change in zip(groups, changes, strict=True):
-                other = self._start(kernel, values | change)
-                compared[tuple(group)] |= other is not None
+                changed_start = self._start(kernel, values | change)
+                compared[tuple(group)] |= changed_start is not None
                 for i in group:
-                    self._compare(self.initial, i, starts[-1], other)
+                    self._compare(self.initial, i, starts[-1], changed_start)
         unknown = {i for group, was_compared in compared.items() if not was_compared for i in group}
         for i in self.outputs:  # no start has shown whether they depend on these
             self.initial[i] |= unknown
         self.of_fidelity.append(starts)
         fidelity = next((i for i, v in enumerate(self.table) if v.source == "fidelity"), None)
         if fidelity is not None:
-            for first, other_start in zip(self.of_fidelity[0], starts, strict=True):
-                self._compare(self.initial, fidelity, first, other_start)
+            for first_start, other_start in zip(self.of_fidelity[0], starts, strict=True):
+                self._compare(self.initial, fidelity, first_start, other_start)
         h = float(system.meta["experiment"]["step_s"])
         for k in range(_STEP_TRIES):
             self.share = _SHARES[k % len(_SHARES)]
@@ -119,8 +119,8 @@ class _Tries:
         rng = random.Random(_SEED)
         self.share = 1.0
         groups = parameter_groups(system, kernel, lambda p: self._random(self.parameters[p], rng), rng)
-        alone = [[i] for i in self.settable if self.table[i].source != "parameter"]
-        return alone + [[self.parameters[p] for p in group] for group in groups]
+        single_variables = [[i] for i in self.settable if self.table[i].source != "parameter"]
+        return single_variables + [[self.parameters[p] for p in group] for group in groups]
 
     def close(self, systems: Sequence[mbs.System]) -> None:
         """Add dependencies that trials may not have shown: those of forces and of a settled start."""
@@ -140,8 +140,8 @@ class _Tries:
             driven = any(self.moved[i] for i in self.sensed if kind[i] != _FEEDTHROUGH)
             moving = {i for i in self.sensed if self.initial[i] or self.moved[i] or (driven and kind[i] == _FORCE)}
             moving = {i for i in moving if kind[i] != _FEEDTHROUGH}
-            ahead = {i for i in self.outputs if self.table[i].source == "ahead"}
-            self.settling = moving | {i for i in ahead if {self.table[i].index, self.table[i].other} & moving}
+            predicted = {i for i in self.outputs if self.table[i].source == "ahead"}
+            self.settling = moving | {i for i in predicted if {self.table[i].index, self.table[i].other} & moving}
 
     def _steps(self, kernel: Instance, h: float, rng: random.Random) -> None:
         """Make some steps with random inputs, then compare one step with and without a change of each input."""
@@ -225,12 +225,12 @@ class _Tries:
 
 def _kind(system: mbs.System, sensor: int) -> str:
     """Whether a sensor repeats inputs, reads positions and velocities, or forces and accelerations."""
-    kind, first = SensorType(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
+    kind, offset = SensorType(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
     reads = SENSOR_READS[kind]
     if reads == SensorReads.INPUTS:
         return _FEEDTHROUGH
-    second = kind in _WITH_ORDER and int(system.arrays["sen_int"][first]) == _SECOND
-    return _MOTION if reads in (SensorReads.MOTION, SensorReads.SOLVER) and not second else _FORCE
+    is_second_rate = kind in _WITH_ORDER and int(system.arrays["sen_int"][offset]) == _SECOND
+    return _MOTION if reads in (SensorReads.MOTION, SensorReads.SOLVER) and not is_second_rate else _FORCE
 
 
 def _meets_road(system: mbs.System, sensor: int) -> bool:

@@ -37,12 +37,12 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
     """Find what moves the frames of a drawing. `shared`: points that frames share."""
     rows, bound = SensorRows(system), Bound({}, {}, {}, {})
     assert system.drawing is not None, "asked for before"
-    places = {place.columns[0]: place for place in system.drawing.places.bodies}
+    bodies = {amplitudes.columns[0]: amplitudes for amplitudes in system.drawing.places.bodies}
     for name, frame in frames.items():
         if "position" in frame and frame["position"][0] in rows.names:
             bound.frames[name] = dict(frame)  # sensors place it in the model already
         elif "position" in frame:
-            _by_columns(rows, name, frame, places[frame["position"][0]], bound)
+            _by_columns(rows, name, frame, bodies[frame["position"][0]], bound)
     _by_points(frames, shared, bound)
     turns = {turn.column: turn for turn in system.drawing.places.turns}
     for name, frame in frames.items():
@@ -60,9 +60,9 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
         else:
             at = np.array(frame.get("at", (0.0, 0.0, 0.0))) + bound.moved.get(frame["parent"], 0.0)
             bound.frames[name] = dict(frame) | {key: column, "at": [float(x) for x in at]}
-    for place in system.drawing.places.amplitudes:
-        for k, column in enumerate(place.columns):
-            angle = rows.angle(place.row + k)
+    for amplitudes in system.drawing.places.amplitudes:
+        for k, column in enumerate(amplitudes.columns):
+            angle = rows.angle(amplitudes.row + k)
             if angle is not None:
                 bound.amplitudes[column] = angle
     return bound
@@ -71,21 +71,23 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
 def _by_columns(rows: SensorRows, name: str, frame: Frame, place: BodyPlace, bound: Bound) -> None:
     """A body whose pose is output, at any of its points."""
     body = rows.body(place)
-    turns = [names for names, axes in rows.quaternions() if body.axes is not None and np.allclose(axes, body.axes)]
+    orientations = [
+        names for names, axes in rows.quaternions() if body.axes is not None and np.allclose(axes, body.axes)
+    ]
     poses = []
     for names in rows.points():
-        at = rows.place_of(names, body)
-        if at is None:
+        offset = rows.place_of(names, body)
+        if offset is None:
             continue
-        beside = tuple(f"{names[0][:-1]}q{c}" for c in "wxyz")
+        own_quaternion = tuple(f"{names[0][:-1]}q{c}" for c in "wxyz")
         if body.axes is None:
-            poses += [(names, at, beside)] if rows.unturned(beside) else []
-        elif turns:
-            poses.append((names, at, beside if beside in turns else turns[0]))
+            poses += [(names, offset, own_quaternion)] if rows.unturned(own_quaternion) else []
+        elif orientations:
+            poses.append((names, offset, own_quaternion if own_quaternion in orientations else orientations[0]))
     if not poses:
         return
-    names, at, quaternion = next((f for f in poses if f[2][0] == f"{f[0][0][:-1]}qw"), poses[0])
-    shift = -np.where(np.abs(at) < 1e-12, 0.0, at)
+    names, offset, quaternion = next((f for f in poses if f[2][0] == f"{f[0][0][:-1]}qw"), poses[0])
+    shift = -np.where(np.abs(offset) < 1e-12, 0.0, offset)
     if np.any(shift):
         bound.moved[name] = shift
     start = frame.get("start")
@@ -102,41 +104,47 @@ def _shifted(start: Sequence[Sequence[float]], local: Array) -> list[float]:
 
 def _by_points(frames: Mapping[str, Frame], shared: Sequence[Shared], bound: Bound) -> None:
     """Bodies that share three points with frames that are moved, one after the other."""
-    waiting = [name for name, frame in frames.items() if "position" in frame and name not in bound.frames]
+    unbound = [name for name, frame in frames.items() if "position" in frame and name not in bound.frames]
     has_new = True
     while has_new:
         has_new = False
-        for name in list(waiting):
+        for name in list(unbound):
             frame = _carried(frames[name], _anchors(name, shared, bound))
             if frame is not None:
                 bound.frames[name] = frame
-                waiting.remove(name)
+                unbound.remove(name)
                 has_new = True
-    for name in waiting:
+    for name in unbound:
         bound.lost[name] = f"no outputs give its pose; {BUILD_ALL}"
 
 
 def _anchors(name: str, shared: Sequence[Shared], bound: Bound) -> list[tuple[Array, list[Any]]]:
     """Points of a frame, each with the point of a moved frame that it lies on."""
     anchors = []
-    for one, place, other, there in shared:
-        for mine, local, theirs, away in ((one, place, other, there), (other, there, one, place)):
-            if mine == name and (theirs == GROUND or theirs in bound.frames):
-                anchor = [theirs, [float(x) for x in np.array(away) + bound.moved.get(theirs, 0.0)]]
-                anchors.append((np.array(local, float), anchor))
+    for frame_a, point_a, frame_b, point_b in shared:
+        for own_frame, own_point, other_frame, other_point in (
+            (frame_a, point_a, frame_b, point_b),
+            (frame_b, point_b, frame_a, point_a),
+        ):
+            if own_frame == name and (other_frame == GROUND or other_frame in bound.frames):
+                anchor = [other_frame, [float(x) for x in np.array(other_point) + bound.moved.get(other_frame, 0.0)]]
+                anchors.append((np.array(own_point, float), anchor))
     return anchors
 
 
 def _carried(frame: Frame, anchors: Sequence[tuple[Array, list[Any]]]) -> Frame | None:
     """The frame on the three of its points that span the largest triangle."""
-    best: tuple[float, Sequence[tuple[Array, list[Any]]]] = (0.0, ())
-    for three in combinations(anchors, 3):
-        (a, _), (b, _), (c, _) = three
+    largest: tuple[float, Sequence[tuple[Array, list[Any]]]] = (0.0, ())
+    for triangle in combinations(anchors, 3):
+        (a, _), (b, _), (c, _) = triangle
         area = float(np.linalg.norm(np.cross(b - a, c - a)))
-        longest = max(float(np.linalg.norm(p - q)) for p, q in ((a, b), (b, c), (c, a)))
-        if area > FLATTEST * longest**2 and area > best[0]:
-            best = area, three
-    if not best[1]:
+        longest_side = max(float(np.linalg.norm(p - q)) for p, q in ((a, b), (b, c), (c, a)))
+        if area > FLATTEST * longest_side**2 and area > largest[0]:
+            largest = area, triangle
+    if not largest[1]:
         return None
     start = {"start": frame["start"]} if "start" in frame else {}
-    return {"points": [[float(x) for x in p] for p, _ in best[1]], "on": [anchor for _, anchor in best[1]]} | start
+    return {
+        "points": [[float(x) for x in p] for p, _ in largest[1]],
+        "on": [anchor for _, anchor in largest[1]],
+    } | start

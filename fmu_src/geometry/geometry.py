@@ -23,8 +23,8 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
         return None
     scene = system.scene
     bound = bind(system, scene["frames"], system.drawing.shared)
-    named = by_name_in_system(table, system.meta)
-    variable_names = set(named)
+    variables_by_name = by_name_in_system(table, system.meta)
+    variable_names = set(variables_by_name)
     available_frames = {"ground", *bound.frames}
 
     def kept(parts: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
@@ -34,29 +34,31 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
         part | {"amplitudes": [bound.amplitudes.get(name, name) for name in part["amplitudes"]]}
         for part in kept(scene["flexible"])
     ]
-    bending = [part for part in parts if set(part["amplitudes"]) <= variable_names]
+    flexible_parts = [part for part in parts if set(part["amplitudes"]) <= variable_names]
     shapes = kept(scene["shapes"])
-    if bending:
+    if flexible_parts:
         shapes = [shape for shape in shapes if shape.get("name") != FRAME_TUBE]
-    shapes += [tube for part in parts if part not in bending for tube in _stiff(part)]
-    used = {shape["mesh"] for shape in shapes if shape["kind"] == "mesh"}
-    drawn = {frame for shape in scene["shapes"] for frame in frames_of(shape)}
+    shapes += [tube for part in parts if part not in flexible_parts for tube in _stiff(part)]
+    mesh_names = {shape["mesh"] for shape in shapes if shape["kind"] == "mesh"}
+    shape_frames = {frame for shape in scene["shapes"] for frame in frames_of(shape)}
     fmu_scene = scene | {
         "name": name,
         "description": description,
         "frames": bound.frames,
         "shapes": shapes,
-        "meshes": {key: mesh for key, mesh in scene["meshes"].items() if key in used},
-        "flexible": bending,
+        "meshes": {key: mesh for key, mesh in scene["meshes"].items() if key in mesh_names},
+        "flexible": flexible_parts,
         "arrows": [arrow for arrow in kept(scene["arrows"]) if variable_names.issuperset(columns_of(arrow))],
         "roads": with_parameters(scene["roads"], system, variable_names),
         "focus": scene["focus"] if scene["focus"] in bound.frames else "",
         "missing": [
             *scene["missing"],
-            *({"name": frame, "why": why} for frame, why in bound.lost.items() if frame in drawn),
+            *({"name": frame, "why": why} for frame, why in bound.lost.items() if frame in shape_frames),
         ],
     }
-    return with_renamed_columns(fmu_scene, {own: v for own, v in named.items() if own != v.name or v.scale != 1.0})
+    return with_renamed_columns(
+        fmu_scene, {own: v for own, v in variables_by_name.items() if own != v.name or v.scale != 1.0}
+    )
 
 
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -74,8 +76,8 @@ def lost_frames(system: mbs.System) -> list[str]:
         return []
     scene = system.drawing.scene
     lost = bind(system, scene["frames"], system.drawing.shared).lost
-    drawn = {frame for part in (*scene["shapes"], *scene["flexible"]) for frame in frames_of(part)}
-    return [frame for frame in lost if frame in drawn]
+    shape_frames = {frame for part in (*scene["shapes"], *scene["flexible"]) for frame in frames_of(part)}
+    return [frame for frame in lost if frame in shape_frames]
 
 
 def geometry_file(scene: Mapping[str, Any]) -> bytes:

@@ -16,26 +16,30 @@ def with_renamed_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]
     `scene`: as `fmu_src.geometry.geometry.geometry` gives it; `named`: variables that have another name, by their names
     in it. A scene is in SI units: what reads one that has another is left out, frames with a word in ``missing``.
     """
-    odd = {ours for ours, v in named.items() if v.scale != 1.0}
+    scaled = {ours for ours, v in named.items() if v.scale != 1.0}
     frames, missing = dict(scene["frames"]), list(scene["missing"])
-    lost = {name for name, frame in frames.items() if odd.intersection(columns_of(frame))}
-    while more := {n for n, frame in frames.items() if n not in lost and lost.intersection(frames_of(frame))}:
-        lost |= more
-    for name in sorted(lost):
-        units = ", ".join(f"{named[c].name} in {named[c].unit}" for c in columns_of(frames[name]) if c in odd)
+    lost_frames = {name for name, frame in frames.items() if scaled.intersection(columns_of(frame))}
+    while dependent_frames := {
+        n for n, frame in frames.items() if n not in lost_frames and lost_frames.intersection(frames_of(frame))
+    }:
+        lost_frames |= dependent_frames
+    for name in sorted(lost_frames):
+        units = ", ".join(f"{named[c].name} in {named[c].unit}" for c in columns_of(frames[name]) if c in scaled)
         missing.append({"name": name, "why": f"a scene is in SI units, and the FMU has {units or 'what it stands on'}"})
-    kept_frames = {key: _called(part, named) for key, part in frames.items() if key not in lost}
-    kept = {
-        key: [p for p in scene[key] if not (odd.intersection(columns_of(p)) or lost.intersection(frames_of(p)))]
+    kept_frames = {key: _called(part, named) for key, part in frames.items() if key not in lost_frames}
+    kept_parts = {
+        key: [
+            p for p in scene[key] if not (scaled.intersection(columns_of(p)) or lost_frames.intersection(frames_of(p)))
+        ]
         for key in ("shapes", "arrows", "flexible")
     } | {"roads": scene["roads"]}
-    called = {key: [_called(part, named) for part in parts] for key, parts in kept.items()}
-    called["arrows"] = [
-        arrow | _slips(ours, named) for arrow, ours in zip(called["arrows"], kept["arrows"], strict=True)
+    renamed = {key: [_called(part, named) for part in parts] for key, parts in kept_parts.items()}
+    renamed["arrows"] = [
+        arrow | _slips(ours, named) for arrow, ours in zip(renamed["arrows"], kept_parts["arrows"], strict=True)
     ]
-    called["flexible"] = [part | _gauges(part, named, odd) for part in called["flexible"]]
-    focus = "" if scene["focus"] in lost else scene["focus"]
-    return {**scene, **called, "frames": kept_frames, "missing": missing, "focus": focus}
+    renamed["flexible"] = [part | _gauges(part, named, scaled) for part in renamed["flexible"]]
+    focus = "" if scene["focus"] in lost_frames else scene["focus"]
+    return {**scene, **renamed, "frames": kept_frames, "missing": missing, "focus": focus}
 
 
 def _gauges(part: Mapping[str, Any], named: Mapping[str, Variable], odd: set[str]) -> dict[str, Any]:

@@ -25,23 +25,23 @@ def with_parameters(
     """
     files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
     entries = []
-    for place, road in enumerate(roads):
-        changed, k = dict(road), road.get("number", place)
-        if changed["kind"] == "file" and changed.get("path"):
-            changed["path"] = f"{ROADS}/{Path(changed['path']).name}"
+    for index, road in enumerate(roads):
+        changed_road, k = dict(road), road.get("number", index)
+        if changed_road["kind"] == "file" and changed_road.get("path"):
+            changed_road["path"] = f"{ROADS}/{Path(changed_road['path']).name}"
         variables = {}
         if k < len(system.arrays["road_type"]):
-            first = int(system.arrays["road_real_ptr"][k])
+            first_number = int(system.arrays["road_real_ptr"][k])
             numbers = NUMBERS.get(RoadType(int(system.arrays["road_type"][k])), ())
             for name, number in MOVED.items():
-                real = first + numbers.index(number) if number in numbers else -1
-                if _writing(system, real) in numbers_of_fmu:
-                    variables[name] = _writing(system, real)
-                    if name == number and changed["kind"] != "file":
-                        changed[name] = float(system.arrays["road_real"][real])
-        if k in files and changed["kind"] != "file":
+                real_index = first_number + numbers.index(number) if number in numbers else -1
+                if _writing(system, real_index) in numbers_of_fmu:
+                    variables[name] = _writing(system, real_index)
+                    if name == number and changed_road["kind"] != "file":
+                        changed_road[name] = float(system.arrays["road_real"][real_index])
+        if k in files and changed_road["kind"] != "file":
             variables["file"] = files[k]["name"]
-        entries.append(changed | ({"variables": variables} if variables else {}))
+        entries.append(changed_road | ({"variables": variables} if variables else {}))
     return entries
 
 

@@ -63,13 +63,13 @@ class SensorRows:
 
     def points(self) -> list[tuple[str, ...]]:
         """Names of sensors that may be the three components of a point: alike but for x, y, z."""
-        found = []
+        triples = []
         for name in self._linear:
-            for end in (".x", "_x"):
-                three = tuple(name.removesuffix(end) + end[0] + c for c in AXES)
-                if name.endswith(end) and all(each in self._linear for each in three):
-                    found.append(three)
-        return found
+            for ending in (".x", "_x"):
+                triple = tuple(name.removesuffix(ending) + ending[0] + c for c in AXES)
+                if name.endswith(ending) and all(component in self._linear for component in triple):
+                    triples.append(triple)
+        return triples
 
     def place_of(self, names: Sequence[str], body: Body) -> Array | None:
         """The place in a body, from its origin, m, whose components these sensors are; None: none is."""
@@ -77,20 +77,20 @@ class SensorRows:
         if body.axes is None:
             return np.zeros(3) if _same(offset, 0.0 * offset, body.origin) else None
         matrix = body.axes.transpose(1, 2, 0).reshape(-1, 3)
-        place: Array = np.asarray(np.linalg.lstsq(matrix, offset.ravel(), rcond=None)[0], float)
-        return place if _same(matrix @ place, offset.ravel(), offset) else None
+        coordinates: Array = np.asarray(np.linalg.lstsq(matrix, offset.ravel(), rcond=None)[0], float)
+        return coordinates if _same(matrix @ coordinates, offset.ravel(), offset) else None
 
     def quaternions(self) -> list[tuple[tuple[str, ...], Array]]:
         """Names of sensors of a quaternion with the rows of the axes that it orients."""
         groups: dict[tuple[int, ...], dict[int, str]] = {}
         for k, kind in enumerate(self._types):
             if kind == SensorType.QUATERNION:
-                part, *signals = self._integers(k)
-                groups.setdefault(tuple(signals), {}).setdefault(part, self.names[k])
+                component, *signals = self._integers(k)
+                groups.setdefault(tuple(signals), {}).setdefault(component, self.names[k])
         return [
-            (tuple(parts[k] for k in range(4)), np.array([self._signal(s) for s in signals]).reshape(3, 3, -1))
-            for signals, parts in groups.items()
-            if len(parts) == len(QUATERNION)
+            (tuple(components[k] for k in range(4)), np.array([self._signal(s) for s in signals]).reshape(3, 3, -1))
+            for signals, components in groups.items()
+            if len(components) == len(QUATERNION)
         ]
 
     def unturned(self, names: Sequence[str]) -> bool:
@@ -120,14 +120,14 @@ class SensorRows:
         return None
 
     def _full(self, first: int, count: int) -> Array:
-        part = slice(first, first + count)
-        rows = self._places.matrix[part].toarray()
-        return np.column_stack([rows, np.zeros((count, self._dependents)), self._places.constant[part]])
+        selection = slice(first, first + count)
+        rows = self._places.matrix[selection].toarray()
+        return np.column_stack([rows, np.zeros((count, self._dependents)), self._places.constant[selection]])
 
     def _signal(self, i: int) -> Array:
         a, row = self._arrays, np.zeros(self._nq + 1)
-        part = slice(int(a["sig_ptr"][i]), int(a["sig_ptr"][i + 1]))
-        np.add.at(row, a["sig_col"][part], a["sig_val"][part])
+        selection = slice(int(a["sig_ptr"][i]), int(a["sig_ptr"][i + 1]))
+        np.add.at(row, a["sig_col"][selection], a["sig_val"][selection])
         row[-1] = a["sig_const"][i]
         return row
 

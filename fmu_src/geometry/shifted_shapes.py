@@ -20,9 +20,9 @@ def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str,
         if shift is None:
             return shifted
         if part.get("kind") == "cylinder":
-            shifted["ends"] = [_plus(place, shift) for place in part["ends"]]
+            shifted["ends"] = [_plus(point, shift) for point in part["ends"]]
         elif "nodes" in part:
-            shifted["nodes"] = [_plus(place, shift) for place in part["nodes"]]
+            shifted["nodes"] = [_plus(point, shift) for point in part["nodes"]]
         else:
             shifted["at"] = _plus(part.get("at", (0.0, 0.0, 0.0)), shift)
         return shifted
@@ -35,8 +35,8 @@ def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str,
 
 
 def _anchor(anchor: Any, moved: Mapping[str, Array]) -> list[Any]:
-    name, place = anchor
-    return [name, _plus(place, moved[name]) if name in moved else list(place)]
+    name, point = anchor
+    return [name, _plus(point, moved[name]) if name in moved else list(point)]
 
 
 def _plus(place: Any, shift: Array) -> list[float]:

@@ -49,20 +49,20 @@ def posed_systems(
         raise PosesError(f"There are no poses '{poses}'; they are {' or '.join(POSES)}.")
     outputs: Outputs | None = {"wheels": None, None: bending_outputs, "all": pose_outputs}[poses]
     needed = poses == "all"
-    most = max(makers)
+    most_flexible = max(makers)
 
     def compiled(k: Any, outputs: Outputs | None, needed: bool) -> mbs.System:
         model = makers[k]()
-        if k == most and isinstance(model, mbs.Model) and (table := model.summary()):
+        if k == most_flexible and isinstance(model, mbs.Model) and (table := model.summary()):
             tell(table)
         return _compiled(model, outputs, needed)
 
-    first = compiled(default, outputs, needed)
-    if poses is None and lost_frames(first):
+    default_system = compiled(default, outputs, needed)
+    if poses is None and lost_frames(default_system):
         posed = _compiled(makers[default](), pose_outputs, needed=False)
-        needed = len(posed.meta["sensors"]) > len(first.meta["sensors"])
-        outputs, first = pose_outputs, posed
-    return {k: first if k == default else compiled(k, outputs, needed) for k in makers}
+        needed = len(posed.meta["sensors"]) > len(default_system.meta["sensors"])
+        outputs, default_system = pose_outputs, posed
+    return {k: default_system if k == default else compiled(k, outputs, needed) for k in makers}
 
 
 def _compiled(model: mbs.Model | mbs.System, outputs: Outputs | None, needed: bool) -> mbs.System:

@@ -79,24 +79,24 @@ def _files(face: str, table: Path, generated: Mapping[str, str]) -> tuple[list[P
     """
     files = [*build.sources(lanes=False), *shell_files(face)]
     headers = {_inside(file): file.read_bytes() for root in _ROOMS for file in root.rglob("*.h")}
-    named = (re.findall(rb'#include "(?:.*/)?(\w+\.c)"', data) for data in headers.values())
-    included = {name.decode() for names in named for name in names}
+    matches = (re.findall(rb'#include "(?:.*/)?(\w+\.c)"', data) for data in headers.values())
+    included = {name.decode() for names in matches for name in names}
     headers |= {_inside(file): file.read_bytes() for file in files if file.name in included}
-    place = build.cache_directory() / "sources" / identity_of(headers, None)[0]
-    copies, compiled = {place / name: data for name, data in headers.items()}, [table]
+    cache_folder = build.cache_directory() / "sources" / identity_of(headers, None)[0]
+    copies, compiled = {cache_folder / name: data for name, data in headers.items()}, [table]
     for file in files:
         data = file.read_bytes()
-        compiled.append((place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}"))
+        compiled.append((cache_folder / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}"))
         copies[compiled[-1]] = data
     for name, text in generated.items():
         data = text.encode()
-        compiled.append(place / "generated" / f"{name}-{identity_of({'': data}, None)[0]}.c")
+        compiled.append(cache_folder / "generated" / f"{name}-{identity_of({'': data}, None)[0]}.c")
         copies[compiled[-1]] = data
     for copy, data in copies.items():
         if not copy.is_file():
-            with atomic_file(copy) as written:
-                written.write_bytes(data)
-    return compiled, [place / name for name in _INCLUDE]
+            with atomic_file(copy) as temporary:
+                temporary.write_bytes(data)
+    return compiled, [cache_folder / name for name in _INCLUDE]
 
 
 def _inside(file: Path) -> str:

@@ -39,30 +39,32 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
         table = Path(folder, "table.c")
         names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]], "coordinate": [[]], "notice": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")
-        missing = {}
+        uncompiled = {}
         for library in ((face, target) for face, platform in work for target in TARGETS[platform]):
             mark = build.cache_directory() / "ahead" / build.digest_of(library_command(*library, *_NOWHERE))
             if not mark.is_file():
-                missing[mark] = library
-        commands = [library_command(*library, table, Path(folder, "-".join(library))) for library in missing.values()]
+                uncompiled[mark] = library
+        commands = [
+            library_command(*library, table, Path(folder, "-".join(library))) for library in uncompiled.values()
+        ]
         if commands:  # two compilers at the ends of the list that is wanted first share its objects
             commands.insert(1, _backwards(commands[0]))
         with _compilers(commands):
             yield
     with suppress(OSError):  # the next build begins the same again
-        for mark in missing:
+        for mark in uncompiled:
             mark.parent.mkdir(exist_ok=True)
             mark.touch()
 
 
 def _backwards(command: Sequence[str]) -> list[str]:
     """The command with its C files in reverse order and an output library of its own."""
-    files = [k for k, part in enumerate(command) if part.endswith(".c")]
-    turned, out = list(command), command.index("-o") + 1
-    turned[out] += ".2"
-    for place, other in zip(files, reversed(files), strict=True):
-        turned[place] = command[other]
-    return turned
+    files = [k for k, argument in enumerate(command) if argument.endswith(".c")]
+    reversed_command, output_index = list(command), command.index("-o") + 1
+    reversed_command[output_index] += ".2"
+    for index, mirrored_index in zip(files, reversed(files), strict=True):
+        reversed_command[index] = command[mirrored_index]
+    return reversed_command
 
 
 @contextmanager

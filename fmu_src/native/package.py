@@ -93,12 +93,12 @@ class NativeContents:
     def names(self) -> dict[str, list[list[str]]]:
         """Names of the constraint rows, force elements and coordinates of tables of each System, its notices; see
         `c_table`."""
-        found = {
+        names = {
             what: [[item["name"] for item in system.meta[f"{what}s"]] for system in self.systems]
             for what in ("row", "element")
         }
         notices = [notices_before(system.meta) for system in self.systems]
-        return found | {"coordinate": [_over_tables(system) for system in self.systems], "notice": notices}
+        return names | {"coordinate": [_over_tables(system) for system in self.systems], "notice": notices}
 
     @property
     def texts(self) -> tuple[TextVariable, ...]:
@@ -108,10 +108,12 @@ class NativeContents:
     def table_c(self, identity: str, token: str) -> str:
         """The table of the shell in C, with 32 hexadecimal digits and the GUID or instantiation token."""
         sensors, judged = [sensor["name"] for sensor in self.system.meta["sensors"]], compared_sensors(self.system)
-        numbered = {number: judged[name] for number, name in enumerate(sensors) if name in judged}
+        judged_sensors = {number: judged[name] for number, name in enumerate(sensors) if name in judged}
         length = length_of(self.system)
         code = [name for name, _ in self.code]
-        return c_table(self.table, self.names, identity, token, self.texts, self.followers, numbered, length, code)
+        return c_table(
+            self.table, self.names, identity, token, self.texts, self.followers, judged_sensors, length, code
+        )
 
     @property
     def generated(self) -> dict[str, str]:
@@ -258,5 +260,5 @@ def _picture(run: ReferenceRun) -> bytes:
 
 def _over_tables(system: mbs.System) -> list[str]:
     """Names of coordinates up to the last that a table is over, empty those that none is."""
-    over = {int(k) for k in system.arrays["tabled_param"]}
-    return [system.meta["coordinates"][k] if k in over else "" for k in range(max(over, default=-1) + 1)]
+    indices = {int(k) for k in system.arrays["tabled_param"]}
+    return [system.meta["coordinates"][k] if k in indices else "" for k in range(max(indices, default=-1) + 1)]

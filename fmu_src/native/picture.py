@@ -36,8 +36,8 @@ def curves_png(t: NDArray[np.float64], curves: list[NDArray[np.float64]]) -> byt
         share = (np.interp(times, t, curve) - low) / span
         rows = np.rint(_HEIGHT - _EDGE - 4 - share * (_HEIGHT - 2 * _EDGE - 8)).astype(int)
         x = _EDGE + columns.astype(int)
-        for thick in (0, 1):
-            pixels[rows + thick, x] = colour
+        for offset in (0, 1):
+            pixels[rows + offset, x] = colour
     return _png(pixels)
 
 
@@ -45,7 +45,7 @@ def _png(pixels: NDArray[np.uint8]) -> bytes:
     height, width, _ = pixels.shape
     lines = b"".join(b"\0" + row.tobytes() for row in pixels)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    parts = ((b"IHDR", header), (b"IDAT", zlib.compress(lines, 9)), (b"IEND", b""))
+    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(lines, 9)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in parts
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
     )

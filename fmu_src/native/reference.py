@@ -78,11 +78,11 @@ def _in_turn(entries: Sequence[Mapping[str, Any]], stop: float) -> tuple[Column,
     """Corners and values: real inputs with a range move one after the other, in the order of the table."""
     moving = []
     for entry in entries:
-        start, ends = float(entry["start"]), [entry["max"], entry["min"]]  # None: open
-        ends = [start + entry["tried"]] if "tried" in entry else ends
-        far = next((float(end) for end in ends if end is not None and abs(end) < 1e300 and end != start), None)
-        if far is not None and not entry.get("whole"):
-            moving.append((str(entry["name"]), start, start + _PART * (far - start)))
+        start, limits = float(entry["start"]), [entry["max"], entry["min"]]  # None: open
+        limits = [start + entry["tried"]] if "tried" in entry else limits
+        end_value = next((float(end) for end in limits if end is not None and abs(end) < 1e300 and end != start), None)
+        if end_value is not None and not entry.get("whole"):
+            moving.append((str(entry["name"]), start, start + _PART * (end_value - start)))
     corners = np.linspace(0.0, stop, 2 * len(moving) + 1)
     inputs = {name: np.full(len(corners), start) for name, start, _ in moving}
     for k, (name, _, peak) in enumerate(moving):
@@ -100,19 +100,19 @@ def _run(
 ) -> ReferenceRun:
     simulation = mbs.Simulation(system)
     instance = simulation.instance
-    ported = None if follower is None else Instance(LoadedSystem(follower.kernel_bytes()))
+    follower_instance = None if follower is None else Instance(LoadedSystem(follower.kernel_bytes()))
     sensors = system.meta["sensors"]
     left_out = np.array([not entry.get("computed", True) for entry in sensors])
-    names, starts = [e["name"] for e in system.meta["inputs"]], np.arange(steps) * step
-    step_values = {names.index(name): np.interp(starts, corners, values) for name, values in inputs.items()}
-    times, rows, every = [], [], max(1, steps // _ROWS)
+    names, step_times = [e["name"] for e in system.meta["inputs"]], np.arange(steps) * step
+    step_values = {names.index(name): np.interp(step_times, corners, values) for name, values in inputs.items()}
+    times, rows, row_interval = [], [], max(1, steps // _ROWS)
     for k in range(steps + 1):
-        if k % every == 0:
+        if k % row_interval == 0:
             simulation.step(step, 0)  # makes none; warns where the balance of energy says that those before are wrong
             row = np.array(instance.sensors())
-            if ported is not None:
-                ported.follow(instance)
-                row = np.where(left_out, np.array(ported.sensors()), row)
+            if follower_instance is not None:
+                follower_instance.follow(instance)
+                row = np.where(left_out, np.array(follower_instance.sensors()), row)
             times.append(simulation.time)
             rows.append(row)
         if k < steps:
@@ -121,8 +121,8 @@ def _run(
             try:
                 instance.step(step)
             except KernelError as error:
-                what = f"The step from t = {simulation.time:g} s with h = {step:g} s failed"
-                raise refusal(simulation, what, error) from None
+                failure = f"The step from t = {simulation.time:g} s with h = {step:g} s failed"
+                raise refusal(simulation, failure, error) from None
     columns = {entry["name"]: column for entry, column in zip(sensors, np.array(rows).T, strict=True)}
     return ReferenceRun(np.array(times), columns, corners, dict(inputs))
 

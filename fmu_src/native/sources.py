@@ -28,9 +28,9 @@ def packed_sources(face: str, table_c: str, generated: Mapping[str, str] | None 
     """
     files = {f.name: f.read_bytes() for f in shell_files(face)}
     files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(_OTHER[face])}
-    rooms = [*(build.HERE / "src").rglob("*.h"), *build.sources(lanes=False)]
-    rooms = [f for f in rooms if f.parent.name not in build.LANES]
-    files |= {f"kernel/{f.relative_to(build.HERE).as_posix()}": f.read_bytes() for f in rooms}
+    kernel_files = [*(build.HERE / "src").rglob("*.h"), *build.sources(lanes=False)]
+    kernel_files = [f for f in kernel_files if f.parent.name not in build.LANES]
+    files |= {f"kernel/{f.relative_to(build.HERE).as_posix()}": f.read_bytes() for f in kernel_files}
     header = (KERNEL_INCLUDE / "ali3.h").read_bytes()
     # every compiler of source FMUs looks beside the shell's files only
     files |= {"kernel/include/ali3.h": header, "ali3.h": b'#include "kernel/include/ali3.h"\n'}

@@ -96,8 +96,8 @@ def c_table(
 
 
 def _judged(variable: Variable, judged: Mapping[int, Compared]) -> str:
-    what = judged.get(variable.index) if variable.source == "sensor" else None
-    return "{-1, 0}" if what is None else f"{{{what.fields.unit:d}, {what.fields.kind}}}"
+    comparison = judged.get(variable.index) if variable.source == "sensor" else None
+    return "{-1, 0}" if comparison is None else f"{{{comparison.fields.unit:d}, {comparison.fields.kind}}}"
 
 
 def _texts(texts: Sequence[TextVariable]) -> str:
@@ -113,10 +113,10 @@ def _generated(names: Sequence[str], systems: int) -> str:
     if not names:
         return f"{none}\n"
     declared = "".join(f"extern const ali3_generated {name};\n" for name in dict.fromkeys(names))
-    listed = ", ".join(f"&{name}" for name in names)
+    addresses = ", ".join(f"&{name}" for name in names)
     return (
         f'#include "generated.h"\n\n#ifdef ALI3_GENERATES\n{declared}'
-        f"static const ali3_generated *const generated[] = {{{listed}}};\n#else\n{none}#endif\n\n"
+        f"static const ali3_generated *const generated[] = {{{addresses}}};\n#else\n{none}#endif\n\n"
     )
 
 

@@ -15,14 +15,14 @@ def universal(thin: Sequence[bytes]) -> bytes:
     aligned offsets. Raises `ValueError` if a file is none, or two are for the same processor.
     """
     entries, body = [], b""
-    start = 8 + 20 * len(thin)
+    header_size = 8 + 20 * len(thin)
     for data in thin:
         magic, cpu, subtype = struct.unpack_from("<3I", data)
         if magic != _THIN_MAGIC:
             raise ValueError("This is not a 64-bit Mach-O file.")
-        padding = -(start + len(body)) % (1 << _ALIGN)
+        padding = -(header_size + len(body)) % (1 << _ALIGN)
         body += b"\0" * padding
-        entries.append((cpu, subtype, start + len(body), len(data), _ALIGN))
+        entries.append((cpu, subtype, header_size + len(body), len(data), _ALIGN))
         body += data
     if len({cpu for cpu, *_ in entries}) != len(entries):
         raise ValueError("Two files are for the same processor.")

@@ -59,13 +59,13 @@ def pack_python(
         [contents.identity("fmi2")[0]],
     )
     # Names of their own per build: a host's Python keeps one module per name, whatever FMU it came from.
-    main, own = f"main_{identity[:12]}", f"ali3_{identity[:12]}"
-    script = template.replace("ModelName", name).replace("PackageName", own)
-    files = {f"resources/{own}/{path}": data for path, data in package.items()}
+    main_module, package_name = f"main_{identity[:12]}", f"ali3_{identity[:12]}"
+    script = template.replace("ModelName", name).replace("PackageName", package_name)
+    files = {f"resources/{package_name}/{path}": data for path, data in package.items()}
     files |= contents.resources | _pythonfmu_libraries(name, platforms)
     files |= {
-        f"resources/{main}.py": script.encode(),
-        "resources/slavemodule.txt": main.encode(),
+        f"resources/{main_module}.py": script.encode(),
+        "resources/slavemodule.txt": main_module.encode(),
         "documentation/licenses/license.txt": licence("ali3"),
         "documentation/licenses/PythonFMU.txt": licence("pythonfmu"),
         "documentation/index.html": documentation(

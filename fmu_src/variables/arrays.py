@@ -43,15 +43,15 @@ def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
     such as gauge_1.stress, gauge_2.stress ..., else single variables; in the order of the table.
     """
     groups: list[Array] = []
-    taken: set[int] = set()
+    grouped: set[int] = set()
     names = {v.name for v in table}
     for i, v in enumerate(table):
-        if i in taken:
+        if i in grouped:
             continue
         group = _vector(table, i) or _series(table, i)
         if group is None or group.name in names:
             group = Array(v.name, (i,), v, v.description)
-        taken |= set(group.items)
+        grouped |= set(group.items)
         groups.append(group)
     return tuple(groups)
 
@@ -77,38 +77,43 @@ def common_text(texts: Sequence[str]) -> str:
     ('x, y of the centre', 'at gauge 1 to 3')
     """
     rows = [text.split() for text in texts]
-    shortest = min(map(len, rows))
+    least_length = min(map(len, rows))
     if all(row == rows[0] for row in rows):
         return texts[0]
-    first = next((k for k in range(shortest) if len({row[k] for row in rows}) > 1), shortest)
-    last = next((k for k in range(shortest - first) if len({row[-1 - k] for row in rows}) > 1), shortest - first)
-    middles = [" ".join(row[first : len(row) - last]) for row in rows]
+    prefix_length = next((k for k in range(least_length) if len({row[k] for row in rows}) > 1), least_length)
+    suffix_length = next(
+        (k for k in range(least_length - prefix_length) if len({row[-1 - k] for row in rows}) > 1),
+        least_length - prefix_length,
+    )
+    middles = [" ".join(row[prefix_length : len(row) - suffix_length]) for row in rows]
     if len(rows) > 2 and middles == [str(k) for k in range(1, len(rows) + 1)]:
         middle = f"1 to {len(rows)}"
     else:
         comma = "," if middles[-1].endswith(",") else ""
         middle = (", " if all(" " not in m for m in middles) else "; ").join(m.rstrip(",") for m in middles) + comma
-    return " ".join([*rows[0][:first], middle, *rows[0][len(rows[0]) - last :]])
+    return " ".join([*rows[0][:prefix_length], middle, *rows[0][len(rows[0]) - suffix_length :]])
 
 
 def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:
-    first = table[items[0]]
-    kind = (first.causality, first.source == "constant", first.unit, first.whole)
-    return (first.causality == "output" or first.source == "constant") and all(
+    reference = table[items[0]]
+    kind = (reference.causality, reference.source == "constant", reference.unit, reference.whole)
+    return (reference.causality == "output" or reference.source == "constant") and all(
         (table[k].causality, table[k].source == "constant", table[k].unit, table[k].whole) == kind for k in items
     )
 
 
 def _vector(table: Sequence[Variable], i: int) -> Array | None:
-    prefix, dot, last = table[i].name.rpartition(".")
-    for parts, name in _VECTORS:
-        items = range(i, i + len(parts))
-        if last != parts[0] or items[-1] >= len(table) or not _alike(table, items):
+    prefix, dot, suffix = table[i].name.rpartition(".")
+    for components, name in _VECTORS:
+        items = range(i, i + len(components))
+        if suffix != components[0] or items[-1] >= len(table) or not _alike(table, items):
             continue
-        if all(table[k].name == prefix + dot + part for k, part in zip(items, parts, strict=True)):
-            words = common_text([table[k].description for k in items])
-            named = any(", ".join(names) in words for names in (parts, [part[-1] for part in parts]))
-            description = words if named else f"{', '.join(parts)}: {words}"
+        if all(table[k].name == prefix + dot + component for k, component in zip(items, components, strict=True)):
+            text = common_text([table[k].description for k in items])
+            has_names = any(
+                ", ".join(names) in text for names in (components, [component[-1] for component in components])
+            )
+            description = text if has_names else f"{', '.join(components)}: {text}"
             return Array(f"{prefix}{dot}{name}", tuple(items), table[i], description)
     return None
 
@@ -117,9 +122,9 @@ def _series(table: Sequence[Variable], i: int) -> Array | None:
     match = _NUMBERED.fullmatch(table[i].name)
     if match is None or match[2] != "1":
         return None
-    places = {v.name: k for k, v in enumerate(table)}
+    indices = {v.name: k for k, v in enumerate(table)}
     items = [i]
-    while (k := places.get(f"{match[1]}_{len(items) + 1}{match[3]}")) is not None:
+    while (k := indices.get(f"{match[1]}_{len(items) + 1}{match[3]}")) is not None:
         items.append(k)
     if len(items) < 2 or not _alike(table, items):
         return None

@@ -35,26 +35,26 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     what needs another zero. Raises `UserError`: the file names none of the variables, without ``partial`` one that is
     not there, a name twice, or one that no variable of an FMU can have.
     """
-    place = {v.name: k for k, v in enumerate(table)}
+    index = {v.name: k for k, v in enumerate(table)}
     values = {v.name: v for v in table if v.source == "constant"}
     # watches of answers compare triples of values with those of the System and of the wheel
-    bound = {v.index for v in table if v.source == "ahead"} | {v.other for v in table if v.source == "ahead"}
-    bound |= {k + j for at, v in enumerate(table) if v.role for k in (at, v.other) if k >= 0 for j in range(3)}
+    watched = {v.index for v in table if v.source == "ahead"} | {v.other for v in table if v.source == "ahead"}
+    watched |= {k + j for at, v in enumerate(table) if v.role for k in (at, v.other) if k >= 0 for j in range(3)}
     variables, left_out = list(table), {}
     for ours, entry in content.entries.items():
-        if ours not in place:
+        if ours not in index:
             if not entry.partial and "from" not in entry.value:
-                hint = did_you_mean(ours, place)
+                hint = did_you_mean(ours, index)
                 raise UserError(f"{entry.where}: this model has no such variable{hint} partial = true leaves it out.")
             continue
-        k = place[ours]
-        theirs = _theirs(table[k], entry, content, values)
-        if isinstance(theirs, Variable) and theirs.scale != 1.0 and k in bound:
-            theirs = f"it is of a port, which works in {table[k].unit}"
-        if isinstance(theirs, str):
-            left_out[ours] = theirs
+        k = index[ours]
+        renamed_variable = _theirs(table[k], entry, content, values)
+        if isinstance(renamed_variable, Variable) and renamed_variable.scale != 1.0 and k in watched:
+            renamed_variable = f"it is of a port, which works in {table[k].unit}"
+        if isinstance(renamed_variable, str):
+            left_out[ours] = renamed_variable
         else:
-            variables[k] = theirs
+            variables[k] = renamed_variable
     result = Renamed(tuple(variables), left_out)
     if not result.named:
         raise UserError(f"{content.file}: this model has none of the variables that it names, such as 'speed'.")
@@ -74,34 +74,34 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
         return f"'{value['name']}' has another zero"
     factor, unit = value.get("factor", 1.0), value.get("unit")
     if isinstance(factor, str):
-        known = values.get(factor)
-        if known is None and factor not in content.constants:
+        constant = values.get(factor)
+        if constant is None and factor not in content.constants:
             if factor not in content.needs:
                 raise UserError(f"{entry.where}: factor is '{factor}'; it must be a number, or a constant of the file.")
             return f"it needs '{factor}' ({content.needs[factor]}): give it in a file that extends this one"
-        base = v.unit if known is None or known.start is None else known.unit
-        factor = content.constants.get(factor, known.start if known is not None else None)
+        base = v.unit if constant is None or constant.start is None else constant.unit
+        factor = content.constants.get(factor, constant.start if constant is not None else None)
     else:
         base = v.unit
-    declared = base if unit is None else unit
-    scale = number(factor, f"{entry.where}: factor") / _size(declared, base, entry)
+    target_unit = base if unit is None else unit
+    scale = number(factor, f"{entry.where}: factor") / _size(target_unit, base, entry)
     if scale == 0.0:
         raise UserError(f"{entry.where}: factor is 0; it must be another number.")
     if scale != 1.0 and (v.source not in _SCALED or v.whole):
         return f"'{value['name']}' is in another unit, which only real inputs and outputs can have"
-    ends = [None if end is None else scale * end for end in (v.min, v.max)]
-    low, high = ends if scale > 0.0 else reversed(ends)
+    limits = [None if end is None else scale * end for end in (v.min, v.max)]
+    low, high = limits if scale > 0.0 else reversed(limits)
     return replace(
         v,
         name=value["name"],
         ours=v.name,
         scale=scale,
-        unit=declared,
+        unit=target_unit,
         start=None if v.start is None else scale * v.start,
         min=low,
         max=high,
         nominal=None if v.nominal is None else 10.0 ** math.floor(math.log10(abs(scale) * v.nominal)),
-        display_unit=v.display_unit if v.display_unit in DISPLAY_UNITS.get(declared, {}) else None,
+        display_unit=v.display_unit if v.display_unit in DISPLAY_UNITS.get(target_unit, {}) else None,
         description=f"{v.description} ({v.name} of ALi3)".lstrip(),
     )
 
@@ -109,9 +109,9 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
 def _size(unit: str, base: str, entry: Entry) -> float:
     """How many of the SI unit of a value are one of a unit."""
     try:
-        one, other = parse_unit(unit, foreign=True), parse_unit(base)
+        target_unit, base_unit = parse_unit(unit, foreign=True), parse_unit(base)
     except ValueError as error:
         raise UserError(f"{entry.where}: {error}") from None
-    if one.exponents != other.exponents and (base != "1" or "factor" not in entry.value):
+    if target_unit.exponents != base_unit.exponents and (base != "1" or "factor" not in entry.value):
         raise UserError(f"{entry.where} is in {base}, and {unit} is of another quantity.")
-    return one.factor
+    return target_unit.factor

@@ -27,14 +27,14 @@ class TextVariable:
 
 def text_table(meta: Mapping[str, Any], table: Sequence[Variable]) -> tuple[TextVariable, ...]:
     """The text variables of a System. Raises `ValueError`: a name is taken."""
-    taken = {v.name for v in table}
-    found = []
+    names = {v.name for v in table}
+    variables = []
     for entry in meta.get("road_files", ()):
-        if entry["name"] in taken:
+        if entry["name"] in names:
             raise ValueError(f"Two variables are named '{entry['name']}'; every one needs its own name.")
         start = Path(entry["start"]).name
-        found.append(TextVariable(entry["name"], entry["description"], entry["road"], start))
-    return tuple(found)
+        variables.append(TextVariable(entry["name"], entry["description"], entry["road"], start))
+    return tuple(variables)
 
 
 def road_resources(meta: Mapping[str, Any]) -> dict[str, bytes]:

@@ -19,12 +19,12 @@ def check_texts(description: str, rights: Sequence[str], table: Sequence[Variabl
     texts |= dict(zip(("author", "copyright", "licence"), rights, strict=True))
     texts |= {f"description of '{v.name}'": v.description for v in table}
     texts |= {f"name {v.name!a}": v.name for v in table}
-    for what, text in texts.items():
+    for label, text in texts.items():
         if not isinstance(text, str):
-            raise ValueError(f"The {what} must be text, not {shown(text)}.")
+            raise ValueError(f"The {label} must be text, not {shown(text)}.")
         match = _FORBIDDEN.search(text)
         if match:
             raise ValueError(
-                f"The {what} has the character U+{ord(match[0]):04X} at place {match.start() + 1}, "
+                f"The {label} has the character U+{ord(match[0]):04X} at place {match.start() + 1}, "
                 "which no XML document can hold; leave it out."
             )

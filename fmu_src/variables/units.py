@@ -113,9 +113,9 @@ def parse_unit(name: str, foreign: bool = False) -> Unit:
     symbols = _SYMBOLS | (_FOREIGN if foreign else {})
     exponents = dict.fromkeys(BASE_UNITS, 0)
     factor = 1.0
-    for k, part in enumerate(name.split("/")):
+    for k, group in enumerate(name.split("/")):
         sign = 1 if k == 0 else -1
-        for token in re.split(r"[.*· ]+", part.strip().strip("()")):
+        for token in re.split(r"[.*· ]+", group.strip().strip("()")):
             match = _TOKEN.fullmatch(token)
             if match is None or match[1] not in symbols:
                 symbol_list = ", ".join(symbols)

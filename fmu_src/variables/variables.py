@@ -185,8 +185,8 @@ def variable_table(
         )
     )
     if len(fidelities) > 1:
-        named = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
-        text = "Level of detail of the model" + (f": {named}" if named else "")
+        names_text = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
+        text = "Level of detail of the model" + (f": {names_text}" if names_text else "")
         last = float(len(fidelities) - 1)
         table.append(
             Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
@@ -205,13 +205,13 @@ def variable_table(
         text = "Number of communication steps by which the points at which the road is evaluated lie ahead"
         table.append(Variable(LEAD, "parameter", "fixed", "1", text, "lead", 0, 1.0, 0.0, _LONGEST_LEAD))
     table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
-    sensed = {entry["name"] for entry in meta["sensors"]}
+    sensor_names = {entry["name"] for entry in meta["sensors"]}
     table += [
         Variable(name, "output", "discrete" if whole else "continuous", unit, text, "solver", k, whole=whole)
         for name, k, unit, whole, text in _SOLVER
-        if name not in sensed
+        if name not in sensor_names
     ]
-    table += [v for v in (_CAPPED_RESIDUAL,) if v.name not in sensed]
+    table += [v for v in (_CAPPED_RESIDUAL,) if v.name not in sensor_names]
     table += _ahead(meta, table)
     table += [_constant(entry) for entry in meta.get("constants", ())]
     table = _near(meta, table)
@@ -254,12 +254,12 @@ def _sensor(entry: Mapping[str, Any], index: int) -> Variable:
 
 
 def _ahead(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
-    place = {v.name: k for k, v in enumerate(table)}
+    index = {v.name: k for k, v in enumerate(table)}
     return [
         Variable(
             *(entry["name"], "output", "continuous", canonical_unit(entry["unit"]), entry["description"], "ahead"),
-            index=place[entry["value"]],
-            other=place[entry["rate"]],
+            index=index[entry["value"]],
+            other=index[entry["rate"]],
         )
         for entry in meta.get("ahead", ())
     ]
@@ -267,8 +267,8 @@ def _ahead(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]
 
 def _near(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
     """With the places of the outputs that inputs name."""
-    place = {v.name: k for k, v in enumerate(table)}
-    near = {entry["name"]: place[entry["near"]] for entry in meta["inputs"] if "near" in entry}
+    index = {v.name: k for k, v in enumerate(table)}
+    near = {entry["name"]: index[entry["near"]] for entry in meta["inputs"] if "near" in entry}
     return [replace(v, other=near[v.name]) if v.source == "input" and v.name in near else v for v in table]
 
 
@@ -301,13 +301,13 @@ def check_fidelities(metas: Sequence[Mapping[str, Any]]) -> None:
     """Systems to choose from must have the same inputs, parameters and sensors in the same order."""
     for k, meta in enumerate(metas[1:], start=1):
         for kind in ("inputs", "parameters", "sensors"):
-            mine, first = (
+            records, reference = (
                 [(e["name"], e["unit"], e.get("whole"), e.get("fixed")) for e in m[kind]] for m in (meta, metas[0])
             )
-            if mine != first:
-                odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", "", None))[0]
+            if records != reference:
+                name = next((a or b for a, b in zip_longest(records, reference) if a != b), ("", "", None))[0]
                 raise ValueError(
-                    f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all must have the "
+                    f"Fidelity {k} has other {kind} than fidelity 0, first '{name}'; all must have the "
                     "same in the same order."
                 )
 
@@ -356,18 +356,18 @@ def _display(name: str, unit: str) -> str | None:
 
 def check_names(table: Iterable[Variable]) -> None:
     """Names, units and starts are such as an FMU can have; else `ValueError` with the sentence."""
-    seen: set[str] = set()
+    names: set[str] = set()
     for v in table:
         if not _STRUCTURED_NAME.fullmatch(v.name):
             raise ValueError(
                 f"'{v.name}' cannot be the name of an FMU variable; use letters, digits and underscores, "
                 "with dots between the parts, as in wheel_FL.Fz."
             )
-        if v.name in seen:
+        if v.name in names:
             raise ValueError(
                 f"Two variables are named '{v.name}'; every input, parameter and sensor needs its own name."
             )
-        seen.add(v.name)
+        names.add(v.name)
         try:
             parse_unit(v.unit, foreign=bool(v.ours))
         except ValueError as error:
