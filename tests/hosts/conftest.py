@@ -13,6 +13,8 @@ import pytest
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
+from tests.hosts.in_this_process import in_this_process
+
 HERE = Path(__file__).resolve().parent
 _SVG = b'<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"></svg>'
 _PNG = base64.b64decode(
@@ -43,3 +45,10 @@ def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object
 def tuned(scene_fmu: Callable[..., Path]) -> Path:
     """The FMU of a mass on a spring whose values can be set."""
     return scene_fmu(f"{HERE / 'scenes.py'}:tuned")
+
+
+@pytest.fixture
+def in_process() -> Generator[pytest.MonkeyPatch]:
+    """FMUs are driven by the process of the test, until `undo`."""
+    with in_this_process() as patch:
+        yield patch

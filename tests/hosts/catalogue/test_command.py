@@ -17,7 +17,7 @@ from hosts.catalogue.command import main
 from hosts.catalogue.registry import TESTS
 from hosts.common.options import FmuOptions
 from hosts.view.view_sources import ViewRunOptions, recordings_of
-from tests.hosts.pool_in_process import runs_in_this_process
+from tests.hosts.in_this_process import in_this_process
 
 FAST = ["--tests", "drop", "--test-setting", "drop.height=0.1", "--test-setting", "drop.duration=4"]
 SSV = """<?xml version="1.0" encoding="UTF-8"?>
@@ -38,7 +38,7 @@ def test_cars_stand_side_by_side_and_processes_change_nothing(
 ) -> None:
     soft = tmp_path / "soft.ssv"
     soft.write_text(SSV, encoding="utf-8")
-    for jobs, where in ((1, runs_in_this_process()), (2, nullcontext())):
+    for jobs, where in ((1, in_this_process()), (2, nullcontext())):
         out = tmp_path / f"out_{jobs}"
         sets = ["--variant", "as-is", "--variant", str(soft)]
         with where:

@@ -15,7 +15,7 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 
-pytestmark = pytest.mark.usefixtures("in_this_process")
+pytestmark = pytest.mark.usefixtures("in_process")
 
 END = 5.0
 ALIASES = """
@@ -199,7 +199,7 @@ def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_
 
 @pytest.mark.slow
 def test_windows_begin_as_measured_each(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], in_this_process: pytest.MonkeyPatch
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], in_process: pytest.MonkeyPatch
 ) -> None:
     """The second half is left out."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
@@ -213,7 +213,7 @@ def test_windows_begin_as_measured_each(
     bins = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
     assert sum(b["samples"] for b in bins) == 4 * 101
     assert {(b["low"], b["high"]) for b in bins} >= {(0.0, 2.0), (2.0, 4.0)}
-    in_this_process.undo()
+    in_process.undo()
     # Processes share the windows; not one digit depends on their number.
     _, shared = compared(car, log, *parts, "--jobs", "2", signals="chassis.wz")
     assert values(shared) == values(record)

@@ -40,7 +40,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write(tmp_path_factory.mktemp("log") / "drive.csv", log_columns())
 
 
-@pytest.mark.usefixtures("in_this_process")
+@pytest.mark.usefixtures("in_process")
 class TestCommand:
     @pytest.mark.slow
     def test_a_fit_that_is_stopped_leaves_the_comparison(

@@ -11,7 +11,7 @@ from hosts.compare.command import main
 from hosts.driving.manoeuvre_table import read_table
 from hosts.run.command import main as run
 
-pytestmark = pytest.mark.usefixtures("in_this_process")
+pytestmark = pytest.mark.usefixtures("in_process")
 
 ROWS = (
     ("time", "pull", "spring.stiffness"),

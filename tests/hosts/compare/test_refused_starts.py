@@ -19,7 +19,7 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.measures.signal import Signal
 
-pytestmark = pytest.mark.usefixtures("in_this_process")
+pytestmark = pytest.mark.usefixtures("in_process")
 
 RATE = 2.0
 REFUSED = 3.0

@@ -14,7 +14,7 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu import Fmu
 from hosts.measures.signal import Signal
 
-pytestmark = pytest.mark.usefixtures("in_this_process")
+pytestmark = pytest.mark.usefixtures("in_process")
 
 NAMES = ("speed", "chassis.vy", "chassis.wz", "chassis.ay")
 BEGIN = 3.0  # s, by then the turn is steady

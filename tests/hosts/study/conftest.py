@@ -1,11 +1,9 @@
-"""A study of a mass on a spring, whose runs may be made in the process of the test."""
+"""A study of a mass on a spring."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-from tests.hosts.pool_in_process import runs_in_this_process
 
 STUDY = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8")
 
@@ -23,10 +21,3 @@ def study_file(tuned: Path, tmp_path: Path) -> Callable[..., Path]:
         return tmp_path / name
 
     return write
-
-
-@pytest.fixture
-def in_process() -> Iterator[None]:
-    """Runs are made by the process of the test."""
-    with runs_in_this_process():
-        yield

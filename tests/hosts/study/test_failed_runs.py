@@ -17,7 +17,7 @@ from hosts.study.jobs import Job
 from hosts.study.store import read_study
 from hosts.study.study_runs import Bench
 from hosts.study.worker_data import Work
-from tests.hosts.pool_in_process import runs_in_this_process
+from tests.hosts.in_this_process import in_this_process
 
 TESTS = Path(__file__).parents[2]
 BAD = """
@@ -88,7 +88,7 @@ def test_runs_that_raise_crash_or_hang_are_rows_and_are_made_again(
         "The process of the run ended with exit code 3.",
     ]
     monkeypatch.setenv("REPAIRED", "1")
-    with runs_in_this_process():
+    with in_this_process():
         ended = run_study(file, tmp_path / "out", None, 1, again=True)
     assert ended is not None
     assert (ended.good, ended.failed) == (True, 0)

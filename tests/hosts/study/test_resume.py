@@ -19,7 +19,7 @@ from hosts.study.campaign import run_study
 from hosts.study.command import main
 from hosts.study.repeated_run import repeater
 from hosts.study.store import read_study
-from tests.hosts.pool_in_process import runs_in_this_process
+from tests.hosts.in_this_process import in_this_process
 
 ROOT = Path(__file__).parents[3]
 
@@ -31,7 +31,7 @@ def finished(tuned: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     fmu = shutil.copy(tuned, folder / "Tuned.fmu")
     text = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8").format(fmu=fmu)
     (folder / "study.toml").write_text(text)
-    with runs_in_this_process():
+    with in_this_process():
         assert run_study(folder / "study.toml", folder / "out", None, 1) is not None
     return folder
 
@@ -137,8 +137,8 @@ def write(self):
 OutcomeTable.write = write
 store._WRITE = (0.0, 0.0)
 from hosts.study.command import main
-from tests.hosts.pool_in_process import runs_in_this_process
-with runs_in_this_process():
+from tests.hosts.in_this_process import in_this_process
+with in_this_process():
     sys.exit(main())
 """
     new = half / "new"

@@ -15,7 +15,7 @@ from hosts.study.plan import make_plan
 from hosts.study.store import open_signals, read_study
 from hosts.study.study_file import read_study_file
 from hosts.study.study_runs import Bench
-from tests.hosts.pool_in_process import runs_in_this_process
+from tests.hosts.in_this_process import in_this_process
 
 GRAVITY = 9.81
 STUDY = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8")
@@ -27,7 +27,7 @@ def folder(tuned: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("study")
     signals = '[signals]\nnames = ["bob.y", "pull"]\ninterval = 0.05\n'
     (place / "study.toml").write_text(STUDY.format(fmu=tuned) + signals)
-    with runs_in_this_process():
+    with in_this_process():
         ended = run_study(place / "study.toml", place / "out", None, 1)
     assert ended is not None
     assert ended.good
