@@ -132,7 +132,10 @@ def wrong_parameters(name, groups, each=False):
         values = {path: other(name, path) for path in group}
         tuned = driven(system(name), values)
         same = SAME_BODY if any(map(of_the_body, group)) else SAME_ITERATED if any(map(turns_a_wheel, group)) else SAME
-        if outputs := differing(name, tuned, rebuilt(name, values), same):
+        outputs = differing(name, tuned, rebuilt(name, values), same)
+        if any(map(of_the_body, group)):  # as a load on a frame, whose own mass stays; a file's frame is another one
+            outputs = {output for output in outputs if not output.startswith(("stress.", "bending_moment."))}
+        if outputs:
             wrong.append(f"{values} in the FMU and in the file give another {sorted(outputs)}")
         for path in group if each else ():
             without = {p: v for p, v in values.items() if p != path}
@@ -171,8 +174,6 @@ def test_all_parameters_together_have_the_effect_of_the_file(name):
     own = [path for path, kind in kinds(name).items() if kind not in known and path not in without]
     apart = [[path for path in own if kind(path)] for kind in (turns_a_wheel, of_the_body, ALONE.__contains__)]
     paths = [path for path in own if not any(path in group for group in apart)]
-    if getattr(car.chassis, "frame", None) is not None:
-        apart[1] = apart[1][:1]  # a frame allows one change of the body at a time; the proof makes all of them
     groups = -(-len(paths) // TOGETHER)
     wrong = wrong_parameters(name, [g for g in (*(paths[k::groups] for k in range(groups)), *apart) if g])
     assert not wrong, "\n".join(wrong)
