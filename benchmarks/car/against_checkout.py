@@ -100,13 +100,13 @@ def measure(
         Of each scene; 0: its own number.
     """
     with tempfile.TemporaryDirectory() as folder:
-        sides = []
-        for name, checkout in (("here", ROOT), ("there", other)):
+        commands = {}
+        for name, checkout in (("there", other), ("here", ROOT)):  # a wrong folder is refused before anything compiles
             Path(folder, name).mkdir()
-            sides.append(commands_of(checkout.resolve(), scenes, Path(folder, name), steps))
-        for scene in watched([s for s in scenes if f"{s.name} {s.step}" in sides[1]]):
+            commands[name] = commands_of(checkout.resolve(), scenes, Path(folder, name), steps)
+        for scene in watched([s for s in scenes if f"{s.name} {s.step}" in commands["there"]]):
             key = f"{scene.name} {scene.step}"
-            two_sides = [Side(name, side[key]) for name, side in zip(("here", "there"), sides, strict=True)]
+            two_sides = [Side(name, commands[name][key]) for name in ("here", "there")]
             yield row_of(scene, two_sides, steps or scene.steps, rounds, repeats, counted)
 
 
