@@ -186,11 +186,15 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_cha
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("sizes", [[(1280, 720)], [(390, 844), (844, 390)]], ids=["screen", "telephone"])
+@pytest.mark.parametrize(
+    "sizes",
+    [[(1280, 720)], [(1280, 720), (800, 1280)], [(390, 844), (844, 390)]],
+    ids=["screen", "tablet", "telephone"],
+)
 def test_everything_fits_on_the_screen_and_nothing_lies_on_another(
     chromium: Any, lane_change: Recording, sizes: list[tuple[int, int]]
 ) -> None:
-    """A telephone has levers to touch, and is turned."""
+    """A tablet and a telephone have levers to touch, and are turned."""
     levers = [f"lever {name}" for name in ("steering", "brake", "throttle")]
     context = chromium.new_context(viewport={"width": sizes[0][0], "height": sizes[0][1]}, has_touch=len(sizes) > 1)
     program = Program(context.new_page(), lane_change, world=WORLD)
