@@ -33,10 +33,8 @@ def closed_form(t: np.ndarray) -> np.ndarray:
     """Both torques, N m, from Lagrange's equations of the two angles."""
     (m1, m2), (l1, l2) = MASS, LENGTH
     (a, b), (ad, bd), (add, bdd) = ([p(t, k) for p in PATH] for k in range(3))
-    inertia_2, coupling, centrifugal = m2 * l2**2 / 3.0, 0.5 * m2 * l1 * l2 * np.cos(b), 0.5 * m2 * l1 * l2 * np.sin(b)
-    second = (
-        (inertia_2 + coupling) * add + inertia_2 * bdd + centrifugal * ad**2 + 0.5 * m2 * l2 * GRAVITY * np.cos(a + b)
-    )
+    inertia, coupling, centrifugal = m2 * l2**2 / 3.0, 0.5 * m2 * l1 * l2 * np.cos(b), 0.5 * m2 * l1 * l2 * np.sin(b)
+    second = (inertia + coupling) * add + inertia * bdd + centrifugal * ad**2 + 0.5 * m2 * l2 * GRAVITY * np.cos(a + b)
     first = (m1 / 3.0 + m2) * l1**2 * add + coupling * (add + bdd) - centrifugal * (ad + bd) ** 2
     return np.array([first + (0.5 * m1 + m2) * l1 * GRAVITY * np.cos(a) + second, second])
 
