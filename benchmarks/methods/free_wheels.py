@@ -200,3 +200,12 @@ TWO_AXES: dict[str, Callable[[float], Free]] = {
 def alone_late(turn: float) -> float:
     """Part of its angle by which a wheel alone is late: the trapezoidal rule turns it by 2 atan(turn / 2)."""
     return 1.0 - 2.0 * math.atan(0.5 * turn) / turn
+
+
+def growth(ratio: float, inertia: float, other: float, turn: float, second_turn: float) -> float:
+    """Part of its energy that a pair of wheels gains in a step of the paper's rule, to leading order (docs/theory.md).
+
+    `turn`, `second_turn`: rates of the wheels times the step.
+    """
+    share = ratio**2 * inertia * other / (ratio**2 * inertia + other) ** 2
+    return share * (turn**2 - second_turn**2) ** 2 / 12.0
