@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-import traceback
-import warnings
 from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
@@ -24,6 +22,7 @@ from hosts.fmu.fmu import unpack
 from tests import kinds
 from tests.fmu.calls import OK
 from tests.fmu.host3 import Slave3
+from tests.forked import forked
 
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
@@ -40,24 +39,14 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
     if not hasattr(os, "fork"):
         return None
     arguments = {name: pyfuncitem.funcargs[name] for name in pyfuncitem._fixtureinfo.argnames}
-    read, write = os.pipe()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        child = os.fork()
-    if child == 0:
-        text = ""
-        try:
-            pyfuncitem.obj(**arguments)
-        except BaseException:
-            text = traceback.format_exc()
-        os.write(write, text.encode()[-60000:])
-        os._exit(1 if text else 0)
-    os.close(write)
-    with os.fdopen(read, "rb") as stream:
-        text = stream.read().decode()
-    status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-    if status:
-        pytest.fail(text or f"the process that ran the FMU ended with {status}", pytrace=False)
+
+    def call() -> str:
+        pyfuncitem.obj(**arguments)
+        return ""
+
+    text, code = forked(call)
+    if code:
+        pytest.fail(text or f"the process that ran the FMU ended with {code}", pytrace=False)
     return True
 
 

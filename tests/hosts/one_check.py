@@ -3,41 +3,30 @@
 import json
 import os
 import tempfile
-import traceback
-import warnings
 from contextlib import suppress
 from pathlib import Path
 
+from ali3.temporary_folder import temporary_folder
 from hosts.check.all_checks import CHECKS, done
 from hosts.check.instance import open_subject
+from tests.forked import forked
 
 
 def one_check(fmu: Path, name: str, steps: int = 10) -> tuple[str, str]:
     """Verdict and words of a check; what the FMU does to its process ends with that."""
     (check,) = (check for check in CHECKS if check.name == name)
-    folder = Path(tempfile.mkdtemp())
-    read, write = os.pipe()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # of threads in this process
-        child = os.fork()
-    if child == 0:
-        answer: tuple[str, str]
-        try:
+    with temporary_folder() as folder:
+
+        def verdict_and_words() -> str:
             os.chdir(folder)
             tempfile.tempdir = str(folder)
             finding = done(check, open_subject(fmu, folder / "fmu", steps, {}))
-            answer = finding.verdict, finding.words
-        except BaseException:
-            answer = "error", traceback.format_exc()
-        os.write(write, json.dumps(answer).encode())
-        with suppress(ChildProcessError):
-            while True:
-                os.wait()
-        os._exit(0)
-    os.close(write)
-    with os.fdopen(read, "rb") as stream:
-        text = stream.read()
-    os.waitpid(child, 0)
-    assert text, f"the process of the check {name} ended without a verdict"
+            with suppress(ChildProcessError):
+                while True:
+                    os.wait()
+            return json.dumps([finding.verdict, finding.words])
+
+        text, code = forked(verdict_and_words)
+    assert code == 0, text or f"the process of the check {name} ended with {code}"
     verdict, words = json.loads(text)
     return verdict, words
