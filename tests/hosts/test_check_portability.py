@@ -11,6 +11,7 @@ from fmu_src.build.build import face_name
 from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
 from mbs.kernel import build
 from tests import kinds
+from tests.hosts.changed_fmu import changed_fmu
 from tests.hosts.one_check import one_check
 
 ROOT = Path(__file__).parents[2]
@@ -45,10 +46,7 @@ def changed(fmu: Path, copy: Path, changes: list[Change], face: str = "") -> Pat
         sources, include = [*build.sources(lanes=False), *shell.values()], (KERNEL_INCLUDE, HERE, DETOUR)
         build.compile_c(sources, build.host_target(), binary, include=include, defines=("ALI3_INSIDE",), what="a copy")
         files[library] = binary.read_bytes()
-    with zipfile.ZipFile(copy, "w") as target:
-        for name, data in files.items():
-            target.writestr(name, data)
-    return copy
+    return changed_fmu(fmu, copy, files)
 
 
 XML = "modelDescription.xml"

@@ -1,13 +1,12 @@
 """FMUs of one car in the names, units, signs and frames of other programs."""
 
-import shutil
-import zipfile
 from pathlib import Path
 
 import pytest
 from lxml import etree
 
 from fmu_src.native.platforms import PYTHON_PLATFORMS, this_platform
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 
 SOURCE = Path(__file__).with_name("foreign_car.py")
 _BASE = {
@@ -48,14 +47,7 @@ def with_units(tmp_path):
 
     def declare(fmu: Path, units: dict[str, str]) -> Path:
         copy = tmp_path / f"{fmu.stem}_with_units.fmu"
-        shutil.copy(fmu, copy)
-        with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
-            for item in old.infolist():
-                content = old.read(item)
-                if item.filename == "modelDescription.xml":
-                    content = _declared(content, units)
-                new.writestr(item, content)
-        return copy
+        return changed_fmu(fmu, copy, {DESCRIPTION: lambda content: _declared(content, units)})
 
     return declare
 

@@ -2,7 +2,6 @@
 
 import math
 import re
-import zipfile
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +19,7 @@ from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import described
 from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.variables import Variables
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.quick import quick
 
 CONSTANTS = {
@@ -224,13 +224,12 @@ def test_the_reason_for_a_missing_variable_is_reported(foreign_fmu, alias_file):
 def test_a_variable_that_is_no_output_is_reported(foreign_fmu, tmp_path, alias_file):
     fmu = foreign_fmu("carmaker")
     result = tmp_path / "local.fmu"
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(result, "w") as new:
-        for item in old.infolist():
-            content = old.read(item)
-            if item.filename == "modelDescription.xml":
-                content = re.sub(rb'(name="Car.ay"[^>]*)causality="output"', rb'\1causality="local"', content)
-                content = content.replace(b'causality="local" initial="calculated"', b'causality="local"')
-            new.writestr(item, content)
+
+    def local(content: bytes) -> bytes:
+        content = re.sub(rb'(name="Car.ay"[^>]*)causality="output"', rb'\1causality="local"', content)
+        return content.replace(b'causality="local" initial="calculated"', b'causality="local"')
+
+    changed_fmu(fmu, result, {DESCRIPTION: local})
     aliases = find_aliases(alias_file("carmaker"), Variables(read_model_description(str(result), validate=False)))
     assert aliases.why_missing("chassis.ay") == (
         "carmaker.toml takes 'chassis.ay' from 'Car.ay', which is a local variable of the FMU and no output"

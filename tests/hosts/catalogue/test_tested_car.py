@@ -1,7 +1,6 @@
 """A car of another program under our names, in our units and signs, moves as ours."""
 
 import math
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ from hosts.driving.pilots.steering_table import SteeringTable
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.fmu_source import FmuSource
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 
 NAMES = {
     "steering": "Driver.Steer",
@@ -33,16 +33,15 @@ SCALES = {"steering": -1.0, "chassis.wz": -2.0}
 def foreign(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> TestedCar:
     """The prototype under other names; the numbers of some mean others of ours."""
     path = tmp_path_factory.mktemp("foreign") / "foreign.fmu"
-    with zipfile.ZipFile(prototype_fmu) as old, zipfile.ZipFile(path, "w") as new:
-        for item in old.infolist():
-            content = old.read(item)
-            if item.filename == "modelDescription.xml":
-                text = content.decode()
-                for ours, theirs in NAMES.items():
-                    assert f'name="{ours}"' in text
-                    text = text.replace(f'name="{ours}"', f'name="{theirs}"')
-                content = text.encode()
-            new.writestr(item, content)
+
+    def renamed(content: bytes) -> bytes:
+        text = content.decode()
+        for ours, theirs in NAMES.items():
+            assert f'name="{ours}"' in text
+            text = text.replace(f'name="{ours}"', f'name="{theirs}"')
+        return text.encode()
+
+    changed_fmu(prototype_fmu, path, {DESCRIPTION: renamed})
     aliases = tuple(Alias(ours, theirs, SCALES.get(ours, 1.0)) for ours, theirs in NAMES.items())
     return TestedCar("foreign", FmuSource(path, Aliases(aliases, {"vehicle.length": 9.0})))
 

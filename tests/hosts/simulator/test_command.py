@@ -10,7 +10,6 @@ import signal
 import subprocess
 import sys
 import time
-import zipfile
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -35,6 +34,7 @@ from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.command import main
 from hosts.simulator.headless_driving import headless_driver, run_headless
 from hosts.simulator.preparation import DriveRequest, prepare
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.hosts.simulator.pages import until
 
 TESTS = Path(__file__).parents[2]
@@ -189,18 +189,15 @@ brake = "Brk"
 @pytest.fixture
 def renamed(fmus, tmp_path):
     """The sledge as another program would name its variables."""
-    copy = tmp_path / "foreign.fmu"
-    with zipfile.ZipFile(fmus["sledge"]) as old, zipfile.ZipFile(copy, "w") as new:
-        for item in old.infolist():
-            content = old.read(item)
-            if item.filename == "modelDescription.xml":
-                for ours, theirs in NAMES.items():
-                    content = content.replace(f'name="{ours}"'.encode(), f'name="{theirs}"'.encode())
-                # One that is in kilometres, of which the other program says nothing.
-                content = re.sub(rb'(name="X"[^>]*>\s*<Real)[^>]*', rb"\1 /", content)
-            if item.filename != "resources/geometry.json":
-                new.writestr(item, content)
-    return copy
+
+    def foreign(content: bytes) -> bytes:
+        for ours, theirs in NAMES.items():
+            content = content.replace(f'name="{ours}"'.encode(), f'name="{theirs}"'.encode())
+        # One that is in kilometres, of which the other program says nothing.
+        return re.sub(rb'(name="X"[^>]*>\s*<Real)[^>]*', rb"\1 /", content)
+
+    changes = {DESCRIPTION: foreign, "resources/geometry.json": None}
+    return changed_fmu(fmus["sledge"], tmp_path / "foreign.fmu", changes)
 
 
 @pytest.mark.slow

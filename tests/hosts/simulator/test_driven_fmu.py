@@ -1,7 +1,6 @@
 """An FMU that is rewound, restarted and set upright has the bits of one that never was."""
 
 import math
-import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import pytest
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import StepRefusedError
 from hosts.simulator.driven_fmu import DrivenFmu
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 
 H = 0.002
 AT_ONCE = math.inf
@@ -174,16 +174,12 @@ def test_a_refused_step_keeps_the_state_and_the_past(fmu: Callable[[str], Path])
 @pytest.fixture
 def forgetful(fmu: Callable[[str], Path], tmp_path: Path) -> Path:
     """The sledge without saved states."""
-    changed = tmp_path / "forgetful.fmu"
-    with zipfile.ZipFile(fmu("sledge")) as source, zipfile.ZipFile(changed, "w") as target:
-        for item in source.infolist():
-            content = source.read(item)
-            if item.filename == "modelDescription.xml":
-                assert b'canGetAndSetFMUstate="true"' in content
-                content = content.replace(b'canGetAndSetFMUstate="true"', b"")
-                content = content.replace(b'canSerializeFMUstate="true"', b"")
-            target.writestr(item, content)
-    return changed
+
+    def stateless(content: bytes) -> bytes:
+        assert b'canGetAndSetFMUstate="true"' in content
+        return content.replace(b'canGetAndSetFMUstate="true"', b"").replace(b'canSerializeFMUstate="true"', b"")
+
+    return changed_fmu(fmu("sledge"), tmp_path / "forgetful.fmu", {DESCRIPTION: stateless})
 
 
 def test_an_fmu_that_saves_no_state_can_be_reset_and_set_upright_but_not_rewound(forgetful: Path) -> None:
