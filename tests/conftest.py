@@ -93,9 +93,9 @@ def made_once(shared: Path) -> Callable[[str, Callable[[Path], None]], Path]:
 
 @pytest.fixture(scope="session")
 def scene_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[..., Path]:
-    """Builds the FMU of a scene for this platform once for all processes, also those that are forked for one test."""
+    """Builds the FMU of a scene, with `wasm` for pages too, once for all processes, also those forked for one test."""
 
-    def make(scene: str, kind: str = "native", *, plain: bool = False) -> Path:
+    def make(scene: str, kind: str = "native", *, plain: bool = False, wasm: bool = False) -> Path:
         from fmpy import platform
 
         from fmu_src.build.build import build_fmu
@@ -103,9 +103,10 @@ def scene_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Calla
 
         def fill(folder: Path) -> None:
             name, system = load_scene(scene)
-            build_fmu(system, name, folder, [platform], kind=kind, plain=plain)
+            build_fmu(system, name, folder, [platform, *["wasm32"] * wasm], kind=kind, plain=plain)
 
-        (path,) = made_once(f"{re.sub(r'[^a-z0-9]+', '_', scene[-40:])}_{kind}{'_plain' * plain}", fill).glob("*.fmu")
+        options = f"{kind}{'_plain' * plain}{'_wasm' * wasm}"
+        (path,) = made_once(f"{re.sub(r'[^a-z0-9]+', '_', scene[-40:])}_{options}", fill).glob("*.fmu")
         return path
 
     return make

@@ -2,27 +2,24 @@
 
 import json
 import re
-import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from html import escape
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import numpy as np
 import pytest
 
 from ali3 import html
 from ali3.scene.recording import Recording
 from ali3.scene.scene import scene_errors
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from fmu_src.description.documentation import documentation
 from fmu_src.variables.variables import Variable
 from hosts.catalogue.report import write_report
 from hosts.compare.command import main as compare
 from hosts.view.command import main
 from tests.hosts.catalogue import synthetic_records
+from tests.hosts.changed_fmu import DESCRIPTION, changed_fmu
 from tests.in_browser import headless_chromium, wait_until
 from tests.viewer.hand_scenes import floats
 from tests.viewer.simulator_program import Program
@@ -53,25 +50,21 @@ def drawing() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def foreign(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:tuned")
-    built = build_fmu(system, name, tmp_path_factory.mktemp("made"), [fmpy.platform, "wasm32"])
+def foreign(scene_fmu: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    built = scene_fmu(f"{Path(__file__).parent / 'scenes.py'}:tuned", wasm=True)
     file = tmp_path_factory.mktemp("foreign") / "Foreign.fmu"
-    with zipfile.ZipFile(built) as old, zipfile.ZipFile(file, "w") as new:
-        for name in old.namelist():
-            content = old.read(name)
-            if name == "modelDescription.xml":
-                text = content.decode()
-                for attribute in TEXTS:
-                    text = re.sub(rf'(<[^?>]* {attribute}=)"[^"]*"', rf'\1"{escape(MARKUP)}"', text)
-                text = text.replace('name="bob.y"', f'name="{escape(SIGNAL)}"')
-                text = re.sub(r'([uU]nit|<Unit name)="m"', rf'\1="{escape(MARKUP)}"', text)
-                assert text.count(escape(MARKUP)) > 12
-                content = text.encode()
-            if name != "resources/geometry.json":
-                new.writestr(name, content)
-        new.writestr("resources/geometry.json", json.dumps(drawing()))
-    return file
+
+    def hostile(content: bytes) -> bytes:
+        text = content.decode()
+        for attribute in TEXTS:
+            text = re.sub(rf'(<[^?>]* {attribute}=)"[^"]*"', rf'\1"{escape(MARKUP)}"', text)
+        text = text.replace('name="bob.y"', f'name="{escape(SIGNAL)}"')
+        text = re.sub(r'([uU]nit|<Unit name)="m"', rf'\1="{escape(MARKUP)}"', text)
+        assert text.count(escape(MARKUP)) > 12
+        return text.encode()
+
+    changes = {DESCRIPTION: hostile, "resources/geometry.json": json.dumps(drawing()).encode()}
+    return changed_fmu(built, file, changes)
 
 
 @pytest.fixture(scope="module")

@@ -105,33 +105,15 @@ def lane_change(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Rec
 
 
 @pytest.fixture(scope="session")
-def live_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[[str], Path]:
-    """The FMU of a scene for this platform and for pages, built once for all processes."""
-    from fmpy import platform
-
-    from fmu_src.build.build import build_fmu
-    from fmu_src.build.scene_registry import load_scene
-
-    def make(scene: str) -> Path:
-        def fill(folder: Path) -> None:
-            name, system = load_scene(scene)
-            build_fmu(system, name, folder, [platform, "wasm32"])
-
-        return next(made_once(f"live_{scene.rpartition(':')[2]}", fill).glob("*.fmu"))
-
-    return make
+def live_car(scene_fmu: Callable[..., Path]) -> Path:
+    """The rigid prototype, for pages too."""
+    return scene_fmu("prototype_car", wasm=True)
 
 
 @pytest.fixture(scope="session")
-def live_car(live_fmu: Callable[[str], Path]) -> Path:
-    """The rigid prototype."""
-    return live_fmu("prototype_car")
-
-
-@pytest.fixture(scope="session")
-def live_reach(live_fmu: Callable[[str], Path]) -> Path:
-    """A mass on a rod and a cable that a winch pulls beyond its reach, if it is told to."""
-    return live_fmu(f"{Path(__file__).parents[1] / 'fmu' / 'scenes.py'}:sprung_reach")
+def live_reach(scene_fmu: Callable[..., Path]) -> Path:
+    """A mass on a rod and a cable that a winch pulls beyond its reach, if it is told to; for pages too."""
+    return scene_fmu(f"{Path(__file__).parents[1] / 'fmu' / 'scenes.py'}:sprung_reach", wasm=True)
 
 
 @pytest.fixture(scope="session")
