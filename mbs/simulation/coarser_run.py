@@ -50,6 +50,12 @@ def difference_from(known: Accuracy, method: str, h: float) -> float:
     return 0.0 if known.error is None else known.error * (times**order - 1.0)
 
 
+def _parts_of(report: Report | None) -> float:
+    """Mean number of parts into which the steps of a run were halved."""
+    assert report is not None
+    return 1.0 + report.halvings / max(report.steps, 1)
+
+
 class TooFarError(Exception):
     """A coarser run is given up: it differs by more than it may."""
 
@@ -79,7 +85,8 @@ class CoarserRuns:
 
     def run(self, times: int, iterations: int, most: float) -> Accuracy | None:
         """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere, or
-        a sensor was off by more than `most` of the range before it ended. `iterations`: of a step; 0 for no limit.
+        halves them to the steps of the first run, or a sensor was off by more than `most` of the range before it ended.
+        `iterations`: of a step; 0 for no limit.
         """
         # About `times` of its steps: some that end at all samples where it can, else one in `thin` samples.
         steps, thin = max(round(self.refined.every / times), 1), max(round(times / self.refined.every), 1)
@@ -98,12 +105,24 @@ class CoarserRuns:
             other = self.refined.again(h, steps, 1.0 / cost_share, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
             return None
+        times_longer = cost_share * self._parts(thin * (len(other[0].t) - 1)) / _parts_of(other[0].report)
+        if times_longer <= 1.0:
+            return None
         if len(other[0].t) >= smooth:
             other = self._continued(other[0], run[0]), []
         shared = min(len(run[0].t), len(other[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):
             return None
-        return self.refined.estimated(run, other, h, 1.0 / cost_share)
+        return self.refined.estimated(run, other, h, 1.0 / times_longer)
+
+    def _parts(self, samples: float) -> float:
+        """Mean number of parts into which the first run halved its steps up to a sample."""
+        report = self.refined.run[0].report
+        assert report is not None
+        for at_sample, so_far in self.refined.path:
+            if at_sample >= samples:
+                return 1.0 + so_far["halvings"] / max(so_far["steps"], 1.0)
+        return _parts_of(report)
 
     @property
     def _smooth_from(self) -> float:
