@@ -41,7 +41,7 @@ class CaseRun:
 
     values: Mapping[str, Array]
     """Of sensors, at the instants."""
-    told: float | None
+    estimate: float | None
     """The error that it reports, relative to the range or the length."""
     cost: float | None = None
     """Of its steps and those of its check, over its steps."""

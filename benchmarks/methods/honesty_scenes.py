@@ -14,7 +14,7 @@ import mbs
 from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
-from mbs.results.comparison import compared_sensors, sizes_of
+from mbs.results.comparison import Comparison, compared_sensors, instants
 from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
@@ -56,17 +56,14 @@ class Scene:
     steps: tuple[float, ...]
     """From coarse to fine, s."""
 
-    def error(self, found: mbs.Trajectory) -> tuple[float, float]:
-        """Largest error of a sensor relative to its size, and its estimated error relative to that (nan: none)."""
-        worst, estimated = 0.0, float("nan")
-        estimate = found.accuracy.sensors if found.accuracy is not None else {}
-        true, judged = self.truth(), compared_sensors(self.system())
-        judged = {name: what for name, what in judged.items() if what.always and name in true}
-        for name, size in sizes_of(true, judged, length_of(self.system())).items():
-            error = float(np.abs(found[name] - true[name]).max()) / size
-            if error >= worst:
-                worst, estimated = error, estimate.get(name, float("nan")) / size
-        return worst, estimated
+    def error(self, found: mbs.Trajectory) -> float:
+        """Largest error of a judged sensor relative to its size, of forces at `instants`."""
+        true = self.truth()
+        compared = {name: what for name, what in compared_sensors(self.system()).items() if name in true}
+        comparison = Comparison(compared, length_of(self.system()))
+        comparison.add(true, found, instants(len(found.t)))
+        gaps = comparison.gaps
+        return max((gaps[name] / size for name, size in comparison.sizes().items()), default=0.0)
 
 
 def _recorded(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
@@ -89,7 +86,7 @@ def _case_truth(name: str) -> dict[str, Array]:
     best = _case_run(name, method, case.end / (SAMPLES * division), estimate_error=False)
     for sensor, values in known.items():
         assert np.abs(best[sensor] - values).max() < CLOSE * np.ptp(exact), f"{name}: {sensor}"
-    return {n: best[n] for n, what in compared_sensors(system_of(name)).items() if what.always} | known
+    return {n: best[n] for n in compared_sensors(system_of(name))} | known
 
 
 def _case(name: str) -> Scene:
@@ -167,7 +164,7 @@ def _car_truth(name: str) -> dict[str, Array]:
     """The default with a step at which it differs from the stored references by 1e-4 of what is judged, or less."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
-    return {n: fine[n] for n, sensor in compared_sensors(manoeuvres.system_of(name)).items() if sensor.always}
+    return {n: fine[n] for n in compared_sensors(manoeuvres.system_of(name))}
 
 
 def _car(name: str) -> Scene:

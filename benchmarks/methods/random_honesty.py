@@ -21,7 +21,7 @@ NOTHING = 1e-3  # of the range or the length: of a smaller error no estimate is 
 FACTOR = 10.0  # by which an estimate may be off
 BEYOND = 10.0  # tolerances: wrong
 NEAR = (0.9, 1.1)  # times what is wrong: between them a run counts neither way
-VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong", "near")
+VERDICTS = ("right", "false alarm", "refused", "wrong, warned", "silently wrong", "near")
 ERRORS = (mbs.AccuracyWarning, mbs.BranchWarning)
 """Warnings of an error; others concern models, such as one that bends too much for its modes."""
 TOLD = ("false alarm", "refused", "silently wrong")
@@ -32,25 +32,23 @@ COLUMNS = {
     "kind": "",
     "asked": "",
     "error": ".1e",
-    "told": ".1e",
+    "estimate": ".1e",
     "verdict": "",
     "cpu_s": ".2g",
 }
-SUMMARY = {
-    "family": "",
-    "seed": "d",
+COUNTS = {
     "runs": "d",
     "right": "d",
     "false alarms": "d",
     "refused": "d",
-    "wrong, told": "d",
+    "wrong, warned": "d",
     "silently wrong": "d",
     "near the limit": "d",
     "estimates": "d",
     "within ten times": ".0%",
     "steps over its own": ".2f",
-    "no reference": "d",
 }
+SUMMARY = {"family": "", "seed": "d", **COUNTS, "no reference": "d"}
 
 
 def rows_of(family: str, seed: int, numbers: Iterable[int]) -> Iterator[dict[str, Any]]:
@@ -97,7 +95,7 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
 def _verdict(
     asked: str, run: Callable[[], CaseRun], error_of: Callable[[Mapping[str, Array]], float], most: float
 ) -> dict[str, Any]:
-    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "told": None, "warnings": []}
+    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "estimate": None, "warnings": []}
     begin = time.process_time()
     try:
         with warnings.catch_warnings(record=True) as caught:
@@ -107,17 +105,43 @@ def _verdict(
         return row | {"cpu_s": time.process_time() - begin, "reason": str(refused)}
     row["cpu_s"] = time.process_time() - begin
     error = error_of(result.values)
-    wrong, messages = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
-    verdict = VERDICTS[(3 if messages else 4) if wrong else (1 if messages else 0)]
-    if most == WRONG_ERROR and NEAR[0] * most <= error <= NEAR[1] * most:
-        verdict = "near"
+    messages = [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
     return row | {
-        "verdict": verdict,
+        "verdict": verdict_of(error, most, bool(messages)),
         "error": error,
-        "told": result.told,
+        "estimate": result.estimate,
         "warnings": messages,
         "method": result.method,
         "steps": result.cost,
+    }
+
+
+def verdict_of(error: float, most: float, warned: bool) -> str:
+    """Of `VERDICTS`, of a run with this error that was `warned` of or not; above `most` it is wrong."""
+    if most == WRONG_ERROR and NEAR[0] * most <= error <= NEAR[1] * most:
+        return "near"
+    if error <= most:
+        return "false alarm" if warned else "right"
+    return "wrong, warned" if warned else "silently wrong"
+
+
+def counts(rows: Sequence[Row]) -> dict[str, Any]:
+    """The columns `COUNTS` of runs."""
+    count = {v: sum(r["verdict"] == v for r in rows) for v in VERDICTS}
+    estimated = [r for r in rows if r.get("estimate") is not None and r["error"] > _least(r)]
+    close = sum(1.0 / FACTOR <= r["estimate"] / r["error"] <= FACTOR for r in estimated)
+    steps = [r["steps"] for r in rows if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
+    return {
+        "runs": len(rows),
+        "right": count["right"] + count["false alarm"],
+        "false alarms": count["false alarm"],
+        "refused": count["refused"],
+        "wrong, warned": count["wrong, warned"],
+        "silently wrong": count["silently wrong"],
+        "near the limit": count["near"],
+        "estimates": len(estimated),
+        "within ten times": close / len(estimated) if estimated else None,
+        "steps over its own": float(np.median(steps)) if steps else None,
     }
 
 
@@ -131,33 +155,14 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
             part = [r for r in mine if r["verdict"] != "none" and ("tol" in r["asked"]) == controlled]
             if not part:
                 continue
-            count = {v: sum(r["verdict"] == v for r in part) for v in VERDICTS}
-            reported = [r for r in part if r.get("told") is not None and r["error"] > _least(r)]
-            near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in reported)
-            steps = [r["steps"] for r in part if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
-            lines.append(
-                {
-                    "family": f"{family}, {requested}",
-                    "seed": seed,
-                    "runs": len(part),
-                    "right": count["right"] + count["false alarm"],
-                    "false alarms": count["false alarm"],
-                    "refused": count["refused"],
-                    "wrong, told": count["wrong, told"],
-                    "silently wrong": count["silently wrong"],
-                    "near the limit": count["near"],
-                    "estimates": len(reported),
-                    "within ten times": near / len(reported) if reported else None,
-                    "steps over its own": float(np.median(steps)) if steps else None,
-                    "no reference": none,
-                }
-            )
+            lines.append({"family": f"{family}, {requested}", "seed": seed, **counts(part), "no reference": none})
     return lines
 
 
 def _least(row: Row) -> float:
     """The smallest error of which an estimate is asked: what nobody asked for better than a hundredth of."""
-    return 0.01 * float(row["asked"].split()[1]) if "tol" in row["asked"] else NOTHING
+    requested = row.get("asked", "")
+    return 0.01 * float(requested.split()[1]) if "tol" in requested else NOTHING
 
 
 def words(rows: Sequence[Row]) -> str:
