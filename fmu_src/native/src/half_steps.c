@@ -108,6 +108,7 @@ void slave_half_steps_begin(slave *s) {
     ali3_compare(t->judged, t->n, 1, NULL, NULL, t->output, t->compared);
   const ali3_report report = report_of(s);
   t->abrupt = abrupt_steps(&report);
+  t->halvings = report.halvings;
   t->iterations = report.iterations;
 }
 
@@ -165,7 +166,7 @@ static double start_span(const slave *s, double h) { return BUDGET * (double)ALI
 static ali3_status make_inner_step(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
   const size_t nu = input_count(s);
-  const double h = step->h / (double)parts(s, step->h);
+  const double h = step->h / (double)step->parts;
   memcpy(t->input, step->values, nu * sizeof(double));
   if (t->n_made++ == 0) {
     const ali3_status status = slave_restore_step(s, step->parameter, t->input);
@@ -195,7 +196,7 @@ static bool begin_late_step(slave *s, const slave_late_step *step) {
  * from its growth between two windows of a start as a power of time. */
 static void conclude(slave *s, const slave_late_step *step, double difference) {
   slave_half_steps *t = &s->half_steps;
-  const double n = (double)parts(s, step->h), error = extrapolated_error(t->late_difference, n);
+  const double error = extrapolated_error(t->late_difference, step->ratio);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
   if (has_road(s) && !disagree(difference)) return; /* until the next abrupt force */
   const bool first = t->checked == -HUGE_VAL; /* later windows follow an abrupt force and are short */
@@ -208,7 +209,8 @@ static void conclude(slave *s, const slave_late_step *step, double difference) {
     snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
   }
   snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
-           disagree(difference) ? "the time of the second motion is spent; " : "", n, 100.0 * difference, grows);
+           disagree(difference) ? "the time of the second motion is spent; " : "", (double)step->parts,
+           100.0 * difference, grows);
   log_unchecked(s, step->end, why);
 }
 
@@ -225,6 +227,8 @@ static void compare(slave *s, const slave_late_step *step) {
     t->difference = difference;
     t->time = step->end;
     t->h = step->h;
+    t->parts = step->parts;
+    t->ratio = step->ratio;
   }
   if (step->simulated - t->origin <= 0.5 * start) {
     if (step->simulated - t->origin > 0.25 * start) t->early_difference = fmax(t->early_difference, difference);
@@ -248,7 +252,7 @@ static int64_t advance_second(slave *s) {
     const int64_t before = report_of(s).iterations;
     const bool good = make_inner_step(s, step) == ALI3_OK;
     cost = report_of(s).iterations - before;
-    if (good && t->n_made < parts(s, step->h) * step->n) return cost;
+    if (good && t->n_made < step->parts * step->n) return cost;
     if (good)
       compare(s, step);
     else
@@ -281,9 +285,11 @@ static void run_second(slave *s, size_t most, int64_t made, int64_t room) {
 }
 
 /* Appends the communication step to the late steps. `span`: s for which the second motion runs after an abrupt force;
- * 0: there was none. */
-static void store_late_step(slave *s, double now, double span) {
+ * 0: there was none. `halvings`: of its inner steps; the second motion makes at most half of what they left. */
+static void store_late_step(slave *s, double now, double span, int64_t halvings) {
   slave_half_steps *t = &s->half_steps;
+  const double made = 1.0 + (double)halvings / (double)s->completed.n;
+  const int64_t n_parts = (int64_t)fmax((double)parts(s, s->completed.h), 2.0 * ceil(made));
   const double begin = now - (double)s->completed.n * s->completed.h;
   const bool starts =
       span > 0.0 && !(begin < t->scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
@@ -298,6 +304,8 @@ static void store_late_step(slave *s, double now, double span) {
   *step = (slave_late_step){.n = s->completed.n,
                             .h = s->completed.h,
                             .end = now,
+                            .parts = n_parts,
+                            .ratio = (double)n_parts / made,
                             .span = span,
                             .simulated = t->simulated,
                             .values = step->values,
@@ -311,11 +319,10 @@ static slave_status report_difference(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
   ali3_compared_sizes(t->judged, t->n, t->compared, slave_the_table.length, report_of(s).energy_floor, 0, t->size);
-  const double n = (double)parts(s, t->h), h = t->h,
-               difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
-               error = extrapolated_error(difference, n);
+  const double h = t->h / (double)t->parts, difference = ali3_compared_error(t->n, t->compared, t->size, 0, &worst),
+               error = extrapolated_error(difference, t->ratio);
   const bool met =
-      error <= n * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
+      error <= t->ratio * ALI3_WRONG_ERROR; /* the step of the second motion suffices at order one, as at a kink */
   if (!(error > ALI3_WRONG_ERROR)) {
     reset_difference(t);
     return SLAVE_OK;
@@ -329,9 +336,9 @@ static slave_status report_difference(slave *s) {
                    "%.*g%s, %.2g %% of "
                    "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is reported "
                    "once.",
-                   t->compared[worst].time, n, v->name, t->n_late > 0 ? "at least" : "about", load ? 15 : 3,
+                   t->compared[worst].time, (double)t->parts, v->name, t->n_late > 0 ? "at least" : "about", load ? 15 : 3,
                    load ? round(off) : off, v->unit, 100.0 * error, load ? "force" : "range in its unit",
-                   h / n / ceil(error / (n * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
+                   h / ceil(error / (t->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
 }
 
 /* Logs the predicted error of a start. */
@@ -343,8 +350,7 @@ static slave_status report_prediction(slave *s, double now) {
                    "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
                    "run of half the step_size, %g s. This is reported once.",
                    now, slave_the_table.variable[t->variable[t->worst]].name, 100.0 * ALI3_WRONG_ERROR,
-                   (double)parts(s, t->h), t->checked,
-                   100.0 * extrapolated_error(t->late_difference, (double)parts(s, t->h)), 0.5 * t->h);
+                   (double)t->parts, t->checked, 100.0 * extrapolated_error(t->late_difference, t->ratio), 0.5 * t->h);
 }
 
 /* Logs a difference after SPAN, or at the end of the run, and a prediction at its time. */
@@ -371,7 +377,9 @@ slave_status slave_half_steps_advance(slave *s) {
              abrupt = abrupt_steps(&report) > t->abrupt || at_start;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->completed.n * s->completed.h, now = ali3_time(s->fidelity.kernel);
+  const int64_t halvings = report.halvings - t->halvings;
   t->abrupt = abrupt_steps(&report);
+  t->halvings = report.halvings;
   t->iterations = report.iterations;
   t->at_start = false;
   if (at_start && !(t->simulated > 0.0))
@@ -380,7 +388,7 @@ slave_status slave_half_steps_advance(slave *s) {
   if (abrupt && !allocate(s)) return SLAVE_OK;
   if (t->end != NULL && (abrupt || t->remaining > 0.0 || t->n_late > 0)) {
     const bool waits = parts(s, s->completed.h) == 2 && !s->completed.sloped;
-    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0);
+    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->completed.n);
   }
   return report_motion(s, now, false);

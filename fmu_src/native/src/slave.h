@@ -137,6 +137,8 @@ typedef struct { /* inputs that the host set in intermediate updates of the last
 typedef struct { /* a communication step that the second motion has not computed yet, see half_steps.c */
   int64_t n; /* inner steps */
   double h, end; /* s: length of an inner step; time at the end of the communication step */
+  int64_t parts; /* of an inner step in the second motion */
+  double ratio; /* of the mean step that the first motion made, halved or not, to that of the second */
   double span; /* s, for which the second motion runs from its start, as a force changed abruptly; 0: it did not */
   double simulated; /* s, as in slave_half_steps */
   double *values; /* inputs at its start, then compared outputs at its end */
@@ -160,12 +162,14 @@ typedef struct { /* the second motion, with half the step, see half_steps.c */
   int64_t n_made; /* inner steps of the second motion in the first late step */
   int64_t iterations, cost; /* of the first motion so far; of the last inner step of the second motion */
   double remaining, spent, simulated; /* s: still to run by the second motion, 0: it rests; run by it; by the first */
-  double difference, time, h; /* largest unreported relative difference; its time, s; its inner step, s */
+  double difference, time; /* largest unreported relative difference; its time, s */
+  double h, ratio; /* there: inner step, s; as in slave_late_step */
+  int64_t parts; /* the same */
   double origin; /* s: `simulated` when the state was last set */
   double early_difference, late_difference; /* largest in the second quarter of a start, and after it; relative */
   double checked, predicted; /* s: end of the comparison of a start; time at which the growing error is large */
   int32_t worst; /* compared output that has late_difference */
-  int64_t abrupt; /* abrupt steps so far */
+  int64_t abrupt, halvings; /* abrupt steps so far; halvings */
   bool start_needed; /* a late step may use `start` */
   bool at_start; /* no step since the start */
 } slave_half_steps;
