@@ -336,8 +336,8 @@ static slave_status report_difference(slave *s) {
                    "%.*g%s, %.2g %% of "
                    "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is reported "
                    "once.",
-                   t->compared[worst].time, (double)t->parts, v->name, t->n_late > 0 ? "at least" : "about", load ? 15 : 3,
-                   load ? round(off) : off, v->unit, 100.0 * error, load ? "force" : "range in its unit",
+                   t->compared[worst].time, (double)t->parts, v->name, t->n_late > 0 ? "at least" : "about",
+                   load ? 15 : 3, load ? round(off) : off, v->unit, 100.0 * error, load ? "force" : "range in its unit",
                    h / ceil(error / (t->ratio * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
 }
 
