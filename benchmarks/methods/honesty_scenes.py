@@ -60,7 +60,8 @@ class Scene:
         """Largest error of a judged sensor relative to its size, of forces at `instants`."""
         true = self.truth()
         compared = {name: what for name, what in compared_sensors(self.system()).items() if name in true}
-        comparison = Comparison(compared, length_of(self.system()))
+        assert found.report is not None
+        comparison = Comparison(compared, length_of(self.system()), energy=found.report.energy_floor)
         comparison.add(true, found, instants(len(found.t)))
         gaps = comparison.gaps
         return max((gaps[name] / size for name, size in comparison.sizes().items()), default=0.0)
