@@ -126,6 +126,14 @@ def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     assert actual == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
 
 
+@pytest.mark.parametrize(("largest", "judged"), [(1e-6, {"x", "spring"}), (1.0, {"x", "spring", "motor"})])
+def test_the_force_of_a_motor_is_round_off_beside_large_forces(largest: float, judged: set[str]) -> None:
+    """A rack that is held straight has 1e-6 N beside springs with 3000 N, and twice that in another motion."""
+    compared = {"x": PLACE, "spring": Compared("N", load=True), "motor": Compared("N", load=True, always=False)}
+    fine = {"x": T, "spring": 3000.0 + T, "motor": largest * np.sin(9.0 * T)}
+    assert set(differences(fine | {"motor": 2.0 * fine["motor"]}, fine, compared, None, 1.0)[1]) == judged
+
+
 def test_a_small_turn_counts_where_nothing_else_moves() -> None:
     judged = {"turn": Compared("rad", place=True), "x": PLACE}
     values = {"turn": 5e-4 * np.sin(9.0 * T), "x": np.sin(T)}
