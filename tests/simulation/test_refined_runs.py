@@ -13,7 +13,7 @@ from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.results.accuracy import RIGHT, Accuracy
 from mbs.results.comparison import Compared
 from mbs.results.convergence import extrapolated, seen_order, unsure
-from mbs.simulation.fixed_steps import check
+from mbs.simulation.fixed_steps import estimate_accuracy
 from mbs.simulation.refined_run import RefinedRuns, Run
 
 T = np.linspace(0.0, 1.0, 101)
@@ -172,7 +172,7 @@ def test_an_open_balance_is_reported_where_that_of_the_refined_run_is_open_too(f
         return trajectory, []
 
     run = march(h, 1)
-    known = check(RefinedRuns(system, run, march, h, 1, lambda _: None), always=False)
+    known = estimate_accuracy(RefinedRuns(system, run, march, h, 1, lambda _: None), always=False)
     assert known is not None
     assert known.energy_balance == pytest.approx(0.13, abs=0.01)
     assert ("J of work" in known.message) == reported
