@@ -8,9 +8,9 @@ from dataclasses import dataclass, fields
 
 from mbs.kernel.header.steps import Balance
 
-LINE = 0.5
-"""Square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15."""
-TURNED = 12.0  # rad of the motion from which it is told apart
+LEAST_CORRELATION = 0.5
+"""Least squared correlation of energy and time of a growth: one period of an oscillation has 0.6, two have 0.15."""
+LEAST_ROTATION = 12.0  # rad of the motion from which growth and oscillation are distinguished
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,10 @@ class Report:
         0 where the line is less than half of how the energy changes: it then swings and comes back.
         """
         scatter = math.sqrt(self.free_steps_squares) * math.sqrt(self.free_energy_squares)
-        if not abs(self.free_product) > math.sqrt(LINE) * scatter or self.velocity_path < TURNED * self.speed_peak:
+        if (
+            not abs(self.free_product) > math.sqrt(LEAST_CORRELATION) * scatter
+            or self.velocity_path < LEAST_ROTATION * self.speed_peak
+        ):
             return 0.0
         return self.free_product / self.free_steps_squares * self.steps
 
@@ -160,8 +163,8 @@ class Report:
         """By what the energy of a free System is off, in parts of the largest kinetic energy: it grows, or its mean has
         left that of the start.
         """
-        off = self.energy_growth or (self.free_energy - self.free_start if self.free_states else 0.0)
-        return off / self.kinetic_peak if abs(off) > self.energy_floor else 0.0
+        change = self.energy_growth or (self.free_energy - self.free_start if self.free_states else 0.0)
+        return change / self.kinetic_peak if abs(change) > self.energy_floor else 0.0
 
     @property
     def capped_text(self) -> str:
@@ -169,8 +172,10 @@ class Report:
         if self.capped == 0:
             return ""
         violation_text = f"they left at most {1e3 * self.capped_residual:.2g} mm"
-        ended = f"{self.capped} of {self.steps} steps ended at the limit of their iterations, or stayed whole for it"
-        return f"{ended}; {violation_text}."
+        count_text = (
+            f"{self.capped} of {self.steps} steps ended at the limit of their iterations, or stayed whole for it"
+        )
+        return f"{count_text}; {violation_text}."
 
     def __str__(self) -> str:
         text = (

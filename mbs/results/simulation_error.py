@@ -30,4 +30,4 @@ class SimulationError(RuntimeError):
 
 
 class PoseError(SimulationError, ValueError):
-    """A pose for a System that takes none: a start that is refused, and an argument that cannot be."""
+    """A pose for a System whose joints tie it to the ground: a refused start and an invalid argument."""

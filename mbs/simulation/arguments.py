@@ -14,7 +14,7 @@ from mbs.results.accuracy import AccuracyWarning
 from mbs.results.comparison import WHOLE
 from mbs.results.simulation_error import PoseError
 from mbs.settings.settings import Settings
-from mbs.settings.tolerance import Tolerance, checked_tolerance
+from mbs.settings.tolerance import Tolerance, check_tolerance
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.state import Pose
 from mbs.system.system import System
@@ -188,7 +188,7 @@ def requested_tolerance(system: System, tolerance: object) -> Tolerance:
     """Return the tolerance of a run of the System; raise `ValueError` if it is not valid."""
     sensors = prepared(system)[1]["sensors"]
     units = {sensor["name"]: sensor["unit"] for sensor in sensors if sensor.get("computed", True)}
-    return checked_tolerance(tolerance, units, length_of(system))
+    return check_tolerance(tolerance, units, length_of(system))
 
 
 def check_tolerance_settings(settings: Settings) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, missed_share
-from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
+from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, needs_two_motions
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
@@ -28,7 +28,7 @@ def uses_one_iteration(settings: Settings, compared: Mapping[str, Compared], has
     must be equal in two motions to round-off.
     """
     limited = settings.method in LIMITED and not settings.step_iterations
-    return limited and not (has_states or has_loads(compared) or is_open(compared))
+    return limited and not (has_states or has_loads(compared) or needs_two_motions(compared))
 
 
 def coarser_step_factors(
@@ -69,7 +69,7 @@ class CoarserRuns:
         compared, has_states = refined.compared, len(refined.system.arrays["y0"]) > 0
         iterations = int(uses_one_iteration(settings, compared, has_states))
         # past a singular position long steps of high order may be right while the run is wrong
-        by_order = refined.nothing_abrupt and METHOD_TABLE[settings.method].order <= 2
+        by_order = refined.is_smooth and METHOD_TABLE[settings.method].order <= 2
         for factor in coarser_step_factors(settings, compared, has_states, refined.unresolved, report):
             limit = CLEAR * (factor - 1) if by_order else CLEAR
             estimate = self.run(factor, iterations, limit)
@@ -114,7 +114,7 @@ class CoarserRuns:
         assert report is not None
         for samples, counters in self.refined.path:
             remaining = replace(report, **{name: getattr(report, name) - counters[name] for name in COUNTERS})
-            if not accuracy.doubt(remaining, self.refined.method):
+            if not accuracy.required_check(remaining, self.refined.method):
                 return samples
         return math.inf
 
@@ -136,7 +136,11 @@ class CoarserRuns:
         columns = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
         whole = Comparison(compared, self.refined.length, self.refined.before)
         whole.add(run)
-        sizes = {name: size for name, size in whole.sizes().items() if compared[name].always or not is_open(compared)}
+        sizes = {
+            name: size
+            for name, size in whole.sizes().items()
+            if compared[name].always or not needs_two_motions(compared)
+        }
         load_samples = instants(samples)
 
         def difference(values: NDArray[np.float64], begin: float, end: float) -> float:
@@ -161,7 +165,7 @@ class CoarserRuns:
             growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
             ahead = (samples - end) / eighth * growth + math.log(last / limit) if last > 0.0 else -math.inf
             # guided positions are recognised only after the two motions have differed
-            differ = all(compared[name].always or not is_open(compared) for name in whole.sizes())
+            differ = all(compared[name].always or not needs_two_motions(compared) for name in whole.sizes())
             return differ and end >= smooth_from and last <= AGREED * limit and ahead <= 0.0
 
         return decide

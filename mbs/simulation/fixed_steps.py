@@ -83,7 +83,7 @@ def run_fixed_steps(
     is_checked = estimate_error is not False
     most_cost = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
     records_coordinates = is_checked or before is not None
-    sample_interval = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if is_checked else every
+    sample_interval = accuracy.sampling_interval(every, count_steps(t0, t_end, h)) if is_checked else every
     samples_per_pose = every // sample_interval
     try:
         with progress_for(progress) as bar:
@@ -133,10 +133,10 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
     if report is None or estimate is None or run[0].settings is None:
         return estimate
     method, balance = run[0].settings.method, accuracy.balance_text(report)
-    doubt = accuracy.doubt(report, method)
-    if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
+    needed_check = accuracy.required_check(report, method)
+    if len(run[0].t) < 2 or not (always or refined.divisor or needed_check):
         return estimate
-    if not always and refined.before is None and doubt == accuracy.COARSER:
+    if not always and refined.before is None and needed_check == accuracy.COARSER:
         if refined.rests:
             return estimate
         confirmed = CoarserRuns(refined).verdict()
@@ -148,7 +148,7 @@ def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accurac
         further_costs = [refined.h / refined.tried * factor for factor in (1, 2, 4, MOST_PARTS)]
         needed = refined.cost + sum(cost for cost in further_costs if cost < (MOST_PARTS + 0.5) * refined.parts)
         estimate = refined.known or estimate
-        text = accuracy.open_text(estimate, refined.tried, refined.most, needed)
+        text = accuracy.budget_text(estimate, refined.tried, refined.most, needed)
         return replace(estimate, check_cost=refined.cost, message=f"{balance} {text}".strip())
     except SimulationError as error:
         text = (

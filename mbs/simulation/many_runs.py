@@ -157,7 +157,7 @@ class _Run:
         """Warnings after the further runs of `simulate`, which repeat this run alone; a smooth run has none."""
         messages = list(self.start_warnings)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
-        if accuracy.doubt(report, self.simulation.settings.method):
+        if accuracy.required_check(report, self.simulation.settings.method):
             single_run = run_fixed_steps(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
                 warned=messages,

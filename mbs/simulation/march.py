@@ -152,7 +152,7 @@ def trajectory_of(
     report, settings = simulation.report, simulation.settings
     t = t0 + interval * np.arange(len(values), dtype=float)
     energy = accuracy.energy_text(report, simulation.system, settings.method)
-    estimate = accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings)
+    estimate = accuracy.accuracy_from_energy(report, report.steps - before.steps, report.halvings - before.halvings)
     notices = report.capped_text, energy
     return recorded_trajectory(
         simulation, t, values, settings, wall, record, omitted(len(values)), notices, accuracy=estimate

@@ -5,7 +5,7 @@ from weakref import WeakKeyDictionary
 
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.results.omitted_sensors import refused
+from mbs.results.omitted_sensors import not_computed_text
 from mbs.results.simulation_error import SimulationError
 from mbs.simulation.prepared_system import prepared
 from mbs.system.system import System
@@ -38,7 +38,7 @@ class OmittedSensorSystem:
     def __init__(self, system: System, sensor: str = "") -> None:
         loaded, self._names = _loaded_with_ports(system), omitted_names(system)
         if loaded is None:
-            raise KeyError(refused(sensor or self._names[0], NO_PORTS))
+            raise KeyError(not_computed_text(sensor or self._names[0], NO_PORTS))
         self._instance = Instance(loaded[0])
         self._columns = [loaded[1][name] for name in self._names]
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.results.poses import Poses, kept_every
+from mbs.results.poses import Poses, pose_interval
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
@@ -26,7 +26,7 @@ class PositionRecord:
 
     def __init__(self, system: System, q: Array, samples: int, every: int = 1) -> None:
         self.drawing, nq = system.drawing, system.nq
-        self.every = kept_every(samples, nq, every)
+        self.every = pose_interval(samples, nq, every)
         self._q = np.empty(((samples - 1) // self.every + 1, nq)) if self.drawing is not None else None
         if self._q is not None:
             self._q[0] = q

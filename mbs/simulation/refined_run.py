@@ -15,17 +15,17 @@ from mbs.results.comparison import (
     COORDINATES,
     Compared,
     Comparison,
-    compared_in,
     compared_sensors,
     differences,
     instants,
+    select_compared,
     shows_motion,
     sizes_of,
 )
-from mbs.results.convergence import LEAST_ORDER, extrapolated, measured_order, seen_order, unsure
+from mbs.results.convergence import LEAST_ORDER, extrapolate_error, may_change_verdict, measured_order, observed_order
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import nothing_abrupt, unresolved_share
+from mbs.results.smooth_laws import is_smooth, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -112,7 +112,7 @@ class RefinedRuns:
         settings, report, self.known = self.run[0].settings, self.run[0].report, self.run[0].accuracy
         assert settings is not None
         assert report is not None
-        self.parts = accuracy.divisor(report.steps, report.halvings)
+        self.parts = accuracy.step_divisor(report.steps, report.halvings)
         self.method, span = settings.method, (self.run[0].t[0], self.run[0].t[-1])
         self.unresolved = unresolved_share(self.system, self.method, span, self.inputs)
         self.has_order = self.unresolved > RESOLVED
@@ -122,7 +122,7 @@ class RefinedRuns:
         start_coordinates = self._coordinates(self.run)
         at_rest = bool(start_coordinates) and not sizes_of(start_coordinates, coordinates, self.length, self.before)
         has_guides = len(self.system.arrays["gterm_row"]) > 0
-        self.compared = compared_in(
+        self.compared = select_compared(
             self.run[0],
             compared_sensors(self.system),
             self.length,
@@ -149,9 +149,9 @@ class RefinedRuns:
         return self.known
 
     @property
-    def nothing_abrupt(self) -> bool:
+    def is_smooth(self) -> bool:
         """Whether all forces, guides and inputs are smooth within a step."""
-        return nothing_abrupt(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
+        return is_smooth(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
 
     @property
     def is_coarse(self) -> bool:
@@ -202,7 +202,7 @@ class RefinedRuns:
             verdict = self.refine(parts)
             if parts > 2 * self.parts:
                 runs = (self.run, self._refined[parts // 2], self._refined[parts])
-                verdict = self.known = extrapolated(
+                verdict = self.known = extrapolate_error(
                     verdict, [self._table(r) for r in runs], self.compared, self.before, self.length
                 )
             if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
@@ -226,7 +226,7 @@ class RefinedRuns:
             self._refined[parts // 2] if has_coarser else self.run, self._refined[parts]
         )
         factor = 1.0 if has_coarser else 1.0 / (2.0**LEAST_ORDER - 1.0)
-        return unsure(known, {unit: factor * difference for unit, difference in unit_differences.items()})
+        return may_change_verdict(known, {unit: factor * difference for unit, difference in unit_differences.items()})
 
     def _differences(self, one: Run, other: Run) -> tuple[dict[str, float], dict[str, float]]:
         """Differences of two runs: per unit, relative to the range in the other run, and per sensor."""
@@ -259,7 +259,9 @@ class RefinedRuns:
         *_, second_finest, finest = sorted(self._refined)
         runs, last = {1: self.run, **self._refined}, self._refined[finest]
         gaps = {n: max(self._differences(run, last)[0].values(), default=0.0) for n, run in runs.items()}
-        order = seen_order(gaps[1], gaps[second_finest], second_finest, finest, float(METHOD_TABLE[self.method].order))
+        order = observed_order(
+            gaps[1], gaps[second_finest], second_finest, finest, float(METHOD_TABLE[self.method].order)
+        )
         remainder = gaps[second_finest] / ((finest / second_finest) ** order - 1.0)
         return [(self.h / n, gaps[n] + remainder) for n in sorted(self._refined)]
 

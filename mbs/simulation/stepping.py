@@ -496,7 +496,7 @@ class Simulation(SteppedSystem):
         return restore_system(self.system, self.settings, self.road_paths, state)
 
     def _warn_once(self, right: bool = False) -> None:
-        """Warn once each of a rim pressed into a road and of a wrong energy balance; `right`: a refined run refutes it."""
+        """Warn once each of a rim pressed into a road and of a wrong energy balance, the latter unless `right`."""
         if not self._rim_reported and (warning := self.road_text):
             self._rim_reported = True
             warnings.warn(warning, RoadWarning, stacklevel=3)
