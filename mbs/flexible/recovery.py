@@ -1,8 +1,8 @@
 """Section forces and stresses of a frame as constant rows on nodal displacements and loads of its beams.
 
-Rows have 9 n columns for n nodes: the 6 n degrees of freedom, then three components a node of the acceleration (of
-weight: of free fall) whose inertia forces the beams carry between their ends. `ModalBody.recovery` and `inertia_relief`
-know both; a frame that is loaded at its nodes only needs the first 6 n.
+Rows have 9 n columns for n nodes: the 6 n degrees of freedom, then three components per node of the acceleration whose
+inertia forces load the beams between their ends (for weight: of free fall). `ModalBody.recovery` and `inertia_relief`
+accept both; a frame that is loaded only at its nodes needs the first 6 n columns.
 """
 
 from __future__ import annotations
@@ -56,34 +56,35 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     if not is_finite(xi) or not 0.0 <= xi <= 1.0:
         raise ModelError(f"The place {shown(xi)} on beam {element} is outside the beam: 0 is its start and 1 its end.")
     length, _ = frame.element_axes(element)
-    to_nodes, between = _inertia(frame, element, xi)
+    to_nodes, beyond_section = _inertia_forces(frame, element, xi)
     shift = np.eye(6)
     arm = (1 - xi) * length  # moment about the section: M_j + arm e_x cross F_j
     shift[4, 2], shift[5, 1] = -arm, arm
-    rows = np.hstack([shift @ end_forces(frame, element)[6:], between - shift @ to_nodes[6:]])
+    rows = np.hstack([shift @ end_forces(frame, element)[6:], beyond_section - shift @ to_nodes[6:]])
     n, beam = len(frame.positions), frame.beams[int(element)]
-    loaded = [6 * n + 3 * node + axis for node in (beam.i, beam.j) for axis in range(3)]
-    columns = np.concatenate([frame.element_freedoms(element), loaded])
+    acceleration_columns = [6 * n + 3 * node + axis for node in (beam.i, beam.j) for axis in range(3)]
+    columns = np.concatenate([frame.element_freedoms(element), acceleration_columns])
     indices = (np.repeat(np.arange(6), 18), np.tile(columns, 6))
     return sp.csr_array(sp.coo_array((rows.ravel(), indices), shape=(6, 9 * n)))
 
 
-def _inertia(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarray, np.ndarray]:
-    """Forces per acceleration of both ends, earth axes: of the whole beam on its ends, and of its part beyond xi.
+def _inertia_forces(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarray, np.ndarray]:
+    """Inertia forces per acceleration of both ends, earth axes: of the beam on its ends, and of its part beyond xi.
 
-    Shapes (12, 6), as the mass of `beam_mass_points` has them, and (6, 6): force and moment about the section, local.
+    Shapes (12, 6), from the mass points of `beam_mass_points`, and (6, 6): force and moment about the section in local
+    axes.
     """
     beam = frame.beams[int(element)]
     length, R = frame.element_axes(element)
     shear = shear_parameters(beam.section, beam.material, length, frame.theory)
     positions, masses, shapes = beam_mass_points(beam.section, beam.material, length, shear, "consistent", False)
-    share = positions[:, 0] / length
-    moved = np.stack([np.hstack([(1.0 - s) * R, s * R]) for s in share])
-    to_nodes = np.einsum("p,pij,pik->jk", masses, shapes, moved)
+    positions_over_length = positions[:, 0] / length
+    accelerations = np.stack([np.hstack([(1.0 - s) * R, s * R]) for s in positions_over_length])
+    to_nodes = np.einsum("p,pij,pik->jk", masses, shapes, accelerations)
     complement, mass = 1.0 - xi, beam.material.rho * beam.section.area * length
     force = mass * np.hstack([complement**2 / 2 * R, (1.0 - xi**2) / 2 * R])
-    lever = mass * length * np.hstack([complement**3 / 6 * R, ((1.0 - xi**3) / 3 - xi * (1.0 - xi**2) / 2) * R])
-    return to_nodes, np.vstack([force, np.zeros(6), -lever[2], lever[1]])
+    first_moment = mass * length * np.hstack([complement**3 / 6 * R, ((1.0 - xi**3) / 3 - xi * (1.0 - xi**2) / 2) * R])
+    return to_nodes, np.vstack([force, np.zeros(6), -first_moment[2], first_moment[1]])
 
 
 def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
