@@ -1,4 +1,4 @@
-"""The errors of the modelling vocabulary."""
+"""Errors of models and of their arguments."""
 
 from __future__ import annotations
 
