@@ -67,7 +67,7 @@ class Mode:
 
     @property
     def is_free(self) -> bool:
-        """A motion that nothing holds back: its eigenvalue is zero."""
+        """Whether it is a free motion: its eigenvalue is zero."""
         return abs(self.eigenvalue) < FREE
 
 

@@ -57,8 +57,8 @@ class _Candidate:
 def steady_frame(evaluator: Evaluator, V: Array) -> SteadyFrame:
     """Find the frame in which the present motion is most nearly at rest.
 
-    `V`: admissible displacements, shape (nq, n). Raises `ValueError` if the System was read from a file and does not
-    know its frames.
+    `V`: admissible displacements, shape (nq, n). Raises `ValueError` if the System was read from a file and has no
+    frames.
     """
     state = evaluator.state
     frames = evaluator.system.frames

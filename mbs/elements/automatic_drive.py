@@ -98,7 +98,7 @@ class AutomaticDrive(Element):
     _optional_states = (1.0, 1.0)
 
     def faults(self) -> Iterator[tuple[str, str]]:
-        """A field and what is wrong with it, where gears or speeds are not in order, without a full stop."""
+        """Each field whose gears or speeds are not in order, with a description of the fault."""
         ratios = list(self.ratios)
         if not ratios or any(b >= a for a, b in pairwise(ratios)):
             yield "ratios", f"are {ratios}; they must fall from first gear on, with at least one"

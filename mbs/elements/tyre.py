@@ -153,7 +153,7 @@ class Tyre(Element):
         Yields
         ------
         tuple of str
-            The field, such as ``lateral.slide_slip``, what it is called, and what is wrong, each without a full stop.
+            The field, such as ``lateral.slide_slip``, its noun, and the fault, each without a full stop.
         """
         for q in (0.0, self.max_load_factor):
             load = f"at {q * self.nominal_load:g} N"

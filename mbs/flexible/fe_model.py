@@ -31,8 +31,7 @@ class FiniteElementModel(Summarised):
     """Shape (n, 6): number of each displacement x, y, z and rotation rx, ry, rz (rad) in the matrices; -1 where a node
     has none (nodes of solid elements have no rotations)."""
     K: sp.csc_array
-    """Shape (n_dof, n_dof): stiffness, symmetric, of the free model: six rigid motions and nothing else cost no
-    energy."""
+    """Shape (n_dof, n_dof): symmetric stiffness of the free model: only the six rigid motions have no energy."""
     mass: MassPoints
     frame: BeamFrame | None = None
     """Beams it was made of, with its nodes; None for models of other programs."""

@@ -15,7 +15,7 @@ from mbs.flexible.fe_model_checks import check_connected
 
 @dataclass(frozen=True)
 class Interface:
-    """A node where joints or forces act: its translations become static modes, and its rotations if asked for."""
+    """Node of joints or forces, whose translations and, if requested, rotations become static modes."""
 
     node: str | int
     translations: bool = True

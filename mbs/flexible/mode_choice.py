@@ -19,7 +19,7 @@ RESONANT = 1.5  # modes below this multiple of the highest relevant frequency ar
 
 @dataclass(frozen=True)
 class ModeChoice:
-    """Chosen fixed-interface modes and what they leave out."""
+    """Chosen fixed-interface modes and the error without the others."""
 
     modes: tuple[int, ...]
     """Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`."""

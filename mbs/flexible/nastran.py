@@ -29,7 +29,7 @@ def read_nastran(
     """Model from a bulk data file with the grid points and an OUTPUT4 file with the g-set matrices.
 
     The g-set has six freedoms per grid point, grid points in ascending order. Displacements must be in the basic
-    coordinate system, in SI units; places may be in any system of a card CORD2R, CORD2C or CORD2S.
+    coordinate system, in SI units; positions may be in any system of a card CORD2R, CORD2C or CORD2S.
 
     Parameters
     ----------

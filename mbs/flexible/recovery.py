@@ -34,13 +34,13 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     """Section forces at ``x = xi * length`` per unit nodal displacement.
 
     They act on the face whose normal is +x: N pulls, T twists about x, positive My stretches the fibres at +z,
-    positive Mz those at -y. What loads the element between its ends is its consistent mass times an acceleration that
-    is linear along it, such as its own weight.
+    positive Mz those at -y. Between its ends the element is loaded by its consistent mass times an acceleration
+    that is linear along it, such as its own weight.
 
     Parameters
     ----------
     xi : float
-        Place along the beam, from 0 to 1 as a fraction of its length.
+        Position along the beam, from 0 to 1 as a fraction of its length.
 
     Returns
     -------
@@ -50,7 +50,7 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     Raises
     ------
     ModelError
-        The place is outside the beam, or there is no such beam.
+        The position is outside the beam, or there is no such beam.
     """
     instance_of(BeamFrame, frame, "The frame of the section forces", "a Frame")
     if not is_finite(xi) or not 0.0 <= xi <= 1.0:
@@ -107,13 +107,13 @@ def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray
 class StrainGauge:
     """Strain gauges on a beam, as single ones or joined to bridges.
 
-    What they read are rows of shape (1, 9 n), in N, N m or Pa per m, rad and m/s2 of the nodes.
+    Readings are rows of shape (1, 9 n), in N, N m or Pa per m, rad and m/s2 of the nodes.
     """
 
     name: str
     element: int
     xi: float = 0.5
-    """Place along it, 0 at its start and 1 at its end."""
+    """Position along the beam, 0 at its start and 1 at its end."""
     fibre: tuple[float, float] | None = None
     """Point (y, z) of the section where a gauge sits, m; by default the highest fibre. The second gauge of a
     half-bridge sits on the opposite point."""

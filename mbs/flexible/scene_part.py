@@ -33,7 +33,7 @@ def flexible_parts(
 ) -> list[dict[str, Any]]:
     """Entries of the list `flexible` of a scene, whose numbers are linear in the amplitudes.
 
-    A node is drawn at its place plus ``modes . amplitudes``, in the axes of its frame. A beam end of a round tube has
+    A node is drawn at its position plus ``modes . amplitudes`` in the axes of its frame. A beam end of a round tube has
     three rows per mode, the axial stress and the bending stresses about two axes: the largest normal stress round it is
     ``|axial| + hypot(bending, bending)`` (rule "round"). Of other sections the stress of each of their fibres is a row,
     and the largest counts (rule "fibres"). A body with both has two entries; one that came as matrices has nodes only,
@@ -54,7 +54,7 @@ def flexible_parts(
     computed : str
         Column that is 0 where the amplitudes are not computed; by default they always are.
     full_scale : float, optional
-        Stress where the colours end, Pa; by default whoever draws chooses.
+        Stress at the end of the colour scale, Pa; by default the drawing program chooses it.
     gauges : sequence of mapping
         Entries of `gauges` of a scene, with names of nodes; each goes to the first part that has both of its nodes.
 

@@ -26,7 +26,7 @@ class Section:
     """`shear_y`, `shear_z`: coefficients ``(a, b, c, d)`` of the shear factor ``(a + b nu) / (c + d nu)`` along y and z
     (Cowper 1966)."""
     fibres: tuple[tuple[float, float], ...]
-    """Points (y, z) of the outline, m, at which stresses are wanted; the first two are the highest and the lowest."""
+    """Points (y, z) of the outline, m, at which stresses are computed; the first two are the highest and the lowest."""
 
     def shear_factors(self, nu: float) -> tuple[float, float]:
         """Shear factors along y and z.

@@ -27,7 +27,7 @@ COARSER, FINER = "coarser", "finer"
 
 
 class AccuracyWarning(UserWarning):
-    """The result of a run is not what was asked for: its energy balance or a refined run say so."""
+    """The energy balance of a run or a refined run shows that its result is inaccurate."""
 
 
 @dataclass(frozen=True)
@@ -35,32 +35,32 @@ class Accuracy:
     """Estimated error of a run."""
 
     energy_balance: float | None
-    """Work that constraint forces and projections did, over the energy that was in the motion; they should do none.
-    None where the method measures none (see `Report.energy_error`)."""
+    """Work of constraint forces and projections over the energy of the motion; it should be zero. None if the method
+    does not measure it (see `Report.energy_error`)."""
     energy_error: float | None
     """That work, J."""
     halvings_per_step: float
-    """How often steps were halved."""
+    """Mean number of halvings per step."""
     compared_step: float | None = None
-    """Step of the last refined run, s; None where there was none. Above that of the run it was a coarser one."""
+    """Step of the last further run, s; None if there was none. It is larger than that of the run for a coarser run."""
     check_cost: float = 0.0
-    """Steps of all refined runs over those of the run: what the check cost."""
+    """Cost of the check: steps of all further runs over those of the run."""
     order: float | None = None
-    """With which errors fall, as the energy of the two runs shows, else that of the method."""
+    """Order of the errors, from the energies of the two runs or, if these are not measured, that of the method."""
     units: dict[str, float] = field(default_factory=dict)
-    """Estimated largest error over the largest range, per unit that was judged ("1": coordinates of the System)."""
+    """Largest estimated error over the largest range, by compared unit ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)
-    """Estimated largest error of the sensors that were compared, in their units."""
+    """Largest estimated errors of the compared sensors, in their units, by name."""
     message: str = ""
-    """Evidence against the result, with a remedy; empty where there is none."""
+    """Evidence against the result, with a remedy; empty if there is none."""
     notice: str = ""
-    """A sentence about an open energy balance of a run that is right as its refined run shows; else empty."""
+    """A sentence about an open energy balance of a run that its refined run confirms; else empty."""
     branch: str = ""
-    """A sentence about a change of the assembly mode that the refined run does not make; empty where there is none."""
+    """A sentence about a change of the assembly mode that the refined run does not make; else empty."""
 
     @property
     def error(self) -> float | None:
-        """Largest of `units`; None where no refined run estimated one."""
+        """Largest of `units`; None if no further run estimated it."""
         return max(self.units.values(), default=0.0) if self.compared_step is not None and self.units else None
 
     def __str__(self) -> str:

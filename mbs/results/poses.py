@@ -27,10 +27,11 @@ def pose_interval(samples: int, nq: int, every: int = 1) -> int:
 class Poses(Mapping[str, Array]):
     """Poses over time: ``poses["rod.x"]`` is an array of shape (n,).
 
-    A body has ``BODY.x``, ``.y``, ``.z``, the place of its centre of mass (of a flexible body the origin of its
+    A body has ``BODY.x``, ``.y``, ``.z``, the position of its centre of mass (of a flexible body the origin of its
     floating frame) in earth axes, m, and the quaternion ``BODY.qw``, ``.qx``, ``.qy``, ``.qz`` that turns its axes from
     the drawing, scalar first and ``qw`` not negative. Planar bodies have z = 0 and turn about z, particles do not turn.
-    Wheels and what else turns on a body have ``NAME.angle``, rad; flexible bodies ``BODY.MODE``, their amplitudes.
+    Wheels and other parts that rotate on a body have ``NAME.angle``, rad; flexible bodies have their amplitudes
+    ``BODY.MODE``.
 
     Attributes
     ----------
@@ -49,7 +50,7 @@ class Poses(Mapping[str, Array]):
 
     @classmethod
     def of_columns(cls, t: Array, columns: Mapping[str, Array]) -> Poses | None:
-        """Poses from named columns, of what has all seven parts.
+        """Poses from named columns, of the bodies with all seven components.
 
         Parameters
         ----------
@@ -61,7 +62,7 @@ class Poses(Mapping[str, Array]):
         Returns
         -------
         Poses or None
-            None where nothing has all parts.
+            None if no body has all components.
         """
         suffixes = [f".{suffix}" for suffix in POSE]
         names = [n.removesuffix(".qw") for n in columns if n.endswith(".qw")]

@@ -59,12 +59,12 @@ _STARTING = threading.Lock()  # warnings are recorded for the whole process, so 
 
 @dataclass(frozen=True)
 class Variant:
-    """Data of one of many runs that differ from those of the others."""
+    """Data of one of many runs."""
 
     parameters: Mapping[str, Any] = field(default_factory=dict)
     """Values that differ from their declaration."""
     inputs: Mapping[str, Signal] = field(default_factory=dict)
-    """As of `simulate`."""
+    """Inputs over time, as of `simulate`."""
     pose: Pose | None = None
     """Start of a scene that is not tied to the ground."""
 
@@ -74,14 +74,15 @@ class ManyRuns:
     """The runs of `simulate_many`, in the order of the variants."""
 
     trajectories: list[Trajectory | None]
-    """Of a run that failed what was recorded until then; None where its start was refused."""
+    """Trajectories; of a failed run up to the failure, None if its start was refused."""
     failures: dict[int, SimulationError]
-    """Why a run failed, by the number of its variant."""
+    """Errors of failed runs, by the number of the variant."""
     alone: list[int]
-    """Steps that each run made alone: halved ones, failed ones, those without a neighbour, the first six of a flexible
-    System with modes that the step does not resolve, and all of Systems and settings that are not stepped together."""
+    """Number of steps that each run made alone: halved and failed ones, those without a neighbour, the first six of a
+    flexible System with modes that the step does not resolve, and all of Systems and settings that cannot be stepped
+    together."""
     lanes: int
-    """Runs of a whole group, which advance together; the last group may have fewer."""
+    """Number of runs in a group, which advance together; the last group may have fewer."""
 
 
 class _Result(NamedTuple):

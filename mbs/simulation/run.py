@@ -56,8 +56,7 @@ def simulate(
     tolerance: float | Mapping[str, float] | None = None,
     times: ArrayLike | None = None,
 ) -> Trajectory:
-    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, and warn where the result is not what was
-    asked for.
+    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, with warnings about inaccurate results.
 
     Parameters
     ----------
@@ -94,10 +93,10 @@ def simulate(
         between steps, which costs at most 48 times the run; a number is another multiple. False checks nothing.
         Functions among `inputs` are called again, so they must depend on time.
     tolerance : float or mapping of str to float, optional
-        Largest accepted error over the whole run: of sensors by name, in their units, or of positions, in parts of the
-        model's length (`Model(length=...)`, or
-        the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
-        chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` reports both.
+        Largest accepted error over the whole run: of sensors by name, in their units, or of positions over the model's
+        length (`Model(length=...)`, or the extent of the drawing) and of velocities over that length per time scale of
+        the motion. The kernel then chooses the steps, a second run gives the error, and `Trajectory.control` reports
+        both.
     times : array_like, shape (n,), optional
         Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
 
