@@ -21,9 +21,8 @@ Array = NDArray[np.float64]
 
 STEP = 1e-3  # rad, m, s; step of the differences, of fourth order, along a candidate
 CENTRAL = np.array([[-2.0, -1.0, 1.0, 2.0], [1.0 / 12.0, -2.0 / 3.0, 2.0 / 3.0, -1.0 / 12.0]])  # offsets, weights
-FORWARD = np.array(
-    [[0.0, 1.0, 2.0, 3.0, 4.0], [-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25]]
-)  # for time, as a guide may begin at the state
+# forward in time, as a guide may begin at the state
+FORWARD = np.array([[0.0, 1.0, 2.0, 3.0, 4.0], [-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25]])
 NEAR = 3e-3  # displacement of neighbouring states over length and speed of the motion
 SAME = 1e-6  # largest defect of a symmetry, over length, speed or acceleration of the motion
 NEIGHBOURS = 2
@@ -174,9 +173,8 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
             dq *= NEAR * scales.length / np.abs(each * dq).max()
             dqd *= NEAR * scales.speed / np.abs(each * dqd).max()
             q, qd = evaluator.admissible(q + dq, qd + dqd)
-        local_scales = _scales(
-            evaluator, frames, q, qd
-        )  # stiff Systems have far larger accelerations at displaced states
+        # stiff Systems have far larger accelerations at displaced states
+        local_scales = _scales(evaluator, frames, q, qd)
         rows = evaluator.constraints(q, qd)
         blocks.append(np.array([_defect(evaluator, c, q, qd, local_scales, rows) for c in candidates]).T)
     defects = np.vstack(blocks)

@@ -49,8 +49,6 @@ def beam_mass_points(
         for y, z in offsets:
             positions.append([xi * length, y, z])
             masses.append(mass * weight / len(offsets))
-            rotation_to_displacement = np.array(
-                [[0.0, z, -y], [-z, 0.0, 0.0], [y, 0.0, 0.0]]
-            )  # cross product with (0, y, z)
-            shapes.append(motion[:3] + rotation_to_displacement @ motion[3:])
+            cross = np.array([[0.0, z, -y], [-z, 0.0, 0.0], [y, 0.0, 0.0]])  # rotation cross (0, y, z)
+            shapes.append(motion[:3] + cross @ motion[3:])
     return np.array(positions), np.array(masses), np.array(shapes)

@@ -118,6 +118,7 @@ def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | Non
 def _dynamic_modes(
     fixed: FixedInterface, dynamic_modes: int | Sequence[int], up_to: float | None
 ) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies, Hz, and shapes (n_dof, k) of the chosen dynamic modes."""
     held = fixed.held_freedoms()
     if up_to is not None:
         if not (is_number(dynamic_modes) and dynamic_modes == 0):

@@ -180,6 +180,7 @@ def _island_nodes(model: FiniteElementModel, held: np.ndarray) -> np.ndarray:
 
 
 def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
+    """Refuse motions without stiffness while the degrees of freedom `held` are zero."""
     free = np.setdiff1d(np.arange(model.n_dof), held)
     diagonal = model.K.diagonal()[free]
     if (diagonal <= 0).any():

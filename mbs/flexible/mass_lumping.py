@@ -13,7 +13,7 @@ def lumped_masses(M: Sparse, positions: np.ndarray, dof: np.ndarray) -> MassPoin
     """Lump a mass matrix at the nodes, isotropic in translation; the total mass is kept.
 
     Row sums are used where none is negative (bars, beams, linear solids); otherwise the diagonal is scaled to the
-    total (Hinton, Rock and Zienkiewicz 1976), which quadratic elements need. Rotary inertia is left out.
+    total (Hinton, Rock and Zienkiewicz 1976), which quadratic elements need. Rotary inertia is omitted.
 
     `M`: shape (n_dof, n_dof); `positions`: shape (n, 3); `dof`: as in `FiniteElementModel`, shape (n, 6).
     """

@@ -79,9 +79,8 @@ def modes_for_output(
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(reference)))
     # angular accelerations are scaled by the size of the model, for comparison with linear ones
     load[:, 3:] /= float(np.ptp(model.positions, axis=0).max())
-    rows = rows[
-        :, : model.n_dof
-    ]  # outputs of the deformation; those of the inertia along the beams do not depend on the choice
+    # outputs of the deformation only: those of the inertia along the beams do not depend on the choice
+    rows = rows[:, : model.n_dof]
     exact = np.asarray(rows @ fixed.solve(load))
     scale = np.abs(exact).max(axis=1, keepdims=True)
     if (scale == 0).any():

@@ -22,9 +22,9 @@ FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")
 
 
 def end_forces(frame: BeamFrame, element: int) -> np.ndarray:
-    """Forces and moments on the two ends of a beam in its local axes, shape (12, 12) on its local freedoms' globals.
+    """Forces and moments on the two ends of a beam, in its local axes, per nodal displacement, shape (12, 12).
 
-    Columns are the twelve degrees of freedom `Frame.element_freedoms`.
+    Columns belong to the degrees of freedom `Frame.element_freedoms`.
     """
     T = np.kron(np.eye(4), frame.element_axes(element)[1])
     return frame.element_stiffness(element) @ T
@@ -33,7 +33,7 @@ def end_forces(frame: BeamFrame, element: int) -> np.ndarray:
 def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     """Section forces at ``x = xi * length`` per unit nodal displacement.
 
-    They act on the face whose normal is +x: N pulls, T twists about x, positive My stretches the fibres at +z,
+    They act on the face with the normal +x: N is tensile, T turns about x, positive My stretches the fibres at +z,
     positive Mz those at -y. Between its ends the element is loaded by its consistent mass times an acceleration
     that is linear along it, such as its own weight.
 
@@ -88,8 +88,9 @@ def _inertia_forces(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarr
 
 
 def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
-    """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, 9 n), Pa per m
-    and rad, and per m/s2.
+    """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, 9 n).
+
+    Units: Pa per m and rad, and per m/s2.
 
     `fibres`: points (y, z) of the section, m, shape (n_fibres, 2); by default those of `Section.fibres` (highest and
     lowest first).
@@ -126,17 +127,17 @@ class StrainGauge:
         return sp.csr_array(forces[[4]] * (z / size) - forces[[5]] * (y / size))
 
     def half_bridge(self, frame: BeamFrame) -> sp.csr_array:
-        """Stress of the fibre minus that of the opposite one; blind to pull and twist."""
+        """Stress of the fibre minus that of the opposite one, which axial force and torque do not change."""
         y, z = self._point(frame)
         both = fibre_stresses(frame, self.element, self.xi, np.array([(y, z), (-y, -z)]))
         return sp.csr_array(both[[0]] - both[[1]])
 
     def quarter_bridge(self, frame: BeamFrame) -> sp.csr_array:
-        """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads."""
+        """Normal stress of the fibre, by axial force and bending: Young's modulus times the strain of one gauge."""
         return fibre_stresses(frame, self.element, self.xi, np.array([self._point(frame)]))
 
     def axial_force(self, frame: BeamFrame) -> sp.csr_array:
-        """N, positive when the beam is pulled."""
+        """Axial force N, positive in tension."""
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[0]])
 
     def axial_stress(self, frame: BeamFrame) -> sp.csr_array:
@@ -144,7 +145,7 @@ class StrainGauge:
         return sp.csr_array(self.axial_force(frame) * (1.0 / frame.beams[int(self.element)].section.area))
 
     def torque(self, frame: BeamFrame) -> sp.csr_array:
-        """T, positive when it turns the far side of the section right-handed about the beam from start to end."""
+        """Torque T, positive if it turns the far side of the section right-handed about the beam from start to end."""
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[3]])
 
     def shear_stress(self, frame: BeamFrame) -> sp.csr_array:
@@ -202,7 +203,7 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
 
 
 def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:
-    """Largest |normal stress| round each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
+    """Largest absolute normal stress in each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
 
     `forces`: of `section_force_field`, shape (12 n_elements,). Returns an array of shape (n_elements, 2): at the start
     and at the end of each element.

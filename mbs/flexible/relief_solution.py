@@ -19,8 +19,8 @@ def inertia_relief(
 ) -> InertiaRelief:
     """Solve the model once per interface force and per unit acceleration.
 
-    Outputs must not see rigid motions (stresses and section forces do not); then the node that is held does not
-    matter where loads are in balance.
+    Outputs must not depend on rigid motions, as stresses and section forces; then the held node does not affect them
+    under balanced loads.
 
     Parameters
     ----------

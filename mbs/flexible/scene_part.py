@@ -104,6 +104,7 @@ def is_round(section: Section) -> bool:
 
 
 def _node_selection(count: int) -> tuple[NDArray[np.int64], dict[str, Any]]:
+    """Nodes that are drawn of a model without beams, and a note about it."""
     every = -(-count // MOST_POINTS)
     note = f"one of {every} of the {count} nodes is drawn" if every > 1 else "nodes are drawn"
     return np.arange(0, count, every), {"note": f"a finite-element model without beams: {note}, stresses are not known"}

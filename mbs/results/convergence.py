@@ -52,9 +52,9 @@ def observed_order(
 
 
 def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
-    """Whether errors `errors` of a refined run could change the verdict on the error that it gave.
+    """Whether the errors of a refined run could change the verdict on the errors of the first run.
 
-    `known`, `errors`: errors over the range, by unit.
+    `known`: errors of the first run by the refined one; `errors`: those of the refined run over the range, by unit.
     """
     margins = {unit: error - WRONG_ERROR for unit, error in known.units.items()}
     surely_wrong = any(margin >= errors[unit] for unit, margin in margins.items())

@@ -137,7 +137,7 @@ class Poses(Mapping[str, Array]):
         return {**columns, **pose_columns}, {**units, **{names[n]: unit for n, unit in self.units.items()}}
 
     def thinned(self, every: int) -> Poses:
-        """The poses at every so many samples of the trajectory.
+        """Poses at every n-th sample of the trajectory.
 
         Parameters
         ----------

@@ -191,6 +191,7 @@ def _function_value(name: str, signal: Callable[[float], float], t: float) -> fl
 
 
 def _check_signal(name: str, signal: Signal) -> Signal:
+    """Return a signal with floats; raise `ValueError` if it is none of the three kinds."""
     if callable(signal):
         return signal
     if not isinstance(signal, tuple):
@@ -219,6 +220,7 @@ def _check_signal(name: str, signal: Signal) -> Signal:
 def _interpolate(
     t: NDArray[np.float64], times: NDArray[np.float64], values: NDArray[np.float64], tolerance: float, after_jump: bool
 ) -> NDArray[np.float64]:
+    """Values of a table at times `t` (n,), s; `tolerance`, `after_jump`: as of `InputSignals.at`."""
     if after_jump:
         right = np.searchsorted(times, t + tolerance, side="right")
     else:

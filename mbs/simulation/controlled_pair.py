@@ -12,10 +12,7 @@ from mbs.simulation.prepared_system import prepared
 
 @dataclass(frozen=True)
 class ControlledPair:
-    """A run to a tolerance and a coarser one.
-
-    `tolerance`: the requested one.
-    """
+    """A run and a coarser one; `tolerance`: the requested one."""
 
     run: ControlledRun
     coarser: ControlledRun

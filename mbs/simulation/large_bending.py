@@ -18,7 +18,7 @@ from mbs.common.frames import FlexibleShapes, Frames
 
 Array = NDArray[np.float64]
 
-MOST_TURN = 0.04  # rad, largest rotation of a node in its floating frame
+MOST_TURN = 0.04  # rad; largest rotation of a node in its floating frame
 SHARE = 0.25  # error at the end of the soft pendulum over that turn times its length
 
 

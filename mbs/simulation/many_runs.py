@@ -115,6 +115,7 @@ class _Run:
         self.error: KernelError | None = None
 
     def _start(self, h: float) -> Simulation:
+        """Make the simulation for steps of `h`, s, and record the warnings of its start."""
         first = self.signals.at(np.array([self.t0]), 1e-6 * h, after_jump=True)[0]
         declared = prepared(self.system)[1]["inputs"]
         names = [declared[i]["name"] for i in self.signals.columns()]
@@ -170,6 +171,7 @@ class _Run:
         return messages + self._model_warnings()
 
     def _balance_warnings(self, run: Trajectory) -> Warned:
+        """Warnings about the energy balance, the assembly modes and the model."""
         messages = list(self.start_warnings)
         if run.report is not None and (balance := accuracy.balance_text(run.report)):
             messages.append((AccuracyWarning, f"{balance} The result is wrong; take shorter steps."))
@@ -358,6 +360,7 @@ def _check_variant(number: int, variant: Variant) -> Variant:
 
 
 def _choose_lanes(lanes: int | None, variants: int) -> int:
+    """Check the number of lanes; None: the widest of the processor that the variants fill."""
     widest = widest_lanes()
     if lanes is None:
         return next((w for w in WIDTHS if w >= variants), widest) if variants <= widest else widest

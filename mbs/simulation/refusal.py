@@ -17,8 +17,8 @@ from mbs.simulation.stepped_system import SteppedSystem
 MOST_NAMES = 3  # largest number of names in one sentence
 NEAR_AN_END = (Status.NOT_CONVERGED, Status.TOO_DEAR, Status.TOO_STIFF, Status.UNRESOLVED)
 """Failures of steps where drives reach the end of the motion of a loop: there speeds grow without bound."""
-CLOSED = 1e-6  # residual over that of a driven step; solved rows reach round-off, others about a tenth
-ITERATIONS, HALVINGS = 30, 12  # of Newton's iteration for positions; of the step by bisection
+CLOSED = 1e-6  # largest residual of closed rows over that of the driven step: solved rows reach round-off
+ITERATIONS, HALVINGS = 30, 12  # largest numbers: of Newton's iterations for positions, of bisections of the time
 STIFF_STEP = 1.0  # largest product of rate and step with which an explicit method is accurate
 
 
@@ -56,7 +56,7 @@ def refusal(
         if step_given or cause not in (Cause.STEP, Cause.EQUATIONS):
             message += f" {status_remedy(status)}"
         report = simulation.instance.report()
-        # without a factorization no equation was solved yet
+        # without a factorization no equation was solved
         if cause in (Cause.START, Cause.EQUATIONS) and report["factorizations"]:
             message += _worst_equations_text(simulation, report)
     simulation_error = SimulationError(message, simulation.time, status, trajectory)
