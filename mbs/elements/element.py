@@ -85,14 +85,14 @@ class Element:
         present = list(integer)
         while present and present[-1] is None and self._integers[len(present) - 1].optional:
             present.pop()
-        integers = [integer.checked(value, label) for integer, value in zip(self._integers, present, strict=False)]
-        extended = len(integers) > sum(not integer.optional for integer in self._integers)
-        if any(integer.optional for integer in self._integers):
+        integers = [declared.checked(value, label) for declared, value in zip(self._integers, present, strict=False)]
+        extended = len(integers) > sum(not declared.optional for declared in self._integers)
+        if any(declared.optional for declared in self._integers):
             has_optional = extended
         reals, optional_names = reals_of(self, label, values), self._real_names()[1]
         named, plain = (appended, ()) if isinstance(appended, dict) else ({}, appended)
         last = {key: real for key, real in reals.items() if key in optional_names} if has_optional else {}
-        counted = sum(integer.states * n for integer, n in zip(self._integers, integers, strict=False))
+        counted = sum(declared.states * n for declared, n in zip(self._integers, integers, strict=False))
         slots = (*self._states, *(self._optional_states if extended else ()), *([0.0] * counted))
         return ElementRecord(
             name,
