@@ -56,9 +56,9 @@ def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
 
     `known`: errors of the first run by the refined one; `errors`: those of the refined run over the range, by unit.
     """
-    margins = {unit: error - WRONG_ERROR for unit, error in known.units.items()}
-    surely_wrong = any(margin >= errors[unit] for unit, margin in margins.items())
-    return not surely_wrong and any(-margin < errors[unit] for unit, margin in margins.items())
+    margins = [(error - WRONG_ERROR, errors.get(unit, 0.0)) for unit, error in known.units.items()]
+    surely_wrong = any(margin >= error for margin, error in margins)
+    return not surely_wrong and any(-margin < error for margin, error in margins)
 
 
 def extrapolate_error(
@@ -67,16 +67,16 @@ def extrapolate_error(
     compared: Mapping[str, Compared],
     before: Mapping[str, ComparedFields] | None,
     length: float,
-) -> Accuracy:
+) -> tuple[Accuracy, dict[str, float]]:
     """Error against the limit of refined runs, by Richardson's extrapolation with the order of the default method.
 
     That order holds after abrupt events too: stops are located, and parts of steps shrink with the step.
 
     `tables`: samples (n,), by name, of the run and of the last two refined ones, of which the last has half the step;
-    `before`, `length`: as of `Comparison`.
+    `before`, `length`: as of `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
     """
     run, coarse, fine = tables
     weight = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)
     limit = {name: fine[name] + weight * what.change(coarse[name], fine[name]) for name, what in compared.items()}
-    units, sensors, _ = differences(run, limit, compared, before, length)
-    return replace(known, units=units, sensors=sensors)
+    units, sensors, sizes = differences(run, limit, compared, before, length)
+    return replace(known, units=units, sensors=sensors), sizes

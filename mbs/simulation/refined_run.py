@@ -202,18 +202,20 @@ class RefinedRuns:
             verdict = self.refine(parts)
             if parts > 2 * self.parts:
                 runs = (self.run, self._refined[parts // 2], self._refined[parts])
-                verdict = self.known = extrapolate_error(
+                verdict, self._sizes = extrapolate_error(
                     verdict, [self._table(r) for r in runs], self.compared, self.before, self.length
                 )
+                self.known = verdict
             if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
                 break
         if parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
-            units, sensors = self._differences(self._refined[parts // 2], self._refined[parts])
-            verdict = replace(
-                verdict,
-                units={unit: error + units.get(unit, 0.0) for unit, error in verdict.units.items()},
-                sensors={name: error + sensors.get(name, 0.0) for name, error in verdict.sensors.items()},
-            )
+            _, differences_of_last = self._differences(self._refined[parts // 2], self._refined[parts])
+            sensors = {name: error + differences_of_last.get(name, 0.0) for name, error in verdict.sensors.items()}
+            units = dict[str, float]()
+            for name, error in sensors.items():
+                unit = self.compared[name].unit
+                units[unit] = max(units.get(unit, 0.0), error / self._sizes[name])
+            verdict = replace(verdict, units=units, sensors=sensors)
         return replace(verdict, check_cost=self.cost)
 
     def _is_unsure(self, known: Accuracy, parts: int) -> bool:
@@ -324,9 +326,9 @@ class RefinedRuns:
         return {name: q[:, i] for name, i in self._columns.items()}
 
     def estimate(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
-        """Accuracy of `first_divisor` from a run `other` in steps of `h`, s.
+        """Accuracy of the run `first` from a run `other` in steps of `h`, s.
 
-        `ratio`: mean step of `first_divisor` over that of `other`, below 1 if `other` is coarser.
+        `ratio`: mean step of `first` over that of `other`, below 1 if `other` is coarser.
         """
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
