@@ -80,7 +80,8 @@ class CoarserRuns:
             limit = CLEAR * (factor - 1) if by_order else CLEAR
             estimate = self.run(factor, iterations, limit)
             if estimate is not None and largest_difference(estimate, settings.method, refined.h) <= limit:
-                return estimate
+                order = METHOD_TABLE[settings.method].order
+                return refined.at_least(estimate, accuracy.energy_drift(report)) if order > 2 else estimate
         return None
 
     def run(self, factor: int, iterations: int, limit: float) -> Accuracy | None:

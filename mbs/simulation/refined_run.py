@@ -267,6 +267,17 @@ class RefinedRuns:
         remainder = gaps[second_finest] / ((finest / second_finest) ** order - 1.0)
         return [(self.h / n, gaps[n] + remainder) for n in sorted(self._refined)]
 
+    def at_least(self, known: Accuracy, error: float) -> Accuracy:
+        """`known` with no smaller errors than `error` of the range, as the energy shows it of a method of high order.
+
+        Past a singular position such a method loses its order, by which a difference from a coarser run is scaled.
+        """
+        return replace(
+            known,
+            units={unit: max(estimate, error) for unit, estimate in known.units.items()},
+            sensors={name: max(estimate, error * self._sizes[name]) for name, estimate in known.sensors.items()},
+        )
+
     def add_ends(self) -> None:
         """Add the extreme values of the first run to `before`, for the runs that continue it."""
         if self.before is not None:
