@@ -6,7 +6,7 @@
 #include "../instance.h"
 #include "mass.h"
 
-enum { MANY = 8 }; /* least number of rows with the same columns that are summed column by column */
+enum { MANY = 8 }; /* least number of rows with equal columns for which they are summed column by column */
 
 /* Adds four columns times their entries of x to `out`, one after the other. */
 ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real *x, const int32_t *col, int32_t n,
