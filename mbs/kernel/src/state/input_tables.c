@@ -21,8 +21,7 @@ int32_t ali3_input_of_tables(void *tables, double t, int32_t after, double *inpu
   const ali3_input_tables *set = tables;
   for (int32_t i = 0; i < set->n; i++) {
     const ali3_input_table *x = &set->table[i];
-    const int64_t next =
-        after ? count_times(x, t + set->tolerance, true) : count_times(x, t - set->tolerance, false);
+    const int64_t next = after ? count_times(x, t + set->tolerance, true) : count_times(x, t - set->tolerance, false);
     if (next == 0 || next == x->n) {
       input[x->input] = x->value[next == 0 ? 0 : x->n - 1];
       continue;
