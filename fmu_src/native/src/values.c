@@ -72,7 +72,7 @@ static bool compute_outputs(slave *s, const uint32_t *reference, size_t n) {
   size_t n_sensors = 0;
   if (s->outputs == SLAVE_FRESH || watches_answers()) return slave_outputs(s);
   if (first && !prepare_outputs(s)) return false;
-  const bool has_follower = slave_has_follower(s); /* asked after the fidelity may have changed */
+  const bool has_follower = slave_has_follower(s); /* evaluated after the fidelity may have changed */
   if (first && t->roll < t->n_variables) slave_request_sensor(s, &n_sensors, (uint32_t)t->roll);
   for (size_t k = 0; k < n; k++) {
     const slave_variable *v = &t->variable[reference[k]];

@@ -1,8 +1,8 @@
-/* Code that `mbs.compiler.generated` writes for the algebra of one System. It knows the structure of the System and reads
- * every number where it is called, so that all instances of all Systems with that structure share it; it has no memory of
- * its own, and keeps the order of sums of the kernel, so that it has the kernel's bits. A function that is NULL is not
- * generated: the kernel does its work. Arrays may be read and, where the kernel does so, written one number behind their
- * end, as `ali3_three` is. */
+/* Code that `mbs.compiler.generated` writes for the algebra of one System. It depends on the structure of the System
+ * only and reads all numbers from its arguments, so that all instances of all Systems of that structure share it; it
+ * has no memory of its own and has the order of sums of the kernel, so that results are the same bits. For a function
+ * that is NULL the kernel uses its loops. Arrays may be read and, where the kernel does so, written one number beyond
+ * their end, as by `ali3_three`. */
 #ifndef ALI3_GENERATED_H
 #define ALI3_GENERATED_H
 #include <stdbool.h>
@@ -11,25 +11,24 @@
 
 enum { ALI3_GENERATED_VERSION = 1 };
 
-/* Vectors of four as GCC and Clang write them; by other compilers and in WebAssembly a step takes the loops. */
+/* Vectors of four as in GCC and Clang; with other compilers and in WebAssembly the kernel uses its loops. */
 #if (defined(__x86_64__) || defined(__aarch64__)) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
 #define ALI3_GENERATES
 #endif
 
-/* Parts of the tangent, whose sum it is; names as in the System and its instance. */
+/* Terms of the tangent; names as in the System and its instance. */
 typedef struct {
   const double *front_mass, *J, *lam, *s, *hess_val, *gterm_h, *angle_hc, *angle_hs, *sig_val, *S;
-  const double *q; /* near the origin, as the rows were evaluated */
+  const double *q; /* shifted near the origin, as for the rows */
   double (*cosine)(double), (*sine)(double);
   const unsigned char *idle;
   double square, geometric; /* weights of J' J and of the second derivatives */
 } ali3_tangent_parts;
 
 typedef struct ali3_generated {
-  uint32_t version, structure; /* of this table; of the System, by `ali3_system_structure` */
+  uint32_t version, structure; /* of this table; structure of the System, see `ali3_system_structure` */
   int32_t avx2; /* 1: it has instructions of AVX2 */
-  const struct ali3_generated
-      *turned; /* of the same System with room for all directions of axes; NULL: not generated */
+  const struct ali3_generated *turned; /* of the same System with all directions of wheel axes; NULL: not generated */
   /* Without terms of guides and angles. */
   void (*rows)(const double *row_lin, const double *row_const, const double *hess_val, const double *q, double *Phi,
                double *J);
@@ -41,12 +40,12 @@ typedef struct ali3_generated {
                   double *ud);
   void (*forces)(const double *sig_val, const unsigned char *idle, const double *f, double *Q); /* adds to Q */
   void (*tangent)(const ali3_tangent_parts *parts, double *F);
-  /* -1, or the coordinate of the first bad pivot, which goes to *pivot; counts those below zero. */
+  /* -1, or the coordinate of the first invalid pivot, which is written to *pivot; counts negative pivots. */
   int32_t (*factorise)(double *F, const double *mass_floor, int32_t *negative, double *pivot);
   void (*solve)(const double *F, double *b);
 } ali3_generated;
 
-/* Whether a function of that name is generated, which is called then; never for lanes. */
+/* Calls the generated function of that name and is true, if there is one; false for lanes. */
 #ifdef ALI3_WIDTH
 #define ALI3_GENERATED(system, name, given) false
 #else

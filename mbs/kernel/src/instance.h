@@ -1,4 +1,5 @@
-/* The instance of a System: what it is set to, its state, and the work memory of a step. The parts are in instance/. */
+/* The instance of a System: its data, its state, and the work memory of a step. Its members are declared in
+ * instance/. */
 #ifndef ALI3_INSTANCE_H
 #define ALI3_INSTANCE_H
 #include "instance/data.h"
@@ -11,11 +12,11 @@
 typedef struct ali3_tree_work ali3_tree_work; /* tree/tree.h */
 
 struct ali3_instance {
-  const ali3_system *system; /* base, or turned where axes are not as drawn */
+  const ali3_system *system; /* `base`, or a copy with other wheel axes */
   const ali3_system *base; /* as loaded */
   void (*release)(void *block);
 
-  ali3_settings settings; /* what it is set to */
+  ali3_settings settings; /* data */
   ali3_parameters parameters;
   ali3_parametric_axes axes;
   ali3_masses mass;
@@ -23,7 +24,7 @@ struct ali3_instance {
   ali3_inputs inputs;
   ali3_start start;
 
-  ali3_clock clock; /* its motion */
+  ali3_clock clock; /* state */
   ali3_vectors now, next;
   ali3_kept_states kept;
   ali3_report report;

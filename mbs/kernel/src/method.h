@@ -5,33 +5,38 @@
 #include "instance.h"
 #include "request.h"
 
-/* Round-off that bounds the steps of a controlled run from below: that of equations of index three, solved by rules of
+/* Round-off that limits the steps of a controlled run from below: of equations of index three, solved by methods of
  * order two or by collocation, or of index one. */
 typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_COLLOCATION, ALI3_ROUND_OFF_INDEX_1 } ali3_round_off;
 
 typedef struct {
-  /* A step from in->now, after ali3_inputs_begin. Before it, in->next is a copy of in->now, so it
-   * has what a method does not change, such as switches. A good step ends with ali3_accept; one that is
-   * refused, with a status, leaves in->now as it was, or has called ali3_back_up before it changed it. It does not
-   * allocate, counts iterations, factorizations and solves in in->report and never passes a NaN on. */
+  /* Makes a step from in->now, after ali3_inputs_begin. in->next is a copy of in->now, so that it has values that a
+   * method does not change, such as switches. A completed step ends with ali3_accept; a refused one returns its status
+   * and leaves in->now unchanged, or has called ali3_back_up before it changed it. A step does not allocate, counts
+   * iterations, factorizations and solves in in->report and does not accept NaN. */
   ali3_status (*step)(ali3_instance *in, const ali3_request *request);
   /* The following may be NULL. */
-  void (*before)(ali3_instance *in, const ali3_request *request); /* what it changes in in->now, after ali3_back_up */
-  void (*motion)(ali3_instance *in, double h);   /* ali3_balance_change after a good step; NULL: the step does it */
-  bool (*has_balance)(const ali3_instance *in);  /* whether its steps end with ali3_energy_watch; NULL: never */
-  /* Whether an open balance says by itself that a run is wrong; a quadrature of work errs where it is stiff. */
+  /* Changes in->now before a step, after ali3_back_up. */
+  void (*before)(ali3_instance *in, const ali3_request *request);
+  /* Calls ali3_balance_change after a completed step; NULL: the step does. */
+  void (*motion)(ali3_instance *in, double h);
+  bool (*has_balance)(const ali3_instance *in); /* whether its steps end with ali3_energy_watch; NULL: never */
+  /* Whether a large energy error alone makes a run invalid; not by quadratures of work, which have errors in stiff
+   * systems. */
   bool balance_decides;
   bool (*has_guides_work)(const ali3_instance *in); /* whether its steps measure the work of guides; NULL: never */
-  ali3_status (*takes)(const ali3_instance *in); /* ALI3_OK, or why it cannot take the System; NULL: it takes all */
-  const char *excludes; /* what it takes no System with, in words for users; NULL: it takes all */
-  /* What readers of in->now need after steps of which nothing is read, and after those of which sensors are. */
+  /* ALI3_OK, or a status if it does not accept the System; NULL: it accepts all. */
+  ali3_status (*takes)(const ali3_instance *in);
+  const char *excludes; /* what it does not accept in a System, for messages; NULL: it accepts all */
+  /* Complete in->now after steps of which nothing was read, and after those of which sensors were read. */
   void (*after_unobserved)(ali3_instance *in);
   void (*after_sampled)(ali3_instance *in);
-  int32_t owner; /* ALI3_METHOD_* that its steps leave in the history of the state: its own, or one it shares */
-  bool relative; /* steps relative coordinates: no copy to in->next, which is filled when it is read */
-  bool fills; /* steps write all of q, qd, qdd and lam of in->next and, of rigid Systems, past_a and past_lam; these are
-                 then no copy */
-  double stable_rate; /* of an explicit rule: largest step times rate that it follows, of negative rates; else 0 */
+  int32_t owner; /* ALI3_METHOD_* in the history of the state after its steps: its own, or a shared one */
+  bool relative; /* its steps are in relative coordinates: in->next is no copy and is filled when it is read */
+  /* Its steps write all of q, qd, qdd and lam of in->next and, of rigid Systems, past_a and past_lam, which are not copied
+   * before. */
+  bool fills;
+  double stable_rate; /* of an explicit method: largest stable step times rate, for negative real rates; else 0 */
   ali3_round_off round_off;
 } ali3_method;
 
@@ -39,8 +44,8 @@ typedef struct {
 ALI3_METHODS(ALI3_METHOD_DECLARED)
 #undef ALI3_METHOD_DECLARED
 
-/* The method of the settings, whether it takes the System, whether its steps end with ali3_energy_watch; order of its
- * steps where they change. */
+/* The method of the settings; whether it accepts the System; whether its steps end with ali3_energy_watch; order of its
+ * steps. */
 const ali3_method *ali3_method_of(const ali3_instance *in);
 ali3_status ali3_check_method(const ali3_instance *in);
 bool ali3_has_balance(const ali3_instance *in);

@@ -1,4 +1,4 @@
-/* The loaded System: its arrays, what is derived from them at load. */
+/* The loaded System: its arrays and those derived from them at load. */
 #ifndef ALI3_SYSTEM_H
 #define ALI3_SYSTEM_H
 #include <stdbool.h>
@@ -7,8 +7,9 @@
 #include "generated.h"
 #include "system_arrays.h"
 
-enum { ALI3_INERTIA_REALS = 10, ALI3_INERTIA_SIGNALS = 12 }; /* of a body whose inertia parameters write */
-enum { ALI3_AXIS_REALS = 2, ALI3_AXIS_SIGNALS = 9 }; /* of a wheel whose axis parameters write */
+/* Numbers and signals of a body with inertia set by parameters. */
+enum { ALI3_INERTIA_REALS = 10, ALI3_INERTIA_SIGNALS = 12 };
+enum { ALI3_AXIS_REALS = 2, ALI3_AXIS_SIGNALS = 9 }; /* numbers and signals of a wheel with an axis set by parameters */
 
 enum {
 #define ALI3_NUMBER(items, name, ...) ALI3_ARRAY_##name,
@@ -17,9 +18,10 @@ enum {
       ALI3_ARRAY_COUNT
 };
 
-enum { ALI3_TRIPLES = 1, ALI3_POINTS }; /* row_triples: the latter where the second factors of terms are so too */
+/* Values of row_triples; ALI3_POINTS: also the second factors of the terms are triples. */
+enum { ALI3_TRIPLES = 1, ALI3_POINTS };
 
-enum { /* par_target: what a parameter writes to */
+enum { /* par_target: kind of data that a parameter writes */
        ALI3_TARGET_ELEMENT = 0,
        ALI3_TARGET_GUIDE,
        ALI3_TARGET_ROAD,
@@ -32,14 +34,14 @@ enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_COUNT
 };
 
-/* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
+/* A product h q_a q_b of a row with its positions; ja, jb: entries of the Jacobian; pos: of front storage. */
 typedef struct {
   int32_t a, b, ja, jb, pos; /* b = -1: linear term, a = b = -1: constant; pos = -1: no second derivative */
   double h;
 } ali3_term;
 
 typedef struct {
-  int32_t a, b, ja, jb, pos, pos_a, pos_b; /* pos_a, pos_b: entries with theta */
+  int32_t a, b, ja, jb, pos, pos_a, pos_b; /* pos_a, pos_b: front storage of the products with theta */
   double hc, hs;
 } ali3_angle_term;
 
@@ -48,22 +50,23 @@ typedef struct {
   int32_t row, guide, power;
 } ali3_guide_term;
 
-typedef struct { /* of an element, outputs that are forces of a contact or a stop */
-  int32_t element, first, n; /* all of them */
-  int32_t judged, n_judged; /* of a tyre its load alone: the others follow pedals that jump */
-  bool tyre, touches; /* it has a depth */
+typedef struct { /* outputs of an element that are forces of a contact or a stop */
+  int32_t element, first, n; /* range of outputs */
+  /* outputs checked for abrupt changes; of a tyre its load only, as its other forces follow pedals, which jump */
+  int32_t judged, n_judged;
+  bool tyre, touches; /* touches: has a depth in a road */
 } ali3_contact_forces_of;
 
-typedef struct { /* of an element: how many, and where its first ones are */
+typedef struct { /* numbers of data of an element and the offsets of its first ones */
   int32_t nsig, nreal, nint, nstate, nout, real, integer, state, out;
 } ali3_element_size;
 
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
-typedef struct ali3_tabled ali3_tabled;     /* tabled/tabled.h */
+typedef struct ali3_tabled ali3_tabled; /* tabled/tabled.h */
 typedef struct ali3_tabled_base ali3_tabled_base;
 typedef struct ali3_tabled_parameter ali3_tabled_parameter;
 typedef struct ali3_tabled_group ali3_tabled_group;
-typedef struct ali3_tree ali3_tree;           /* tree/tree.h: the part of a System for relative coordinates */
+typedef struct ali3_tree ali3_tree; /* tree/tree.h: the part of a System for relative coordinates */
 
 struct ali3_system {
 #define ALI3_DECLARE(items, name, ...) const ALI3_ITEM_##items *name;
@@ -76,27 +79,29 @@ struct ali3_system {
   unsigned char *bytes; /* the copied file */
   uint32_t crc;
   ali3_sizes size;
-  int32_t nr;        /* roads */
+  int32_t nr; /* roads */
   int32_t max_front; /* largest front */
   double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
-  int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
-  int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
-  int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
+  int32_t n_flexible, max_modes; /* number of flexible bodies, largest number of modes of one */
+  int32_t n_tabled, n_dependent; /* number of tabled bodies and numbers, and of their dependent coordinates */
+  /* tabled_square: size of the work array of a group */
+  int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square;
   bool senses_rows; /* a sensor reads multipliers or violations */
-  bool has_avx2; /* the processor, see algebra/processor.h */
+  bool has_avx2; /* the processor has AVX2, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
   ali3_system
-      *turned; /* parametric_axes.c: with room for all directions of axes that parameters write; NULL: there are none */
-  void *lean; /* the arrays of this one, which has none */
+      *turned; /* System with entries for all directions of parametric axes (parametric_axes.c); NULL: there are none */
+  void *lean; /* arrays of this System without such entries */
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q; of a row of
                                    points the terms of three entries in turn */
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
-  double largest_round; /* of these */
-  double fine; /* factor of tolerances in m: of a very small or large drawing not 1 */
-  double fall; /* acceleration of coordinates by their weight: root of the mean square, m/s2 */
-  unsigned char *row_triples; /* not 0: its coordinates are points and directions, three neighbours each */
+  double largest_round; /* largest of row_round, m */
+  double fine; /* factor on tolerances in m; not 1 for a very small or large drawing */
+  double fall; /* acceleration of coordinates by gravity: root of the mean square, m/s2 */
+  /* not 0: the coordinates of the row are points and directions, in triples of consecutive ones */
+  unsigned char *row_triples;
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
@@ -106,15 +111,15 @@ struct ali3_system {
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
   int32_t *quad_pos; /* as quad: its place in front storage */
   double *quad_second; /* as quad: the second derivative of the term, h or, of a square, 2 h */
-  int32_t *quad_end; /* nc: where these begin */
+  int32_t *quad_end; /* nc: index of the first term with entries of the stretch */
   int32_t *stretch_pos; /* as hess_col: of the first entry of a stretch, front storage of the term; they are a column */
   ali3_angle_term *angle; /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
   ali3_guide_term *gterm;
-  int32_t *driven_row; /* n_driven: rows with such terms */
-  int32_t *turning; /* n_turning: angles that turn with more than what they measure (rows/turning.h), of angle_row */
-  ali3_term *velocity; /* as velocity_a; b is the coordinate whose rate it takes */
-  double *front_mass; /* front storage holding M, the start of every tangent */
+  int32_t *driven_row; /* n_driven: rows with guide terms */
+  int32_t *turning; /* n_turning: entries of angle_row whose angle has inertia or other rows (rows/turning.h) */
+  ali3_term *velocity; /* as velocity_a; b: the coordinate of the rate */
+  double *front_mass; /* M in front storage, the initial value of every tangent */
   double *mass_floor; /* nq: M_ii, or a typical mass for massless coordinates */
   double *mass_floor_inverse; /* nq */
   double *mass_missing; /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
@@ -124,9 +129,9 @@ struct ali3_system {
    * first the columns of the others are one and two further, and the values are the same. */
   int32_t *
       mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns; 0: it is the first of a triple */
-  int32_t *four, *alone; /* elements that are evaluated four at a time (elements/element_fours.h), and the others */
-  unsigned char *el_in_four; /* ne: 1: it is one of those */
-  int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
+  int32_t *four, *alone; /* elements evaluated four at a time (elements/element_fours.h), and the others */
+  unsigned char *el_in_four; /* ne: 1: evaluated four at a time */
+  int32_t *el_beside; /* ne: first signal of an element with consecutive signals, else -1 */
   unsigned char *active_triple,
       *el_triple; /* n_active, as el_sig: 1: it is the first of a triple that follows in turn */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
@@ -136,33 +141,35 @@ struct ali3_system {
   ali3_contact_forces_of *contact; /* n_contact: elements with a depth or end stops */
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
-  int32_t *el_entry_local; /* per entry: its coordinate within the element */
+  int32_t *el_entry_local; /* per entry: index of its coordinate within the element */
   double *el_entry_value;
   int32_t *el_coordinate_ptr; /* ne+1 */
   int32_t *el_coordinate_loc; /* local index in the front, ascending */
-  int32_t *el_apart; /* ne: coordinate of the element from which on these are neighbours */
+  int32_t *el_apart; /* ne: index of the coordinate from which on the coordinates of the element are consecutive */
   int32_t *active_signal; /* signals that elements use */
   int32_t *flex_square; /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
   ali3_tabled *tabled;
   ali3_tabled_base *tabled_base;
   ali3_tabled_parameter *tabled_parameter;
   ali3_tabled_group *tabled_group;
-  int32_t *tabled_order; /* elements on tabled items, group by group */
-  int32_t *tabled_signal; /* per signal of an element: which one of its group */
-  int32_t *el_tabled; /* ne: its group, -1: none */
-  int32_t *el_entry_dependent; /* per entry: the dependent within its item, -1: a coordinate */
+  int32_t *tabled_order; /* elements on tabled items, ordered by group */
+  int32_t *tabled_signal; /* per signal of an element: its index in the group */
+  int32_t *el_tabled; /* ne: group of the element, -1: none */
+  int32_t *el_entry_dependent; /* per entry: index of the dependent in its item, -1: a coordinate */
   ali3_tree *tree; /* NULL: the System has none */
-  ali3_generated generated; /* by default nothing is */
-  int32_t n_input_work; /* n_work where inputs may change what elements store, else 0 */
-  int32_t n_guide_work; /* 1 where the work of guides is sensed, else 0 */
-  int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
-  int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
+  ali3_generated generated; /* initially none */
+  int32_t n_input_work; /* n_work if inputs may change the potentials of elements, else 0 */
+  int32_t n_guide_work; /* 1 if the work of guides is sensed, else 0 */
+  int32_t n_work, n_work_force; /* number of elements with sensed work, number of their signals */
+  /* ne: index of the element in work_element, or -1; elements with sensed work; n_work + 1: offsets of their signals */
+  int32_t *work_of, *work_element, *work_ptr;
   int32_t n_driven, n_contact, n_turning, n_four, n_alone;
-  int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
+  int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that a translation changes, or -1 */
 };
 
-enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 }; /* of mode_triad: 9 signals, kind, ring; of a loop */
+/* Items of a triad in mode_triad (9 signals, kind, ring), and most triads of a loop. */
+enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 };
 
-/* The larger in memory of the System as loaded and that of instances with other axes. */
+/* The larger one of the System as loaded and that of instances with other axes. */
 static inline const ali3_system *ali3_widest_system(const ali3_system *s) { return s->turned != NULL ? s->turned : s; }
 #endif

@@ -1,5 +1,6 @@
-/* Sine, cosine, exponential, hyperbolic and inverse tangent from sums, products, quotients and square roots, which are
- * the same bits everywhere: reduction of the argument, then a Taylor polynomial that ends below round-off. */
+/* Sine, cosine, exponential, hyperbolic tangent and arc sine by sums, products, quotients and square roots, which are
+ * the same bits on all platforms: reduction of the argument, then a Taylor polynomial whose remainder is below
+ * round-off. */
 #include "elementary.h"
 
 #include <math.h>
@@ -7,12 +8,12 @@
 
 #define COUNT(c) ((int)(sizeof(c) / sizeof *(c)))
 
-/* pi/2 and ln 2 in parts whose products with whole numbers below 2^20 are exact. */
+/* pi/2 and ln 2 in parts whose products with integers below 2^20 are exact. */
 static const double HALF_PI_1 = 1.5707963267341256, HALF_PI_2 = 6.077100506303966e-11,
                     HALF_PI_3 = 2.0222662487959506e-21, TWO_OVER_PI = 0.6366197723675814;
 static const double LN2_1 = 0.6931471804855391, LN2_2 = 7.440617110012397e-11, ONE_OVER_LN2 = 1.4426950408889634;
 static const double HALF_PI = 1.5707963267948966;
-static const double MOST_TURNS = 1048576.0;
+static const double MAX_ARGUMENT = 1048576.0;
 
 static double polynomial(const double *c, int n, double x) {
   double sum = c[n - 1];
@@ -20,60 +21,60 @@ static double polynomial(const double *c, int n, double x) {
   return sum;
 }
 
-/* For |r| <= pi/4 and the rest of r. */
-static double sine_near(double r, double rest) {
+/* Sine of r + low for |r| <= pi/4. */
+static double sine_near(double r, double low) {
   static const double c[] = {-1.0 / 6.0,        1.0 / 120.0,        -1.0 / 5040.0,          1.0 / 362880.0,
                              -1.0 / 39916800.0, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
   const double z = r * r;
-  return r + (r * z * polynomial(c, COUNT(c), z) + rest * (1.0 - 0.5 * z));
+  return r + (r * z * polynomial(c, COUNT(c), z) + low * (1.0 - 0.5 * z));
 }
 
-static double cosine_near(double r, double rest) {
+static double cosine_near(double r, double low) {
   static const double c[] = {1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,         -1.0 / 3628800.0,
                              1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0};
   const double z = r * r, half = 0.5 * z, near = 1.0 - half;
-  return near + (((1.0 - near) - half) + (z * z * polynomial(c, COUNT(c), z) - r * rest));
+  return near + (((1.0 - near) - half) + (z * z * polynomial(c, COUNT(c), z) - r * low));
 }
 
-/* x = quarter * pi/2 + r + rest; larger arguments lose digits, as they have lost them by being stored. */
-static int reduce(double x, double *r, double *rest) {
-  if (fabs(x) > MOST_TURNS) x = fmod(x, 4.0 * HALF_PI);
+/* x = quarter * pi/2 + r + low; larger arguments lose digits, as their representation does. */
+static int reduce(double x, double *r, double *low) {
+  if (fabs(x) > MAX_ARGUMENT) x = fmod(x, 4.0 * HALF_PI);
   const double k = floor(x * TWO_OVER_PI + 0.5), a = x - k * HALF_PI_1, b = k * HALF_PI_2;
-  const double near = a - b, lost = ((a - near) - b) - k * HALF_PI_3;
-  *r = near + lost;
-  *rest = (near - *r) + lost;
+  const double near = a - b, low_part = ((a - near) - b) - k * HALF_PI_3;
+  *r = near + low_part;
+  *low = (near - *r) + low_part;
   return (int)((int64_t)k & 3);
 }
 
-static double turned(double x, int ahead) {
-  double r, rest;
+static double sine_of(double x, int quarters) {
+  double r, low;
   if (!(x - x == 0.0)) return x - x; /* NaN */
-  const int quarter = (reduce(x, &r, &rest) + ahead) & 3;
-  const double value = quarter & 1 ? cosine_near(r, rest) : sine_near(r, rest);
+  const int quarter = (reduce(x, &r, &low) + quarters) & 3;
+  const double value = quarter & 1 ? cosine_near(r, low) : sine_near(r, low);
   return quarter & 2 ? -value : value;
 }
 
-double ali3_sin(double x) { return x == 0.0 ? x : turned(x, 0); }
+double ali3_sin(double x) { return x == 0.0 ? x : sine_of(x, 0); }
 
-double ali3_cos(double x) { return turned(x, 1); }
+double ali3_cos(double x) { return sine_of(x, 1); }
 
-/* To the nearest whole number, even at halves, by adding a number whose last bit is one. */
+/* Nearest integer, even at halves, by adding a number whose last bit is one. */
 static double nearest(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
-/* With k quarter turns taken off, k = 2 h + d and d -1, 0 or 1, (-1)^h turns the signs. */
+/* After k quarter turns are removed, with k = 2 h + d and d -1, 0 or 1, (-1)^h is the sign. */
 void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine) {
 #if defined(__clang__)
 #pragma clang loop vectorize(assume_safety) interleave(disable)
 #endif
   for (int i = 0; i < n; i++) {
     const double k = nearest(x[i] * TWO_OVER_PI), a = x[i] - k * HALF_PI_1, b = k * HALF_PI_2;
-    const double near = a - b, lost = ((a - near) - b) - k * HALF_PI_3;
-    const double r = near + lost, rest = (near - r) + lost;
+    const double near = a - b, low_part = ((a - near) - b) - k * HALF_PI_3;
+    const double r = near + low_part, low = (near - r) + low_part;
     const double h = nearest(0.5 * k), d = k - 2.0 * h, e = h - 2.0 * nearest(0.5 * h);
-    const double sign = 1.0 - 2.0 * (e * e), stay = 1.0 - d * d;
-    const double s = sine_near(r, rest), c = cosine_near(r, rest);
-    sine[i] = sign * (stay * s + d * c);
-    cosine[i] = sign * (stay * c - d * s);
+    const double sign = 1.0 - 2.0 * (e * e), even = 1.0 - d * d;
+    const double s = sine_near(r, low), c = cosine_near(r, low);
+    sine[i] = sign * (even * s + d * c);
+    cosine[i] = sign * (even * c - d * s);
   }
 }
 

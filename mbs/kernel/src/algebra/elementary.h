@@ -1,6 +1,5 @@
-/* Elementary functions of the kernel's own: those of the C libraries differ in the last bit from platform to platform.
- * Errors below 2 units in the last place (tanh, atan2, asin: 4); arguments of sine and cosine up to 2^20 turns keep
- * that. */
+/* Elementary functions with the same bits on all platforms, unlike those of C libraries. Errors below 2 units in the
+ * last place (tanh, atan2, asin: 4), for arguments of sine and cosine up to 2^20. */
 #ifndef ALI3_ELEMENTARY_H
 #define ALI3_ELEMENTARY_H
 
@@ -10,5 +9,5 @@ double ali3_exp(double x);
 double ali3_tanh(double x);
 double ali3_atan2(double y, double x);
 double ali3_asin(double x);
-void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine); /* of n angles, without branches */
+void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine); /* for n angles, rad, without branches */
 #endif

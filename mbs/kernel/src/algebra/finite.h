@@ -6,8 +6,8 @@
 
 #include "number_pairs.h"
 
-/* 0 times finite numbers stays 0, times infinite ones or NaN it becomes NaN. Four independent products hide the latency
- * of the multiplication. */
+/* The sum of 0 times all numbers is 0 if they are finite, else NaN. Four independent products hide the latency of the
+ * multiplication. */
 static inline __attribute__((always_inline)) bool ali3_finite_inlined(const double *v, int64_t n) {
   ali3_four a = {0}, b = {0}, c = {0}, d = {0};
   int64_t i = 0;
@@ -19,9 +19,9 @@ static inline __attribute__((always_inline)) bool ali3_finite_inlined(const doub
   a += (b + c) + d;
   ALI3_SHORT
   for (; i + 4 <= n; i += 4) a *= *(const ali3_four *)(v + i);
-  double rest = (a[0] + a[1]) + (a[2] + a[3]);
-  for (; i < n; i++) rest *= v[i];
-  return rest == 0.0;
+  double zero = (a[0] + a[1]) + (a[2] + a[3]);
+  for (; i < n; i++) zero *= v[i];
+  return zero == 0.0;
 }
 
 bool ali3_finite(const double *v, int64_t n);

@@ -1,5 +1,5 @@
 /* Operations on a front that the symmetric and the unsymmetric factorization share: check of a pivot, forward
- * substitution, gathering and scattering of unknowns. */
+ * substitution, gather and scatter of unknowns. */
 #ifndef ALI3_FRONT_BLOCK_H
 #define ALI3_FRONT_BLOCK_H
 #include <math.h>
@@ -31,7 +31,7 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
 }
 #endif
 
-/* Forward substitution, two columns at a time: x becomes L^-1 x in the pivots, and the rest of x is reduced by them. */
+/* Forward substitution by two columns at a time: x becomes L^-1 x in the pivots, and is reduced by them below. */
 ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_t n_pivot, int32_t n) {
   int64_t p = 0;
   for (; p + 1 < n_pivot; p += 2) {
@@ -44,8 +44,8 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
   if (p < n_pivot) ali3_add_multiple(x + p + 1, block + p * n + p + 1, -x[p], n - p - 1);
 }
 
-/* Gathers the unknowns of a front from b, `width` for each coordinate: first those of its pivots, then the rest. Without a
- * rest they are contiguous in b and need no copy. */
+/* Gathers the unknowns of a front from b, `width` for each coordinate: first those of its pivots, then the others. If
+ * there are only pivots they are contiguous in b and not copied. */
 ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t width, real *b) {
   const ali3_system *S = in->system;
   const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;

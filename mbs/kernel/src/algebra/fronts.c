@@ -6,19 +6,19 @@
 #include "front_block.h"
 #include "processor.h"
 
-enum { PANELS = 3 };     /* that a column loses while it is in hand: twelve factors of sixteen registers */
+enum { PANELS = 3 };     /* eliminated from a column at once: twelve factors in sixteen registers */
 _Static_assert(PANELS *PANEL <= ALI3_LOCAL, "columns of panels go to in->tangent.local");
-enum { FOUR_SUMS = 16 }; /* coordinates of a front from which on back substitution makes four sums */
+enum { FOUR_SUMS = 16 }; /* coordinates of a front from which back substitution uses four sums */
 
 #ifdef ALI3_WIDTH
-typedef real group; /* neighbours in a column that are one number of an instruction */
+typedef real group; /* consecutive entries of a column in one vector */
 #else
 typedef ali3_four group;
 #endif
 enum { GROUP = sizeof(group) / sizeof(real) };
 
-/* Columns j to last - 1 lose L_jp times each unscaled column p of packed panels, whose ends are known: in one sum a
- * panel, one panel after the other, so that an entry is in hand once. `panel` has L. */
+/* Subtracts L_jp times each unscaled column p of packed panels, whose ends are in `end`, from columns j to last - 1:
+ * one sum for each panel, so that an entry is loaded once. `panel` has L. */
 ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels, int64_t n, int64_t j, int64_t last,
                                   const group *const *end) {
   for (; j < last; j++) {
@@ -27,11 +27,11 @@ ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels
     real f[PANELS * PANEL];
     for (int32_t k = 0; k < panels * PANEL; k++) f[k] = panel[k * n + j];
     ALI3_SHORT
-    for (int64_t at = (from - n) / GROUP * PANEL; at < 0; at += PANEL) {
+    for (int64_t offset = (from - n) / GROUP * PANEL; offset < 0; offset += PANEL) {
       group sum = *target;
       ALI3_UNROLLED
       for (int32_t k = 0; k < panels; k++) {
-        const group *c = end[k] + at;
+        const group *c = end[k] + offset;
         sum -= (f[4 * k] * c[0] + f[4 * k + 1] * c[1]) + (f[4 * k + 2] * c[2] + f[4 * k + 3] * c[3]);
       }
       *target++ = sum;
@@ -39,7 +39,7 @@ ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels
   }
 }
 
-/* target -= f[0] c + f[1] c1 + ... of less than a panel of columns of length n, in turn, from entry `from` on. */
+/* target -= f[0] c + f[1] c1 + ... of fewer columns than a panel, of length n, in this order, from entry `from` on. */
 ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_t n, const real *f, int32_t count,
                            int64_t from) {
   const real *restrict c1 = c + n, *restrict c2 = c1 + n;
@@ -52,18 +52,19 @@ ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_
     ALI3_EACH(from, n, ALI3_AT(target) -= x * ALI3_AT(c))
 }
 
-/* L_jp of the pivots of panels from their unscaled columns. */
-ALI3_INLINED void factors(const real *panel, const real *inverse, int32_t count, int64_t n, int32_t j, real *factor) {
+/* factor[k] = L_jk of the pivots of a panel from their unscaled columns. */
+ALI3_INLINED void compute_factors(const real *panel, const real *inverse, int32_t count, int64_t n, int32_t j,
+                                  real *factor) {
   for (int32_t k = 0; k < count; k++) factor[k] = panel[k * n + j] * inverse[k];
 }
 
-/* The columns of the pivots `start` to start + count - 1 among themselves. */
-ALI3_INLINED ali3_status inside_panel(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
-                                      int32_t n, real *inverse) {
+/* Factorises the columns of the pivots `start` to start + count - 1 among themselves. */
+ALI3_INLINED ali3_status factorise_panel(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
+                                         int32_t n, real *inverse) {
   real *panel = block + (int64_t)start * n, factor[PANEL];
   for (int32_t p = 0; p < count; p++) {
     real *column = panel + (int64_t)p * n;
-    factors(panel, inverse, p, n, start + p, factor);
+    compute_factors(panel, inverse, p, n, start + p, factor);
     subtract(column, panel, n, factor, p, ali3_by_fours(start + p, n));
     const ali3_status status = ali3_check_pivot(in, first + start + p, column[start + p]);
     if (status != ALI3_OK) return status;
@@ -72,8 +73,8 @@ ALI3_INLINED ali3_status inside_panel(ali3_instance *in, real *block, int32_t fi
   return ALI3_OK;
 }
 
-/* Columns of pivots become those of L, with 1/D on the diagonal. */
-ALI3_INLINED void scale(real *block, int32_t start, int32_t count, int32_t n, const real *inverse) {
+/* Scales the columns of pivots to those of L, with 1/D on the diagonal. */
+ALI3_INLINED void scale_panel(real *block, int32_t start, int32_t count, int32_t n, const real *inverse) {
   for (int32_t p = 0; p < count; p++) {
     real *column = block + (int64_t)(start + p) * n;
     const real factor = inverse[p];
@@ -82,23 +83,24 @@ ALI3_INLINED void scale(real *block, int32_t start, int32_t count, int32_t n, co
   }
 }
 
-/* Pivots `start` to start + count - 1, less than a panel: first the columns among themselves, then column j of the rest
- * loses L_jp times the unscaled column p, so that the inner loops run down columns. */
+/* Eliminates pivots `start` to start + count - 1, fewer than a panel: first among themselves, then from each later
+ * column j, so that inner loops run down columns. */
 ALI3_INLINED ali3_status eliminate_few(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
                                        int32_t n) {
   real *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
-  const ali3_status status = inside_panel(in, block, first, start, count, n, inverse);
+  const ali3_status status = factorise_panel(in, block, first, start, count, n, inverse);
   if (status != ALI3_OK) return status;
   for (int32_t j = start + count; j < n; j++) {
-    factors(panel, inverse, count, n, j, factor);
+    compute_factors(panel, inverse, count, n, j, factor);
     subtract(block + (int64_t)j * n, panel, n, factor, count, ali3_by_fours(j, n));
   }
-  scale(block, start, count, n, inverse);
+  scale_panel(block, start, count, n, inverse);
   return ALI3_OK;
 }
 
-/* The triangle of a panel from its first pivot on becomes that of L with 1/D; factor[p][k]: L_pk of its unscaled columns. */
-ALI3_INLINED ali3_status triangle(ali3_instance *in, int32_t pivot, real *panel, int64_t n, real factor[PANEL][PANEL]) {
+/* Factorises the triangle of a panel to that of L with 1/D; factor[p][k]: L_pk of its unscaled columns. */
+ALI3_INLINED ali3_status factorise_triangle(ali3_instance *in, int32_t pivot, real *panel, int64_t n,
+                                            real factor[PANEL][PANEL]) {
   for (int32_t p = 0; p < PANEL; p++) {
     for (int32_t k = 0; k < p; k++) factor[p][k] = panel[k * n + p] * factor[k][k];
     for (int32_t i = p; i < PANEL; i++)
@@ -110,20 +112,20 @@ ALI3_INLINED ali3_status triangle(ali3_instance *in, int32_t pivot, real *panel,
   return ALI3_OK;
 }
 
-/* The columns of a panel among themselves, in one pass: they go unscaled to `packed`, a group of each after the other,
- * and scaled back. Returns the end of what is packed. */
-ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *panel, int32_t start, int64_t n,
-                                       group *packed, ali3_status *status) {
+/* Factorises the columns of a panel among themselves in one pass: unscaled columns are written to `packed`, a group of
+ * each in turn, scaled ones to the panel. Returns the end of the packed data. */
+ALI3_INLINED group *factorise_whole_panel(ali3_instance *in, int32_t pivot, real *panel, int32_t start, int64_t n,
+                                          group *packed, ali3_status *status) {
   real factor[PANEL][PANEL];
-  *status = triangle(in, pivot, panel + start, n, factor);
+  *status = factorise_triangle(in, pivot, panel + start, n, factor);
   if (*status != ALI3_OK) return packed;
   for (int64_t i = ali3_by_fours_below(start + PANEL, n); i < n; i += GROUP, packed += PANEL) {
     ALI3_UNROLLED
     for (int32_t p = 0; p < PANEL; p++) {
-      group *at = (group *)(panel + p * n + i);
-      packed[p] = *at;
+      group *offset = (group *)(panel + p * n + i);
+      packed[p] = *offset;
       for (int32_t k = 0; k < p; k++) packed[p] -= factor[p][k] * packed[k];
-      *at = packed[p] * factor[p][p];
+      *offset = packed[p] * factor[p][p];
     }
   }
   for (int32_t p = 0; p < PANEL; p++)
@@ -131,7 +133,7 @@ ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *p
   return packed;
 }
 
-/* Whole panels of pivots from `start` on, all of which a column of the rest loses while it is in hand. */
+/* Eliminates whole panels of pivots from `start` on; a later column is loaded once for all of them. */
 ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t panels,
                                           int32_t n) {
   real *panel = block + (int64_t)start * n;
@@ -142,7 +144,7 @@ ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_
     const int32_t p = start + k * PANEL;
     ali3_status status;
     if (k > 0) subtract_panels(block, panel, k, n, p, p + PANEL, end);
-    end[k] = packed = inside_whole_panel(in, first + p, block + (int64_t)p * n, p, n, packed, &status);
+    end[k] = packed = factorise_whole_panel(in, first + p, block + (int64_t)p * n, p, n, packed, &status);
     if (status != ALI3_OK) return status;
   }
   subtract_panels(block, panel, panels, n, start + panels * PANEL, n, end);
@@ -173,7 +175,7 @@ ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first
   }
 }
 
-/* The Schur complement of a front is added into its parent, two columns at a time. */
+/* Adds the Schur complement of a front to its parent, two columns at a time. */
 ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivot, int32_t n, real *parent,
                            int32_t parent_n) {
   int32_t j = n_pivot;
@@ -183,12 +185,12 @@ ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivo
                                                                      parent + (int64_t)map[j + 1] * parent_n;
     target[map[j]] += column[j];
     for (int32_t i = j + 1; i < n; i++) {
-      const int32_t at = map[i];
-      target[at] += column[i];
-      second[at] += other[i];
+      const int32_t offset = map[i];
+      target[offset] += column[i];
+      second[offset] += other[i];
     }
   }
-  for (; j < n; j++) /* side by side there too */
+  for (; j < n; j++) /* contiguous in the parent too */
     ali3_add(parent + (int64_t)map[j] * parent_n + map[j], block + (int64_t)j * n + j, n - j);
 }
 
@@ -220,8 +222,8 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
-/* The pivots of a front, in two sums or, of a large one, four. */
-ALI3_INLINED void pivots_back(const real *block, real *restrict x, int64_t n_pivot, int64_t n, bool four) {
+/* Back substitution for the pivots of a front, by two sums or, in a large one, four. */
+ALI3_INLINED void substitute_pivots(const real *block, real *restrict x, int64_t n_pivot, int64_t n, bool four) {
   for (int64_t p = n_pivot - 1; p >= 0; p--) {
     const real *after = block + p * n + p + 1, *y = x + p + 1;
     const real sum = four ? ali3_product_from_far(after, y, n - p - 1) : ali3_product_in_two(after, y, n - p - 1);
@@ -229,7 +231,7 @@ ALI3_INLINED void pivots_back(const real *block, real *restrict x, int64_t n_piv
   }
 }
 
-/* b becomes the solution. */
+/* Solves in place: b becomes the solution. */
 ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
   ALI3_COUNT(in, solves);
@@ -244,9 +246,9 @@ ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
     const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
     real *x = ali3_front_unknowns(in, f, 1, b);
     if (n < FOUR_SUMS)
-      pivots_back(F + S->front_off[f], x, n_pivot, n, false);
+      substitute_pivots(F + S->front_off[f], x, n_pivot, n, false);
     else
-      pivots_back(F + S->front_off[f], x, n_pivot, n, true);
+      substitute_pivots(F + S->front_off[f], x, n_pivot, n, true);
     ali3_front_put_back(in, f, 1, x, false, b);
   }
 }

@@ -4,7 +4,7 @@
 #include "../instance.h"
 #include "real.h"
 
-/* Adds to entry (i, j) of a symmetric block of which the lower triangle counts, by columns of `size`. */
+/* Adds to entry (i, j) of a symmetric block stored as its lower triangle, by columns of `size`. */
 static inline void ali3_add_lower(real *block, int32_t size, int32_t i, int32_t j, real value) {
   block[i >= j ? (int64_t)j * size + i : (int64_t)i * size + j] += value;
 }

@@ -1,13 +1,13 @@
-/* Multifrontal L U of a matrix whose pattern is symmetric but whose numbers are not quite: the fronts of the tangent,
- * whole blocks instead of lower triangles, no pivoting. A factorised front holds L below the diagonal (ones on it are
- * not stored) and U above, with the inverse of its diagonal. A coordinate may stand for several unknowns (`width`), one
- * beside the other in vectors and fronts. */
+/* Multifrontal L U of a matrix with a symmetric pattern but not quite symmetric values: the fronts of the tangent, full
+ * blocks instead of lower triangles, no pivoting. A factorised front has L below the diagonal (its unit diagonal is not
+ * stored) and U above, with the inverse of its diagonal. A coordinate may stand for several unknowns (`width`), which
+ * are consecutive in vectors and fronts. */
 #include "../instance.h"
 #include "front_block.h"
 #include "fronts.h"
 #include "processor.h"
 
-/* Panels of pivots: columns of the panel among themselves, then the others lose the panel at once. */
+/* Eliminates panels of pivots: columns of the panel among themselves, then all of the panel from each later column. */
 static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n,
                              int32_t width) {
   for (int32_t start = 0; start < n_pivot; start += PANEL) {
@@ -15,8 +15,8 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
     for (int32_t p = start; p < end; p++) {
       double *restrict column = block + (int64_t)p * n;
       for (int32_t k = start; k < p; k++) {
-        const double *restrict left = block + (int64_t)k * n, factor = column[k];
-        ALI3_EACH(k + 1, n, ALI3_AT(column) -= factor * ALI3_AT(left))
+        const double *restrict pivot_column = block + (int64_t)k * n, factor = column[k];
+        ALI3_EACH(k + 1, n, ALI3_AT(column) -= factor * ALI3_AT(pivot_column))
       }
       const ali3_status status = ali3_check_pivot(in, first + p / width, column[p]);
       if (status != ALI3_OK) return status;
@@ -38,8 +38,8 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
         ALI3_EACH(end, n, ALI3_AT(column) -= (u0 * ALI3_AT(a) + u1 * ALI3_AT(b)) + (u2 * ALI3_AT(c) + u3 * ALI3_AT(d)))
       } else {
         for (int32_t p = start; p < end; p++) {
-          const double *restrict left = block + (int64_t)p * n, factor = column[p];
-          ALI3_EACH(p + 1, n, ALI3_AT(column) -= factor * ALI3_AT(left))
+          const double *restrict pivot_column = block + (int64_t)p * n, factor = column[p];
+          ALI3_EACH(p + 1, n, ALI3_AT(column) -= factor * ALI3_AT(pivot_column))
         }
       }
     }
@@ -58,15 +58,15 @@ void ali3_mirror(const ali3_instance *in, double *F) {
   }
 }
 
-/* The offset of a front in F is width^2 that of the tangent. */
+/* Factorises F, in which the offset of a front is width^2 times that in the tangent. */
 ALI3_INLINED ali3_status factorise(ali3_instance *in, int32_t width, double *F) {
   const ali3_system *S = in->system;
   const int64_t square = (int64_t)width * width;
   in->report.factorizations++;
   in->report.negative_pivots = 0;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int32_t first = S->front_col[f], first_rest = S->front_col[f + 1] - first,
-                  coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n_pivot = width * first_rest,
+    const int32_t first = S->front_col[f], n_pivot_coordinates = S->front_col[f + 1] - first,
+                  coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n_pivot = width * n_pivot_coordinates,
                   n = width * coordinates;
     const int32_t *map = S->front_map + S->front_ptr[f], parent = S->front_parent[f];
     double *block = F + square * S->front_off[f];
@@ -77,19 +77,19 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, int32_t width, double *F) 
     for (int32_t j = n_pivot; j < n; j++) {
       const double *column = block + (int64_t)j * n;
       double *target = F + square * S->front_off[parent] + (int64_t)(width * map[j / width] + j % width) * parent_n;
-      for (int32_t i = first_rest; i < coordinates; i++)
+      for (int32_t i = n_pivot_coordinates; i < coordinates; i++)
         for (int32_t s = 0; s < width; s++) target[width * map[i] + s] += column[width * i + s];
     }
   }
   return ALI3_OK;
 }
 
-/* A loop over one unknown would cost small fronts five percent. */
+/* The case of one unknown is compiled separately, as its loops would cost small fronts five percent. */
 ali3_status ali3_factorise_lu(ali3_instance *in, int32_t width, double *F) {
   return width == 1 ? factorise(in, 1, F) : factorise(in, ALI3_RADAU, F);
 }
 
-/* The pivots of x become the solution, the rest of which is there already; down the columns of U, two at a time. */
+/* Back substitution for the pivots of x, whose other entries are the solution; by two columns of U at a time. */
 static void backward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
   int32_t j = n - 1;
   for (; j > n_pivot; j -= 2) {
@@ -108,7 +108,7 @@ static void backward(const double *block, double *restrict x, int32_t n_pivot, i
   }
 }
 
-/* b becomes the solution. */
+/* Solves in place: b becomes the solution. */
 ALI3_INLINED void solve(ali3_instance *in, int32_t width, const double *F, double *b) {
   const ali3_system *S = in->system;
   const int64_t square = (int64_t)width * width;

@@ -5,7 +5,7 @@
 #ifdef ALI3_WIDTH
 typedef real unaligned_real __attribute__((aligned(8)));
 
-/* One pass of a transposition: blocks of `distance` numbers of a and b are exchanged; the two results. */
+/* One pass of a transposition: the two results of exchanging blocks of `distance` numbers of a and b. */
 #if ALI3_WIDTH == 8
 #define ALI3_LOW(a, b, distance)                                                                                       \
   (distance == 1   ? __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)                                          \

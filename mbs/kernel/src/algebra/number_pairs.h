@@ -1,5 +1,5 @@
-/* Numbers that lie side by side, two at a time, which compilers turn into one instruction. Each has the bits that it has
- * alone, and sums are added up in the order of the numbers. */
+/* Loops over contiguous numbers in vectors of two or four. Each number has the bits of a scalar loop, and sums keep
+ * their order. */
 #ifndef ALI3_NUMBER_PAIRS_H
 #define ALI3_NUMBER_PAIRS_H
 #include <stdbool.h>
@@ -7,32 +7,32 @@
 
 #include "real.h"
 
-/* Before a loop that is short or already written for two numbers. */
+/* Before a loop that is short or already written in vectors. */
 #if defined(__clang__)
 #define ALI3_SHORT _Pragma("clang loop unroll(disable) vectorize(disable)")
 #else
 #define ALI3_SHORT
 #endif
 
-/* Before a loop of constant length whose numbers stay in registers. */
+/* Before a loop of constant length whose values stay in registers. */
 #if defined(__clang__)
 #define ALI3_UNROLLED _Pragma("clang loop unroll(full)")
 #else
 #define ALI3_UNROLLED
 #endif
 
-/* Before a loop over few numbers, four of which are one instruction of AVX2 and two of others. */
+/* Before a loop over few numbers, for vectors of four in AVX2 and of two otherwise. */
 #if defined(__clang__) && !defined(ALI3_WIDTH)
 #define ALI3_BY_FOURS _Pragma("clang loop vectorize_width(4) interleave_count(1)")
 #else
 #define ALI3_BY_FOURS
 #endif
 
-/* Whether n places that ascend lie side by side, as those of modes mostly do. */
+/* Whether n ascending indices are consecutive, as those of modes mostly are. */
 static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
 
-/* The first entry of a column of a front, of length n, that is worked on for the sake of those from `from` on: so that a
- * whole number of fours is left, up to three above the diagonal, which nobody reads. */
+/* First entry of a column of a front, of length n, to compute for the entries from `from` on: a multiple of four
+ * entries before the end, up to three above the diagonal, which are not read. */
 static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 #ifdef ALI3_WIDTH
   (void)n;
@@ -58,8 +58,8 @@ typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias))
 typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias));
 #endif
 
-/* statement for each i from a number on to n, where ALI3_AT(x) is entry i of x, or the four from i on while there are so
- * many, then two: without what compilers put around a loop that they make vectors of. */
+/* Executes a statement for each i from `from` to n - 1, in which ALI3_AT(x) is entry i of x, or four, then two entries
+ * from i on, without the loop variants that compilers add to vectorised loops. */
 #define ALI3_AT(x) (*(entry *)((x) + i))
 #ifdef ALI3_WIDTH
 #define ALI3_EACH(from, n, statement)                                                                                  \
@@ -108,8 +108,8 @@ static inline void ali3_take_two(real *restrict y, const real *restrict x, real 
   ALI3_EACH(0, n, ALI3_AT(y) -= ALI3_AT(x) * a + ALI3_AT(z) * b)
 }
 
-/* x y in two sums, by turns, so that additions need not wait for each other. In loops of their own: as a pair of numbers
- * y[0], which a back substitution has just written alone, would be waited for until it is in the cache. */
+/* x y in two alternating sums, so that additions are pipelined. In separate loops: a vector load of y[0], which back
+ * substitution has just written alone, would wait for the cache. */
 static inline real ali3_product_in_two(const real *restrict x, const real *restrict y, int64_t n) {
   real even = {0}, odd = {0};
   ALI3_SHORT
@@ -120,8 +120,8 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 }
 
 #ifndef ALI3_WIDTH
-/* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
- * last additions only. */
+/* x y in four sums from the end on: the first entries, which back substitution has found last, enter the last
+ * additions. */
 static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
   ali3_four sum = {0};
   int64_t i = n;
@@ -135,7 +135,7 @@ static inline double ali3_product_from_far(const double *restrict x, const doubl
 
 #define ali3_numbers_from_far ali3_product_from_far /* x the same for all lanes */
 
-/* (x + z) y in the same way */
+/* (x + z) y in the same order */
 static inline double ali3_sum_product_from_far(const double *restrict x, const double *restrict z,
                                                const double *restrict y, int64_t n) {
   ali3_four sum = {0};
@@ -150,7 +150,7 @@ static inline double ali3_sum_product_from_far(const double *restrict x, const d
 }
 
 #else
-/* Sums for lanes, in the order of those of one instance. */
+/* The same sums for lanes, in the order of those of one instance. */
 #define ALI3_FROM_FAR(name, declared, term)                                                                            \
   static inline real name declared {                                                                                   \
     real sum[4] = {0};                                                                                                 \
@@ -169,7 +169,7 @@ ALI3_FROM_FAR(ali3_sum_product_from_far,
               (const real *restrict x, const double *restrict z, const real *restrict y, int64_t n), ALI3_SUM_PRODUCT)
 #endif
 
-/* The largest size of n numbers with these factors; NaN count as nothing. */
+/* Largest absolute value of n numbers times factors; NaN are ignored. */
 static inline real ali3_largest_product(const real *x, const double *factor, int64_t n) {
   real most = {0};
   for (int64_t i = 0; i < n; i++) {
@@ -179,20 +179,20 @@ static inline real ali3_largest_product(const real *x, const double *factor, int
   return most;
 }
 
-/* The largest size of n numbers. */
+/* Largest absolute value of n numbers. */
 static inline real ali3_largest(const real *x, int64_t n) {
   real most = {0};
   for (int64_t i = 0; i < n; i++) most = ali3_where(ali3_abs(x[i]) > most, ali3_abs(x[i]), most);
   return most;
 }
 
-/* Three numbers, the components of a point or a direction. */
+/* sum + x y of three numbers, the components of a point or a direction. */
 static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
   return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/* Such three numbers in registers: of one instance as four, of which the last is what stands behind them in memory. It
- * may be read, as whatever has coordinates has one number more (`ali3_pool_padded`), and goes nowhere. */
+/* Three numbers in registers: of one instance as a vector of four, whose last number is the next one in memory. It may
+ * be read, as arrays of coordinates have one number more (`ali3_pool_padded`), and is not used. */
 #ifdef ALI3_WIDTH
 typedef struct {
   real x, y, z;
@@ -202,14 +202,14 @@ static inline void ali3_three_begin(ali3_three *to, const double *a) {
   *to = (ali3_three){ali3_same(a[0]), ali3_same(a[1]), ali3_same(a[2])};
 }
 
-/* to += a x, a the same for all three */
+/* to += a x */
 static inline void ali3_three_add(ali3_three *to, const real *x, real a) {
   to->x += a * x[0];
   to->y += a * x[1];
   to->z += a * x[2];
 }
 
-/* to += a x of each */
+/* to += a x by components */
 static inline void ali3_three_add_each(ali3_three *to, const double *a, const real *x) {
   to->x += a[0] * x[0];
   to->y += a[1] * x[1];
@@ -235,7 +235,7 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const do
   *to += *(const ali3_four *)a * *(const ali3_four *)x;
 }
 
-/* Overwrites a fourth number, which is written afterwards or belongs to nobody. */
+/* Overwrites a fourth number, which is written afterwards or not used. */
 static inline void ali3_three_put(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
 
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }
@@ -246,7 +246,7 @@ static inline double ali3_three_sum(double sum, const ali3_three *a, const doubl
 }
 #endif
 
-/* sum + x y of the components of a point in Phi_q and of coordinates. */
+/* sum + x y of the components of a point in Phi_q and in coordinates. */
 static inline real ali3_points_sum(real sum, const real *x, const real *y) {
 #ifdef ALI3_WIDTH
   return ali3_triple_sum(sum, x, y);

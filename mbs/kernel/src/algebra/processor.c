@@ -1,4 +1,4 @@
-/* Vector width for which the processor has instructions. */
+/* The longest vectors for which the processor has instructions. */
 #include "processor.h"
 
 #if defined(__x86_64__)

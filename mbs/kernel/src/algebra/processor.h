@@ -1,17 +1,16 @@
-/* Instruction sets of the processor, found at run time, and functions compiled for more than one of them. */
+/* Instruction sets of the processor, detected at run time, and functions compiled for more than one of them. */
 #ifndef ALI3_PROCESSOR_H
 #define ALI3_PROCESSOR_H
 #include <stdint.h>
 
 #include "real.h"
 
-int32_t ali3_processor_lanes(void); /* numbers in the longest vectors that it has instructions for: 2, 4 or 8 */
+int32_t ali3_processor_lanes(void); /* numbers in the longest vectors of the processor: 2, 4 or 8 */
 
-#define ALI3_INLINED static inline __attribute__((always_inline)) /* compiled apart where it is called */
+#define ALI3_INLINED static inline __attribute__((always_inline)) /* compiled with the target of its caller */
 
-/* ali3_NAME, whose body is the ALI3_INLINED function NAME, compiled for all processors and for those with AVX2, whose
- * vectors are twice as long. Nothing is fused and no sum changes its order, so both have the same bits. Lanes are
- * compiled for their processor already. */
+/* Defines ali3_NAME by the ALI3_INLINED function NAME, compiled for all processors and for those with AVX2. No
+ * arithmetic is fused or reordered, so that both have the same bits. Lanes are compiled for their processor already. */
 #if defined(__x86_64__) && !defined(ALI3_WIDTH)
 #define ALI3_BY_PROCESSOR(system, type, name, declared, given)                                                         \
   __attribute__((target("avx2"))) static type name##_avx2 declared { return name given; }                              \

@@ -1,22 +1,22 @@
-/* A number of one instance, or of several that advance together: sources written in `real` are compiled once as they
- * stand and once for each width of lanes (../lanes/), where a real is a vector of one number per instance and a truth a
- * mask; laws also for elements of one instance (../elements/element_fours.c). A choice copies bits and no sum goes across
- * lanes, so that each lane has the bits that it has alone. */
+/* A number of one instance, or of several that advance together: sources written in `real` are compiled for one
+ * instance and for each width of lanes (../lanes/), where a real is a vector of one number per instance and a truth a
+ * mask; laws also for elements of one instance (../elements/element_fours.c). Selections copy bits and no sum combines
+ * lanes, so that each lane has the bits of a single instance. */
 #ifndef ALI3_REAL_H
 #define ALI3_REAL_H
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-/* From here on in a file: what one instance computes in a branch is computed there only, also by the compiler, for a host
- * may trap division by zero. Lanes compute all branches, WebAssembly has no traps. */
+/* In the rest of a file, the compiler evaluates a branch of one instance only if it is taken, as hosts may trap
+ * division by zero. Lanes evaluate all branches; WebAssembly has no traps. */
 #if defined(__clang__) && !defined(ALI3_WIDTH) && (defined(__x86_64__) || defined(__aarch64__))
 #define ALI3_BRANCHES_AS_WRITTEN _Pragma("clang fp exceptions(maytrap)")
 #else
 #define ALI3_BRANCHES_AS_WRITTEN
 #endif
 
-/* Before the declaration of a function that is compiled as it stands and once for each width: each width has its own. */
+/* Before the declaration of a function that is compiled for one instance and for each width; the latter are local. */
 #ifdef ALI3_WIDTH
 #define ALI3_PER_WIDTH static __attribute__((unused))
 #else
@@ -59,8 +59,8 @@ static inline real ali3_floor(real x) {
 #endif
 }
 
-/* Counters of the report: of the lanes that are at work. */
-/* Lanes are not asked for the pieces of laws. */
+/* Counters of the report are those of the lanes at work. */
+/* Lanes do not report the pieces of laws. */
 #define ALI3_PIECE(piece, c, bits) ((void)(piece), (void)(c), (void)(bits))
 #define ALI3_AT_WORK(in, lanes) (*(in)->at_work = (lanes))
 #define ALI3_OF_LANES(lanes, a, b) ali3_where(lanes, a, b)
@@ -72,7 +72,7 @@ typedef double real;
 typedef bool truth;
 
 static inline real ali3_same(double x) { return x; }
-#define ali3_where(c, a, b) ((c) ? (a) : (b)) /* what is not chosen is not computed: it may divide by zero */
+#define ali3_where(c, a, b) ((c) ? (a) : (b)) /* the other value is not evaluated: it may divide by zero */
 static inline real ali3_add_unless(truth c, real x, real y) { return c ? x : x + y; }
 static inline truth ali3_not(truth c) { return !c; }
 static inline real ali3_abs(real x) { return fabs(x); }
@@ -81,10 +81,10 @@ static inline truth ali3_negative(real x) { return signbit(x); }
 static inline real ali3_sqrt(real x) { return sqrt(x); }
 static inline real ali3_floor(real x) { return floor(x); }
 
-/* Adds bits to those that tell the smooth pieces of a law apart, where c holds. */
+/* Adds bits that identify the smooth piece of a law, if c. */
 #define ALI3_PIECE(piece, c, bits) (*(piece) |= (c) ? (uint32_t)(bits) : 0u)
 #define ALI3_AT_WORK(in, lanes) ((void)(in))
-#define ALI3_OF_LANES(lanes, a, b) (a) /* where one instance would not be here otherwise */
+#define ALI3_OF_LANES(lanes, a, b) (a) /* one instance does not reach this with `lanes` false */
 #define ALI3_AT_WORK_OF(in, lanes) (lanes)
 #define ALI3_COUNT(in, counter) ((in)->report.counter++)
 #define ALI3_COUNT_ANEW(in, counter) ((in)->report.counter = 0)

@@ -1,5 +1,5 @@
-/* Looks inside for tests and linearisation: rows, forces, tangent and element steps at given values. The state stays
- * as it is. */
+/* Evaluations for tests and linearisation: rows, forces, tangent and steps of elements at given values. The state does
+ * not change. */
 #include <string.h>
 
 #include "../algebra/finite.h"
@@ -16,8 +16,8 @@ static void copy(double *to, const double *from, int64_t n) {
   if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
-/* To where three numbers may be read as four (`ali3_pool_padded`). */
-static void coordinates_to(ali3_vectors *work, const double *q, const double *qd, int64_t nq) {
+/* Copies coordinates to arrays with padding (`ali3_pool_padded`). */
+static void copy_coordinates(ali3_vectors *work, const double *q, const double *qd, int64_t nq) {
   copy(work->q, q, nq);
   copy(work->qd, qd, nq);
 }
@@ -40,7 +40,7 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y != NULL && !ali3_finite(y, z->ny)) || !(t - t == 0.0))
     return ALI3_BAD_ARGUMENT;
   ali3_vectors *work = &in->next;
-  coordinates_to(work, q, qd, z->nq);
+  copy_coordinates(work, q, qd, z->nq);
   copy(work->s, in->now.s, z->ng);
   copy(work->sd, in->now.sd, z->ng);
   copy(work->sdd, in->now.sdd, z->ng);
@@ -66,8 +66,8 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   return ali3_roads_status(in);
 }
 
-/* Lower triangles of the fronts as a dense symmetric matrix. */
-static void spread(const ali3_instance *in, double *dense) {
+/* Adds the lower triangles of the fronts to a dense symmetric matrix. */
+static void expand_fronts(const ali3_instance *in, double *dense) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   memset(dense, 0, (size_t)nq * (size_t)nq * sizeof(double));
@@ -84,11 +84,11 @@ static void spread(const ali3_instance *in, double *dense) {
 
 ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
   if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
-  copy(in->next.q, q, in->system->size.nq); /* see `coordinates_to` */
+  copy(in->next.q, q, in->system->size.nq); /* see `copy_coordinates` */
   ali3_mass_to_fronts(in, in->tangent.F);
   ali3_bodies_prepare(in, in->next.q);
   ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
-  spread(in, dense);
+  expand_fronts(in, dense);
   return ALI3_OK;
 }
 
@@ -115,7 +115,7 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
   ali3_rows_square(in, in->tangent.J, c * ali3_penalty(in, h), in->tangent.F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->tangent.F);
   ali3_forces_tangent(in, in->tangent.F);
-  spread(in, dense);
+  expand_fronts(in, dense);
   return ali3_roads_status(in);
 }
 
@@ -125,7 +125,7 @@ ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *
   const ali3_sizes *z = &in->system->size;
   if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y_old != NULL && !ali3_finite(y_old, z->ny)))
     return ALI3_BAD_ARGUMENT;
-  coordinates_to(&in->next, q, qd, z->nq);
+  copy_coordinates(&in->next, q, qd, z->nq);
   const ali3_force_call call = {.q = in->next.q,
                                 .qd = in->next.qd,
                                 .y_old = y_old != NULL ? y_old : in->now.y,

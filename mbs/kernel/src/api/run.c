@@ -1,4 +1,4 @@
-/* The calls of ali3.h around the algorithms: start, step, run; the clock; what a refused call leaves behind. */
+/* The functions of ali3.h that start, step and run an instance, with the clock and the state after a failure. */
 #include <math.h>
 #include <string.h>
 
@@ -21,10 +21,10 @@
 #include "../state/vectors.h"
 #include "../system/loading.h"
 
-static const double MOST_SETTLING_STEPS = 1e7;
+static const double MAX_SETTLING_STEPS = 1e7;
 
-/* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
-static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
+/* Ends the computation of a start: a success starts the clock, a failure restores the state and is reported. */
+static ali3_status finish_start(ali3_instance *in, ali3_status status, double t0) {
   if (ali3_roads_status(in) != ALI3_OK) status = ALI3_ROAD_LOST;
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
@@ -45,11 +45,11 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
 }
 
 ali3_status ali3_initialise(ali3_instance *in, double t0) {
-  const ali3_report none = {0};
+  const ali3_report empty = {0};
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
   for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
     if (!ali3_inertia_possible(in->parameters.inertia_real + k)) return ALI3_BAD_INERTIA;
-  in->report = none;
+  in->report = empty;
   in->start.unsettled = 0.0;
   ali3_roads_forgive(in);
   ali3_vectors_copy(in, &in->kept.start, &in->now);
@@ -62,20 +62,20 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
     ali3_start_excess(in, &refusing, NULL);
     if (refusing >= 0) status = ALI3_START_REFUSED;
   }
-  return begin(in, status, t0);
+  return finish_start(in, status, t0);
 }
 
 ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations) {
-  const ali3_report none = {0};
+  const ali3_report empty = {0};
   if (in == NULL || !(t0 - t0 == 0.0) || !(tolerance > 0.0) || max_iterations < 1) return ALI3_BAD_ARGUMENT;
-  in->report = none;
+  in->report = empty;
   ali3_roads_forgive(in);
   ali3_vectors_copy(in, &in->kept.start, &in->now);
   ali3_start_on_road(in);
-  return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
+  return finish_start(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
 }
 
-/* The inputs go straight to `end` (nu), or are held where it is NULL. */
+/* Makes a step of h, s; inputs change linearly to `end` (nu), NULL: they are constant. */
 static ali3_status step(ali3_instance *in, double h, const double *end, ali3_reading reading) {
   ali3_whole_step whole;
   ali3_status status = ali3_step_begin(in, h, end, reading, &whole);
@@ -95,12 +95,12 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   if (!(duration >= 0.0 && duration <= ALI3_LONGEST_SETTLING)) return ALI3_BAD_ARGUMENT;
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   const double t0 = ali3_time(in), steps = ceil(duration / h * (1.0 - 1e-9));
-  ali3_held_motion held;
+  ali3_held_motion held_motion;
   ali3_status status = ali3_check_method(in);
   if (status != ALI3_OK || !(steps > 0.0)) return status;
-  if (!(steps <= MOST_SETTLING_STEPS) || !ali3_hold(in, &held)) return ALI3_BAD_ARGUMENT;
+  if (!(steps <= MAX_SETTLING_STEPS) || !ali3_hold(in, &held_motion)) return ALI3_BAD_ARGUMENT;
   if (ali3_lower_to_road(in)) status = ali3_refresh(in);
-  ali3_follow_slope(in, &held);
+  ali3_follow_slope(in, &held_motion);
   h = duration / steps;
   in->clock.base = t0 - steps * h;
   in->clock.h = 0.0;
@@ -109,30 +109,30 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
     status = ali3_step(in, h);
     if (status != ALI3_OK) break;
     if (in->bound.work_left != NULL) *in->bound.work_left -= ALI3_SETTLING_WORK;
-    ali3_put_back(in, &held, ali3_kept_velocity(&held, h, (double)k / steps));
+    ali3_put_back(in, &held_motion, ali3_kept_velocity(&held_motion, h, (double)k / steps));
     status = ali3_refresh(in);
   }
   if (status != ALI3_OK) {
     in->start.initialised = 0;
     return status;
   }
-  const ali3_report none = {0};
-  in->report = none;
-  in->start.unsettled = ali3_unsettled_speed(in, &held);
-  in->start.uneven = 0.0; /* what hung above the road has come to rest */
+  const ali3_report empty = {0};
+  in->report = empty;
+  in->start.unsettled = ali3_unsettled_speed(in, &held_motion);
+  in->start.uneven = 0.0; /* elements above the road have come to rest */
   ali3_vectors_copy(in, &in->kept.start, &in->now);
-  status = begin(in, ali3_solve_rates(in, true), t0);
+  status = finish_start(in, ali3_solve_rates(in, true), t0);
   in->start.initialised = status == ALI3_OK;
   return status;
 }
 
 double ali3_unsettled(const ali3_instance *in) { return in != NULL ? in->start.unsettled : 0.0; }
 
-/* The last good state, of whose step so much was read, lacks what only another reader needs. */
-static ali3_status give_up(ali3_instance *in, ali3_status status, ali3_reading reading) {
+/* After a failed step in a run: restores the last state and completes it, as only `reading` of it was computed. */
+static ali3_status restore_last(ali3_instance *in, ali3_status status, ali3_reading reading) {
   const ali3_method *method = ali3_method_of(in);
   ali3_vectors_copy(in, &in->kept.start, &in->now);
-  in->inputs.forces = in->kept.start.used; /* the present inputs are not always theirs */
+  in->inputs.forces = in->kept.start.used; /* inputs of the last state, which may differ from the present ones */
   if (reading == ALI3_READ_NOTHING && method->after_unobserved != NULL) method->after_unobserved(in);
   if (reading != ALI3_READ_ALL && method->after_sampled != NULL) method->after_sampled(in);
   in->inputs.forces = in->inputs.set;
@@ -147,18 +147,20 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   const int32_t nu = in->system->size.nu;
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
-  ali3_reading last = ALI3_READ_ALL; /* of the last good step */
+  ali3_reading last_reading = ALI3_READ_ALL; /* of the last completed step */
   in->bound.call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
-    const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
-    /* work of guides and abrupt forces are read at the end of each step */
-    const bool sensed = recorded || in->system->n_guide_work > 0 || in->system->n_contact > 0;
-    const ali3_reading reading = n + 1 == n_steps ? ALI3_READ_ALL : sensed ? ALI3_READ_SENSORS : ALI3_READ_NOTHING;
+    const bool is_recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
+    /* the work of guides and abrupt forces need the end of each step */
+    const bool reads_sensors = is_recorded || in->system->n_guide_work > 0 || in->system->n_contact > 0;
+    const ali3_reading reading = n + 1 == n_steps ? ALI3_READ_ALL
+                                 : reads_sensors  ? ALI3_READ_SENSORS
+                                                  : ALI3_READ_NOTHING;
     const ali3_status status = step(in, h, inputs != NULL ? inputs + n * nu : NULL, reading);
-    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, last), h);
-    last = reading;
+    if (status != ALI3_OK) return ali3_explain_refusal(in, restore_last(in, status, last_reading), h);
+    last_reading = reading;
     if (done != NULL) *done = n + 1;
-    if (recorded) ali3_record_row(in, (n + 1) / every - 1, out, positions);
+    if (is_recorded) ali3_record_row(in, (n + 1) / every - 1, out, positions);
   }
   return ALI3_OK;
 }

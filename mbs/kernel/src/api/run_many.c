@@ -1,5 +1,5 @@
-/* Runs of several instances of one System that advance together. Between steps each instance is as after ali3_run; a lane
- * that cannot make a step with the others makes it alone from there. */
+/* Runs of several instances of one System that advance together. Between steps each instance has the state of ali3_run;
+ * a lane whose step fails in the group repeats it alone. */
 #include <string.h>
 
 #include "../algebra/processor.h"
@@ -29,7 +29,7 @@
 struct ali3_many {
   ali3_lane_group group;
   const ali3_system *base; /* as loaded */
-  bool apart; /* the lanes have not all the same axes of wheels */
+  bool separate; /* the wheel axes of the lanes differ */
   void (*release)(void *block);
 };
 
@@ -67,20 +67,20 @@ void ali3_many_free(ali3_many *many) {
   if (many != NULL) many->release(many);
 }
 
-/* Whether lanes make steps of this System with these settings: those of ALi3-P as it is by default. */
-static bool taken(const ali3_system *s, const ali3_settings *settings) {
+/* Whether groups support the System and the settings: ALi3-P with the default update. */
+static bool is_supported(const ali3_system *s, const ali3_settings *settings) {
   return s->size.n_switch == 0 && settings->method == ALI3_METHOD_ALI3P && settings->project &&
          settings->update == ALI3_UPDATE_LINEARISED && settings->step_iterations == 0;
 }
 
-/* Whether a step goes on by ALi3-P from one of its own. */
-static bool goes_on(const ali3_instance *in, double h) {
+/* Whether the last step was made by ALi3-P as well. */
+static bool continues_method(const ali3_instance *in, double h) {
   if (in->system->n_flexible > 0) return !ali3_damped_start(in, h);
   return in->now.history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ALI3P;
 }
 
-/* A step that has begun: lane l of the group from in->now. False: the instance must make it alone. */
-static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
+/* Begins a step of lane l from in->now. False: the instance must make it alone. */
+static bool begin_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_instance *in = g->lane[l];
   const ali3_sizes *z = &g->system->size;
   ali3_vectors *from = &in->now, *to = &in->next;
@@ -88,7 +88,8 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   if (ali3_parted(in, step->asked.t, h)) return false;
   in->parting.changed = -1.0;
   ali3_events_begin(in, step->asked.depth);
-  if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MOST_TURN || !goes_on(in, h)) return false;
+  if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MOST_TURN || !continues_method(in, h))
+    return false;
   if (ali3_inputs_begin(in, step->asked.t, h) != ALI3_OK) return false;
   ali3_vectors_copy_unwritten(in, to, from);
   if (ali3_input_jump(in, h) != ALI3_OK) return false;
@@ -99,8 +100,8 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   return true;
 }
 
-/* The end of a step that converged in lane l, after ali3_group_to: in->next becomes the state. */
-static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
+/* Ends a step that converged in lane l, after ali3_group_to: in->next becomes the state. */
+static ali3_status end_lane(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_instance *in = g->lane[l];
   if (in->system->n_flexible > 0) {
     in->next.history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
@@ -124,8 +125,8 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   return ALI3_OK;
 }
 
-/* Back to where the step began, for the instance to make it alone. */
-static ali3_status alone(ali3_instance *in, const ali3_whole_step *step) {
+/* Restores the start of the step and makes it with the instance alone. */
+static ali3_status step_alone(ali3_instance *in, const ali3_whole_step *step) {
   if (in->kept.backed_up) ali3_vectors_copy(in, &in->now, &in->kept.start);
   memcpy(in->inputs.set, in->inputs.from, (size_t)in->system->size.nu * sizeof(double));
   in->kept.backed_up = false;
@@ -134,14 +135,14 @@ static ali3_status alone(ali3_instance *in, const ali3_whole_step *step) {
   return ali3_advance(in, &step->asked);
 }
 
-/* The step that has begun in the lanes of `going`, ended in status[l]. */
-static void step_together(ali3_many *many, int32_t n, const bool *going, bool apart, const ali3_whole_step *step,
+/* Makes the step of the active lanes; status[l] is its result. */
+static void step_together(ali3_many *many, int32_t n, const bool *active, bool separate, const ali3_whole_step *step,
                           ali3_status *status, ali3_lane *lane) {
   ali3_lane_group *g = &many->group;
   int32_t entered = 0;
   for (int32_t l = 0; l < g->width; l++) g->lanes[l] = 0;
-  for (int32_t l = 0; l < n && !apart; l++)
-    if (going[l] && enter(g, l, &step[l])) {
+  for (int32_t l = 0; l < n && !separate; l++)
+    if (active[l] && begin_lane(g, l, &step[l])) {
       g->lanes[l] = -1;
       entered++;
     }
@@ -152,17 +153,17 @@ static void step_together(ali3_many *many, int32_t n, const bool *going, bool ap
     ali3_group_to(g);
   }
   for (int32_t l = 0; l < n; l++) {
-    if (!going[l]) continue;
+    if (!active[l]) continue;
     status[l] = ALI3_NOT_CONVERGED;
-    if (g->good[l]) status[l] = leave(g, l, &step[l]);
+    if (g->good[l]) status[l] = end_lane(g, l, &step[l]);
     if (status[l] == ALI3_OK) continue;
     lane[l].alone++;
-    status[l] = alone(g->lane[l], &step[l]);
+    status[l] = step_alone(g->lane[l], &step[l]);
   }
 }
 
-/* Whether the n lanes may run together; their group is set up. */
-static ali3_status gather(ali3_many *many, int32_t n, ali3_lane *lane, double h) {
+/* Checks that the n lanes can run together and sets up their group. */
+static ali3_status set_up_group(ali3_many *many, int32_t n, ali3_lane *lane, double h) {
   ali3_lane_group *g = &many->group;
   for (int32_t l = 0; l < n; l++) {
     if (lane[l].instance == NULL || lane[l].instance->base != many->base) return ALI3_BAD_ARGUMENT;
@@ -174,9 +175,9 @@ static ali3_status gather(ali3_many *many, int32_t n, ali3_lane *lane, double h)
   for (int32_t l = 0; l < n; l++) g->lane[l] = lane[l].instance;
   g->used = n;
   g->system = lane[0].instance->system;
-  many->apart = false;
+  many->separate = false;
   for (int32_t l = 1; l < n; l++)
-    if (!ali3_axes_same(lane[0].instance, lane[l].instance)) many->apart = true;
+    if (!ali3_axes_same(lane[0].instance, lane[l].instance)) many->separate = true;
   ali3_group_parameters(g);
   g->settings = lane[0].instance->settings;
   g->h = h;
@@ -188,11 +189,11 @@ ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h,
   if (many == NULL || lane == NULL || n < 1 || n > many->group.width || n_steps < 0 || every < 1)
     return ALI3_BAD_ARGUMENT;
   if (!(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
-  const ali3_status gathered = gather(many, n, lane, h);
-  if (gathered != ALI3_OK) return gathered;
+  const ali3_status group_status = set_up_group(many, n, lane, h);
+  if (group_status != ALI3_OK) return group_status;
   const ali3_system *S = many->group.system;
-  const bool apart = many->apart || !taken(S, &many->group.settings);
-  bool going[ALI3_MOST_LANES];
+  const bool separate = many->separate || !is_supported(S, &many->group.settings);
+  bool active[ALI3_MOST_LANES];
   ali3_whole_step step[ALI3_MOST_LANES];
   ali3_status status[ALI3_MOST_LANES];
   for (int32_t l = 0; l < n; l++) {
@@ -202,16 +203,16 @@ ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h,
   }
   for (int64_t k = 0; k < n_steps; k++) {
     for (int32_t l = 0; l < n; l++) {
-      going[l] = lane[l].status == ALI3_OK;
+      active[l] = lane[l].status == ALI3_OK;
       const double *end = lane[l].inputs != NULL ? lane[l].inputs + k * S->size.nu : NULL;
       status[l] =
-          going[l] ? ali3_step_begin(lane[l].instance, h, end, ALI3_READ_ALL, &step[l]) : (ali3_status)lane[l].status;
-      going[l] = going[l] && status[l] == ALI3_OK;
+          active[l] ? ali3_step_begin(lane[l].instance, h, end, ALI3_READ_ALL, &step[l]) : (ali3_status)lane[l].status;
+      active[l] = active[l] && status[l] == ALI3_OK;
       lane[l].status = (int32_t)status[l];
     }
-    step_together(many, n, going, apart, step, status, lane);
+    step_together(many, n, active, separate, step, status, lane);
     for (int32_t l = 0; l < n; l++) {
-      if (!going[l]) continue;
+      if (!active[l]) continue;
       ali3_instance *in = lane[l].instance;
       lane[l].status = (int32_t)ali3_explain_refusal(in, ali3_step_end(in, &step[l], status[l]), h);
       if (lane[l].status != ALI3_OK) continue;

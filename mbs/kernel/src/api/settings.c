@@ -11,10 +11,10 @@ void ali3_count_work(ali3_instance *in, int64_t *left) {
 
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
-  const bool other = settings->method != in->settings.method;
+  const bool changed = settings->method != in->settings.method;
   in->settings = *settings;
-  if (in->start.initialised) ali3_balance_open(in, ali3_has_balance(in)); /* another method may have had none */
-  if (in->start.initialised && other) ali3_work_reopen(in);
+  if (in->start.initialised) ali3_balance_open(in, ali3_has_balance(in)); /* the last method may have had none */
+  if (in->start.initialised && changed) ali3_work_reopen(in);
   return ALI3_OK;
 }
 

@@ -1,5 +1,5 @@
 /* Rows that are switched on and off at run time: a joint that closes or opens without a new System. A row that is off
- * is a row of zeros; one that is switched on holds the value it has at that moment (its anchor). */
+ * is zero; one that is switched on holds its value at that time (its anchor). */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "../start/initialise.h"
 #include "../state/vectors.h"
 
-static void set(ali3_instance *in, int32_t number, bool on) {
+static void set_switch(ali3_instance *in, int32_t number, bool on) {
   const ali3_system *S = in->system;
   in->now.on[number] = 1.0;
   for (int32_t k = 0; k < S->size.nc; k++)
@@ -19,24 +19,24 @@ static void set(ali3_instance *in, int32_t number, bool on) {
     in->now.on[number] = 0.0;
     return;
   }
-  if (!in->start.initialised) return; /* at the start rows hold what the drawing says */
+  if (!in->start.initialised) return; /* at the start rows hold the values of the model */
   ali3_constraints(in, in->now.q, in->now.s, in->step.Phi, in->tangent.J);
   for (int32_t k = 0; k < S->size.nc; k++)
     if (S->row_switch[k] == number) in->now.anchor[k] = in->step.Phi[k];
 }
 
-/* Velocities go to the nearest ones in the metric of the mass (an impact without rebound), accelerations and
- * multipliers are computed again; the energy of the impact is in report.energy_jump. */
+/* Projects velocities in the metric of the mass (an impact without rebound) and computes accelerations and multipliers
+ * again; the energy of the impact is in report.energy_jump. */
 ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
   if (in == NULL || number < 0 || number >= in->system->size.n_switch || (on != 0 && on != 1)) return ALI3_BAD_ARGUMENT;
   if ((in->now.on[number] != 0.0) == (on == 1)) return ALI3_OK;
   if (!in->start.initialised) {
-    set(in, number, on == 1);
+    set_switch(in, number, on == 1);
     return ALI3_OK;
   }
   ali3_vectors_copy(in, &in->kept.start, &in->now);
   const double before = ali3_kinetic_energy(in);
-  set(in, number, on == 1);
+  set_switch(in, number, on == 1);
   const ali3_status status = ali3_solve_rates(in, false);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {

@@ -1,18 +1,18 @@
-/* Engine, torque converter, automatic gears and differential: equal torques on two wheels, reaction on the frame that
- * carries them. A differential that locks moves up to half of LOCKING times the whole torque from the faster wheel to
- * the slower one, along x/sqrt(1 + x^2) of the difference of their rates over LOCKING_RATE.
- * The rates of the wheels are absolute about the axis f x g; f, g are orthonormal on the frame. Behind the numbers stands
- * the total ratio of each gear, tallest last.
+/* Engine, torque converter, automatic gearbox and differential: equal torques on two wheels, reaction on the frame that
+ * carries them. A locking differential transfers up to half of LOCKING times the total torque from the faster wheel to
+ * the slower one, by x/sqrt(1 + x^2) of the difference of their rates over LOCKING_RATE.
+ * The rates of the wheels are absolute about the axis f x g; f, g are orthonormal on the frame. The reals are followed
+ * by the total ratio of each gear, the highest gear last.
  * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step, then those of
- * selector.h. Reverse is one gear, with the torque of a first gear of its ratio turned round.
- * A shift that is asked for begins with the step that has the request, once the last one is over. The clutch is a friction
- * clutch behind the converter, whose torque is at most the part 1 - pedal of the largest that the drive has in its gear.
- * Where the drive has more, it slips.
+ * selector.h. Reverse is one gear, with the torque of a first gear of its ratio, reversed.
+ * A requested shift begins with the step of the request, once the last shift has ended. The clutch is a friction clutch
+ * after the converter, whose torque is at most 1 - pedal times the largest one of the drive in its gear; it slips above
+ * that.
  *
  * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle)
- * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over
- * in RAMP seconds, so torque is continuous; the clock of a shift starts where the wheel rate crossed the shift speed
- * within the step, so its time does not depend on the step. */
+ * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then changes over
+ * RAMP seconds, so that the torque is continuous; the time of a shift starts where the wheel rate crossed the shift
+ * speed within the step, independent of the length of the step. */
 #include "../algebra/small_vectors.h"
 #include "automatic_drive_fields.h"
 #include "element.h"
@@ -20,11 +20,11 @@
 
 enum { STATES = 4 };
 #define LIMITER_WIDTH 0.05 /* of the limit speed */
-#define LONG_AGO 1e3 /* s */
+#define SETTLED 1e3 /* s */
 #define LOCKING_RATE 0.5 /* rad/s */
-#define BARELY 1e-6 /* of the stall speed: round-off of a car at rest */
-/* Bits of the pieces of its law: the turbine turns forward, the converter raises the torque, the largest power or the
- * limit of speed holds; from IN_GEAR on the gear, 0 for none, one more than there are for reverse; the clutch slips. */
+#define ROUND_OFF 1e-6 /* of the stall speed: round-off at rest */
+/* Bits of the pieces of the law: forward turbine speed, converter range, power limit, speed limiter, cut-off; from
+ * IN_GEAR on the gear, 0 for none, the number of gears + 1 for reverse; slipping clutch. */
 enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, IN_GEAR = 32, SLIPS = 1 << 16 };
 
 static int gear_of(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
@@ -36,13 +36,15 @@ static double frame_rate(const ali3_element_args *a) {
 static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
 /* Requested gear, 0 for none. */
-static int asked_gear(const ali3_element_args *a) {
+static int requested_gear(const ali3_element_args *a) {
   return a->nint > REQUEST && a->integer[REQUEST] >= 0
              ? (int)ali3_clamp(a->input[a->integer[REQUEST]], 0.0, a->integer[GEARS])
              : 0;
 }
 
-static double throttle_of(const ali3_element_args *a) { return ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0); }
+static double throttle_input(const ali3_element_args *a) {
+  return ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
+}
 
 /* Total wheel torque at mean relative wheel rate W; also its slope dT/dW, engine speed, engine torque and piece. */
 static double torque(const double *p, double ratio, double throttle, double W, double *slope, double *speed,
@@ -51,148 +53,150 @@ static double torque(const double *p, double ratio, double throttle, double W, d
   double stall = p[IDLE_SPEED] + throttle * (p[STALL_SPEED] - p[IDLE_SPEED]);
   if (!(stall > 1.0)) stall = 1.0;
   const double w = sqrt(stall * stall + turbine * turbine), dw = ratio * turbine / w;
-  double factor = 1.0, dfactor = 0.0, full = p[MAX_TORQUE], dfull = 0.0;
+  double factor = 1.0, dfactor = 0.0, max_torque = p[MAX_TORQUE], dmax_torque = 0.0;
   if (turbine < p[COUPLING_RATIO] * w) {
     factor += (p[STALL_FACTOR] - 1.0) * (1.0 - turbine / w / p[COUPLING_RATIO]);
     if (W > 0.0) dfactor = -(p[STALL_FACTOR] - 1.0) / p[COUPLING_RATIO] * ratio * (stall / w) * (stall / w) / w;
   }
-  if (full * w > p[MAX_POWER]) full = p[MAX_POWER] / w, dfull = -full / w * dw;
+  if (max_torque * w > p[MAX_POWER]) max_torque = p[MAX_POWER] / w, dmax_torque = -max_torque / w * dw;
   const double over = (w - p[LIMIT_SPEED]) / (LIMITER_WIDTH * p[LIMIT_SPEED]);
   if (over >= 1.0) {
-    full = dfull = 0.0;
+    max_torque = dmax_torque = 0.0;
   } else if (over > 0.0) {
-    dfull = dfull * (1.0 - over) - full * dw / (LIMITER_WIDTH * p[LIMIT_SPEED]);
-    full *= 1.0 - over;
+    dmax_torque = dmax_torque * (1.0 - over) - max_torque * dw / (LIMITER_WIDTH * p[LIMIT_SPEED]);
+    max_torque *= 1.0 - over;
   }
-  if (turbine > BARELY * stall) *piece |= TURNS;
+  if (turbine > ROUND_OFF * stall) *piece |= TURNS;
   if (turbine < p[COUPLING_RATIO] * w) *piece |= CONVERTS;
   if (p[MAX_TORQUE] * w > p[MAX_POWER]) *piece |= BY_POWER;
   if (over > 0.0) *piece |= over < 1.0 ? LIMITED : CUT_OFF;
   const double x = ali3_clamp(W / p[CREEP_SPEED], 0.0, 1.0), drag = closed * p[DRAG_TORQUE] / p[LIMIT_SPEED];
   *speed = w;
-  *engine = throttle * full - drag * turbine;
-  *slope = ratio * p[EFFICIENCY] * throttle * (dfactor * full + factor * dfull) -
+  *engine = throttle * max_torque - drag * turbine;
+  *slope = ratio * p[EFFICIENCY] * throttle * (dfactor * max_torque + factor * dmax_torque) -
            (W > 0.0 ? ratio * ratio * drag : 0.0) -
            2.0 * closed * p[CREEP_TORQUE] * 6.0 * x * (1.0 - x) / p[CREEP_SPEED];
-  return ratio * (p[EFFICIENCY] * throttle * factor * full - drag * turbine) +
+  return ratio * (p[EFFICIENCY] * throttle * factor * max_torque - drag * turbine) +
          2.0 * closed * p[CREEP_TORQUE] * (1.0 - x * x * (3.0 - 2.0 * x));
 }
 
-/* Numbers of the selector by their names, behind the ratios. */
-static const double *of_selector(const ali3_element_args *a) { return a->real + a->integer[GEARS]; }
+/* Reals of the selector, which follow the ratios. */
+static const double *selector_reals(const ali3_element_args *a) { return a->real + a->integer[GEARS]; }
 
 static double selector_input(const ali3_element_args *a) { return a->input[a->integer[SELECTOR]]; }
 
-/* The part of the torque of a gear that its clutch hands on, 1 where it does not slip. */
-static double clutched(ali3_element_args *a, double ratio, double total) {
+/* Share of the torque of a gear that its clutch transmits, 1 if it does not slip. */
+static double clutch_share(ali3_element_args *a, double ratio, double wheel_torque) {
   const double *p = a->real, pedal = a->nint > CLUTCH ? ali3_clamp(a->input[a->integer[CLUTCH]], 0.0, 1.0) : 0.0;
   if (!(pedal > 0.0)) return 1.0;
-  const double most = (1.0 - pedal) * (ratio * p[EFFICIENCY] * p[STALL_FACTOR] * p[MAX_TORQUE] + 2.0 * p[CREEP_TORQUE]);
-  if (fabs(total) <= most) return 1.0;
+  const double limit =
+      (1.0 - pedal) * (ratio * p[EFFICIENCY] * p[STALL_FACTOR] * p[MAX_TORQUE] + 2.0 * p[CREEP_TORQUE]);
+  if (fabs(wheel_torque) <= limit) return 1.0;
   a->piece |= SLIPS;
-  return most / fabs(total);
+  return limit / fabs(wheel_torque);
 }
 
-/* In the direction of the selector with the share of the torque that is engaged; without torque the engine runs up to
- * its limit speed. The torque of a clutch that slips does not change with the speed. */
-static double selected(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
-                       int *direction) {
-  const double *p = a->real, *q = of_selector(a), throttle = throttle_of(a), W = wheel_rate(a);
+/* Wheel torque in the direction of the selector, by the share that is engaged; without torque the engine runs up to its
+ * limit speed. The torque of a slipping clutch does not depend on the speed. */
+static double selector_torque(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
+                              int *direction) {
+  const double *p = a->real, *q = selector_reals(a), throttle = throttle_input(a), W = wheel_rate(a);
   double share;
   *direction =
       ali3_selector_step(a->y_old + STATES, a->y_new + STATES, selector_input(a), a->h / q[ENGAGE_TIME], &share);
-  const double free = p[IDLE_SPEED] + throttle * (p[LIMIT_SPEED] - p[IDLE_SPEED]);
+  const double unloaded = p[IDLE_SPEED] + throttle * (p[LIMIT_SPEED] - p[IDLE_SPEED]);
   *slope = *engine = 0.0;
-  *speed = free;
+  *speed = unloaded;
   if (*direction == 0) return 0.0;
   const double sign = *direction, geared = sign < 0.0 ? q[REVERSE_RATIO] : ratio;
-  const double total = torque(p, geared, throttle, sign * W, slope, speed, engine, &a->piece);
-  const double held = clutched(a, geared, total);
-  if (held < 1.0) *slope = 0.0;
-  share *= held;
+  const double wheel_torque = torque(p, geared, throttle, sign * W, slope, speed, engine, &a->piece);
+  const double transmitted = clutch_share(a, geared, wheel_torque);
+  if (transmitted < 1.0) *slope = 0.0;
+  share *= transmitted;
   *slope *= share;
   *engine *= share;
-  *speed = share * *speed + (1.0 - share) * free;
-  return sign * share * total;
+  *speed = share * *speed + (1.0 - share) * unloaded;
+  return sign * share * wheel_torque;
 }
 
-/* Moves up to a torque from the faster wheel to the slower one. */
-static void lock(ali3_element_args *a, double most) {
-  const double x = (a->ud[0] - a->ud[1]) / LOCKING_RATE, w = sqrt(1.0 + x * x), moved = most * x / w;
+/* Transfers torque up to `limit` from the faster wheel to the slower one. */
+static void apply_locking(ali3_element_args *a, double limit) {
+  const double x = (a->ud[0] - a->ud[1]) / LOCKING_RATE, w = sqrt(1.0 + x * x), transferred = limit * x / w;
   const double b[8] = {1.0, -1.0};
   for (int i = 0; i < 2; i++) {
-    a->f[i] -= moved * b[i];
-    a->out[6 + i] -= moved * b[i];
-    a->out[4 + i] -= moved * b[i] * (a->ud[i] - frame_rate(a));
+    a->f[i] -= transferred * b[i];
+    a->out[6 + i] -= transferred * b[i];
+    a->out[4 + i] -= transferred * b[i] * (a->ud[i] - frame_rate(a));
   }
-  if (a->S) ali3_add_outer(a->S, 8, a->wC * most / (LOCKING_RATE * w * w * w), b);
+  if (a->S) ali3_add_outer(a->S, 8, a->wC * limit / (LOCKING_RATE * w * w * w), b);
 }
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *ratios = p + AUTOMATIC_DRIVE_REALS;
   const int gears = a->integer[GEARS], gear = gear_of(a->y_old[0], gears), before = gear_of(a->y_old[1], gears);
   for (int i = 0; i < STATES; i++) a->y_new[i] = a->y_old[i];
-  if (a->h > 0.0) a->y_new[2] = ali3_clamp(a->y_old[2] + a->h, 0.0, LONG_AGO);
+  if (a->h > 0.0) a->y_new[2] = ali3_clamp(a->y_old[2] + a->h, 0.0, SETTLED);
   const double x = p[RAMP] > 0.0 ? ali3_clamp(a->y_new[2] / p[RAMP], 0.0, 1.0) : 1.0;
   const double ratio = ratios[before - 1] + (ratios[gear - 1] - ratios[before - 1]) * x * x * (3.0 - 2.0 * x);
   double slope, speed, engine;
   int direction = 1;
-  const double total = a->nint > SELECTOR
-                           ? selected(a, ratio, &slope, &speed, &engine, &direction)
-                           : torque(p, ratio, throttle_of(a), wheel_rate(a), &slope, &speed, &engine, &a->piece);
+  const double wheel_torque =
+      a->nint > SELECTOR ? selector_torque(a, ratio, &slope, &speed, &engine, &direction)
+                         : torque(p, ratio, throttle_input(a), wheel_rate(a), &slope, &speed, &engine, &a->piece);
   a->piece |= (uint32_t)(IN_GEAR * (direction > 0 ? gear : direction < 0 ? gears + 1 : 0));
   double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
   for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
-  for (int i = 0; i < 8; i++) a->f[i] = total * b[i];
-  if (a->S && slope < 0.0) ali3_add_outer(a->S, 8, -a->wC * slope, b); /* turning of f, g within the step is left out */
+  for (int i = 0; i < 8; i++) a->f[i] = wheel_torque * b[i];
+  /* without the rotation of f, g within the step */
+  if (a->S && slope < 0.0) ali3_add_outer(a->S, 8, -a->wC * slope, b);
   a->potential = 0.0;
   a->out[0] = speed;
   a->out[1] = direction > 0 ? gear : direction;
-  a->out[2] = 0.5 * total;
+  a->out[2] = 0.5 * wheel_torque;
   a->out[3] = engine;
   for (int i = 0; i < 2; i++) {
-    a->out[4 + i] = 0.5 * total * (a->ud[i] - frame_rate(a));
-    a->out[6 + i] = 0.5 * total;
+    a->out[4 + i] = 0.5 * wheel_torque * (a->ud[i] - frame_rate(a));
+    a->out[6 + i] = 0.5 * wheel_torque;
   }
-  if (p[LOCKING] > 0.0) lock(a, 0.5 * p[LOCKING] * fabs(total));
+  if (p[LOCKING] > 0.0) apply_locking(a, 0.5 * p[LOCKING] * fabs(wheel_torque));
 }
 
-/* Wheel rates of the shift up and down from a gear. */
+/* Wheel rates, rad/s, at which the drive shifts up and down from a gear. */
 static void shift_rates(const double *p, int gear, double throttle, double *up, double *down) {
   *up = (p[UP_CLOSED] + throttle * (p[UP_OPEN] - p[UP_CLOSED])) / p[AUTOMATIC_DRIVE_REALS + gear - 1];
   *down = (p[DOWN_CLOSED] + throttle * (p[DOWN_OPEN] - p[DOWN_CLOSED])) / p[AUTOMATIC_DRIVE_REALS + gear - 1];
 }
 
-/* The gear that fits the speed from `gear` on, long engaged. */
-static void fitting_gear(ali3_element_args *a, int gear, double rate) {
-  const double *p = a->real, throttle = throttle_of(a);
+/* Selects the gear for the speed from `gear` on, without a shift. */
+static void choose_gear(ali3_element_args *a, int gear, double rate) {
+  const double *p = a->real, throttle = throttle_input(a);
   double up, down;
   for (shift_rates(p, gear, throttle, &up, &down); rate > up && gear < a->integer[GEARS];)
     shift_rates(p, ++gear, throttle, &up, &down);
   a->y_new[0] = a->y_new[1] = gear;
-  a->y_new[2] = LONG_AGO;
+  a->y_new[2] = SETTLED;
 }
 
 static void accept(ali3_element_args *a) {
-  const double *p = a->real, throttle = throttle_of(a), now = wheel_rate(a), before = a->y_new[3];
+  const double *p = a->real, throttle = throttle_input(a), now = wheel_rate(a), before = a->y_new[3];
   const int gears = a->integer[GEARS], start = !(a->h > 0.0);
   int gear = gear_of(a->y_new[0], gears), engaged = 0;
   double up, down, limit;
   a->y_new[3] = now;
   if (a->nint > SELECTOR) {
-    engaged = ali3_selector_accept(a->y_new + STATES, selector_input(a), now, of_selector(a)[ENGAGE_SPEED], start);
+    engaged = ali3_selector_accept(a->y_new + STATES, selector_input(a), now, selector_reals(a)[ENGAGE_SPEED], start);
     if (engaged && !start) gear = 1;
   }
-  const int asked = asked_gear(a);
+  const int requested = requested_gear(a);
   if (start || engaged) {
-    fitting_gear(a, gear, now);
-    if (asked > 0) a->y_new[0] = a->y_new[1] = asked;
+    choose_gear(a, gear, now);
+    if (requested > 0) a->y_new[0] = a->y_new[1] = requested;
     return;
   }
-  if (asked > 0) {
-    if (asked == gear || a->y_new[2] < p[RAMP]) return;
+  if (requested > 0) {
+    if (requested == gear || a->y_new[2] < p[RAMP]) return;
     a->y_new[1] = gear;
-    a->y_new[0] = asked;
+    a->y_new[0] = requested;
     a->y_new[2] = a->h;
     return;
   }

@@ -1,13 +1,13 @@
 /* Torque on a body from inputs, in earth or body axes. For orthonormal a, b, c the generalised forces (m x a)/2, (m x
- * b)/2, (m x c)/2 do the work m . dtheta, and no work on the conditions that keep the frame orthonormal.
- * Signals: the vectors a, b, c of the frame; in the plane a alone, and there only the third input counts. Integer AXES: 1
- * if the inputs are components in body axes, 0 in earth axes. */
+ * b)/2, (m x c)/2 do the work m . dtheta, and none on the conditions that keep the frame orthonormal.
+ * Signals: the vectors a, b, c of the frame; in the plane only a, with the third input. Integer AXES: 1: inputs are
+ * components in body axes, 0: in earth axes. */
 #include "body_torque_fields.h"
 #include "element.h"
 #include "element_math.h"
 
-/* f = m x a: in the plane the frame is the vector a alone. */
-static void planar(ali3_element_args *a) {
+/* f = m x a: in the plane the frame is the vector a only. */
+static void evaluate_planar(ali3_element_args *a) {
   const double m = ali3_input_or_zero(a->input, a->integer[THIRD]);
   a->f[0] = -m * a->u[1]; /* its tangent is antisymmetric */
   a->f[1] = m * a->u[0];
@@ -16,7 +16,7 @@ static void planar(ali3_element_args *a) {
 static void evaluate(ali3_element_args *a) {
   a->potential = 0.0;
   if (a->nsig == 2) {
-    planar(a);
+    evaluate_planar(a);
     return;
   }
   double input[3], m[3];

@@ -1,14 +1,14 @@
 /* Normal forces of stops and contacts over the penetration x > 0: conservative force, loss, and exact means for steps
  * with discrete gradients.
  *
- * Conservative part: a progressive stage k x (1 + (x/L)^2) (rubber or foam that fills its housing; L = 0: linear) and
- * a hard end of stiffness K beyond x_end whose force sets in as a parabola over w, so that the tangent is continuous.
- * Loss: Hunt and Crossley (Journal of Applied Mechanics 42, 1975, 440-445), force F (1 + chi x'): the damping comes
- * and goes with the force. For x' < 0 the factor is 1/(1 - chi x') with the same slope at 0, which is never negative:
- * nothing is pulled. A mass that meets it with v leaves with v1, whatever F(x) is:
+ * Conservative part: a progressive stage k x (1 + (x/L)^2) (rubber or foam that fills its housing; L = 0: linear) and a
+ * hard end of stiffness K beyond x_end whose force begins as a parabola over w, so that the tangent is continuous.
+ * Loss: Hunt and Crossley (Journal of Applied Mechanics 42, 1975, 440-445), force F (1 + chi x'), so that damping is
+ * proportional to the force. For x' < 0 the factor is 1/(1 - chi x') with the same slope at 0, which is never negative:
+ * there is no tension. A mass that hits it with v leaves with v1 for any F(x), where
  *   (chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3.
- * Where a least restitution e > 0 is given, chi x' saturates at 1/e - 1: the factor stays within e and 1/e, and of fast
- * impacts v1/v approaches e. */
+ * With a least restitution e > 0, chi x' saturates at 1/e - 1: the factor stays between e and 1/e, and v1/v of fast
+ * impacts approaches e. */
 #ifndef ALI3_CONTACT_LAW_H
 #define ALI3_CONTACT_LAW_H
 #include "element.h"

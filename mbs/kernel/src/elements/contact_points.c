@@ -1,15 +1,15 @@
-/* Points of a body that touch a road: normal force with a smooth onset and loss, friction that holds at rest.
+/* Points of a body that touch a road: normal force with a smooth onset and loss, friction that sticks at rest.
  *
- * The axes of the body need not be orthonormal, so a body that bends may
- * give averages of its own. Behind its numbers stand lowest and highest x, y, z of the points, then x, y, z of each.
- * States per point: deflections z1, z2 of the stick spring in the plane of contact and their rates.
+ * The axes of the body need not be orthonormal, so that those of a flexible body may be averages. The reals are
+ * followed by the lowest and highest x, y, z of the points, then x, y, z of each. States per point: deflections z1, z2
+ * of the stick spring in the plane of contact and their rates.
  *
- * Normal force: contact_law.h over the depth, with the mean of stiffness K setting in as a parabola over the onset.
- * Friction as in the brake: a spring and damper (k, c) in series with a slider, here in two directions. With
- * z = a + h z'/2 and D = c + h k/2 the trial is T = k a + D v; where |T| exceeds mu N it is shortened to it, and
- * z' = (T - k a)/D. Slip power T.(v - z') >= 0, and what sticks returns to where it was: it does not creep.
+ * Normal force: contact_law.h over the depth, with the stiffness K beginning as a parabola over the onset. Friction as
+ * in the brake: a spring and damper (k, c) in series with a slider, here in two directions. With z = a + h z'/2 and D =
+ * c + h k/2 the trial is T = k a + D v; where |T| exceeds mu N it is scaled to it, and z' = (T - k a)/D. Slip power
+ * T.(v - z') >= 0, and a sticking point returns to its position: it does not creep.
  *
- * The tangent leaves out the coupling of normal and tangential force, and the turning of the normal. */
+ * The tangent is without the coupling of normal and tangential force, and without the rotation of the normal. */
 
 #include <string.h>
 
@@ -24,20 +24,20 @@ enum { NORMAL_FORCE, TOUCHING, FORCE, DEPTH = FORCE + 3, OUTPUTS };
 enum { SIGNALS = 12, STATES = 4 }; /* states of each point */
 enum { STICKS = 1, SLIPS, PIECES };
 
-/* o + X p of signals or rates */
-static void place(const double *u, const double p[3], double out[3]) {
+/* out = o + X p of signals or rates. */
+static void transform(const double *u, const double p[3], double out[3]) {
   for (int i = 0; i < 3; i++) out[i] = u[i] + p[0] * u[3 + i] + p[1] * u[6 + i] + p[2] * u[9 + i];
 }
 
-/* Gradient along g at the local point p: what multiplies the rates of the signals. */
-static void lever(const double g[3], const double p[3], double b[SIGNALS]) {
+/* Row b of the derivatives of g . (o + X p) by the signals. */
+static void gradient_row(const double g[3], const double p[3], double b[SIGNALS]) {
   for (int i = 0; i < 3; i++) {
     b[i] = g[i];
     for (int k = 0; k < 3; k++) b[3 + 3 * k + i] = p[k] * g[i];
   }
 }
 
-/* Whether the box around the points is above all the road under it. */
+/* Whether the box around the points is above the road below it. */
 static int far_above(const ali3_element_args *a) {
   const double *p = a->real, *u = a->u;
   double centre[3], half[3], lowest = 0.0, reach = p[RADIUS];
@@ -49,24 +49,25 @@ static int far_above(const ali3_element_args *a) {
     reach += half[k] * ali3_hypot(axis[0], axis[1]);
   }
   double middle[3];
-  place(u, centre, middle);
+  transform(u, centre, middle);
   return middle[2] + lowest - p[RADIUS] > ali3_road_top(&a->roads[a->integer[ROAD]], middle, reach);
 }
 
 typedef struct {
-  double load, friction, normal[3]; /* sum of the normal forces, load-weighted mean and sum of load times normal */
-} touch;
+  /* sum of the normal forces, load-weighted mean friction, sum of load times normal */
+  double load, friction, normal[3];
+} normal_contact;
 
-/* Distance and gradient for a step from u - h ud to u + h ud: the gradient g of the middle, corrected along the way so
- * that g . (p1 - p0) is the difference of the distances. */
+/* Distances and gradient for a step from u - h ud to u + h ud: the gradient g in the middle, corrected along the path
+ * so that g . (p1 - p0) is the difference of the distances. */
 static void discrete_clearance(const ali3_road *road, const double point[3], const double velocity[3], double h, int k,
                                ali3_clearance *c, double depth[2], double radius) {
-  double from[3], to[3], way = 0.0, along = 0.0;
+  double from[3], to[3], path2 = 0.0, along = 0.0;
   ali3_clearance end[2];
   for (int i = 0; i < 3; i++) {
     from[i] = point[i] - h * velocity[i];
     to[i] = point[i] + h * velocity[i];
-    way += 4.0 * h * h * velocity[i] * velocity[i];
+    path2 += 4.0 * h * h * velocity[i] * velocity[i];
     along += 2.0 * h * velocity[i] * c->gradient[i];
   }
   ali3_road_clearance(road, from, end);
@@ -74,21 +75,21 @@ static void discrete_clearance(const ali3_road *road, const double point[3], con
   ali3_road_clearance(road, to, end);
   depth[0] = radius - before;
   depth[1] = radius - end[k].distance;
-  if (!(way > 1e-24)) return;
-  const double missing = (end[k].distance - before - along) / way;
-  for (int i = 0; i < 3; i++) c->gradient[i] += missing * 2.0 * h * velocity[i];
+  if (!(path2 > 1e-24)) return;
+  const double error = (end[k].distance - before - along) / path2;
+  for (int i = 0; i < 3; i++) c->gradient[i] += error * 2.0 * h * velocity[i];
 }
 
-/* Normal forces of one point on the one or two parts of the road. */
-static touch press(ali3_element_args *a, const double local[3], int by_gradients) {
+/* Normal forces of a point on the one or two parts of the road. */
+static normal_contact normal_forces(ali3_element_args *a, const double local[3], int by_gradients) {
   const double *p = a->real;
   const ali3_road *road = &a->roads[a->integer[ROAD]];
   const ali3_contact_law law = {0.0, 0.0, 0.0, p[STIFFNESS], p[ONSET], p[LOSS], p[RESTITUTION]};
   double point[3], velocity[3];
   ali3_clearance clearance[2];
-  touch t = {0};
-  place(a->u, local, point);
-  place(a->ud, local, velocity);
+  normal_contact t = {0};
+  transform(a->u, local, point);
+  transform(a->ud, local, velocity);
   const int count = ali3_road_clearance(road, point, clearance);
   for (int k = 0; k < count; k++) {
     ali3_clearance *c = &clearance[k];
@@ -101,7 +102,7 @@ static touch press(ali3_element_args *a, const double local[3], int by_gradients
     const double factor = ali3_contact_loss(&law, -ali3_dot(c->gradient, velocity), &loss_slope);
     const double size = ali3_norm(c->gradient), force = mean * factor, load = force * size;
     if (!(load > 0.0)) continue;
-    lever(c->gradient, local, b);
+    gradient_row(c->gradient, local, b);
     for (int i = 0; i < SIGNALS; i++) a->f[i] += force * b[i];
     for (int i = 0; i < 3; i++) {
       t.normal[i] += force * c->gradient[i];
@@ -115,70 +116,72 @@ static touch press(ali3_element_args *a, const double local[3], int by_gradients
   return t;
 }
 
-/* Friction of one point under its load, in the plane of contact. */
-static void rub(ali3_element_args *a, const double local[3], const touch *t, const double *y_old, double *y_new) {
+/* Friction of a point under its load, in the plane of contact. */
+static void friction_force(ali3_element_args *a, const double local[3], const normal_contact *t, const double *y_old,
+                           double *y_new) {
   const double *p = a->real, k = p[STICK_STIFFNESS], c = p[STICK_DAMPING], half = 0.5 * a->h, D = c + half * k;
   const double bound = t->friction * p[FRICTION_FACTOR] * t->load, size = ali3_norm(t->normal);
-  double n[3] = {0.0, 0.0, 1.0}, first[3], second[3], foot[3], velocity[3], row[2][SIGNALS], wound[2], trial[2];
+  double n[3] = {0.0, 0.0, 1.0}, first[3], second[3], foot[3], velocity[3], row[2][SIGNALS], elastic[2], trial[2];
   for (int i = 0; i < 3 && size > 0.0; i++) n[i] = t->normal[i] / size;
   for (int i = 0; i < 3; i++) foot[i] = local[i] - p[RADIUS] * ali3_dot(a->u + 3 + 3 * i, n);
-  first[0] = n[2], first[1] = 0.0, first[2] = -n[0]; /* y x n: no road has a normal along y */
+  first[0] = n[2], first[1] = 0.0, first[2] = -n[0]; /* y x n, as no road has a normal along y */
   const double length = ali3_norm(first);
   if (length > 1e-6)
     for (int i = 0; i < 3; i++) first[i] /= length;
   else
     first[0] = 1.0, first[2] = 0.0;
   ali3_cross(n, first, second);
-  place(a->ud, foot, velocity);
+  transform(a->ud, foot, velocity);
   const double *plane[2] = {first, second};
   for (int i = 0; i < 2; i++) {
-    wound[i] = k * (y_old[i] + half * y_old[2 + i]);
-    trial[i] = wound[i] + D * ali3_dot(plane[i], velocity);
-    lever(plane[i], foot, row[i]);
+    elastic[i] = k * (y_old[i] + half * y_old[2 + i]);
+    trial[i] = elastic[i] + D * ali3_dot(plane[i], velocity);
+    gradient_row(plane[i], foot, row[i]);
   }
-  const double most = ali3_hypot(trial[0], trial[1]), share = most > bound ? bound / most : 1.0;
-  a->piece += share < 1.0 ? SLIPS : STICKS;
+  const double trial_size = ali3_hypot(trial[0], trial[1]), scale = trial_size > bound ? bound / trial_size : 1.0;
+  a->piece += scale < 1.0 ? SLIPS : STICKS;
   for (int i = 0; i < 2; i++) {
-    const double force = share * trial[i];
+    const double force = scale * trial[i];
     for (int j = 0; j < SIGNALS; j++) a->f[j] -= force * row[i][j];
     for (int j = 0; j < 3; j++) a->out[FORCE + j] -= force * plane[i][j];
     y_new[i] = y_old[i];
     y_new[2 + i] = y_old[2 + i];
     if (a->h > 0.0) {
-      y_new[2 + i] = (force - wound[i]) / D;
+      y_new[2 + i] = (force - elastic[i]) / D;
       y_new[i] = (force - c * y_new[2 + i]) / k;
     }
     a->potential += 0.5 * k * y_new[i] * y_new[i];
   }
   if (!a->S) return;
-  if (share == 1.0) {
+  if (scale == 1.0) {
     for (int i = 0; i < 2; i++) ali3_add_outer(a->S, SIGNALS, a->wC * D, row[i]);
     return;
   }
-  double along[SIGNALS], across[SIGNALS]; /* of the sliding: the secant's share, and the secant */
+  double along[SIGNALS], across[SIGNALS]; /* along and across the sliding: share of the secant, and the secant */
   for (int j = 0; j < SIGNALS; j++) {
-    along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / most;
-    across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / most;
+    along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / trial_size;
+    across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / trial_size;
   }
-  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_SHARE * D * share, along);
-  ali3_add_outer(a->S, SIGNALS, a->wC * D * share, across);
+  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_SHARE * D * scale, along);
+  ali3_add_outer(a->S, SIGNALS, a->wC * D * scale, across);
 }
 
-static void every_point(ali3_element_args *a, int by_gradients) {
+static void evaluate_points(ali3_element_args *a, int by_gradients) {
   memset(a->y_new, 0, (size_t)a->nstate * sizeof(double));
   memset(a->out, 0, OUTPUTS * sizeof(double));
   a->potential = 0.0;
-  /* a step by gradients may begin in contact and have its middle above it */
+  /* a step by gradients may start in contact and have its middle above the road */
   if (!by_gradients && far_above(a)) {
     a->idle = 1;
     return;
   }
   for (int32_t i = 0; i < a->integer[POINTS]; i++) {
     const double *local = a->real + HEAD + 3 * i;
-    const touch t = press(a, local, by_gradients);
-    a->piece *= PIECES; /* a digit a point; of many points the sum is a check sum */
-    if (!(t.load > 0.0)) continue; /* what leaves the road forgets its deflection, which fell with the load */
-    rub(a, local, &t, a->y_old + STATES * i, a->y_new + STATES * i);
+    const normal_contact t = normal_forces(a, local, by_gradients);
+    a->piece *= PIECES; /* one digit for each point; with many points a checksum */
+    /* a point that leaves the road loses its deflection, which has decreased with the load */
+    if (!(t.load > 0.0)) continue;
+    friction_force(a, local, &t, a->y_old + STATES * i, a->y_new + STATES * i);
     a->out[NORMAL_FORCE] += t.load;
     a->out[TOUCHING] += 1.0;
   }
@@ -190,7 +193,7 @@ static double depth(const ali3_element_args *a, double raised, double *part) {
   ali3_clearance clearance[2];
   *part = 1.0;
   for (int32_t i = 0; i < a->integer[POINTS]; i++) {
-    place(a->u, p + HEAD + 3 * i, point);
+    transform(a->u, p + HEAD + 3 * i, point);
     point[2] += raised;
     const int count = ali3_road_clearance(&a->roads[a->integer[ROAD]], point, clearance);
     for (int k = 0; k < count; k++) deepest = fmax(deepest, p[RADIUS] - clearance[k].distance);
@@ -198,9 +201,9 @@ static double depth(const ali3_element_args *a, double raised, double *part) {
   return deepest;
 }
 
-static void evaluate(ali3_element_args *a) { every_point(a, 0); }
+static void evaluate(ali3_element_args *a) { evaluate_points(a, 0); }
 
-static void discrete(ali3_element_args *a) { every_point(a, 1); }
+static void discrete(ali3_element_args *a) { evaluate_points(a, 1); }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
   (void)nsig, (void)nreal, (void)nint;

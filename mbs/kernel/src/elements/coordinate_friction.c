@@ -9,14 +9,14 @@
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real, half = 0.5 * a->h;
-  const double wound = p[STICK_STIFFNESS] * (a->y_old[0] + half * a->y_old[1]);
-  const double D = p[STICK_DAMPING] + half * p[STICK_STIFFNESS], trial = wound + D * a->ud[0];
+  const double elastic = p[STICK_STIFFNESS] * (a->y_old[0] + half * a->y_old[1]);
+  const double D = p[STICK_DAMPING] + half * p[STICK_STIFFNESS], trial = elastic + D * a->ud[0];
   const int sticks = fabs(trial) <= p[LARGEST];
   const double force = sticks ? trial : trial > 0.0 ? p[LARGEST] : -p[LARGEST];
   a->y_new[0] = a->y_old[0];
   a->y_new[1] = a->y_old[1];
   if (a->h > 0.0) {
-    a->y_new[1] = (force - wound) / D;
+    a->y_new[1] = (force - elastic) / D;
     a->y_new[0] = (force - p[STICK_DAMPING] * a->y_new[1]) / p[STICK_STIFFNESS];
     if (fabs(a->y_new[0]) < 1e-100) a->y_new[0] = a->y_new[1] = 0.0; /* no denormals */
   }

@@ -13,7 +13,7 @@ typedef struct {
   double start, y, m, c, e, integral;
 } piece;
 
-/* Number of the piece that holds x: 0 before the first point, n behind the last. */
+/* Number of the piece that contains x: 0 before the first point, n after the last. */
 static int32_t piece_number(const ali3_cubic_table *t, double x) {
   int32_t low = 0, high = t->n;
   while (low < high) { /* x[low - 1] <= x < x[high] */
@@ -37,7 +37,7 @@ static piece piece_of(const ali3_cubic_table *t, int32_t number) {
   return p;
 }
 
-static double at(const piece *p, double x) {
+static double value_at(const piece *p, double x) {
   const double d = x - p->start;
   return p->y + d * (p->m + d * (p->c + d * p->e));
 }
@@ -47,7 +47,7 @@ double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, doub
   const double d = x - p.start;
   *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
   if (integral != NULL) *integral += p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
-  return at(&p, x);
+  return value_at(&p, x);
 }
 
 double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope, double *curvature) {
@@ -55,7 +55,7 @@ double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope
   const double d = x - p.start;
   *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
   *curvature = 2.0 * p.c + d * 6.0 * p.e;
-  return at(&p, x);
+  return value_at(&p, x);
 }
 
 /* Simpson's rule is exact on every piece. */
@@ -63,11 +63,12 @@ double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
   const double low = fmin(x0, x1), high = fmax(x0, x1), width = high - low;
   const int32_t first = piece_number(t, low);
   piece p = piece_of(t, first);
-  if (!(width > 0.0)) return at(&p, low);
+  if (!(width > 0.0)) return value_at(&p, low);
   double mean = 0.0, from = low;
   for (int32_t k = first; from < high; p = piece_of(t, ++k)) {
     const double to = k < t->n && t->x[k] < high ? t->x[k] : high;
-    mean += (to - from) / width * ((at(&p, from) + 4.0 * at(&p, 0.5 * (from + to)) + at(&p, to)) / 6.0);
+    mean +=
+        (to - from) / width * ((value_at(&p, from) + 4.0 * value_at(&p, 0.5 * (from + to)) + value_at(&p, to)) / 6.0);
     if (k >= t->n) break;
     from = to;
   }
@@ -87,8 +88,8 @@ int ali3_cubic_integrals_fit(const ali3_cubic_table *t) {
     const double end = p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
     if (!(fabs(t->integral[i + 1] - end) <= 1e-9 * (fabs(end) + fabs(p.integral) + fabs(d * p.y)))) return 0;
   }
-  double slope, zero = 0.0, most = 0.0;
-  ali3_cubic_value(t, 0.0, &slope, &zero);
-  for (int32_t i = 0; i < t->n; i++) most = fmax(most, fabs(t->integral[i]));
-  return fabs(zero) <= 1e-9 * most;
+  double slope, integral_at_zero = 0.0, largest = 0.0;
+  ali3_cubic_value(t, 0.0, &slope, &integral_at_zero);
+  for (int32_t i = 0; i < t->n; i++) largest = fmax(largest, fabs(t->integral[i]));
+  return fabs(integral_at_zero) <= 1e-9 * largest;
 }

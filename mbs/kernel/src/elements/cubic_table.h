@@ -6,10 +6,10 @@
 typedef struct {
   int32_t n; /* points, two at least */
   const double *x, *y, *slope; /* x rises */
-  const double *integral; /* of y from x = 0 to each point; NULL: not wanted */
+  const double *integral; /* of y from x = 0 to each point; NULL: not available */
 } ali3_cubic_table;
 
-/* Table whose columns of n numbers stand one after the other at `real`. */
+/* Table with columns of n numbers one after the other at `real`. */
 ali3_cubic_table ali3_cubic_table_at(const double *real, int32_t n, int integral);
 
 /* y; adds to *integral, if that is not NULL, the integral from 0 to x. */

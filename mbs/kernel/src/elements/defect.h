@@ -1,13 +1,13 @@
-/* Defects: changes of the forces of elements that their tangents miss. */
+/* Defects: changes of element forces that their tangents do not include. */
 #ifndef ALI3_DEFECT_H
 #define ALI3_DEFECT_H
 #include "../algebra/real.h"
 #include "../instance.h"
 #include "element.h"
 
-/* r = -wK (change of the forces of elements since the iterate, whose signals have the rates in->element.ud_at) - B' S
- * times the change of their signals to those of q and qd, S the tangents in F. Of positions far away differences lose
- * digits, of rates they do not. */
+/* r = -wK (change of element forces since the iterate, whose signals have the rates in->element.ud_at) - B' S times the
+ * change of their signals to those of q and qd, where S are the tangents in F. Changes of signals are computed from
+ * rates, as differences of large positions lose digits. */
 ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, truth lanes, const real *q, const real *qd,
                                          real *r);
 

@@ -4,7 +4,7 @@
 #include "../roads/grid.h"
 #include "road.h"
 
-/* Writes the deepest contact, or two that are next to equally deep and share their load. Returns their number. */
+/* Writes the deepest contact, or two of nearly equal depth that share their load. Returns their number. */
 int ali3_disc_on_grid(const ali3_grid *g, const double centre[3], const double axis[3], double radius,
                       ali3_contact out[2]);
 #endif

@@ -12,8 +12,8 @@
 #include "element.h"
 #include "selector.h"
 
-#define LIMITER_WIDTH 0.05 /* of the limit speed */
-/* Bits that tell apart the smooth pieces of the law. */
+#define LIMITER_WIDTH 0.05 /* width of the limiter, relative to the limit speed */
+/* Bits of the active smooth pieces of the law. */
 enum { BY_POWER = 1, LIMITED = 2, CUT_OFF = 4, TAKES_BY_POWER = 8, DRIVES = 16, DIRECTIONS = 32 };
 #define BARELY 1e-3 /* share of GEAR_FADE below which the loss of the gears is negligible */
 #define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */

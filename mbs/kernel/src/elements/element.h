@@ -23,7 +23,7 @@ typedef struct {
   const real *y_old;             /* slots at the start of the step */
   real *y_new;                   /* slots at the end, always written completely */
   double h;                      /* step; 0: evaluate at y_old (y_new = y_old, its rates those that follow) */
-  real reach;                    /* how far rates may still go from ud in this step; 0: it is not known */
+  real reach;                    /* bound of the change of rates from ud in this step; 0: unknown */
   double wC, wK;                 /* weights of the tangent: h/2 and h^2/4 in a step, 0 and h^2/4 in statics */
   const real *real;
   const int32_t *integer;

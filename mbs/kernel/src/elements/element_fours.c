@@ -13,17 +13,17 @@
 #include "../algebra/lane_copies.h"
 #include "element_fours.h"
 
-typedef struct { /* of four elements, as ali3_element_args has them */
+typedef struct { /* numbers of four elements, as in ali3_element_args */
   real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS], S[ALI3_MAX_SIGNALS * ALI3_MAX_SIGNALS];
   real numbers[ALI3_FOUR_REALS], y_old[ALI3_FOUR_STATES], y_new[ALI3_FOUR_STATES], out[ALI3_FOUR_OUTPUTS];
 } four_numbers;
 
 static ali3_lane_road road_of(const ali3_instance *in, int32_t number, real *numbers, real *factor) {
-  double own[ALI3_ROAD_NUMBERS], friction;
+  double element_reals[ALI3_ROAD_NUMBERS], friction;
   ali3_lane_road road = {.numbers = numbers, .friction_factor = factor};
-  const struct ali3_road *same = ali3_fours_road(in, number, &road.type, own, &friction);
-  for (int l = 0; l < ALI3_FOUR; l++) road.lane[l] = same;
-  for (int i = 0; i < ALI3_ROAD_NUMBERS; i++) numbers[i] = ali3_same(own[i]);
+  const struct ali3_road *shared_road = ali3_fours_road(in, number, &road.type, element_reals, &friction);
+  for (int l = 0; l < ALI3_FOUR; l++) road.lane[l] = shared_road;
+  for (int i = 0; i < ALI3_ROAD_NUMBERS; i++) numbers[i] = ali3_same(element_reals[i]);
   *factor = ali3_same(friction);
   return road;
 }
@@ -33,25 +33,25 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
   const ali3_element_size *size = S->el_size + e[0];
   const int32_t n = size->nsig, *signal[ALI3_FOUR];
   const bool tangent = call->tangent && S->el_front[e[0]] >= 0;
-  const double *own[ALI3_FOUR], *old[ALI3_FOUR];
+  const double *element_reals[ALI3_FOUR], *element_states[ALI3_FOUR];
   double *f[ALI3_FOUR], *T[ALI3_FOUR], *y_new[ALI3_FOUR], *out[ALI3_FOUR];
   real numbers[ALI3_ROAD_NUMBERS], factor;
   int32_t integer[ALI3_FOUR_INTEGERS];
   for (int l = 0; l < ALI3_FOUR; l++) {
-    const ali3_element_size *of = S->el_size + e[l];
+    const ali3_element_size *element_size = S->el_size + e[l];
     signal[l] = S->el_sig + S->el_sig_ptr[e[l]];
-    own[l] = in->parameters.el_real + of->real;
-    old[l] = call->y_old + of->state;
+    element_reals[l] = in->parameters.el_real + element_size->real;
+    element_states[l] = call->y_old + element_size->state;
     f[l] = in->element.force + S->el_sig_ptr[e[l]];
     T[l] = in->element.S + S->el_S_off[e[l]];
-    y_new[l] = call->y_new + of->state;
-    out[l] = call->out + of->out;
+    y_new[l] = call->y_new + element_size->state;
+    out[l] = call->out + element_size->out;
   }
   for (int32_t i = 0; i < n; i++)
     for (int l = 0; l < ALI3_FOUR; l++)
       to->u[i][l] = in->element.u[signal[l][i]], to->ud[i][l] = in->element.ud[signal[l][i]];
-  interleave((double *)to->numbers, own, size->nreal);
-  interleave((double *)to->y_old, old, size->nstate);
+  interleave((double *)to->numbers, element_reals, size->nreal);
+  interleave((double *)to->y_old, element_states, size->nstate);
   memset(to->f, 0, (size_t)n * sizeof *to->f);
   if (tangent) memset(to->S, 0, (size_t)(n * n) * sizeof *to->S);
   memcpy(integer, S->el_int + size->integer, (size_t)size->nint * sizeof *integer);
@@ -84,7 +84,8 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
   for (int l = 0; l < ALI3_FOUR; l++) call->potential[e[l]] = a.potential[l], in->element.idle[e[l]] = a.idle != 0;
 }
 
-/* Laws of lanes compute branches that are not chosen: what these raise is neither trapped nor left to the host. */
+/* Vector laws also evaluate branches that are not taken: their floating-point exceptions are masked and not left to the
+ * host. */
 void ali3_fours_forces(ali3_instance *in, const ali3_force_call *call) {
   four_numbers numbers;
   const unsigned before = _mm_getcsr();

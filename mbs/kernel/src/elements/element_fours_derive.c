@@ -6,8 +6,8 @@
 #include "laws.h"
 #include "road.h"
 
-/* Whether element e has a law for fours, and no more numbers than element_fours.c has room for. */
-static bool goes_in_fours(const ali3_system *s, int32_t e) {
+/* Whether element e has a vector law and fits into the arrays of element_fours.c. */
+static bool has_vector_law(const ali3_system *s, int32_t e) {
   const ali3_element_type *type = s->el_kind[e];
   const ali3_element_size *z = s->el_size + e;
   if (!s->has_avx2 || z->nreal > ALI3_FOUR_REALS || z->nstate > ALI3_FOUR_STATES || z->nout > ALI3_FOUR_OUTPUTS ||
@@ -19,7 +19,7 @@ static bool goes_in_fours(const ali3_system *s, int32_t e) {
 }
 
 /* Whether two elements have the same law, sizes and integers, so that the law takes the same branches for both. */
-static bool alike(const ali3_system *s, int32_t a, int32_t b) {
+static bool is_same_kind(const ali3_system *s, int32_t a, int32_t b) {
   const ali3_element_size *x = s->el_size + a, *y = s->el_size + b;
   return s->el_kind[a] == s->el_kind[b] && x->nsig == y->nsig && x->nreal == y->nreal && x->nint == y->nint &&
          x->nstate == y->nstate && x->nout == y->nout && (s->el_front[a] >= 0) == (s->el_front[b] >= 0) &&
@@ -29,19 +29,19 @@ static bool alike(const ali3_system *s, int32_t a, int32_t b) {
 void ali3_fours_derive(ali3_system *s) {
   const int32_t ne = s->size.ne;
   int32_t *four = s->four;
-  unsigned char *taken = s->el_in_four;
-  memset(taken, 0, (size_t)ne);
+  unsigned char *grouped = s->el_in_four;
+  memset(grouped, 0, (size_t)ne);
   s->n_four = s->n_alone = 0;
   for (int32_t e = 0; e < ne; e++) {
     int32_t m = 0;
-    for (int32_t k = e; k < ne && m < ALI3_FOUR && !taken[e] && goes_in_fours(s, e); k++)
-      if (!taken[k] && alike(s, e, k)) four[m++] = k;
+    for (int32_t k = e; k < ne && m < ALI3_FOUR && !grouped[e] && has_vector_law(s, e); k++)
+      if (!grouped[k] && is_same_kind(s, e, k)) four[m++] = k;
     if (m < 2) {
-      if (!taken[e]) s->alone[s->n_alone++] = e;
+      if (!grouped[e]) s->alone[s->n_alone++] = e;
       continue;
     }
-    for (int32_t l = 0; l < m; l++) taken[four[l]] = 1;
-    for (; m < ALI3_FOUR; m++) four[m] = e; /* once more, with the same result */
+    for (int32_t l = 0; l < m; l++) grouped[four[l]] = 1;
+    for (; m < ALI3_FOUR; m++) four[m] = e; /* repeated, with the same result */
     four += ALI3_FOUR;
     s->n_four++;
   }

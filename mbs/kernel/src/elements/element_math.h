@@ -1,28 +1,27 @@
-/* Functions common to force elements: friction in the tangent, optional inputs, first-order states. */
+/* Functions that force elements share: friction in the tangent, optional inputs, first-order states. */
 #ifndef ALI3_ELEMENT_MATH_H
 #define ALI3_ELEMENT_MATH_H
 #include <stdint.h>
 
 #include "../algebra/small_vectors.h"
 
-/* Friction saturates, and Newton's method with its true, flat tangent may jump between both signs for ever. The secant
- * of friction over rate majorises it: any tangent of more than half the secant makes every iteration a descent. This
- * is the least share used. */
+/* Friction saturates, and Newton's method with its exact, zero tangent may alternate between both signs. The secant of
+ * friction over rate majorises it: with any tangent above half the secant each iteration is a descent. This is the
+ * least share used. */
 #define ALI3_SECANT_SHARE 0.55
 
 static inline real ali3_input_or_zero(const real *input, int32_t index) {
   return index >= 0 ? input[index] : ali3_same(0.0);
 }
 
-/* Slope of a slider of damping D over its rate, for the tangent: where the rate cannot come back to where it sticks, its
- * own, which is none. */
+/* Slope of a slider of damping D by its rate, for the tangent: its own, zero, if the rate cannot return to sticking. */
 static inline real ali3_slider_slope(truth sticks, real D, real trial, real bound, real reach) {
   const real size = ali3_abs(trial), none = {0};
   const truth stays = (reach > 0.0) & (size - bound > D * reach);
   return ali3_where(sticks, D, ali3_where(stays, none, ALI3_SECANT_SHARE * D * (bound / size)));
 }
 
-/* Pieces of the law of a slider: it sticks, or slips to one side; one that holds nothing has none. */
+/* Pieces of the law of a slider: it sticks, or slips in one direction; none without friction. */
 enum { ALI3_STICKS = 1, ALI3_SLIPS_UP = 2, ALI3_SLIPS_DOWN = 4 };
 static inline void ali3_slider_piece(uint32_t *piece, truth sticks, real trial, real bound) {
   const truth holds = bound > 0.0, slips = holds & ali3_not(sticks);
@@ -31,8 +30,8 @@ static inline void ali3_slider_piece(uint32_t *piece, truth sticks, real trial, 
   ALI3_PIECE(piece, slips & ali3_not(trial > 0.0), ALI3_SLIPS_DOWN);
 }
 
-/* Weight of the new rate in x_new = x_old + h ((1 - theta) x'_old + theta x'_new) for x' = -rate x + ...:
- * 1/2 (trapezoidal rule, order two) while it does not ring, then just enough more that x keeps its sign. */
+/* Weight of the new rate in x_new = x_old + h ((1 - theta) x'_old + theta x'_new) for x' = -rate x + ...: 1/2
+ * (trapezoidal rule, order two) while it does not oscillate, above that as much more as x needs to keep its sign. */
 static inline real ali3_theta(double h, real rate) {
   real z = h * rate;
   return ali3_where(z > 2.0, 1.0 - 1.0 / z, ali3_same(0.5));

@@ -1,5 +1,5 @@
-/* The types of force elements: the one list of them, from which their declarations, the table in elements.c and
- * `ElementType` in Python come. A number is part of the System file and keeps its meaning for ever. */
+/* The types of force elements: the only list of them, which defines their declarations, the table in elements.c and
+ * `ElementType` in Python. A number is part of the System file and never changes its meaning. */
 #ifndef ALI3_ELEMENT_TYPES_H
 #define ALI3_ELEMENT_TYPES_H
 

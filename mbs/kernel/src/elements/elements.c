@@ -1,4 +1,4 @@
-/* The table of element types, and what their numbers must be. */
+/* The table of element types, and checks of their data. */
 #include <stddef.h>
 
 #include "element.h"
@@ -15,7 +15,7 @@ const ali3_element_type *ali3_element_type_get(int32_t type) {
   }
 }
 
-static bool lies_in(ali3_range range, double x) {
+static bool is_in_range(ali3_range range, double x) {
   switch (range) {
   case ALI3_IS_NOT_NEGATIVE:
     return x >= 0.0;
@@ -39,29 +39,31 @@ bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nrea
     const int64_t count = integer[i] > 0 ? integer[i] : 0;
     reals += type->integers[i].reals * count, states += type->integers[i].states * count;
   }
-  const bool extended = nint > type->nint, either = type->nint == type->nintegers;
+  const bool extended = nint > type->nint, has_optional_reals = type->nint == type->nintegers;
   if (extended) states += type->nstate_more;
   const bool reals_fit = type->nreal == -1 || nreal == reals + (extended ? type->nreal_more : 0) ||
-                         (either && nreal == reals + type->nreal_more);
+                         (has_optional_reals && nreal == reals + type->nreal_more);
   return reals_fit && nstate == states && nout == type->nout;
 }
 
 static const char *check_integers(const ali3_element_type *type, const int32_t *integer, int32_t nint, int32_t n_inputs,
                                   int32_t n_roads) {
   for (int32_t i = 0; i < nint && i < type->nintegers; i++) {
-    const ali3_integer *of = &type->integers[i];
-    const int32_t most = of->of == ALI3_OF_INPUTS ? n_inputs - 1 : of->of == ALI3_OF_ROADS ? n_roads - 1 : of->most;
-    if (integer[i] < of->least || integer[i] > most) return of->text;
+    const ali3_integer *kind = &type->integers[i];
+    const int32_t limit = kind->of == ALI3_OF_INPUTS  ? n_inputs - 1
+                          : kind->of == ALI3_OF_ROADS ? n_roads - 1
+                                                      : kind->most;
+    if (integer[i] < kind->least || integer[i] > limit) return kind->text;
   }
   return NULL;
 }
 
-/* The last nreal_more fields are those of the last numbers, where these are there. */
-static const char *check_fields(const ali3_element_type *type, const double *real, int32_t nreal, bool more) {
+/* The last nreal_more fields belong to the last reals, if present. */
+static const char *check_fields(const ali3_element_type *type, const double *real, int32_t nreal, bool has_more) {
   const int32_t first = type->nfields - type->nreal_more;
-  for (int32_t i = 0; i < (more ? type->nfields : first); i++) {
-    const int32_t at = i < first ? i : nreal - type->nfields + i;
-    if (!lies_in(type->fields[i].range, real[at])) return type->fields[i].text;
+  for (int32_t i = 0; i < (has_more ? type->nfields : first); i++) {
+    const int32_t index = i < first ? i : nreal - type->nfields + i;
+    if (!is_in_range(type->fields[i].range, real[index])) return type->fields[i].text;
   }
   return NULL;
 }
@@ -69,8 +71,8 @@ static const char *check_fields(const ali3_element_type *type, const double *rea
 const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, const double *real, int32_t nreal,
                                const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads) {
   const char *text = check_integers(type, integer, nint, n_inputs, n_roads);
-  const bool more = nint > type->nint || (type->nint == type->nintegers && nreal > type->nreal);
-  if (text == NULL) text = check_fields(type, real, nreal, more);
+  const bool has_more = nint > type->nint || (type->nint == type->nintegers && nreal > type->nreal);
+  if (text == NULL) text = check_fields(type, real, nreal, has_more);
   if (text != NULL || type->check == NULL) return text;
   return type->check(nsig, real, nreal, integer, nint);
 }

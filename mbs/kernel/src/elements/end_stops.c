@@ -1,4 +1,4 @@
-/* Forces of bump and rebound stops: at a length, as the mean of a step, and when one is met. */
+/* Forces of bump and rebound stops: at a length, as the mean over a step, and the time of contact. */
 #include "end_stops.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include "crossing.h"
 
 /* Laws of the bump stop and the rebound stop over the length beyond them. */
-static void laws(const real *p, int progressive, ali3_contact_law law[2]) {
+static void stop_laws(const real *p, int progressive, ali3_contact_law law[2]) {
   const real none = {0};
   for (int side = 0; side < 2; side++) {
     law[side].stiffness = p[side ? ALI3_REBOUND_STIFFNESS : ALI3_BUMP_STIFFNESS];
@@ -24,26 +24,26 @@ static void laws(const real *p, int progressive, ali3_contact_law law[2]) {
 void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t) {
   const real beyond[2] = {p[ALI3_BUMP_LENGTH] - length, length - p[ALI3_REBOUND_LENGTH]};
   for (int side = 0; side < 2; side++) {
-    const truth free = ali3_not(beyond[side] > 0.0);
-    if (!ali3_any(ali3_not(free))) continue;
+    const truth open = ali3_not(beyond[side] > 0.0);
+    if (!ali3_any(ali3_not(open))) continue;
     const double sign = side ? 1.0 : -1.0;
     ali3_contact_law law[2];
-    laws(p, progressive, law);
+    stop_laws(p, progressive, law);
     real slope = {0}, loss_slope;
     const real force = ali3_contact_force(&law[side], beyond[side], &slope, &t->potential);
     const real factor = ali3_contact_loss(&law[side], sign * rate, &loss_slope);
-    ALI3_PIECE(&t->piece, ali3_not(free) & (force > 0.0), 1u << side);
-    t->elastic = ali3_add_unless(free, t->elastic, sign * force);
-    t->lost = ali3_add_unless(free, t->lost, sign * force * (factor - 1.0));
-    t->stiffness = ali3_add_unless(free, t->stiffness, slope * factor);
-    t->damping = ali3_add_unless(free, t->damping, force * loss_slope);
+    ALI3_PIECE(&t->piece, ali3_not(open) & (force > 0.0), 1u << side);
+    t->elastic = ali3_add_unless(open, t->elastic, sign * force);
+    t->lost = ali3_add_unless(open, t->lost, sign * force * (factor - 1.0));
+    t->stiffness = ali3_add_unless(open, t->stiffness, slope * factor);
+    t->damping = ali3_add_unless(open, t->damping, force * loss_slope);
   }
 }
 
 #ifndef ALI3_WIDTH
 
 /* Adds a stop's difference quotient dV / dl over the step and its slope; x0, x1: the length beyond it, signed. */
-static void between(const ali3_contact_law *law, double sign, double x0, double x1, double rate, ali3_tension *t) {
+static void add_mean(const ali3_contact_law *law, double sign, double x0, double x1, double rate, ali3_tension *t) {
   if (!(x0 > 0.0 || x1 > 0.0)) return;
   double slope = 0.0, energy = 0.0, loss_slope;
   const double mean = ali3_contact_mean(law, x0, x1), factor = ali3_contact_loss(law, sign * rate, &loss_slope);
@@ -58,9 +58,9 @@ static void between(const ali3_contact_law *law, double sign, double x0, double 
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t) {
   const double bump = p[ALI3_BUMP_LENGTH], rebound = p[ALI3_REBOUND_LENGTH];
   ali3_contact_law law[2];
-  laws(p, progressive, law);
-  between(&law[0], -1.0, bump - l0, bump - l1, rate, t);
-  between(&law[1], 1.0, l0 - rebound, l1 - rebound, rate, t);
+  stop_laws(p, progressive, law);
+  add_mean(&law[0], -1.0, bump - l0, bump - l1, rate, t);
+  add_mean(&law[1], 1.0, l0 - rebound, l1 - rebound, rate, t);
 }
 
 double ali3_end_stops_event(const double *p, const double length[2], const double rate[2], double h) {

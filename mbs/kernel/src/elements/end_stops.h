@@ -20,18 +20,18 @@ enum {
   ALI3_STOP_LOSS
 };
 
-/* A tension in its parts, its slopes by length and rate, and the energy. */
+/* A tension: its elastic and dissipative parts, its slopes by length and rate, and its energy. */
 typedef struct {
   real elastic, lost;
   real stiffness, damping;
   real potential;
-  uint32_t piece; /* bits: the bump stop, the rebound stop is met */
+  uint32_t piece; /* bits: bump stop, rebound stop in contact */
 } ali3_tension;
 
-/* Adds the stops at a length and its rate. */
+/* Adds the tension of the stops at a length and its rate. */
 ALI3_PER_WIDTH void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t);
 
-/* Adds their mean over a step from length l0 to l1, with the slopes by the length and rate of its middle. */
+/* Adds their mean over a step from length l0 to l1, with slopes by the length and rate in its middle. */
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);
 
 /* Share of a step of size h at which a stop is met or left, from length and rate at both ends; 1: none is. */

@@ -1,4 +1,4 @@
-/* Signals to elements, element forces and tangents back to coordinates. */
+/* Evaluation of elements: signals, forces, and tangents in coordinates. */
 #include <string.h>
 
 #include "../algebra/processor.h"
@@ -12,7 +12,7 @@
 #include "signals.h"
 
 /* Arguments that are the same for all elements. */
-static ali3_element_args common(const ali3_instance *in, const ali3_force_call *call) {
+static ali3_element_args common_arguments(const ali3_instance *in, const ali3_force_call *call) {
   return (ali3_element_args){.h = call->h,
                              .reach = call->reach,
                              .wC = call->wC,
@@ -22,8 +22,8 @@ static ali3_element_args common(const ali3_instance *in, const ali3_force_call *
 }
 
 /* Arguments of element e at its signals u and their rates ud; f and S belong to the caller. */
-static void prepare(const ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
-                    double *f, double *tangent, ali3_element_args *a) {
+static void element_arguments(const ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u,
+                              const double *ud, double *f, double *tangent, ali3_element_args *a) {
   const ali3_system *S = in->system;
   const ali3_element_size *size = S->el_size + e;
   a->nsig = size->nsig;
@@ -46,7 +46,7 @@ static void prepare(const ali3_instance *in, const ali3_force_call *call, int32_
 }
 
 /* The signals of element e and their rates. */
-static void local(const ali3_instance *in, int32_t e, double *u, double *ud) {
+static void gather_signals(const ali3_instance *in, int32_t e, double *u, double *ud) {
   const ali3_system *S = in->system;
   for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
     *u++ = in->element.u[S->el_sig[i]];
@@ -54,11 +54,11 @@ static void local(const ali3_instance *in, int32_t e, double *u, double *ud) {
   }
 }
 
-/* Element e at its own signals; f and tangent (NULL: not wanted) belong to it alone. Returns whether both are zero. */
+/* Evaluates element e at its own signals; f and tangent (NULL: none) are overwritten. Returns whether both are zero. */
 ALI3_INLINED bool evaluate(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                            double *f, double *tangent, ali3_element_args *a) {
   const ali3_element_type *type = in->system->el_kind[e];
-  prepare(in, call, e, u, ud, f, tangent, a);
+  element_arguments(in, call, e, u, ud, f, tangent, a);
   memset(f, 0, (size_t)a->nsig * sizeof(double));
   if (tangent != NULL) memset(tangent, 0, (size_t)(a->nsig * a->nsig) * sizeof(double));
   (call->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(a);
@@ -68,12 +68,12 @@ ALI3_INLINED bool evaluate(ali3_instance *in, const ali3_force_call *call, int32
 
 bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                          double *f, double *tangent) {
-  ali3_element_args a = common(in, call);
+  ali3_element_args a = common_arguments(in, call);
   return evaluate(in, call, e, u, ud, f, tangent, &a);
 }
 
-/* Power and forces on their signals of the elements whose work a sensor asks for. */
-static void watch(ali3_instance *in) {
+/* Stores power and forces of the elements with work sensors. */
+static void store_work_forces(ali3_instance *in) {
   const ali3_system *S = in->system;
   double *restrict force = in->watch.now + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
@@ -87,8 +87,8 @@ static void watch(ali3_instance *in) {
   }
 }
 
-/* Signals that elements use, also those of dependents. */
-static void look(ali3_instance *in, const double *q, const double *qd) {
+/* Evaluates the signals that elements use, including those of dependents. */
+static void evaluate_signals(ali3_instance *in, const double *q, const double *qd) {
   if (in->system->n_tabled > 0) {
     ali3_tabled_prepare(in, q);
     ali3_tabled_extend(in, q, qd, NULL, false);
@@ -97,28 +97,28 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
   if (in->system->n_active > 0) ali3_active_signals(in, q, qd);
 }
 
-/* The elements at the signals of the last `ali3_forces`. */
+/* Evaluates the elements at the signals of the last `ali3_forces`. */
 void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
-  ali3_element_args a = common(in, call);
-  if (!call->discrete && S->n_four > 0) ali3_fours_forces(in, call); /* not every processor has its instructions */
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals are not contiguous */
+  ali3_element_args a = common_arguments(in, call);
+  if (!call->discrete && S->n_four > 0) ali3_fours_forces(in, call); /* only on processors with AVX2 */
   const int32_t n = call->discrete ? S->size.ne : S->n_alone;
   for (int32_t k = 0; k < n; k++) {
     const int32_t e = call->discrete ? k : S->alone[k];
     double *tangent = call->tangent && S->el_front[e] >= 0 ? in->element.S + S->el_S_off[e] : NULL;
     double *f = in->element.force + S->el_sig_ptr[e];
-    const int32_t beside = S->el_beside[e];
-    if (beside < 0) local(in, e, u, ud);
-    in->element.idle[e] = evaluate(in, call, e, beside < 0 ? u : in->element.u + beside,
-                                   beside < 0 ? ud : in->element.ud + beside, f, tangent, &a);
+    const int32_t contiguous = S->el_beside[e];
+    if (contiguous < 0) gather_signals(in, e, u, ud);
+    in->element.idle[e] = evaluate(in, call, e, contiguous < 0 ? u : in->element.u + contiguous,
+                                   contiguous < 0 ? ud : in->element.ud + contiguous, f, tangent, &a);
   }
 }
 
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double *Q = S->n_tabled > 0 ? in->tabled.force : call->Q; /* with those on dependents behind */
-  look(in, call->q, call->qd);
+  double *Q = S->n_tabled > 0 ? in->tabled.force : call->Q; /* followed by those on dependents */
+  evaluate_signals(in, call->q, call->qd);
   memcpy(Q, in->mass.gravity, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, call->q);
@@ -136,7 +136,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     ali3_add_forces(in, in->element.force, Q);
   }
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
-  if (!call->iterate) watch(in);
+  if (!call->iterate) store_work_forces(in);
 }
 
 /* Adds the tangents of elements, and of flexible and tabled bodies with their changing mass, to the fronts. */
@@ -158,11 +158,11 @@ void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {
                                 .y_new = in->element.y,
                                 .out = in->element.out,
                                 .potential = in->element.potential};
-  look(in, call.q, call.qd);
+  evaluate_signals(in, call.q, call.qd);
   for (int32_t e = 0; e < in->system->size.ne; e++) {
-    ali3_element_args a = common(in, &call);
-    local(in, e, u, ud);
-    prepare(in, &call, e, u, ud, f, NULL, &a);
+    ali3_element_args a = common_arguments(in, &call);
+    gather_signals(in, e, u, ud);
+    element_arguments(in, &call, e, u, ud, f, NULL, &a);
     memset(f, 0, sizeof f);
     in->system->el_kind[e]->evaluate(&a);
     piece[e] = a.piece;
@@ -186,17 +186,17 @@ void ali3_elements_defect(ali3_instance *in, double h, bool lanes, const double 
   ali3_active_signals(in, q, qd);
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_front[e] < 0) continue;
-    local(in, e, u, ud);
+    gather_signals(in, e, u, ud);
     ali3_element_forces(in, &call, e, u, ud, f, NULL);
     ali3_add_defect(in, e, ud, f, r);
   }
 }
 
-/* Discrete changes of element e after an accepted step, at its own signals. */
+/* Makes discrete changes of element e after an accepted step, at its own signals. */
 void ali3_element_accept(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud) {
   double f[ALI3_MAX_SIGNALS] = {0.0};
-  ali3_element_args a = common(in, call);
-  prepare(in, call, e, u, ud, f, NULL, &a);
+  ali3_element_args a = common_arguments(in, call);
+  element_arguments(in, call, e, u, ud, f, NULL, &a);
   in->system->el_kind[e]->accept(&a);
 }
 
@@ -204,7 +204,7 @@ void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call) {
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
   for (int32_t e = 0; e < in->system->size.ne; e++) {
     if (in->system->el_kind[e]->accept == NULL) continue;
-    local(in, e, u, ud);
+    gather_signals(in, e, u, ud);
     ali3_element_accept(in, call, e, u, ud);
   }
 }

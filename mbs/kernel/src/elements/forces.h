@@ -7,8 +7,8 @@ typedef struct {
   const double *q, *qd, *y_old;
   double h, wC, wK, reach;
   bool tangent;
-  bool discrete; /* over a step from in->now, by discrete gradients where there are any */
-  bool iterate; /* one of several: in->watch.now stays, the forces of the last are in in->element.force */
+  bool discrete; /* over a step from in->now, by discrete gradients if an element has them */
+  bool iterate; /* one of several iterates: in->watch.now is not updated */
   double *Q, *y_new, *out, *potential;
 } ali3_force_call;
 void ali3_forces(ali3_instance *in, const ali3_force_call *call);

@@ -10,10 +10,10 @@
 
 /* Number of rays, most samples on a ray, bisections of a crossing, golden sections of the direction. The distance is that
  * of the tangent plane at the foot, so that errors of position and direction enter it in second order only. */
-enum { RAYS = 16, MOST = 64, HALVINGS = 24, SECTIONS = 10 };
+enum { RAYS = 16, MAX_SAMPLES = 64, HALVINGS = 24, SECTIONS = 10 };
 
 /* Whether the surface is below the height of the point at horizontal distance r along `direction`. */
-static int is_out(const ali3_grid *g, ali3_cell *cell, const double point[3], const double direction[2], double r) {
+static int is_outside(const ali3_grid *g, ali3_cell *cell, const double point[3], const double direction[2], double r) {
   return ali3_grid_is_below(g, cell, point[0] + r * direction[0], point[1] + r * direction[1], point[2]);
 }
 
@@ -25,10 +25,10 @@ static double crossing(const ali3_grid *g, ali3_cell *cell, const double point[3
     in = out;
     out += step;
     if (!(in < reach)) return reach;
-  } while (!is_out(g, cell, point, direction, out));
+  } while (!is_outside(g, cell, point, direction, out));
   for (int i = 0; i < HALVINGS && in < reach; i++) {
     const double middle = 0.5 * (in + out);
-    if (is_out(g, cell, point, direction, middle))
+    if (is_outside(g, cell, point, direction, middle))
       out = middle;
     else
       in = middle;
@@ -44,16 +44,17 @@ static double crossing_at(const ali3_grid *g, ali3_cell *cell, const double poin
 }
 
 int ali3_grid_exit(const ali3_grid *g, const double point[3], double reach, double foot[2]) {
-  const double step = fmax(0.5 * fmin(g->dx, g->dy), reach / MOST), between = 2.0 * 3.14159265358979323846 / RAYS;
+  const double step = fmax(0.5 * fmin(g->dx, g->dy), reach / MAX_SAMPLES),
+               spacing = 2.0 * 3.14159265358979323846 / RAYS;
   double nearest = reach, best = 0.0;
   ali3_cell cell = {0};
   for (int k = 0; k < RAYS; k++) {
-    const double r = crossing_at(g, &cell, point, between * k, step, nearest);
-    if (r < nearest) nearest = r, best = between * k;
+    const double r = crossing_at(g, &cell, point, spacing * k, step, nearest);
+    if (r < nearest) nearest = r, best = spacing * k;
   }
   if (!(nearest < reach)) return 0;
   const double golden = 0.61803398874989485;
-  double low = best - between, high = best + between, a = high - golden * (high - low), b = low + golden * (high - low);
+  double low = best - spacing, high = best + spacing, a = high - golden * (high - low), b = low + golden * (high - low);
   double at_a = crossing_at(g, &cell, point, a, step, reach), at_b = crossing_at(g, &cell, point, b, step, reach);
   for (int i = 0; i < SECTIONS; i++) {
     if (at_a < at_b) {

@@ -1,5 +1,5 @@
-/* Force and moment on the hub of a wheel from inputs, earth axes, in place of a tyre. The moment about the axis acts on
- * the spin (signal 6), the force (0 to 2) and the rest of the moment (3 to 5) on the carrier. */
+/* Force and moment on the hub of a wheel by inputs in earth axes, in place of a tyre. The moment about the axis acts on
+ * the spin (signal 6), the force (signals 0 to 2) and the rest of the moment (3 to 5) on the carrier. */
 #include "element.h"
 #include "element_math.h"
 #include "hub_wrench_fields.h"
@@ -12,7 +12,7 @@ static void evaluate(ali3_element_args *a) {
     moment[i] = a->input[a->integer[MOMENT_X + i]];
     a->f[i] = force[i];
   }
-  ali3_cross(moment, e, a->f + 3); /* its tangent is antisymmetric */
+  ali3_cross(moment, e, a->f + 3); /* no contribution to S: the tangent is antisymmetric */
   a->f[6] = ali3_dot(moment, e);
   a->potential = 0.0;
   a->out[0] = 0.0;

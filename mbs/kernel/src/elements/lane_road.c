@@ -1,4 +1,4 @@
-/* Contacts of several discs, one after the other, with roads that the laws do not evaluate in vectors. */
+/* Contacts of several discs, one after the other, with roads without a vector law. */
 #include "lane_road.h"
 
 #include <stddef.h>

@@ -7,9 +7,9 @@
 enum { ALI3_MOST_LANES = 8 };
 
 typedef struct ali3_lane_road {
-  int32_t type; /* ALI3_ROAD_COUNT where the lanes have roads of several types */
-  const struct ali3_road *lane[ALI3_MOST_LANES]; /* NULL: none, nothing is touched */
-  real *numbers, *friction_factor; /* of ali3_road_numbers */
+  int32_t type; /* ALI3_ROAD_COUNT if the lanes have roads of several types */
+  const struct ali3_road *lane[ALI3_MOST_LANES]; /* NULL: no road, no contact */
+  real *numbers, *friction_factor; /* as written by ali3_road_numbers */
 } ali3_lane_road;
 
 /* The two contacts of ali3_road_contacts in each lane. */

@@ -1,10 +1,10 @@
-/* Laws of elements compiled for vectors: a law evaluates one element of several instances (../lanes/kernels.h) or several
- * elements of one instance (element_fours.c) at once. A lane that has ended is evaluated again with its last signals. */
+/* Laws of elements compiled for vectors: a law evaluates one element of several instances (../lanes/kernels.h) or
+ * several elements of one instance (element_fours.c). A converged lane is evaluated again with its last signals. */
 #ifndef ALI3_LAWS_H
 #define ALI3_LAWS_H
 
-/* Elements with laws in vectors; those of the first list read no inputs, so that four of an instance can be evaluated at
- * once. */
+/* Elements with vector laws; those of the first list read no inputs, so that four of an instance can be evaluated
+ * together. */
 #define ALI3_LAWS_OF_SIGNALS(X) X(spring_damper) X(gyroscopic_spin) X(drag) X(tyre) X(spin_angle)
 #define ALI3_LAWS(X) ALI3_LAWS_OF_SIGNALS(X) X(brake)
 
@@ -62,7 +62,7 @@ int ali3_road_contacts(const ali3_road *road, const real centre[3], const real a
   return 2;
 }
 
-/* The law in vectors of a type of elements; NULL if there is none. */
+/* The vector law of a type of elements; NULL: none. */
 static ali3_element_function *law_of(const ali3_element_type *type) {
 #define ALI3_LAW(name)                                                                                                 \
   if (type == &ali3_##name) return name##_law;

@@ -1,5 +1,5 @@
-/* Aerodynamic lift rho A v^2 / 2 of a body in still air, along its axis upwards, at a point; v is the speed of the point
- * along the axis forwards. With integers, see moving_air.h, v is that over moving air. */
+/* Aerodynamic lift rho A v^2 / 2 at a point of a body in still air, along its upward axis; v is the speed of the point
+ * along the forward axis. With integers, see moving_air.h, v is relative to moving air. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
 #include "lift_fields.h"
@@ -7,9 +7,9 @@
 
 static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig / 3;
-  double over[3];
-  const double *velocity = a->nint > 0 ? over : a->ud, *forward = a->u + n, *up = a->u + 2 * n;
-  if (a->nint > 0) ali3_over_air(a->input, a->integer, a->ud, over);
+  double relative[3];
+  const double *velocity = a->nint > 0 ? relative : a->ud, *forward = a->u + n, *up = a->u + 2 * n;
+  if (a->nint > 0) ali3_over_air(a->input, a->integer, a->ud, relative);
   const double factor = 0.5 * a->real[AIR_DENSITY] * a->real[LIFT_AREA];
   double v = 0.0;
   for (int32_t i = 0; i < n; i++) v += velocity[i] * forward[i];

@@ -1,4 +1,4 @@
-/* Forces along the line between two points, common to springs: their signals are d = p2 - p1 (2 or 3). */
+/* Forces along the line between two points, shared by springs: their signals are d = p2 - p1 (2 or 3). */
 #ifndef ALI3_LINE_FORCE_H
 #define ALI3_LINE_FORCE_H
 #include "../algebra/small_vectors.h"
@@ -12,7 +12,7 @@ typedef struct {
   real dir[3];
 } ali3_line;
 
-/* At u, ud. */
+/* The line at u, ud. */
 static inline ali3_line ali3_line_at(const ali3_element_args *a) {
   const int32_t n = a->nsig;
   real square = {0};
@@ -27,8 +27,8 @@ static inline ali3_line ali3_line_at(const ali3_element_args *a) {
 }
 
 #ifndef ALI3_WIDTH
-/* Over a step, see ali3_element_type.discrete. V depends on the length l, l^2 is quadratic: l1^2 - l0^2 = 2 u . (u1 -
- * u0). So f = -(dV / d(l^2)) 2 u with the difference quotient dV / dl: `length` is the mean of both. */
+/* The line over a step, see ali3_element_type.discrete. V depends on the length l, l^2 is quadratic: l1^2 - l0^2 = 2 u
+ * . (u1 - u0). So f = -(dV / d(l^2)) 2 u with the difference quotient dV / dl: `length` is the mean of both. */
 static inline ali3_line ali3_line_between(const ali3_element_args *a) {
   const int32_t n = a->nsig;
   double square0 = 0.0, square1 = 0.0, along = 0.0;
@@ -47,7 +47,7 @@ static inline ali3_line ali3_line_between(const ali3_element_args *a) {
 }
 #endif
 
-/* Forces and tangent of a tension with its slopes by length and rate. */
+/* Adds forces and tangent of a tension with its slopes by length and rate. */
 static inline void ali3_line_force(ali3_element_args *a, const ali3_line *line, real tension, real stiffness,
                                    real damping) {
   const int32_t n = a->nsig;
@@ -65,7 +65,7 @@ static inline void ali3_line_force(ali3_element_args *a, const ali3_line *line, 
     for (int32_t i = 0; i < n; i++) a->S[i * n + i] += across;
   }
   if (!ali3_any(ali3_not(apart))) return;
-  for (int32_t i = 0; i < n; i++) /* as for a spring of free length 0: it is isotropic */
+  for (int32_t i = 0; i < n; i++) /* isotropic, as for a spring of free length 0 */
     for (int32_t j = 0; j < n; j++)
       a->S[i * n + j] = ali3_where(apart, a->S[i * n + j], i == j ? along : ali3_same(0.0));
 }

@@ -7,9 +7,9 @@
 #include "../algebra/elementary.h"
 
 #define PI 3.14159265358979323846
-#define LEAST_SHARE 0.05 /* of friction and stiffness that camber leaves; else a large one would turn a force round */
+#define LEAST_SHARE 0.05 /* least factor by camber: a large camber must not reverse friction or stiffness */
 #define NO_SLIP 1e-9
-#define RELAXES_ALONG 0.5 /* radii, where a file has neither stiffness nor relaxation length */
+#define RELAXES_ALONG 0.5 /* radii: relaxation length of a file with neither stiffness nor relaxation length */
 #define RELAXES_ACROSS 1.0
 
 /* A value with its derivatives by longitudinal slip and by the tangent of the slip angle. */
@@ -29,7 +29,7 @@ static dual cosine(dual x) { return chain(x, ali3_cos(x.v), -ali3_sin(x.v)); }
 
 static double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 static double at_most_one(double e) { return e < 1.0 ? e : 1.0; }
-static double share(double x) { return x > LEAST_SHARE ? x : LEAST_SHARE; }
+static double at_least_share(double x) { return x > LEAST_SHARE ? x : LEAST_SHARE; }
 
 /* C atan(B x - E (B x - atan(B x))) */
 static dual shape(dual B, double C, double E, dual x) {
@@ -51,16 +51,16 @@ static dual secant(dual y, dual x, double limit) {
   return (dual){value, (y.k - value * x.k) / x.v, (y.t - value * x.t) / x.v};
 }
 
-typedef struct { /* one direction at pure slip */
+typedef struct { /* one direction at pure slip: coefficients of 4.E9 and 4.E19, longitudinal or lateral */
   double B, C, E, D, K, H, V, mu; /* H, V: shifts */
   dual slip, base, force; /* shifted slip, force without and with V */
 } pure;
 
-typedef struct { /* what load and pressure say */
+typedef struct { /* values by load, pressure and camber */
   double nominal, dfz, dpi;
-  bool book; /* 6.1 and later */
-  double star; /* camber of 4.E4; PAC2002 has the angle */
-  double slowing; /* of friction by the sliding speed, 4.E7 */
+  bool book; /* equations of the book: version 6.1 and later */
+  double star; /* gamma* of 4.E4; PAC2002: the camber angle */
+  double slowing; /* factor on friction by the sliding speed, 4.E7 */
 } terms;
 
 static terms terms_of(const ali3_magic_state *s) {
@@ -82,14 +82,14 @@ static void curve(pure *p) {
   p->force = plus(p->base, p->V);
 }
 
-/* 4.E9 to 4.E18 */
+/* Longitudinal force at pure slip, 4.E9 to 4.E18. */
 static pure longitudinal(const ali3_magic_state *s, const terms *q, dual kappa) {
   const double *c = s->c, dfz = q->dfz, dpi = q->dpi, gamma = q->star * (q->book ? 1.0 : c[ALI3_MF_LGAX]);
   const double factor = c[ALI3_MF_LMUX] * s->friction[0] * q->slowing;
   pure p;
   p.C = c[ALI3_MF_PCX1] * c[ALI3_MF_LCX];
   p.mu = (c[ALI3_MF_PDX1] + c[ALI3_MF_PDX2] * dfz) * (1.0 + c[ALI3_MF_PPX3] * dpi + c[ALI3_MF_PPX4] * dpi * dpi) *
-         share(1.0 - c[ALI3_MF_PDX3] * gamma * gamma) * factor;
+         at_least_share(1.0 - c[ALI3_MF_PDX3] * gamma * gamma) * factor;
   p.D = p.mu * s->load;
   p.K = s->load * (c[ALI3_MF_PKX1] + c[ALI3_MF_PKX2] * dfz) * ali3_exp(c[ALI3_MF_PKX3] * dfz) *
         (1.0 + c[ALI3_MF_PPX1] * dpi + c[ALI3_MF_PPX2] * dpi * dpi) * c[ALI3_MF_LKX] * s->stiffness[0];
@@ -103,7 +103,7 @@ static pure longitudinal(const ali3_magic_state *s, const terms *q, dual kappa) 
   return p;
 }
 
-/* 4.E19 to 4.E30; PAC2002 writes the shifts by camber as PHY3 and PVY3. */
+/* Lateral force at pure slip, 4.E19 to 4.E30; PAC2002 writes the shifts by camber as PHY3 and PVY3. */
 static pure lateral(const ali3_magic_state *s, const terms *q, double camber, dual alpha) {
   const double *c = s->c, dfz = q->dfz, dpi = q->dpi, gamma = camber * (q->book ? 1.0 : c[ALI3_MF_LGAY]);
   const double factor = c[ALI3_MF_LMUY] * s->friction[1] * q->slowing, shifts = shift_friction(q, factor);
@@ -111,20 +111,21 @@ static pure lateral(const ali3_magic_state *s, const terms *q, double camber, du
   pure p;
   p.C = c[ALI3_MF_PCY1] * c[ALI3_MF_LCY];
   p.mu = (c[ALI3_MF_PDY1] + c[ALI3_MF_PDY2] * dfz) * (1.0 + c[ALI3_MF_PPY3] * dpi + c[ALI3_MF_PPY4] * dpi * dpi) *
-         share(1.0 - c[ALI3_MF_PDY3] * gamma * gamma) * factor;
+         at_least_share(1.0 - c[ALI3_MF_PDY3] * gamma * gamma) * factor;
   p.D = p.mu * s->load;
-  p.K = c[ALI3_MF_PKY1] * q->nominal * (1.0 + c[ALI3_MF_PPY1] * dpi) * share(1.0 - c[ALI3_MF_PKY3] * fabs(gamma)) *
+  p.K = c[ALI3_MF_PKY1] * q->nominal * (1.0 + c[ALI3_MF_PPY1] * dpi) *
+        at_least_share(1.0 - c[ALI3_MF_PKY3] * fabs(gamma)) *
         ali3_sin(c[ALI3_MF_PKY4] * ali3_atan2(s->load / q->nominal, at)) * c[ALI3_MF_LKY] * s->stiffness[1];
   p.B = p.K / (p.C * p.D);
-  const double thrust =
+  const double camber_thrust =
       s->load * (c[ALI3_MF_PVY3] + c[ALI3_MF_PVY4] * dfz) * gamma * c[ALI3_MF_LKYC] * shifts * s->moving;
-  const double leaning = q->book ? (s->load * (c[ALI3_MF_PKY6] + c[ALI3_MF_PKY7] * dfz) *
-                                        (1.0 + c[ALI3_MF_PPY5] * dpi) * c[ALI3_MF_LKYC] * gamma * s->moving -
-                                    thrust) /
-                                       p.K
-                                 : c[ALI3_MF_PHY3] * gamma * c[ALI3_MF_LKYC] * s->moving;
-  p.H = s->moving * (c[ALI3_MF_PHY1] + c[ALI3_MF_PHY2] * dfz) * c[ALI3_MF_LHY] + leaning;
-  p.V = s->moving * s->load * (c[ALI3_MF_PVY1] + c[ALI3_MF_PVY2] * dfz) * c[ALI3_MF_LVY] * shifts + thrust;
+  const double camber_shift = q->book ? (s->load * (c[ALI3_MF_PKY6] + c[ALI3_MF_PKY7] * dfz) *
+                                             (1.0 + c[ALI3_MF_PPY5] * dpi) * c[ALI3_MF_LKYC] * gamma * s->moving -
+                                         camber_thrust) /
+                                            p.K
+                                      : c[ALI3_MF_PHY3] * gamma * c[ALI3_MF_LKYC] * s->moving;
+  p.H = s->moving * (c[ALI3_MF_PHY1] + c[ALI3_MF_PHY2] * dfz) * c[ALI3_MF_LHY] + camber_shift;
+  p.V = s->moving * s->load * (c[ALI3_MF_PVY1] + c[ALI3_MF_PVY2] * dfz) * c[ALI3_MF_LVY] * shifts + camber_thrust;
   p.slip = plus(alpha, p.H);
   p.E = at_most_one(
       (c[ALI3_MF_PEY1] + c[ALI3_MF_PEY2] * dfz) *
@@ -134,7 +135,8 @@ static pure lateral(const ali3_magic_state *s, const terms *q, double camber, du
   return p;
 }
 
-/* cos(C atan(...)) at the slip over the same at the shift alone; 4.E51 and 4.E59 */
+/* Weight of combined slip: cos(C atan(...)) at the shifted slip, divided by its value at the shift alone; 4.E51 and
+ * 4.E59. */
 static dual weight(dual B, double C, double E, dual slip, double shift) {
   const dual top = cosine(shape(B, C, E, plus(slip, shift)));
   if (shift == 0.0) return top;
@@ -142,16 +144,16 @@ static dual weight(dual B, double C, double E, dual slip, double shift) {
   return product(top, chain(bottom, 1.0 / bottom.v, -1.0 / (bottom.v * bottom.v)));
 }
 
-/* 4.E51 to 4.E57 */
-static dual weight_along(const ali3_magic_state *s, const terms *q, dual kappa, dual alpha) {
+/* Weight of the longitudinal force by the slip angle, 4.E51 to 4.E57. */
+static dual longitudinal_weight(const ali3_magic_state *s, const terms *q, dual kappa, dual alpha) {
   const double *c = s->c, gamma = q->book ? q->star : 0.0;
   const dual B =
       times(fall(times(kappa, c[ALI3_MF_RBX2])), (c[ALI3_MF_RBX1] + c[ALI3_MF_RBX3] * gamma * gamma) * c[ALI3_MF_LXAL]);
   return weight(B, c[ALI3_MF_RCX1], at_most_one(c[ALI3_MF_REX1] + c[ALI3_MF_REX2] * q->dfz), alpha, c[ALI3_MF_RHX1]);
 }
 
-/* 4.E59 to 4.E65 */
-static dual weight_across(const ali3_magic_state *s, const terms *q, double camber, dual kappa, dual alpha) {
+/* Weight of the lateral force by the longitudinal slip, 4.E59 to 4.E65. */
+static dual lateral_weight(const ali3_magic_state *s, const terms *q, double camber, dual kappa, dual alpha) {
   const double *c = s->c, gamma = q->book ? camber : 0.0;
   const dual B = times(fall(times(plus(alpha, -c[ALI3_MF_RBY3]), c[ALI3_MF_RBY2])),
                        (c[ALI3_MF_RBY1] + c[ALI3_MF_RBY4] * gamma * gamma) * c[ALI3_MF_LYKA]);
@@ -159,7 +161,7 @@ static dual weight_across(const ali3_magic_state *s, const terms *q, double camb
                 c[ALI3_MF_RHY1] + c[ALI3_MF_RHY2] * q->dfz);
 }
 
-/* 4.E66, 4.E67: side force that longitudinal slip induces */
+/* Lateral force induced by longitudinal slip, 4.E66, 4.E67. */
 static dual induced(const ali3_magic_state *s, const terms *q, const pure *y, dual kappa, dual alpha) {
   const double *c = s->c;
   const double size =
@@ -170,19 +172,19 @@ static dual induced(const ali3_magic_state *s, const terms *q, const pure *y, du
       size);
 }
 
-/* Factor of the friction ellipse of PAC2002 (FE_METHOD) on the force of direction `own`, from the ratio of both slips
- * times the other's part of the ellipse. */
+/* Factor of the friction ellipse of PAC2002 (FE_METHOD) on the force of direction `own`: of the ratio of both slips and
+ * the share that the other direction has of its ellipse. */
 static dual ellipse(const pure *own, const pure *other, dual own_slip, dual other_slip) {
-  const dual acts = times(own->base, 1.0 / other->D); /* mu_act over mu_max */
+  const dual use = times(own->base, 1.0 / other->D); /* actual over maximal friction */
   const double own2 = own_slip.v * own_slip.v + NO_SLIP * NO_SLIP;
-  const dual per = (dual){1.0 / own2, -2.0 * own_slip.v * own_slip.k / (own2 * own2),
-                          -2.0 * own_slip.v * own_slip.t / (own2 * own2)};
-  const dual x = product(product(product(acts, acts), product(other_slip, other_slip)), per);
+  const dual inverse_square = (dual){1.0 / own2, -2.0 * own_slip.v * own_slip.k / (own2 * own2),
+                                     -2.0 * own_slip.v * own_slip.t / (own2 * own2)};
+  const dual x = product(product(product(use, use), product(other_slip, other_slip)), inverse_square);
   const double size = 1.0 + x.v, value = 1.0 / sqrt(size);
   return chain(x, value, -0.5 * value / size);
 }
 
-/* Equivalent slip of the trail and the residual moment with the part of the longitudinal slip, 4.E77, 4.E78. */
+/* Equivalent slip of the trail and of the residual moment, including longitudinal slip; 4.E77, 4.E78. */
 static double equivalent(const terms *q, double slip, double ratio, double kappa) {
   const double along = ratio * kappa;
   if (q->book) return sign(slip) * sqrt(slip * slip + along * along);
@@ -190,12 +192,13 @@ static double equivalent(const terms *q, double slip, double ratio, double kappa
   return sign(slip) * ali3_atan2(sqrt(tangent * tangent + along * along), 1.0);
 }
 
-/* 4.E71 to 4.E78; lateral: force without the induced part, at no camber from 6.1 on */
+/* Aligning moment, trail and arm, 4.E71 to 4.E78. lateral_force: without the induced part, and without camber from 6.1
+ * on. */
 static void aligning(const ali3_magic_state *s, const terms *q, const pure *x, const pure *y, double kappa,
                      double alpha, double cosine_alpha, double lateral_force, ali3_magic_force *out) {
   const double *c = s->c, dfz = q->dfz, gamma = q->star * (q->book ? 1.0 : c[ALI3_MF_LGAZ]), radius = s->radius;
   const double friction = c[ALI3_MF_LMUY] * s->friction[1] * q->slowing;
-  const double stiffness = c[ALI3_MF_LKY] * s->stiffness[1] / friction, way = s->direction * s->moving;
+  const double stiffness = c[ALI3_MF_LKY] * s->stiffness[1] / friction, sense = s->direction * s->moving;
   const double tilt = q->book ? fabs(gamma) : gamma, ratio = s->combined == ALI3_MAGIC_WEIGHTED ? x->K / y->K : 0.0;
   const double shift = c[ALI3_MF_QHZ1] + c[ALI3_MF_QHZ2] * dfz + (c[ALI3_MF_QHZ3] + c[ALI3_MF_QHZ4] * dfz) * gamma;
   const double at = alpha + shift, ar = alpha + y->H + y->V / y->K;
@@ -204,14 +207,14 @@ static void aligning(const ali3_magic_state *s, const terms *q, const pure *x, c
                    stiffness;
   const double D = s->load * radius / q->nominal * (c[ALI3_MF_QDZ1] + c[ALI3_MF_QDZ2] * dfz) *
                    (1.0 - c[ALI3_MF_PPZ1] * q->dpi) * (1.0 + c[ALI3_MF_QDZ3] * tilt + c[ALI3_MF_QDZ4] * gamma * gamma) *
-                   c[ALI3_MF_LTR] * way;
+                   c[ALI3_MF_LTR] * sense;
   const double E = at_most_one(
       (c[ALI3_MF_QEZ1] + c[ALI3_MF_QEZ2] * dfz + c[ALI3_MF_QEZ3] * dfz * dfz) *
       (1.0 + (c[ALI3_MF_QEZ4] + c[ALI3_MF_QEZ5] * gamma) * (2.0 / PI) * ali3_atan2(B * c[ALI3_MF_QCZ1] * at, 1.0)));
-  const dual on = constant(equivalent(q, at, ratio, kappa));
-  out->trail = D * cosine(shape(constant(B), c[ALI3_MF_QCZ1], E, on)).v * cosine_alpha;
+  const dual equivalent_slip = constant(equivalent(q, at, ratio, kappa));
+  out->trail = D * cosine(shape(constant(B), c[ALI3_MF_QCZ1], E, equivalent_slip)).v * cosine_alpha;
   const double Br = c[ALI3_MF_QBZ9] * stiffness + c[ALI3_MF_QBZ10] * y->B * y->C;
-  const double Dr = s->load * radius * friction * way *
+  const double Dr = s->load * radius * friction * sense *
                     ((c[ALI3_MF_QDZ6] + c[ALI3_MF_QDZ7] * dfz) * c[ALI3_MF_LRES] +
                      ((c[ALI3_MF_QDZ8] + c[ALI3_MF_QDZ9] * dfz) * (1.0 + c[ALI3_MF_PPZ2] * q->dpi) +
                       (c[ALI3_MF_QDZ10] + c[ALI3_MF_QDZ11] * dfz) * fabs(gamma)) *
@@ -223,18 +226,19 @@ static void aligning(const ali3_magic_state *s, const terms *q, const pure *x, c
   out->Mz = -out->trail * lateral_force + residual + out->arm * out->F[0];
 }
 
-/* 4.E69; QSX12 to QSX14 are those of 6.2. As in 4.E70 the nominal load is that without LFZO. */
+/* Overturning moment, 4.E69, N m; QSX12 to QSX14 are of version 6.2. As in 4.E70, LFZO does not scale the nominal
+ * load. */
 static double overturning(const ali3_magic_state *s, const terms *q, double Fy) {
-  const double *c = s->c, gamma = s->camber, side = Fy / s->nominal_load, load = s->load / s->nominal_load;
-  const double more =
+  const double *c = s->c, gamma = s->camber, lateral_ratio = Fy / s->nominal_load, load = s->load / s->nominal_load;
+  const double term =
       c[ALI3_MF_QSX4] == 0.0
           ? 0.0
           : c[ALI3_MF_QSX4] *
                 ali3_cos(c[ALI3_MF_QSX5] * ali3_atan2(c[ALI3_MF_QSX6] * load * c[ALI3_MF_QSX6] * load, 1.0)) *
-                ali3_sin(c[ALI3_MF_QSX7] * gamma + c[ALI3_MF_QSX8] * ali3_atan2(c[ALI3_MF_QSX9] * side, 1.0));
+                ali3_sin(c[ALI3_MF_QSX7] * gamma + c[ALI3_MF_QSX8] * ali3_atan2(c[ALI3_MF_QSX9] * lateral_ratio, 1.0));
   const double of_load = c[ALI3_MF_QSX1] * c[ALI3_MF_LVMX] -
                          c[ALI3_MF_QSX2] * gamma * (1.0 + c[ALI3_MF_PPMX1] * q->dpi) -
-                         c[ALI3_MF_QSX12] * gamma * fabs(gamma) + c[ALI3_MF_QSX3] * side + more +
+                         c[ALI3_MF_QSX12] * gamma * fabs(gamma) + c[ALI3_MF_QSX3] * lateral_ratio + term +
                          c[ALI3_MF_QSX10] * ali3_atan2(c[ALI3_MF_QSX11] * load, 1.0) * gamma;
   return s->moving * s->radius * c[ALI3_MF_LMX] *
          (s->load * of_load + Fy * (c[ALI3_MF_QSX13] + c[ALI3_MF_QSX14] * fabs(gamma)));
@@ -243,7 +247,7 @@ static double overturning(const ali3_magic_state *s, const terms *q, double Fy) 
 /* ln(x) for x > 0, the same on every platform */
 static double logarithm(double x) {
   int exponent;
-  const double part = frexp(x, &exponent), z = (part - 1.0) / (part + 1.0), z2 = z * z;
+  const double mantissa = frexp(x, &exponent), z = (mantissa - 1.0) / (mantissa + 1.0), z2 = z * z;
   double sum = 0.0;
   for (int k = 41; k > 0; k -= 2) sum = sum * z2 + 1.0 / k;
   return 2.0 * z * sum + exponent * 0.69314718055994531;
@@ -252,35 +256,37 @@ static double logarithm(double x) {
 /* x^p for x > 0 */
 static double power(double x, double p) { return p == 0.0 ? 1.0 : ali3_exp(p * logarithm(x)); }
 
-/* > 0 against rolling: 4.E70 for PAC2002; from 6.1 on Besselink et al., eq. (A48), which is over the nominal load and by
- * that one power of the load less; without QSY7 as of PAC2002. */
+/* Moment of rolling resistance, N m, >= 0: 4.E70 for PAC2002; from 6.1 on eq. (A48) of Besselink et al., which divides
+ * by the nominal load, so its power of the load is less by one. Without QSY7 that of PAC2002. */
 static double rolling(const ali3_magic_state *s, const terms *q, double Fx) {
   const double *c = s->c, gamma2 = s->camber * s->camber, load = s->load / s->nominal_load;
   const double v = s->speed / c[ALI3_MF_LONGVL], by_load = c[ALI3_MF_QSY7] - (q->book && c[ALI3_MF_QSY7] != 0.0);
   const double sum = c[ALI3_MF_QSY1] + c[ALI3_MF_QSY2] * Fx / s->nominal_load + c[ALI3_MF_QSY3] * v +
                      c[ALI3_MF_QSY4] * v * v * v * v + (c[ALI3_MF_QSY5] + c[ALI3_MF_QSY6] * load) * gamma2;
-  const double resist =
+  const double moment =
       sum * s->load * s->radius * c[ALI3_MF_LMY] * power(load, by_load) * power(1.0 + q->dpi, c[ALI3_MF_QSY8]);
-  return resist > 0.0 ? resist : 0.0; /* a fit beyond its range must not drive */
+  return moment > 0.0 ? moment : 0.0; /* outside its range a fit could become negative and drive the wheel */
 }
 
-/* Slip stiffness over relaxation length: by stiffnesses of the carcass (Besselink et al., eqs. 13 and 14), else by
- * relaxation lengths, else assumed. */
-static void carcass(const ali3_magic_state *s, const terms *q, const pure *x, const pure *y, double out[2]) {
+/* Carcass stiffness, N/m: from the stiffnesses of the file (Besselink et al., eqs. 13 and 14), else slip stiffness over
+ * relaxation length of the file, else over an assumed one. */
+static void carcass_stiffness(const ali3_magic_state *s, const terms *q, const pure *x, const pure *y, double out[2]) {
   const double *c = s->c, dfz = q->dfz, load = s->load / q->nominal;
   const double along = load * (c[ALI3_MF_PTX1] + c[ALI3_MF_PTX2] * dfz) * ali3_exp(-c[ALI3_MF_PTX3] * dfz) * s->radius *
                        c[ALI3_MF_LSGKP];
   const double across = c[ALI3_MF_PTY1] * ali3_sin(2.0 * ali3_atan2(load, c[ALI3_MF_PTY2])) *
-                        share(1.0 - c[ALI3_MF_PKY3] * fabs(s->camber)) * s->radius * c[ALI3_MF_LFZO] * c[ALI3_MF_LSGAL];
+                        at_least_share(1.0 - c[ALI3_MF_PKY3] * fabs(s->camber)) * s->radius * c[ALI3_MF_LFZO] *
+                        c[ALI3_MF_LSGAL];
   const double lengths[2] = {along, across}, slip[2] = {x->K, fabs(y->K)};
-  const double usual[2] = {RELAXES_ALONG * s->radius * load, RELAXES_ACROSS * s->radius * load};
+  const double default_lengths[2] = {RELAXES_ALONG * s->radius * load, RELAXES_ACROSS * s->radius * load};
   for (int i = 0; i < 2; i++) {
     const double stiffness = c[i ? ALI3_MF_LATERAL_STIFFNESS : ALI3_MF_LONGITUDINAL_STIFFNESS];
-    const double *by = &c[i ? ALI3_MF_PCFY1 : ALI3_MF_PCFX1];
+    const double *factors = &c[i ? ALI3_MF_PCFY1 : ALI3_MF_PCFX1];
     if (stiffness > 0.0)
-      out[i] = stiffness * share((1.0 + by[0] * dfz + by[1] * dfz * dfz) * (1.0 + by[2] * q->dpi));
+      out[i] =
+          stiffness * at_least_share((1.0 + factors[0] * dfz + factors[1] * dfz * dfz) * (1.0 + factors[2] * q->dpi));
     else
-      out[i] = slip[i] / (lengths[i] > LEAST_SHARE * usual[i] ? lengths[i] : usual[i]);
+      out[i] = slip[i] / (lengths[i] > LEAST_SHARE * default_lengths[i] ? lengths[i] : default_lengths[i]);
   }
 }
 
@@ -290,42 +296,43 @@ void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, 
   const dual slip = {kappa, 1.0, 0.0}, tangential = {tangent, 0.0, 1.0};
   const dual alpha = q.book ? tangential : arctan(tangential); /* 4.E3 */
   const pure x = longitudinal(s, &q, slip), y = lateral(s, &q, q.star, alpha);
-  dual part[2] = {constant(1.0), constant(1.0)}, more = constant(0.0);
+  dual factor[2] = {constant(1.0), constant(1.0)}, term = constant(0.0);
   if (s->combined == ALI3_MAGIC_WEIGHTED) {
-    part[0] = weight_along(s, &q, slip, alpha);
-    part[1] = weight_across(s, &q, q.star, slip, alpha);
-    more = induced(s, &q, &y, slip, alpha);
+    factor[0] = longitudinal_weight(s, &q, slip, alpha);
+    factor[1] = lateral_weight(s, &q, q.star, slip, alpha);
+    term = induced(s, &q, &y, slip, alpha);
   } else if (s->combined == ALI3_MAGIC_ELLIPSE) {
     const dual along = plus(slip, x.H + x.V / x.K), across = sine(plus(alpha, y.H + y.V / y.K));
-    part[0] = ellipse(&x, &y, along, across);
-    part[1] = ellipse(&y, &x, across, along);
+    factor[0] = ellipse(&x, &y, along, across);
+    factor[1] = ellipse(&y, &x, across, along);
   }
-  const dual force[2] = {product(x.force, part[0]), add(product(y.force, part[1]), more)};
+  const dual force[2] = {product(x.force, factor[0]), add(product(y.force, factor[1]), term)};
   const dual ratio = secant(alpha, tangential, 1.0);
-  const dual left_across = constant(part[1].v);
-  for (int i = 0; i < 2; i++) /* a weight that turns round at large slips must not let the carcass go */
-    if (!(part[i].v > LEAST_SHARE)) part[i] = constant(LEAST_SHARE);
-  const dual per_slip[2] = {product(secant(x.base, x.slip, x.K), part[0]),
-                            product(product(secant(y.base, y.slip, y.K), part[1]), ratio)};
+  const dual combined_weight = constant(factor[1].v);
+  for (int i = 0; i < 2; i++) /* a weight that is negative at large slips must not make the carcass unstable */
+    if (!(factor[i].v > LEAST_SHARE)) factor[i] = constant(LEAST_SHARE);
+  const dual per_slip[2] = {product(secant(x.base, x.slip, x.K), factor[0]),
+                            product(product(secant(y.base, y.slip, y.K), factor[1]), ratio)};
   for (int i = 0; i < 2; i++) {
-    const double way = i ? sign(y.K) : 1.0, value = way * per_slip[i].v;
+    const double sense = i ? sign(y.K) : 1.0, value = sense * per_slip[i].v;
     out->F[i] = force[i].v;
     out->J[i][0] = force[i].k, out->J[i][1] = force[i].t;
     out->secant[i] = value > 0.0 ? value : 0.0;
-    out->secant_slope[i][0] = value > 0.0 ? way * per_slip[i].k : 0.0;
-    out->secant_slope[i][1] = value > 0.0 ? way * per_slip[i].t : 0.0;
+    out->secant_slope[i][0] = value > 0.0 ? sense * per_slip[i].k : 0.0;
+    out->secant_slope[i][1] = value > 0.0 ? sense * per_slip[i].t : 0.0;
   }
   out->cornering = fabs(y.K);
   out->peak[0] = fabs(x.D) + fabs(x.V), out->peak[1] = fabs(y.D) + fabs(y.V);
-  carcass(s, &q, &x, &y, out->carcass);
-  double trailing = out->F[1] - more.v; /* 4.E74 */
+  carcass_stiffness(s, &q, &x, &y, out->carcass);
+  double trail_force = out->F[1] - term.v; /* 4.E74 */
   if (q.book && q.star != 0.0) {
-    const pure level = lateral(s, &q, 0.0, constant(alpha.v));
-    const dual left = s->combined == ALI3_MAGIC_WEIGHTED ? weight_across(s, &q, 0.0, constant(kappa), constant(alpha.v))
-                                                         : left_across;
-    trailing = level.force.v * left.v;
+    const pure upright = lateral(s, &q, 0.0, constant(alpha.v));
+    const dual weight_level = s->combined == ALI3_MAGIC_WEIGHTED
+                                  ? lateral_weight(s, &q, 0.0, constant(kappa), constant(alpha.v))
+                                  : combined_weight;
+    trail_force = upright.force.v * weight_level.v;
   }
-  aligning(s, &q, &x, &y, kappa, alpha.v, cosine_alpha, trailing, out);
+  aligning(s, &q, &x, &y, kappa, alpha.v, cosine_alpha, trail_force, out);
 }
 
 void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out) {

@@ -5,7 +5,7 @@
 #define ALI3_MAGIC_FORMULA_H
 #include <stdint.h>
 
-/* Name in a .tir file and its value where a file has none, in the order of the element's numbers. */
+/* Name of a coefficient in a .tir file and its default value, in the order of the element's numbers. */
 /* clang-format off */
 #define ALI3_MAGIC_COEFFICIENTS(X) \
   X(LFZO, 1) X(LCX, 1) X(LMUX, 1) X(LEX, 1) X(LKX, 1) X(LHX, 1) X(LVX, 1) X(LGAX, 1) X(LCY, 1) X(LMUY, 1) X(LEY, 1) \
@@ -46,32 +46,33 @@ typedef struct {
   int32_t version, combined;
   double nominal_load, radius; /* N, m: FNOMIN, UNLOADED_RADIUS */
   double load, camber, pressure; /* N, > 0; rad, axes of the file; pressure over the nominal one */
-  double friction[2]; /* factors on the largest forces, LMUX and LMUY left out */
-  double stiffness[2]; /* the same of LKX and LKY */
-  double moving; /* 0 to 1: share of shifts, camber thrust and moments */
+  double friction[2]; /* factors on the peaks of the forces, beside LMUX and LMUY */
+  double stiffness[2]; /* factors on the slip stiffnesses, beside LKX and LKY */
+  double moving; /* factor on shifts, camber thrust and moments: 0 at rest to 1 */
   double direction; /* of travel: 1, -1 backwards */
-  double speed, slide; /* m/s: of travel, of the patch on the road */
+  double speed, slide; /* m/s: speed of travel, sliding speed of the patch */
 } ali3_magic_state;
 
 typedef struct {
   double F[2]; /* N, axes of the file: along, lateral */
-  double J[2][2]; /* of F by longitudinal slip and tangent of the slip angle */
+  double J[2][2]; /* derivatives of F by longitudinal slip and tangent of the slip angle */
   double secant[2], secant_slope[2][2]; /* |F| per slip without shifts, and its derivatives */
-  double peak[2]; /* N: bound of |F| alone */
-  double cornering; /* stiffness, N, > 0 */
-  double carcass[2]; /* N/m: slip stiffness over relaxation length */
-  double trail, arm; /* m: of the lateral force and of the longitudinal one */
+  double peak[2]; /* N: largest |F| of each direction alone */
+  double cornering; /* cornering stiffness, N per unit of tan(slip angle), > 0 */
+  double carcass[2]; /* carcass stiffness, N/m */
+  double trail, arm; /* lever of the lateral and of the longitudinal force, m */
   double Mx, My, Mz; /* N m, axes of the file; My > 0 resists rolling */
 } ali3_magic_force;
 
-/* All but Mx and My. kappa: longitudinal slip; tangent: of the slip angle, axes of the file. */
+/* Forces and Mz; Mx and My stay unset. kappa: longitudinal slip; tangent: tangent of the slip angle, axes of the
+ * file. */
 void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, ali3_magic_force *out);
 
-/* Mx and My by the forces that act, and Mz with them in place of the steady ones. */
+/* Mx, My and Mz at the acting forces F in place of the steady ones. */
 void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out);
 
-/* Effective rolling radius, m, at a free radius (m, grown by speed), stiffness at the nominal load (N/m) and deflection
- * (m). `harder`: load per deflection over that stiffness. */
+/* Effective rolling radius, m, at a free radius (m, including growth by speed), stiffness at the nominal load (N/m) and
+ * deflection (m). `harder`: local stiffness over that stiffness. */
 double ali3_magic_rolling_radius(const ali3_magic_state *s, double free_radius, double stiffness, double deflection,
                                  double harder);
 #endif

@@ -6,7 +6,7 @@
 #include "../algebra/small_vectors.h"
 #include "half_space.h"
 
-#define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
+#define FLATTEST 0.05 /* least cosine at an edge, as it is a divisor */
 
 static int plane(const real *p, const real centre[3], const real axis[3], real radius, ali3_contact *out) {
   const real size = ali3_sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
@@ -17,35 +17,36 @@ static int plane(const real *p, const real centre[3], const real axis[3], real r
   return 1;
 }
 
-/* Line x = edge[0], z = edge[2]. Returns where the wheel plane does not (nearly) miss it. */
+/* Contact with the line x = edge[0], z = edge[2]. False where the wheel plane is nearly parallel to it. */
 static truth edge_line(const real centre[3], const real axis[3], real radius, const real edge[3], ali3_contact *out) {
   const real none = {0};
-  real w[3] = {edge[0] - centre[0], none, edge[2] - centre[2]};
-  w[1] = -(w[0] * axis[0] + w[2] * axis[2]) / axis[1];
-  const real distance = ali3_norm(w);
-  /* gradient of the distance with respect to the centre: it has no part along the edge */
-  const real g[3] = {(w[1] * axis[0] / axis[1] - w[0]) / distance, none, (w[1] * axis[2] / axis[1] - w[2]) / distance};
+  real offset[3] = {edge[0] - centre[0], none, edge[2] - centre[2]};
+  offset[1] = -(offset[0] * axis[0] + offset[2] * axis[2]) / axis[1];
+  const real distance = ali3_norm(offset);
+  /* gradient of the distance by the centre; its component along the edge is 0 */
+  const real g[3] = {(offset[1] * axis[0] / axis[1] - offset[0]) / distance, none,
+                     (offset[1] * axis[2] / axis[1] - offset[2]) / distance};
   const real size = ali3_norm(g);
   out->penetration = radius - distance;
   out->cosine = ali3_where(1.0 / size > FLATTEST, 1.0 / size, ali3_same(FLATTEST));
   out->leaning = ali3_same(1.0);
   for (int i = 0; i < 3; i++) {
     out->normal[i] = g[i] / size;
-    out->down[i] = w[i] / distance;
-    out->point[i] = centre[i] + w[i];
+    out->down[i] = offset[i] / distance;
+    out->point[i] = centre[i] + offset[i];
   }
   return ali3_not((ali3_abs(axis[1]) < 1e-6) | (distance < 1e-9));
 }
 
-/* *to becomes what `from` is, there. */
-static void take(truth there, const ali3_contact *from, ali3_contact *to) {
+/* Copies `from` to *to in the lanes of `mask`. */
+static void replace_where(truth mask, const ali3_contact *from, ali3_contact *to) {
   const real *x = (const real *)from;
   real *y = (real *)to;
-  for (size_t i = 0; i < sizeof *to / sizeof *y; i++) y[i] = ali3_where(there, x[i], y[i]);
+  for (size_t i = 0; i < sizeof *to / sizeof *y; i++) y[i] = ali3_where(mask, x[i], y[i]);
 }
 
-/* Upper quarter space (plane, edge or face, whichever is nearest: its distance is C1) and, as second contact, the
- * lower plane; where the wheel plane misses the edge that alone, as the first. */
+/* First contact: the upper quarter space (the nearest of plane, edge and face, with a C1 distance); second: the lower
+ * plane. Where the wheel plane misses the edge, only the lower plane, as the first contact. */
 static int kerb(const real *p, const real centre[3], const real axis[3], real radius, ali3_contact out[2]) {
   const real none = {0}, one = ali3_same(1.0), side = ali3_where(p[KERB_SIDE] >= 0.0, one, -one);
   const real edge[3] = {p[KERB_X], none, p[KERB_LOWER] + p[KERB_STEP]}, low[3] = {none, none, p[KERB_LOWER]};
@@ -57,22 +58,22 @@ static int kerb(const real *p, const real centre[3], const real axis[3], real ra
   const truth is_above = above > 0.0, is_ahead = ahead > 0.0;
   const truth top = (is_above & (side * (other.point[0] - edge[0]) <= 0.0)) |
                     (ali3_not(is_above) & (ahead <= 0.0) & (above >= ahead));
-  const truth before = (is_ahead & (out[0].point[2] <= edge[2])) | (ali3_not(is_ahead) & (above <= 0.0));
-  const truth corner = ali3_not(top | before);
-  take(top, &other, &out[0]);
+  const truth in_front = (is_ahead & (out[0].point[2] <= edge[2])) | (ali3_not(is_ahead) & (above <= 0.0));
+  const truth corner = ali3_not(top | in_front);
+  replace_where(top, &other, &out[0]);
   ali3_half_space(centre, axis, radius, low, up, &out[1]);
-  truth missed = {0};
+  truth misses = {0};
   if (ali3_any(corner)) {
-    missed = corner & ali3_not(edge_line(centre, axis, radius, edge, &other));
-    take(corner, &other, &out[0]);
-    take(missed, &out[1], &out[0]);
+    misses = corner & ali3_not(edge_line(centre, axis, radius, edge, &other));
+    replace_where(corner, &other, &out[0]);
+    replace_where(misses, &out[1], &out[0]);
   }
   for (int i = 0; i < 2; i++) out[i].friction = p[KERB_FRICTION];
-  if (ali3_any(missed)) {
+  if (ali3_any(misses)) {
     const ali3_contact nothing = ali3_no_contact();
-    take(missed, &nothing, &out[1]);
+    replace_where(misses, &nothing, &out[1]);
   }
-  return ali3_any(ali3_not(missed)) ? 2 : 1;
+  return ali3_any(ali3_not(misses)) ? 2 : 1;
 }
 
 int ali3_contacts_by_numbers(int32_t type, const real *p, real friction_factor, const real centre[3],

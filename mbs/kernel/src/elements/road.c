@@ -1,4 +1,5 @@
-/* Plane, kerb and regular grid. A wheel is a disc: its nearest point is sought within the wheel plane. */
+/* Plane, kerb and regular grid: contacts of a wheel, clearance of points, checks. A wheel is a disc; its nearest point
+ * is searched in the wheel plane. */
 #include "road.h"
 
 #include "../algebra/small_vectors.h"
@@ -19,7 +20,7 @@ static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   return 1;
 }
 
-/* Type of a road: that of its file, or its own. */
+/* Type of a road: that of its file, otherwise its own. */
 static int32_t type_of(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_kind(road->file) : road->type;
 }
@@ -28,36 +29,36 @@ static const double *reals_of(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_reals(road->file) : road->real;
 }
 
-/* 1 where a plane or kerb was written without one. */
+/* Factor on the friction; 1 for a plane or kerb without one. */
 static double factor_of(const ali3_road *road) {
   if (road->type == ALI3_ROAD_GRID) return road->real[GRID_FRICTION];
   if (road->type == ALI3_ROAD_PORT) return 1.0;
-  const int32_t place = road->type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
-  return place < road->nreal ? road->real[place] : 1.0;
+  const int32_t index = road->type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
+  return index < road->nreal ? road->real[index] : 1.0;
 }
 
-/* False where a parameter has spoilt the header. */
+/* Grid of a road; false if a parameter made its header invalid. */
 static int grid_of(const ali3_road *road, ali3_grid *g) {
   const double *p = road->real;
   if (road->file != NULL) {
-    const double *h = ali3_road_file_reals(road->file);
-    const ali3_grid of_file = {.x0 = h[0], .y0 = h[1], .dx = h[2], .dy = h[3], .file = road->file};
-    *g = of_file;
+    const double *header = ali3_road_file_reals(road->file);
+    const ali3_grid grid = {.x0 = header[0], .y0 = header[1], .dx = header[2], .dy = header[3], .file = road->file};
+    *g = grid;
     ali3_road_file_size(road->file, &g->nx, &g->ny);
     return 1;
   }
   int nx, ny;
   if (!grid_size(p, road->nreal, &nx, &ny)) return 0;
   const double *z = p + GRID_DATA;
-  const ali3_grid own = {.nx = nx,
-                         .ny = ny,
-                         .x0 = p[GRID_X0],
-                         .y0 = p[GRID_Y0],
-                         .dx = p[GRID_DX],
-                         .dy = p[GRID_DY],
-                         .z = z,
-                         .mu = z + (int64_t)nx * ny};
-  *g = own;
+  const ali3_grid grid = {.nx = nx,
+                          .ny = ny,
+                          .x0 = p[GRID_X0],
+                          .y0 = p[GRID_Y0],
+                          .dx = p[GRID_DX],
+                          .dy = p[GRID_DY],
+                          .z = z,
+                          .mu = z + (int64_t)nx * ny};
+  *g = grid;
   return 1;
 }
 
@@ -94,14 +95,14 @@ static void plane_clearance(const double n[3], const double q[3], const double p
   }
 }
 
-/* Step and lower level. Outside the step the distance is the true one. Inside, a below its top and b behind its face,
- * it is -(a + b - sqrt(a^2 + b^2)) (Fischer and Burmeister): min(a, b) near both, without its kink between them, so a
- * point that is deep in the edge is not thrown from one side to the other. */
+/* Step and lower level. Outside the step the distance is exact. Inside, a below its top and b behind its face, it is
+ * -(a + b - sqrt(a^2 + b^2)) (Fischer and Burmeister): close to -min(a, b) near either surface, but without a kink
+ * between them, so that a point deep inside the edge is not pushed alternately to both sides. */
 static int kerb_clearance(const double *p, const double point[3], ali3_clearance out[2]) {
   const double side = p[KERB_SIDE] >= 0.0 ? 1.0 : -1.0, up[3] = {0.0, 0.0, 1.0}, low[3] = {0.0, 0.0, p[KERB_LOWER]};
   const double a = p[KERB_LOWER] + p[KERB_STEP] - point[2], b = -side * (point[0] - p[KERB_X]);
   const double corner = ali3_hypot(a, b);
-  double by_a = -1.0, by_b = 0.0; /* of the distance */
+  double by_a = -1.0, by_b = 0.0; /* derivatives of the distance */
   out[0].distance = -a;
   if (a > 0.0 && b <= 0.0) {
     out[0].distance = -b;
@@ -110,8 +111,8 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
     out[0].distance = corner;
     by_a = a / corner, by_b = b / corner;
   } else if (a > 0.0 && b > 0.0) {
-    const double less = fmin(a, b); /* corner - a - b, of which nothing cancels where the edge is far away */
-    out[0].distance = less * less / (corner + fmax(a, b)) - less;
+    const double smaller = fmin(a, b); /* = corner - a - b without cancellation far from the edge */
+    out[0].distance = smaller * smaller / (corner + fmax(a, b)) - smaller;
     by_a = a / corner - 1.0, by_b = b / corner - 1.0;
   }
   out[0].gradient[0] = -side * by_b;
@@ -122,12 +123,12 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
   return 2;
 }
 
-#define NEAR 0.1 /* m: farther from the tangent plane under it a point is not evaluated again */
-#define INSIDE 0.01 /* m: deeper the face of a wall is looked for, of which the tangent plane on top knows nothing */
-#define STEEP 1.5 /* of the depth: how far, so that of faces from 42 degrees on none that is nearer is missed */
+#define NEAR 0.1 /* m: distance from the tangent plane above which it is not evaluated again */
+#define INSIDE 0.01 /* m: depth above which the face of a wall is searched: the tangent plane does not include it */
+#define STEEP 1.5 /* depths: radius of that search, which finds every nearer face of 42 degrees or more */
 
-/* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives; inside,
- * to the nearest face where that is nearer. */
+/* Distance to the surface by the tangent plane under the point, evaluated twice more at its foot; inside a wall, the
+ * distance to the nearest face if that is less deep. */
 static int grid_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
   ali3_grid g;
   if (!grid_of(road, &g)) return 0;
@@ -143,13 +144,13 @@ static int grid_clearance(const ali3_road *road, const double point[3], ali3_cle
     x = point[0] - reach * under.normal[0];
     y = point[1] - reach * under.normal[1];
   }
-  double foot[2];
-  if (out->distance < -INSIDE && ali3_grid_exit(&g, point, -STEEP * out->distance, foot)) {
-    const ali3_surface face = ali3_grid_at(&g, foot[0], foot[1]);
-    const double q[3] = {foot[0], foot[1], face.height};
-    ali3_clearance aside = {.friction = face.friction};
-    plane_clearance(face.normal, q, point, &aside);
-    if (aside.distance > out->distance) *out = aside;
+  double nearest[2];
+  if (out->distance < -INSIDE && ali3_grid_exit(&g, point, -STEEP * out->distance, nearest)) {
+    const ali3_surface face = ali3_grid_at(&g, nearest[0], nearest[1]);
+    const double q[3] = {nearest[0], nearest[1], face.height};
+    ali3_clearance at_face = {.friction = face.friction};
+    plane_clearance(face.normal, q, point, &at_face);
+    if (at_face.distance > out->distance) *out = at_face;
   }
   return 1;
 }
@@ -169,9 +170,9 @@ int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clear
   if (type == ALI3_ROAD_KERB) count = kerb_clearance(p, point, out);
   if (type == ALI3_ROAD_GRID) count = grid_clearance(road, point, out);
   if (type == ALI3_ROAD_PORT) {
-    double foot[3];
-    const ali3_surface under = ali3_port_surface(road, point, foot);
-    plane_clearance(under.normal, foot, point, out);
+    double nearest[3];
+    const ali3_surface under = ali3_port_surface(road, point, nearest);
+    plane_clearance(under.normal, nearest, point, out);
     out->friction = under.friction;
     count = 1;
   }

@@ -7,10 +7,10 @@ static void evaluate(ali3_element_args *a) {
   const double *p = a->real;
   const double k = p[STIFFNESS] * p[STIFFNESS_FACTOR];
   const double c = p[DAMPING] * p[DAMPING_FACTOR];
-  const double stretch = a->u[0] - p[FREE_VALUE];
-  a->f[0] = p[CONSTANT] - k * stretch - c * a->ud[0];
+  const double deflection = a->u[0] - p[FREE_VALUE];
+  a->f[0] = p[CONSTANT] - k * deflection - c * a->ud[0];
   a->out[0] = a->f[0];
-  a->potential = 0.5 * k * stretch * stretch - p[CONSTANT] * stretch;
+  a->potential = 0.5 * k * deflection * deflection - p[CONSTANT] * deflection;
   if (a->S) a->S[0] = a->wK * k + a->wC * c;
 }
 

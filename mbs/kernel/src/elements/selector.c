@@ -1,18 +1,18 @@
-/* Rates of the states of a drive's selector, and the share of the torque that it passes on. */
+/* Steps of the states of a drive's selector, and the factor on the torque. */
 #include "selector.h"
 
 #include "../algebra/small_vectors.h"
 
 int ali3_selector_position(double value) { return value > 0.5 ? 1 : value < -0.5 ? -1 : 0; }
 
-int ali3_selector_step(const double *y_old, double *y_new, double input, double part, double *share) {
+int ali3_selector_step(const double *y_old, double *y_new, double input, double fraction, double *share) {
   const int direction = ali3_selector_position(y_old[ALI3_SELECTOR_DIRECTION]);
-  const int stays = ali3_selector_position(input) == direction;
+  const int unchanged = ali3_selector_position(input) == direction;
   double engaged = ali3_clamp(y_old[ALI3_SELECTOR_ENGAGED], 0.0, 1.0);
   y_new[ALI3_SELECTOR_DIRECTION] = y_old[ALI3_SELECTOR_DIRECTION];
   y_new[ALI3_SELECTOR_ENGAGED] = y_old[ALI3_SELECTOR_ENGAGED];
-  if (part > 0.0) { /* below 0: by how much the step went on after the torque had faded */
-    engaged = direction == 0 ? 0.0 : stays ? ali3_clamp(engaged + part, 0.0, 1.0) : engaged - part;
+  if (fraction > 0.0) { /* below 0: fraction of the step after the torque became 0 */
+    engaged = direction == 0 ? 0.0 : unchanged ? ali3_clamp(engaged + fraction, 0.0, 1.0) : engaged - fraction;
     y_new[ALI3_SELECTOR_ENGAGED] = engaged;
   }
   const double x = ali3_clamp(engaged, 0.0, 1.0);
@@ -21,15 +21,15 @@ int ali3_selector_step(const double *y_old, double *y_new, double input, double 
 }
 
 int ali3_selector_accept(double *y, double input, double wheel_rate, double engage_speed, int start) {
-  const int wanted = ali3_selector_position(input), direction = ali3_selector_position(y[ALI3_SELECTOR_DIRECTION]);
-  const int allowed = wanted * wheel_rate > -engage_speed || wanted == 0;
+  const int requested = ali3_selector_position(input), direction = ali3_selector_position(y[ALI3_SELECTOR_DIRECTION]);
+  const int allowed = requested * wheel_rate > -engage_speed || requested == 0;
   if (start) {
-    y[ALI3_SELECTOR_DIRECTION] = allowed ? wanted : 0.0;
-    y[ALI3_SELECTOR_ENGAGED] = allowed && wanted != 0 ? 1.0 : 0.0;
-    return allowed && wanted != 0;
+    y[ALI3_SELECTOR_DIRECTION] = allowed ? requested : 0.0;
+    y[ALI3_SELECTOR_ENGAGED] = allowed && requested != 0 ? 1.0 : 0.0;
+    return allowed && requested != 0;
   }
-  if (wanted == direction || (direction != 0 && y[ALI3_SELECTOR_ENGAGED] > 0.0)) return 0;
-  y[ALI3_SELECTOR_DIRECTION] = allowed ? wanted : 0.0;
-  y[ALI3_SELECTOR_ENGAGED] = allowed && wanted != 0 ? ali3_clamp(-y[ALI3_SELECTOR_ENGAGED], 0.0, 1.0) : 0.0;
-  return allowed && wanted != 0;
+  if (requested == direction || (direction != 0 && y[ALI3_SELECTOR_ENGAGED] > 0.0)) return 0;
+  y[ALI3_SELECTOR_DIRECTION] = allowed ? requested : 0.0;
+  y[ALI3_SELECTOR_ENGAGED] = allowed && requested != 0 ? ali3_clamp(-y[ALI3_SELECTOR_ENGAGED], 0.0, 1.0) : 0.0;
+  return allowed && requested != 0;
 }

@@ -1,10 +1,10 @@
-/* Signals: affine functions of the coordinates. */
+/* Values and rates of signals, affine functions of the coordinates. */
 #ifndef ALI3_SIGNAL_H
 #define ALI3_SIGNAL_H
 #include "../algebra/number_pairs.h"
 #include "../instance.h"
 
-/* Value of signal i at coordinates x, or its rate where x are rates (or accelerations). */
+/* Value of signal i at coordinates x; rate: x holds rates or accelerations, and the constant is left out. */
 static inline double ali3_signal_at(const ali3_system *S, int32_t i, const double *x, bool rate) {
   double sum = rate ? 0.0 : S->sig_const[i];
   ALI3_SHORT
@@ -12,7 +12,7 @@ static inline double ali3_signal_at(const ali3_system *S, int32_t i, const doubl
   return sum;
 }
 
-/* Derivative of coordinate i of x (or its rate) by the angle of a turn of the scene to the left about the origin. */
+/* Derivative of coordinate i (or of its rate) by the angle of a rotation of the scene to the left about the origin. */
 static inline double ali3_turned(const ali3_system *S, int32_t i, const double *x, bool rate) {
   const int32_t partner = S->pose_partner[i];
   if (partner == 0) return 0.0;

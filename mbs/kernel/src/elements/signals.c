@@ -1,4 +1,4 @@
-/* From coordinates to the signals of elements, and from the tangents of signals back to coordinates. */
+/* Signals of elements from coordinates; forces and tangents of signals transformed back to coordinates. */
 #include <string.h>
 
 #include "../algebra/number_pairs.h"
@@ -6,9 +6,9 @@
 #include "../instance.h"
 #include "signals.h"
 
-enum { WRITTEN_OUT = 7 }; /* signals of a tyre, a brake or a bearing */
+enum { WRITTEN_OUT = 7 }; /* number of signals (tyre, brake, bearing) for which loops are unrolled */
 
-/* in->element.u, in->element.ud of the signals that elements use. */
+/* Computes in->element.u and in->element.ud of the signals that elements use. */
 ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *qd) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->sig_ptr, *col = S->sig_col;
@@ -29,7 +29,7 @@ ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *q
 
 ALI3_BY_PROCESSOR(in->system, void, active_signals, (ali3_instance * in, const real *q, const real *qd), (in, q, qd))
 
-/* Q += the forces f of all elements on their signals, but for idle ones. */
+/* Q += generalised forces of all elements except idle ones; f: their forces on their signals. */
 ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
   const ali3_system *S = in->system;
   if (ALI3_GENERATED(S, forces, (S->sig_val, in->element.idle, f, Q))) return;
@@ -40,9 +40,9 @@ ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
       const int32_t signal = S->el_sig[i];
       for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) {
-        real *at = Q + S->sig_col[k];
-        const real sum = *at + S->sig_val[k] * f[i];
-        *at = some ? ali3_where(idle, *at, sum) : sum;
+        real *entry = Q + S->sig_col[k];
+        const real sum = *entry + S->sig_val[k] * f[i];
+        *entry = some ? ali3_where(idle, *entry, sum) : sum;
       }
     }
   }
@@ -50,7 +50,7 @@ ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
 
 ALI3_BY_PROCESSOR(in->system, void, add_forces, (const ali3_instance *in, const real *f, real *Q), (in, f, Q))
 
-/* y += a x but for the idle lanes */
+/* y += a x except in idle lanes. */
 ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, truth idle, int64_t n) {
 #ifdef ALI3_WIDTH
   if (ali3_any(idle)) {
@@ -62,7 +62,7 @@ ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, tr
   ali3_add_multiple(y, x, ali3_same(a), n);
 }
 
-/* An element in its front: its n signals, m coordinates with their places, and from `apart` on these are neighbours. */
+/* An element in its front: n signals and m coordinates at rows `loc`, which are contiguous from index `apart` on. */
 typedef struct {
   int32_t n, m, apart, size;
   const int32_t *loc;
@@ -80,7 +80,7 @@ static inline place place_of(const ali3_system *S, int32_t e, real *F) {
   return p;
 }
 
-/* A coordinate's column of B' S B gets its multiple of a row of S B, from the diagonal on. */
+/* Adds value times a row of S B to a coordinate's column of B' S B, from the diagonal on. */
 ALI3_INLINED void add_column(const place *p, int32_t j, const real *row, double value, truth idle) {
   real *restrict column = p->block + (int64_t)p->loc[j] * p->size;
   int32_t i = j;
@@ -88,18 +88,19 @@ ALI3_INLINED void add_column(const place *p, int32_t j, const real *row, double 
   add_row(column + p->loc[p->m - 1] - (p->m - 1) + i, row + i, value, idle, p->m - i);
 }
 
-/* add_column for the three coordinates of a point with three rows at once, from the diagonal of the first on or some
- * entries above, which nobody reads. */
-ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *row, const double *value, int32_t apart) {
+/* add_column for the three coordinates of a point with three rows at once; starts at the diagonal of the first column
+ * or a few entries above, which are never read. */
+ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *row, const double *value,
+                                       int32_t stride) {
   const int32_t from = j > p->apart ? p->apart + ali3_by_fours(j - p->apart, p->m - p->apart) : p->apart;
   real *restrict a = p->block + (int64_t)p->loc[j] * p->size, *restrict b = a + p->size, *restrict c = b + p->size;
   const real *restrict x = row, *restrict y = x + p->m, *restrict z = y + p->m;
-  const double first = value[0], second = value[apart], third = value[2 * apart];
+  const double first = value[0], second = value[stride], third = value[2 * stride];
   for (int32_t i = j; i < p->apart; i++) {
-    const int32_t at = p->loc[i];
-    a[at] += first * x[i];
-    b[at] += second * y[i];
-    c[at] += third * z[i];
+    const int32_t row_index = p->loc[i];
+    a[row_index] += first * x[i];
+    b[row_index] += second * y[i];
+    c[row_index] += third * z[i];
   }
   const int64_t shift = p->loc[p->m - 1] - (p->m - 1);
   int64_t i = from;
@@ -120,7 +121,7 @@ ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *ro
   }
 }
 
-/* SB = S B of element e: a row per signal, a column per coordinate. */
+/* SB = S B of element e, one row per signal, one column per coordinate. */
 ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p, int32_t n, const real *T,
                                 real *restrict SB) {
   const int32_t m = p->m, *signal = S->el_sig + S->el_sig_ptr[e];
@@ -130,7 +131,7 @@ ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p,
       for (int32_t i = 0; i < n; i++) SB[i * m + S->el_entry_local[k]] += T[i * n + s] * S->el_entry_value[k];
 }
 
-/* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a
+/* Adds B' S B of every element to its front; B = d(signals)/d(coordinates), S from the last ali3_forces with a
  * tangent. */
 ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
@@ -141,15 +142,15 @@ ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
     const truth idle = in->element.idle[e];
     if (S->el_front[e] < 0 || !ali3_any(ali3_not(idle))) continue;
     const place p = place_of(S, e, F);
-    if (p.m == 0) continue; /* on a tabled body */
+    if (p.m == 0) continue; /* all coordinates belong to a tabled body */
     if (p.n == WRITTEN_OUT)
       tangent_times(S, e, &p, WRITTEN_OUT, in->element.S + S->el_S_off[e], SB);
     else
       tangent_times(S, e, &p, p.n, in->element.S + S->el_S_off[e], SB);
     for (int32_t s = 0, k = S->el_entry_ptr[e]; s < p.n; s++) {
-      const int32_t at = S->el_sig_ptr[e] + s, signal = S->el_sig[at];
+      const int32_t position = S->el_sig_ptr[e] + s, signal = S->el_sig[position];
       const int32_t count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;
-      const bool triple = S->el_triple[at] && !ali3_any(idle);
+      const bool triple = S->el_triple[position] && !ali3_any(idle);
       for (; k < end; k++) {
         if (triple)
           add_columns_of_point(&p, local[k], SB + s * p.m, value + k, count);

@@ -1,4 +1,4 @@
-/* Signals of all elements. */
+/* Signals, generalised forces and tangents of all elements. */
 #ifndef ALI3_SIGNALS_H
 #define ALI3_SIGNALS_H
 #include "../algebra/real.h"

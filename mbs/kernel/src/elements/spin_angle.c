@@ -1,36 +1,37 @@
-/* Angle by which an axisymmetric wheel, reduced to one coordinate on its carrier, has turned on it since the start.
- * f, g are orthonormal on the carrier with f x g = e along the axis, the spin chi has chi' = Omega, the absolute rate
- * about it. States: turn, and f, g at the end of the last step. The angle is chi + turn. It has no force.
+/* Rotation angle of an axisymmetric wheel, reduced to one coordinate, relative to its carrier since the start. f, g are
+ * orthonormal on the carrier with f x g = e along the axis; the spin chi has chi' = Omega, the absolute rate about it.
+ * States: `turn`, and f, g at the end of the last step. The angle is chi + turn. The element has no force.
  *
- * The angle's rate is Omega - e . w with w the angular velocity of the carrier, and turn = -(chi at the start) minus the
- * integral of e . w. That integral is no function of the position, so it is summed over the steps: the frame of the last
- * step is taken along by the smallest rotation that brings its axis to the present one, P v = v - (e1 . v)/(1 + e0 . e1)
- * (e0 + e1) for v across e0, and the angle from P f to the present f is added. A carrier that turns about an axis at rest
- * is followed without error; else a step leaves out the small area between the way of the axis and a great circle. */
+ * The rate of the angle is Omega - e . w with the angular velocity w of the carrier, and turn = -(chi at the start)
+ * minus the integral of e . w. That integral is not a function of the position, so it is summed over the steps: the
+ * frame of the last step is transported by the smallest rotation of its axis e0 to the present axis e1, P v = v - (e1 .
+ * v)/(1 + e0 . e1) (e0 + e1) for v normal to e0, and the angle from P f to the present f is added. This is exact for a
+ * carrier that rotates about a fixed axis; otherwise a step neglects the small area between the path of the axis and a
+ * great circle. */
 #include "../algebra/elementary.h"
 #include "element.h"
 #include "element_math.h"
 #include "spin_angle_fields.h"
 
 enum { TURN, F, G = F + 3, STATES = G + 3 };
-#define OPPOSITE 1e-9 /* of 1 + e0 . e1: an axis turned over within a step leaves the angle open */
+#define OPPOSITE 1e-9 /* least 1 + e0 . e1: the angle is undefined if the axis reverses within a step */
 
-/* Angle about the axis that the carrier makes from the last step to the present one. */
-static real turned(const real *last, const real *f, const real *g) {
-  real e0[3], e1[3], along[3];
+/* Rotation of the carrier about the axis from the last step to the present one, rad. */
+static real carrier_turn(const real *last, const real *f, const real *g) {
+  real e0[3], e1[3], transported[3];
   ali3_cross(last + F, last + G, e0);
   ali3_cross(f, g, e1);
-  const real apart = 1.0 + ali3_dot(e0, e1), least = ali3_same(OPPOSITE);
-  const real share = ali3_dot(e1, last + F) / ali3_where(apart > OPPOSITE, apart, least);
-  for (int i = 0; i < 3; i++) along[i] = last[F + i] - share * (e0[i] + e1[i]);
-  return ali3_atan2(-ali3_dot(along, g), ali3_dot(along, f));
+  const real divisor = 1.0 + ali3_dot(e0, e1), least = ali3_same(OPPOSITE);
+  const real factor = ali3_dot(e1, last + F) / ali3_where(divisor > OPPOSITE, divisor, least);
+  for (int i = 0; i < 3; i++) transported[i] = last[F + i] - factor * (e0[i] + e1[i]);
+  return ali3_atan2(-ali3_dot(transported, g), ali3_dot(transported, f));
 }
 
 static void evaluate(ali3_element_args *a) {
   const real *f = a->u, *g = a->u + 3;
   for (int i = 0; i < STATES; i++) a->y_new[i] = a->y_old[i];
   if (a->h != 0.0) {
-    a->y_new[TURN] -= turned(a->y_old, f, g);
+    a->y_new[TURN] -= carrier_turn(a->y_old, f, g);
     for (int i = 0; i < 3; i++) a->y_new[F + i] = f[i], a->y_new[G + i] = g[i];
   }
   a->out[0] = a->u[6] + a->y_new[TURN];
@@ -39,7 +40,7 @@ static void evaluate(ali3_element_args *a) {
 }
 
 #ifndef ALI3_WIDTH
-/* A start: the wheel has not turned yet. */
+/* At a start the angle is zero. */
 static void accept(ali3_element_args *a) {
   if (a->h != 0.0) return;
   a->y_new[TURN] = -a->u[6];

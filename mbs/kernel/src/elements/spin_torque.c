@@ -1,5 +1,5 @@
-/* Torque from an input between a wheel's spin and its carrier, which takes the reaction.
- * f and g are orthonormal on the carrier with f x g along the axis, the rate of the spin is absolute. */
+/* Torque by an input between a wheel's spin and its carrier, which takes the reaction.
+ * f and g are orthonormal on the carrier with f x g along the axis; the rate of the spin is absolute. */
 #include "element.h"
 #include "element_math.h"
 #include "spin_torque_fields.h"
@@ -7,7 +7,7 @@
 static void evaluate(ali3_element_args *a) {
   const double torque = a->real[GAIN] * a->input[a->integer[INPUT]];
   for (int i = 0; i < 3; i++) {
-    a->f[i] = -0.5 * torque * a->u[3 + i]; /* its tangent is antisymmetric */
+    a->f[i] = -0.5 * torque * a->u[3 + i]; /* no contribution to S: the tangent is antisymmetric */
     a->f[3 + i] = 0.5 * torque * a->u[i];
   }
   a->f[6] = torque;

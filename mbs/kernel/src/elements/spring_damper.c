@@ -1,11 +1,11 @@
-/* Linear spring and damper between two points, with optional end stops.
- * d = p2 - p1. The stops are those of end_stops.h, linear or not. */
+/* Linear spring and damper between two points, with optional end stops (end_stops.h, linear or progressive). d = p2 -
+ * p1. */
 #include "element.h"
 #include "end_stops.h"
 #include "line_force.h"
 #include "spring_damper_fields.h"
 
-static int progressive(int32_t nreal) { return nreal > SPRING_DAMPER_REALS; }
+static int has_progressive_stops(int32_t nreal) { return nreal > SPRING_DAMPER_REALS; }
 
 static void evaluate(ali3_element_args *a) {
   const real *p = a->real;
@@ -14,7 +14,7 @@ static void evaluate(ali3_element_args *a) {
   const ali3_line line = ali3_line_at(a);
   const real stretch = line.length - p[FREE_LENGTH];
   ali3_tension t = {.elastic = k * stretch, .stiffness = k, .damping = c, .potential = 0.5 * k * stretch * stretch};
-  ali3_end_stops_at(p + STOPS, progressive(a->nreal), line.length, line.rate, &t);
+  ali3_end_stops_at(p + STOPS, has_progressive_stops(a->nreal), line.length, line.rate, &t);
   const real tension = t.elastic + c * line.rate + t.lost;
   ali3_line_force(a, &line, tension, t.stiffness, t.damping);
   a->potential = t.potential;
@@ -33,27 +33,28 @@ static void discrete(ali3_element_args *a) {
   const ali3_line line = ali3_line_between(a);
   if (line.length <= ALI3_SHORTEST) return;
   ali3_tension t = {.elastic = k * (line.length - p[FREE_LENGTH]), .stiffness = k, .damping = c};
-  ali3_end_stops_between(p + STOPS, progressive(a->nreal), line.start, line.end, line.rate, &t);
+  ali3_end_stops_between(p + STOPS, has_progressive_stops(a->nreal), line.start, line.end, line.rate, &t);
   ali3_line_force(a, &line, t.elastic + c * line.rate, t.stiffness, t.damping);
 }
 
 static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   (void)integer;
   const double *loss = real + STOPS + ALI3_STOP_LOSS;
-  return real[DAMPING] * real[DAMPING_FACTOR] != 0.0 || (progressive(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
+  return real[DAMPING] * real[DAMPING_FACTOR] != 0.0 ||
+         (has_progressive_stops(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
 }
 
 static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
 
-/* Progressive stops have an onset without a kink. */
+/* The onset of progressive stops has no kink and is no event. */
 static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
-  if (progressive(nreal)) return 1.0;
+  if (has_progressive_stops(nreal)) return 1.0;
   return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
   (void)nsig, (void)integer, (void)nint;
-  return progressive(nreal) ? ali3_end_stops_check(real + STOPS) : 0;
+  return has_progressive_stops(nreal) ? ali3_end_stops_check(real + STOPS) : 0;
 }
 
 const ali3_element_type ali3_spring_damper = {

@@ -1,7 +1,6 @@
-/* Spring and damper between two points, each by a number or by a table, with optional end stops.
- * d = p2 - p1. Behind its numbers stand, by columns, the points of the spring's table (stretch from the free length m,
- * tension N, slope, energy from stretch 0) and those of the damper's (rate m/s, tension N, slope); without points the
- * number holds. */
+/* Spring and damper between two points, each by a number or by a table, with optional end stops. d = p2 - p1. The
+ * points of the tables follow the numbers, by columns: of the spring stretch from the free length m, tension N, slope
+ * N/m, energy from stretch 0 J; of the damper rate m/s, tension N, slope N s/m. Without points the number applies. */
 #include <stddef.h>
 
 #include "cubic_table.h"
@@ -20,7 +19,7 @@ static ali3_cubic_table damper_table(const double *real, const int32_t *integer)
   return ali3_cubic_table_at(spring + columns * (int64_t)integer[SPRING_POINTS], integer[DAMPER_POINTS], 0);
 }
 
-/* Force of the damper, and its slope added to t. */
+/* Tension of the damper, N; adds its slope to t->damping. */
 static double damper(const ali3_element_args *a, double rate, ali3_tension *t) {
   const double *p = a->real, factor = p[DAMPING_FACTOR];
   double slope = p[DAMPING], force = p[DAMPING] * rate;
@@ -32,7 +31,7 @@ static double damper(const ali3_element_args *a, double rate, ali3_tension *t) {
   return factor * force;
 }
 
-static void spring_at(const ali3_element_args *a, double stretch, ali3_tension *t) {
+static void add_spring(const ali3_element_args *a, double stretch, ali3_tension *t) {
   const double *p = a->real, factor = p[STIFFNESS_FACTOR];
   double slope = p[STIFFNESS], force = slope * stretch, energy = 0.0;
   if (a->integer[SPRING_POINTS] > 0) {
@@ -46,8 +45,8 @@ static void spring_at(const ali3_element_args *a, double stretch, ali3_tension *
   t->potential += factor * energy;
 }
 
-/* Mean over a step with its slope by the length of the middle. */
-static void spring_between(const ali3_element_args *a, double x0, double x1, ali3_tension *t) {
+/* Mean tension over a step; its slope by the length at the middle of the step. */
+static void add_mean_spring(const ali3_element_args *a, double x0, double x1, ali3_tension *t) {
   const double *p = a->real, factor = p[STIFFNESS_FACTOR];
   double slope = p[STIFFNESS], mean = slope * 0.5 * (x0 + x1);
   if (a->integer[SPRING_POINTS] > 0) {
@@ -64,17 +63,17 @@ static void evaluate(ali3_element_args *a) {
   const double *p = a->real;
   const ali3_line line = ali3_line_at(a);
   ali3_tension t = {0};
-  spring_at(a, line.length - p[FREE_LENGTH], &t);
-  const double damped = damper(a, line.rate, &t);
+  add_spring(a, line.length - p[FREE_LENGTH], &t);
+  const double damper_tension = damper(a, line.rate, &t);
   ali3_end_stops_at(p + STOPS, 1, line.length, line.rate, &t);
-  const double tension = t.elastic + damped + t.lost;
+  const double tension = t.elastic + damper_tension + t.lost;
   ali3_line_force(a, &line, tension, t.stiffness, t.damping);
   a->potential = t.potential;
   a->piece = t.piece;
   a->out[0] = line.length;
   a->out[1] = tension;
   a->out[2] = line.rate;
-  a->out[3] = damped;
+  a->out[3] = damper_tension;
 }
 
 static void discrete(ali3_element_args *a) {
@@ -82,22 +81,22 @@ static void discrete(ali3_element_args *a) {
   const ali3_line line = ali3_line_between(a);
   if (line.length <= ALI3_SHORTEST) return;
   ali3_tension t = {0};
-  spring_between(a, line.start - p[FREE_LENGTH], line.end - p[FREE_LENGTH], &t);
-  const double damped = damper(a, line.rate, &t);
+  add_mean_spring(a, line.start - p[FREE_LENGTH], line.end - p[FREE_LENGTH], &t);
+  const double damper_tension = damper(a, line.rate, &t);
   ali3_end_stops_between(p + STOPS, 1, line.start, line.end, line.rate, &t);
-  ali3_line_force(a, &line, t.elastic + damped, t.stiffness, t.damping);
+  ali3_line_force(a, &line, t.elastic + damper_tension, t.stiffness, t.damping);
 }
 
 static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   (void)nreal;
   const double *loss = real + STOPS + ALI3_STOP_LOSS;
-  const bool damped = integer[DAMPER_POINTS] > 0 || real[DAMPING] != 0.0;
-  return (damped && real[DAMPING_FACTOR] != 0.0) || loss[0] != 0.0 || loss[1] != 0.0;
+  const bool damper_tension = integer[DAMPER_POINTS] > 0 || real[DAMPING] != 0.0;
+  return (damper_tension && real[DAMPING_FACTOR] != 0.0) || loss[0] != 0.0 || loss[1] != 0.0;
 }
 
 static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
 
-/* A damper never gives energy: its force rises through nothing at rest. */
+/* A damper never supplies energy: its force must not decrease with the rate and is 0 at rest. */
 static const char *check_damper(const ali3_cubic_table *t) {
   double slope;
   for (int32_t i = 0; i < t->n; i++)
@@ -114,8 +113,8 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
     return "the first column of a table of a spring-damper must rise";
   if (spring.n > 0 && !ali3_cubic_integrals_fit(&spring))
     return "the energies in the table of a spring are not those of its forces";
-  const char *bad = damper.n > 0 ? check_damper(&damper) : 0;
-  return bad != 0 ? bad : ali3_end_stops_check(real + STOPS);
+  const char *error = damper.n > 0 ? check_damper(&damper) : 0;
+  return error != 0 ? error : ali3_end_stops_check(real + STOPS);
 }
 
 const ali3_element_type ali3_spring_damper_table = {

@@ -1,17 +1,17 @@
-/* TMeasy characteristics: one curve, both directions over their slips, and the dynamic trail. */
+/* TMeasy characteristics: curves of one direction, combined forces by the slips of both directions, dynamic trail. */
 #include "tmeasy.h"
 
-/* y/q for y = q (2 y1 - y2/2 - (y1 - y2/2) q): through 0, y1 at q = 1, y2 at q = 2 */
+/* y/q of the parabola y = q (2 y1 - y2/2 - (y1 - y2/2) q), which is 0, y1, y2 at q = 0, 1, 2. */
 static real force_per_load(const real pair[2], real q) {
   return 2.0 * pair[0] - 0.5 * pair[1] - (pair[0] - 0.5 * pair[1]) * q;
 }
 
 static real linear(const real pair[2], real q) { return pair[0] + (pair[1] - pair[0]) * (q - 1.0); }
 
-static real some_friction(real ratio) { return ali3_where(ratio > 1e-6, ratio, ali3_same(1e-6)); }
+static real positive_friction(real ratio) { return ali3_where(ratio > 1e-6, ratio, ali3_same(1e-6)); }
 
 ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio) {
-  const real r = some_friction(friction_ratio);
+  const real r = positive_friction(friction_ratio);
   ali3_tmeasy t;
   t.slope = force_per_load(pairs, q);
   t.max_force = r * force_per_load(pairs + 2, q);
@@ -21,7 +21,7 @@ ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio) {
   return t;
 }
 
-/* The parameters of one direction over its normalised slip, squared. */
+/* Squares of the parameters of one direction as functions of its normalised slip. */
 static ali3_tmeasy squared(const ali3_tmeasy *t, real scale) {
   const real slope = t->slope * scale, max_slip = t->max_slip / scale, slide_slip = t->slide_slip / scale;
   return (ali3_tmeasy){slope * slope, t->max_force * t->max_force, max_slip * max_slip, t->slide_force * t->slide_force,
@@ -42,13 +42,13 @@ ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[
   return t;
 }
 
-/* F(s)/s of one curve with its derivatives by s and by the parameters. */
+/* Secant F(s)/s of a curve with its derivatives by s and by the parameters of the curve. */
 typedef struct {
   real secant, by_s;
   ali3_tmeasy by;
 } point;
 
-/* Rational, up to the largest force. */
+/* Rational part of the curve, up to the largest force. */
 static point rise(const ali3_tmeasy *t, real s) {
   const real x = s / t->max_slip, rise = t->slope * s / t->max_force, d = (1.0 - x) * (1.0 - x) + rise,
              secant = t->slope / d, by_d = -secant / d;
@@ -60,16 +60,16 @@ static point rise(const ali3_tmeasy *t, real s) {
   return p;
 }
 
-/* Cubic, from there on to sliding. */
+/* Cubic part of the curve, from the largest force to sliding, and the constant force of sliding. */
 static point fall(const ali3_tmeasy *t, real s) {
   const truth slides = ali3_not(s < t->slide_slip);
   real force = t->slide_force, force_slope = {0};
   point p = {.by.slide_force = 1.0 / s};
   if (ali3_any(ali3_not(slides))) {
     const real none = {0}, width = t->slide_slip - t->max_slip, x = (s - t->max_slip) / width,
-               drop = t->max_force - t->slide_force, fallen = x * x * (3.0 - 2.0 * x);
-    force = ali3_where(slides, force, t->max_force - drop * fallen);
-    force_slope = ali3_where(slides, none, -drop * 6.0 * x * (1.0 - x) / width);
+               difference = t->max_force - t->slide_force, fallen = x * x * (3.0 - 2.0 * x);
+    force = ali3_where(slides, force, t->max_force - difference * fallen);
+    force_slope = ali3_where(slides, none, -difference * 6.0 * x * (1.0 - x) / width);
     p.by.max_force = ali3_where(slides, none, (1.0 - fallen) / s);
     p.by.slide_force = ali3_where(slides, p.by.slide_force, fallen / s);
     p.by.max_slip = ali3_where(slides, none, force_slope * (x - 1.0) / s);
@@ -84,43 +84,44 @@ static point curve(const ali3_tmeasy *t, real s) {
   const truth rises = s < t->max_slip;
   if (!ali3_any(ali3_not(rises))) return rise(t, s);
   if (!ali3_any(rises)) return fall(t, s);
-  const point up = rise(t, s), down = fall(t, s);
-  return (point){ali3_where(rises, up.secant, down.secant),
-                 ali3_where(rises, up.by_s, down.by_s),
-                 {ali3_where(rises, up.by.slope, down.by.slope), ali3_where(rises, up.by.max_force, down.by.max_force),
-                  ali3_where(rises, up.by.max_slip, down.by.max_slip),
-                  ali3_where(rises, up.by.slide_force, down.by.slide_force),
-                  ali3_where(rises, up.by.slide_slip, down.by.slide_slip)}};
+  const point rising = rise(t, s), falling = fall(t, s);
+  return (point){ali3_where(rises, rising.secant, falling.secant),
+                 ali3_where(rises, rising.by_s, falling.by_s),
+                 {ali3_where(rises, rising.by.slope, falling.by.slope),
+                  ali3_where(rises, rising.by.max_force, falling.by.max_force),
+                  ali3_where(rises, rising.by.max_slip, falling.by.max_slip),
+                  ali3_where(rises, rising.by.slide_force, falling.by.slide_force),
+                  ali3_where(rises, rising.by.slide_slip, falling.by.slide_slip)}};
 }
 
 real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradient[2]) {
   const real s2 = n[0] * n[0] + n[1] * n[1], s = ali3_sqrt(s2), none = {0};
   const real share = ali3_where(s2 > 0.0, n[0] * n[0] / s2, ali3_same(0.5));
   const ali3_tmeasy *a = &t->square, *b = &t->spread;
-  const ali3_tmeasy at = {ali3_sqrt(a->slope + b->slope * share), ali3_sqrt(a->max_force + b->max_force * share),
-                          ali3_sqrt(a->max_slip + b->max_slip * share),
-                          ali3_sqrt(a->slide_force + b->slide_force * share),
-                          ali3_sqrt(a->slide_slip + b->slide_slip * share)};
-  const point p = curve(&at, s);
+  const ali3_tmeasy current = {ali3_sqrt(a->slope + b->slope * share), ali3_sqrt(a->max_force + b->max_force * share),
+                               ali3_sqrt(a->max_slip + b->max_slip * share),
+                               ali3_sqrt(a->slide_force + b->slide_force * share),
+                               ali3_sqrt(a->slide_slip + b->slide_slip * share)};
+  const point p = curve(&current, s);
   const truth slips = s > 0.0;
   gradient[0] = gradient[1] = none;
   if (!ali3_any(slips)) return p.secant;
   const real by_share =
-      0.5 * (p.by.slope * b->slope / at.slope + p.by.max_force * b->max_force / at.max_force +
-             p.by.max_slip * b->max_slip / at.max_slip + p.by.slide_force * b->slide_force / at.slide_force +
-             p.by.slide_slip * b->slide_slip / at.slide_slip);
-  const real across = 2.0 * by_share * (n[0] * n[1] / s2) / s2; /* of the share: (n1, -n0) times it */
-  gradient[0] = ali3_where(slips, p.by_s * n[0] / s + across * n[1], none);
-  gradient[1] = ali3_where(slips, p.by_s * n[1] / s - across * n[0], none);
+      0.5 * (p.by.slope * b->slope / current.slope + p.by.max_force * b->max_force / current.max_force +
+             p.by.max_slip * b->max_slip / current.max_slip + p.by.slide_force * b->slide_force / current.slide_force +
+             p.by.slide_slip * b->slide_slip / current.slide_slip);
+  const real by_angle = 2.0 * by_share * (n[0] * n[1] / s2) / s2; /* gradient of the share by n: (n1, -n0) times this */
+  gradient[0] = ali3_where(slips, p.by_s * n[0] / s + by_angle * n[1], none);
+  gradient[1] = ali3_where(slips, p.by_s * n[1] / s - by_angle * n[0], none);
   return p.secant;
 }
 
 real ali3_tmeasy_trail(const real pairs[6], real q, real friction_ratio, real s) {
-  const real r = some_friction(friction_ratio), initial = linear(pairs, q), zero = r * linear(pairs + 2, q),
+  const real r = positive_friction(friction_ratio), initial = linear(pairs, q), zero = r * linear(pairs + 2, q),
              end = r * linear(pairs + 4, q), w = zero / end, x = s / zero;
-  const truth behind = s >= zero, ended = s >= end;
-  const real left = (end - s) / (end - zero), none = {0};
-  const real falls = -initial * (1.0 - w) * (x - 1.0) * left * left;
+  const truth past_zero = s >= zero, ended = s >= end;
+  const real remaining = (end - s) / (end - zero), none = {0};
+  const real falls = -initial * (1.0 - w) * (x - 1.0) * remaining * remaining;
   const real rises = initial * ((1.0 - w) * (1.0 - x) + w * (1.0 - (3.0 - 2.0 * x) * x * x));
-  return ali3_where(ended, none, ali3_where(behind, falls, rises));
+  return ali3_where(ended, none, ali3_where(past_zero, falls, rises));
 }

@@ -30,22 +30,23 @@
 #include "tyre_contact.h"
 #include "tyre_fields.h"
 
-/* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
-static void limit(ali3_element_args *a, truth loaded, const real full[2], real F[2], real J[2][2], real safe[2]) {
-  const real weight[2] = {full[0] * full[0], full[1] * full[1]};
-  const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
+/* Radial return of F to the largest force of its direction, in TMeasy hypot(Fxm cos, Fym sin); adapts J and the safe
+ * share. */
+static void limit(ali3_element_args *a, truth loaded, const real max_force[2], real F[2], real J[2][2], real safe[2]) {
+  const real weight[2] = {max_force[0] * max_force[0], max_force[1] * max_force[1]};
+  const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(max_force[0] * F[0], max_force[1] * F[1]);
   const truth exceeds = loaded & (bound > 0.0) & (size2 > bound);
   ALI3_PIECE(&a->piece, exceeds, ALI3_TYRE_AT_LIMIT);
   if (!ali3_any(exceeds)) return;
-  const real use = size2 / bound;
-  real e[2]; /* gradient of use by F */
-  for (int i = 0; i < 2; i++) e[i] = (2.0 - use * weight[i] / bound) * (F[i] / bound);
+  const real scale = size2 / bound;
+  real e[2]; /* gradient of `scale` by F */
+  for (int i = 0; i < 2; i++) e[i] = (2.0 - scale * weight[i] / bound) * (F[i] / bound);
   for (int j = 0; j < 2; j++) {
-    const real along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
-    for (int i = 0; i < 2; i++) J[i][j] = ali3_where(exceeds, (J[i][j] - F[i] * along) / use, J[i][j]);
-    safe[j] = ali3_where(exceeds, safe[j] / use, safe[j]);
+    const real along = (e[0] * J[0][j] + e[1] * J[1][j]) / scale;
+    for (int i = 0; i < 2; i++) J[i][j] = ali3_where(exceeds, (J[i][j] - F[i] * along) / scale, J[i][j]);
+    safe[j] = ali3_where(exceeds, safe[j] / scale, safe[j]);
   }
-  for (int i = 0; i < 2; i++) F[i] = ali3_where(exceeds, F[i] / use, F[i]);
+  for (int i = 0; i < 2; i++) F[i] = ali3_where(exceeds, F[i] / scale, F[i]);
 }
 
 static real load_factor(const real *p, const ali3_tyre_patch *contact) {
@@ -56,16 +57,17 @@ static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
   return contact->friction * p[TYRE_FRICTION_FACTOR] / p[TYRE_REFERENCE_FRICTION];
 }
 
-/* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
- * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
+/* One step of the carcass with slip velocity v and transport speed w, m/s: force F, new states, and damping matrix C =
+ * -dF/dv (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
 static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2], real C[3],
                     real g[2], ali3_tyre_bore *bore) {
   const real *p = a->real, *c = p + TYRE_CARCASS_STIFFNESS, *d = p + TYRE_CARCASS_DAMPING, q = load_factor(p, contact);
   const real grip = friction_ratio(p, contact);
   const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + TYRE_LONGITUDINAL, p + TYRE_LATERAL, q, grip);
   const real n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
-  real gradient[2], J[2][2], safe[2], offset[2], D[2], full[2];
-  const truth grips = grip > ALI3_TYRE_NO_GRIP; /* the slope of a grip of next to nothing would hold at rest */
+  real gradient[2], J[2][2], safe[2], offset[2], D[2], max_force[2];
+  /* without this limit the initial slope would transmit a force at rest at almost no grip */
+  const truth grips = grip > ALI3_TYRE_NO_GRIP;
   const real none = {0}, secant = ali3_where(grips, ali3_tmeasy_secant(&t, n, gradient), none);
   for (int i = 0; i < 2; i++) gradient[i] = ali3_where(grips, gradient[i], none);
   for (int i = 0; i < 2; i++) {
@@ -74,7 +76,7 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
     const real theta = ali3_theta(a->h, c[i] / (d[i] + g[i])), b = a->h * theta;
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];
-    full[i] = q * t.max_force[i];
+    max_force[i] = q * t.max_force[i];
     safe[i] = ALI3_SECANT_SHARE * D[i] * (g[i] / (g[i] + D[i]));
     F[i] = g[i] / (g[i] + D[i]) * (offset[i] - D[i] * v[i]);
     const real by_g = D[i] / (g[i] + D[i]) * ((offset[i] - D[i] * v[i]) / (g[i] + D[i]));
@@ -82,21 +84,21 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
       J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g[i] / (g[i] + D[i]) * D[i] : none);
   }
   const truth loaded = contact->load > ALI3_TYRE_NO_LOAD;
-  limit(a, loaded, full, F, J, safe);
+  limit(a, loaded, max_force, F, J, safe);
   if (bore) {
-    const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
+    const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(max_force[0] * F[0], max_force[1] * F[1]);
     const ali3_tyre_held by = {.slope = q * ali3_tmeasy_at(p + TYRE_LATERAL, q, grip).slope,
-                               .most = ali3_where(loaded & grips, full[1], none),
+                               .most = ali3_where(loaded & grips, max_force[1], none),
                                .transport = w,
                                .slip = ali3_hypot(v[0], v[1]),
                                .force = ali3_sqrt(size2),
                                .steady = ali3_hypot(g[0] * v[0], g[1] * v[1]),
                                .use = ali3_where(loaded & (bound > 0.0), size2 / bound, none)};
-    const real left = ali3_tyre_bore_step(a, bore, &by);
+    const real remaining = ali3_tyre_bore_step(a, bore, &by);
     for (int i = 0; i < 2; i++) {
-      F[i] *= left;
-      safe[i] *= left;
-      for (int j = 0; j < 2; j++) J[i][j] *= left;
+      F[i] *= remaining;
+      safe[i] *= remaining;
+      for (int j = 0; j < 2; j++) J[i][j] *= remaining;
     }
   }
   ALI3_PIECE(&a->piece, loaded & (contact->load > p[TYRE_MAX_LOAD_FACTOR] * p[TYRE_NOMINAL_LOAD]),
@@ -106,9 +108,9 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
     a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
     if (!(a->h > 0.0)) continue;
     a->y_new[i] = (F[i] - d[i] * a->y_new[2 + i]) / c[i];
-    const truth gone = ali3_abs(a->y_new[i]) < 1e-100; /* long in the air: no denormals */
-    a->y_new[i] = ali3_where(gone, none, a->y_new[i]);
-    a->y_new[2 + i] = ali3_where(gone, none, a->y_new[2 + i]);
+    const truth negligible = ali3_abs(a->y_new[i]) < 1e-100; /* after a long time in the air, avoids denormals */
+    a->y_new[i] = ali3_where(negligible, none, a->y_new[i]);
+    a->y_new[2 + i] = ali3_where(negligible, none, a->y_new[2 + i]);
   }
   C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
   ali3_tyre_semidefinite(C);
@@ -116,8 +118,8 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
   C[2] += safe[1];
 }
 
-/* Trail over contact length at the lateral slip s, behind the middle of the patch as the wheel rolls: the tread bends
- * from its leading edge on, which is the other edge in reverse. */
+/* Trail divided by contact length at the lateral slip s, behind the middle of the patch in the direction of rolling:
+ * the tread deflects from its leading edge on, which in reverse is the other edge. */
 static real trail_share(const real *p, const ali3_tyre_patch *contact, real s, real omega) {
   const real share = ali3_tmeasy_trail(p + TYRE_TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
   return ali3_where(omega < 0.0, -share, share);
@@ -144,27 +146,27 @@ static void evaluate(ali3_element_args *a) {
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
   const real deflection = ali3_where(deflected, p[TYRE_RADIUS] - loaded, none),
              length = 2.0 * ali3_sqrt(p[TYRE_RADIUS] * deflection);
-  const bool leans = ali3_any(p[TYRE_CAMBER_SLIP] != 0.0), bores = a->nint > TYRE_WITH_BORE;
+  const bool has_camber_slip = ali3_any(p[TYRE_CAMBER_SLIP] != 0.0), has_bore = a->nint > TYRE_WITH_BORE;
   ali3_tyre_bore bore;
-  real v[2] = {m.v[0], m.v[1]}, leaning = none, by_spin = none;
-  if (leans) {
+  real v[2] = {m.v[0], m.v[1]}, camber_velocity = none, by_spin = none;
+  if (has_camber_slip) {
     const real per_spin = p[TYRE_CAMBER_SLIP] * ali3_dot(e, n) * rolling;
     by_spin = ali3_where(omega < 0.0, -per_spin, per_spin);
-    leaning = by_spin * omega;
-    v[1] += leaning;
+    camber_velocity = by_spin * omega;
+    v[1] += camber_velocity;
     m.row[1][6] += by_spin;
   }
-  if (bores) bore = ali3_tyre_bore_at(a, p + TYRE_BORE, n, e, length);
-  carcass(a, &contact, v, w, F, C, g, bores ? &bore : 0);
+  if (has_bore) bore = ali3_tyre_bore_at(a, p + TYRE_BORE, n, e, length);
+  carcass(a, &contact, v, w, F, C, g, has_bore ? &bore : 0);
   a->potential += 0.5 * (p[TYRE_CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] +
                          p[TYRE_CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
-  if (bores)
+  if (has_bore)
     a->potential += 0.5 * p[TYRE_BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
-  const real trailing = leans ? F[1] + g[1] * leaning : F[1];
-  real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w, omega) * trailing;
-  if (bores) moment += bore.moment;
+  const real trail_force = has_camber_slip ? F[1] + g[1] * camber_velocity : F[1];
+  real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w, omega) * trail_force;
+  if (has_bore) moment += bore.moment;
   const real resist = p[TYRE_ROLLING_RESISTANCE] * contact.load * p[TYRE_RADIUS], roll = ali3_tanh(omega);
   real twist[3];
   ali3_cross(n, e, twist);
@@ -175,11 +177,11 @@ static void evaluate(ali3_element_args *a) {
     ali3_add_outer(a->S, 7, a->wC * C[0], m.row[0]);
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], m.row[0], m.row[1]);
     ali3_add_outer(a->S, 7, a->wC * C[2], m.row[1]);
-    if (bores) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
+    if (has_bore) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
     a->S[48] += a->wC * resist * (1.0 - roll * roll);
   }
   ali3_tyre_outputs(a, &contact, e, &m, p[TYRE_RADIUS], ratio, F, moment,
-                    leans ? F[1] * by_spin - resist * roll : -resist * roll);
+                    has_camber_slip ? F[1] * by_spin - resist * roll : -resist * roll);
 }
 
 #ifndef ALI3_WIDTH
@@ -187,7 +189,8 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   (void)nsig, (void)nreal, (void)integer, (void)nint;
   if (!(real[TYRE_RADIUS] > real[TYRE_BOTTOMING_RADIUS]))
     return "the bottoming radius of a tyre must be less than its radius";
-  for (int end = 0; end < 2; end++) { /* both ends of the load range; between them the curves are linear per load */
+  /* at both ends of the load range; between them the curves are linear in the load */
+  for (int end = 0; end < 2; end++) {
     const double q = end ? real[TYRE_MAX_LOAD_FACTOR] : 0.0;
     for (int direction = 0; direction < 2; direction++) {
       const ali3_tmeasy t = ali3_tmeasy_at(real + (direction ? TYRE_LATERAL : TYRE_LONGITUDINAL), q, 1.0);
@@ -197,8 +200,8 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
         return "the slips of a tyre must be positive and sliding must come after the maximum";
     }
     const double *z = real + TYRE_TRAIL_ZERO;
-    const double zero = z[0] + (z[1] - z[0]) * (q - 1.0), last = z[2] + (z[3] - z[2]) * (q - 1.0);
-    if (!(zero > 0.0 && last > zero)) return "the slips of a tyre's trail must be positive and increasing";
+    const double zero = z[0] + (z[1] - z[0]) * (q - 1.0), end = z[2] + (z[3] - z[2]) * (q - 1.0);
+    if (!(zero > 0.0 && end > zero)) return "the slips of a tyre's trail must be positive and increasing";
   }
   return 0;
 }

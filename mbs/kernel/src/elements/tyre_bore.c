@@ -15,30 +15,32 @@ ali3_tyre_bore ali3_tyre_bore_at(const ali3_element_args *a, const real *numbers
 
 real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_held *by) {
   const real c = b->numbers[ALI3_BORE_STIFFNESS], d = b->numbers[ALI3_BORE_DAMPING], none = {0}, one = ali3_same(1.0);
-  const truth holds = by->most > 0.0, bends = by->force < by->steady;
-  const real share = ali3_where(bends, by->force / by->steady, one), share2 = share * share;
+  const truth grips = by->most > 0.0, sticks = by->force < by->steady;
+  const real share = ali3_where(sticks, by->force / by->steady, one), share2 = share * share;
   const real g = ali3_where(
-      holds, by->slope * by->most / (by->transport * by->most + by->slip * share2 * share2 * by->slope), none);
-  const real *old = a->y_old + ALI3_BORE_STATES, turning = b->lever * b->lever * g, full = b->lever * by->most,
+      grips, by->slope * by->most / (by->transport * by->most + by->slip * share2 * share2 * by->slope), none);
+  const real *old = a->y_old + ALI3_BORE_STATES, damping = b->lever * b->lever * g, max_torque = b->lever * by->most,
              use = by->use;
-  const real theta = ali3_theta(a->h, c / (d + turning)), offset = c * (old[0] + a->h * (1.0 - theta) * old[1]);
-  const real D = d + a->h * theta * c, part = turning / (turning + D);
-  b->moment = part * (offset - D * b->rate);
-  b->C = part * D;
-  const real turns = ali3_where(holds, b->moment / full, none), asked = ali3_sqrt(use * use + turns * turns);
-  const truth slides = holds & (asked > 1.0);
-  const real left = ali3_where(slides, 1.0 / asked, one);
+  const real theta = ali3_theta(a->h, c / (d + damping)), offset = c * (old[0] + a->h * (1.0 - theta) * old[1]);
+  const real D = d + a->h * theta * c, fraction = damping / (damping + D);
+  b->moment = fraction * (offset - D * b->rate);
+  b->C = fraction * D;
+  const real torque_share = ali3_where(grips, b->moment / max_torque, none),
+             demand = ali3_sqrt(use * use + torque_share * torque_share);
+  const truth slides = grips & (demand > 1.0);
+  const real remaining = ali3_where(slides, 1.0 / demand, one);
   ALI3_PIECE(&a->piece, slides, ALI3_TYRE_AT_LIMIT);
-  const real flat = (use * left) * (use * left); /* of the derivative, not below the safe share of the secant */
-  b->C *= left *
-          ali3_where(slides & (flat < ALI3_SECANT_SHARE), ali3_same(ALI3_SECANT_SHARE), ali3_where(slides, flat, one));
-  b->moment *= left;
+  /* factor on the derivative, not below the safe share of the secant */
+  const real factor = (use * remaining) * (use * remaining);
+  b->C *= remaining * ali3_where(slides & (factor < ALI3_SECANT_SHARE), ali3_same(ALI3_SECANT_SHARE),
+                                 ali3_where(slides, factor, one));
+  b->moment *= remaining;
   real *new = a->y_new + ALI3_BORE_STATES;
   new[0] = old[0];
   new[1] = (b->moment - offset) / D;
-  if (!(a->h > 0.0)) return left;
+  if (!(a->h > 0.0)) return remaining;
   new[0] = (b->moment - d * new[1]) / c;
-  const truth gone = ali3_abs(new[0]) < 1e-100; /* long in the air: no denormals */
-  for (int i = 0; i < 2; i++) new[i] = ali3_where(gone, none, new[i]);
-  return left;
+  const truth negligible = ali3_abs(new[0]) < 1e-100; /* after a long time in the air, avoids denormals */
+  for (int i = 0; i < 2; i++) new[i] = ali3_where(negligible, none, new[i]);
+  return remaining;
 }

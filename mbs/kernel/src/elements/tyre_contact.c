@@ -5,17 +5,18 @@
 #include "element_math.h"
 #include "road.h"
 
-#define TOUCH_DEPTH 0.005 /* m, over which the radial damping sets in */
-#define CLEAR 1e-6 /* m: a depth that counts as none at a start */
-#define RIM_HOLDS 0.8 /* of the bottoming radius: nearer to the centre no wheel is pressed into a face */
+#define TOUCH_DEPTH 0.005 /* m: deflection over which the radial damping increases to its full value */
+#define CLEAR 1e-6 /* m: largest depth at a start that is ignored */
+#define RIM_HOLDS 0.8 /* of the bottoming radius: least distance of the wheel's centre from a face */
 
 void ali3_tyre_axis(const real axis[3], real e[3]) {
   const real size = ali3_norm(axis);
   for (int i = 0; i < 3; i++) e[i] = ali3_where(size > 1e-6, axis[i] / size, ali3_same(i == 1));
 }
 
-/* A mean by load: `mean` of `old` with `new` of `load`, `total` being the sum; `first`: there is no old load. */
-static real mixed(truth first, real mean, real old, real new, real total, real load) {
+/* Load-weighted mean of `mean` (load `old`) and `new` (load `load`); total: sum of the loads; first: there is no old
+ * load. */
+static real weighted_mean(truth first, real mean, real old, real new, real total, real load) {
   return ali3_where(first, ali3_same(0.0), old / total * mean) + load / total * new;
 }
 
@@ -24,77 +25,79 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
   const real none = {0};
   ali3_tyre_patch mean = {.load = none, .beyond = none};
   const real hub = ALI3_TYRE_HUB * s->radius;
-  real deepest = ali3_same(-INFINITY), between[7], switching = none;
-  for (int i = 0; i < 7; i++) between[i] = none;
+  real deepest = ali3_same(-INFINITY), difference[7], switching = none;
+  for (int i = 0; i < 7; i++) difference[i] = none;
   const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, s->radius, contact);
   for (int k = 0; k < count; k++) {
     const ali3_contact *c = &contact[k];
     const real depth = c->penetration, radius = s->radius - depth, lean = ali3_dot(e, c->normal);
     const truth touches = depth > 0.0, deeper = depth > deepest;
-    const truth sunk = radius < hub;
+    const truth hub_reached = radius < hub;
     real rho[3], b[7], rate = none;
     for (int i = 0; i < 3; i++) {
       rho[i] = radius * c->down[i];
-      b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
+      b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth by the signals */
       b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
-      rho[i] = ali3_where(sunk, hub * c->down[i], rho[i]);
+      rho[i] = ali3_where(hub_reached, hub * c->down[i], rho[i]);
     }
     b[6] = none;
     deepest = ali3_where(deeper, depth, deepest);
-    mean.beyond = ali3_where(sunk & (depth > mean.beyond), depth, mean.beyond);
+    mean.beyond = ali3_where(hub_reached & (depth > mean.beyond), depth, mean.beyond);
     for (int i = 0; i < 3; i++) {
       mean.near_normal[i] = ali3_where(deeper, c->normal[i], mean.near_normal[i]);
       mean.near_rho[i] = ali3_where(deeper, rho[i], mean.near_rho[i]);
     }
-    if (k == 0) { /* what slips of a wheel in the air refer to */
+    if (k == 0) { /* reference of the slips of a wheel in the air */
       mean.friction = c->friction;
       for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = rho[i];
     }
     if (!ali3_any(touches)) continue;
     for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
-    const real deep = depth - (s->radius - s->bottoming_radius),
-               hard = ali3_where(deep > 0.0, s->bottoming_stiffness, none);
+    const real bottoming_depth = depth - (s->radius - s->bottoming_radius),
+               bottoming = ali3_where(bottoming_depth > 0.0, s->bottoming_stiffness, none);
     const real ramp = ali3_where(depth < TOUCH_DEPTH, depth / TOUCH_DEPTH, ali3_same(1.0));
-    const real part = 1.0 - c->yielded;
-    /* a spring that grows softer holds its largest force */
-    const truth spent = s->stiffness + 2.0 * s->progression * depth < 0.0;
-    const real most = ali3_where(spent, -0.5 * s->stiffness / s->progression, depth);
-    const real spring = (s->stiffness + s->progression * most) * most;
-    const real force = part * (spring + hard * deep + s->damping * rate * ramp);
-    a->potential = ali3_add_unless(
-        ali3_not(touches), a->potential,
-        part * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * most) * most * most + hard * deep * deep)));
-    a->potential = ali3_add_unless(ali3_not(touches & spent), a->potential, part * spring * (depth - most));
+    const real share = 1.0 - c->yielded;
+    /* the force of a degressive spring stays at its maximum */
+    const truth softened = s->stiffness + 2.0 * s->progression * depth < 0.0;
+    const real effective_depth = ali3_where(softened, -0.5 * s->stiffness / s->progression, depth);
+    const real spring = (s->stiffness + s->progression * effective_depth) * effective_depth;
+    const real force = share * (spring + bottoming * bottoming_depth + s->damping * rate * ramp);
+    a->potential = ali3_add_unless(ali3_not(touches), a->potential,
+                                   share * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * effective_depth) *
+                                                       effective_depth * effective_depth +
+                                                   bottoming * bottoming_depth * bottoming_depth)));
+    a->potential =
+        ali3_add_unless(ali3_not(touches & softened), a->potential, share * spring * (depth - effective_depth));
     const truth presses = touches & (force > 0.0), first = ali3_not(mean.load > 0.0);
-    const int32_t second = ALI3_TYRE_CONTACT_BITS * k;
-    ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << second);
-    ALI3_PIECE(&a->piece, touches & (deep > 0.0), ALI3_TYRE_BOTTOMS << second);
-    ALI3_PIECE(&a->piece, touches & ali3_not(ramp < 1.0), ALI3_TYRE_FULLY << second);
-    ALI3_PIECE(&a->piece, presses, ALI3_TYRE_PRESSES << second);
+    const int32_t shift = ALI3_TYRE_CONTACT_BITS * k;
+    ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << shift);
+    ALI3_PIECE(&a->piece, touches & (bottoming_depth > 0.0), ALI3_TYRE_BOTTOMS << shift);
+    ALI3_PIECE(&a->piece, touches & ali3_not(ramp < 1.0), ALI3_TYRE_FULLY << shift);
+    ALI3_PIECE(&a->piece, presses, ALI3_TYRE_PRESSES << shift);
     if (!ali3_any(presses)) continue;
     const real load = force / c->cosine, total = mean.load + load;
     for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], force * b[i]);
-    for (int i = 0; i < 3; i++) { /* load-weighted, so nothing jumps when a contact comes or goes */
+    for (int i = 0; i < 3; i++) { /* load-weighted, so that the mean is continuous when a contact opens or closes */
       const real weighted = load * c->normal[i], sum = ali3_where(first, weighted, mean.normal[i] + weighted);
       mean.normal[i] = ali3_where(presses, sum, mean.normal[i]);
-      mean.rho[i] = ali3_where(presses, mixed(first, mean.rho[i], mean.load, rho[i], total, load), mean.rho[i]);
+      mean.rho[i] = ali3_where(presses, weighted_mean(first, mean.rho[i], mean.load, rho[i], total, load), mean.rho[i]);
     }
     mean.friction =
-        ali3_where(presses, mixed(first, mean.friction, mean.load, c->friction, total, load), mean.friction);
+        ali3_where(presses, weighted_mean(first, mean.friction, mean.load, c->friction, total, load), mean.friction);
     mean.load = ali3_where(presses, total, mean.load);
     if (!a->S) continue;
-    const real slope = ali3_where(spent, none, s->stiffness + 2.0 * s->progression * depth) + hard +
+    const real slope = ali3_where(softened, none, s->stiffness + 2.0 * s->progression * depth) + bottoming +
                        ali3_where(ramp < 1.0, s->damping * rate / TOUCH_DEPTH, none);
     const real stiffness = ali3_where(slope < 0.0, none, slope);
-    for (int i = 0; i < 7; i++) { /* so that nothing is added where nothing presses */
+    for (int i = 0; i < 7; i++) { /* 0 in lanes without contact force */
       b[i] = ali3_where(presses, b[i], none);
-      between[i] += k ? -b[i] : b[i];
+      difference[i] += k ? -b[i] : b[i];
     }
-    ali3_add_outer(a->S, 7, ali3_where(presses, part * (a->wK * stiffness + a->wC * s->damping * ramp), none), b);
-    switching = ali3_where(presses, a->wK * c->switching * (spring + hard * deep), switching);
+    ali3_add_outer(a->S, 7, ali3_where(presses, share * (a->wK * stiffness + a->wC * s->damping * ramp), none), b);
+    switching = ali3_where(presses, a->wK * c->switching * (spring + bottoming * bottoming_depth), switching);
   }
   const truth switches = switching > 0.0;
-  if (a->S && ali3_any(switches)) ali3_add_outer(a->S, 7, ali3_where(switches, switching, none), between);
+  if (a->S && ali3_any(switches)) ali3_add_outer(a->S, 7, ali3_where(switches, switching, none), difference);
   const real size = ali3_norm(mean.normal);
   for (int i = 0; i < 3; i++) mean.normal[i] = ali3_where(size > 0.0, mean.normal[i] / size, ali3_same(i == 2));
   return mean;
@@ -135,12 +138,14 @@ enum { ROLLING_MOMENT = NORMAL_X + 3 };
 
 void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
                        real radius, real ratio, const real force[2], real moment, real resisting) {
-  const real none = {0}, sunk = contact->beyond;
-  const real deflection = ali3_where(sunk > 0.0, sunk, ali3_where(m->loaded < radius, radius - m->loaded, none));
-  const real least = ali3_same(0.01);
+  const real none = {0}, hub_reached = contact->beyond;
+  const real deflection =
+      ali3_where(hub_reached > 0.0, hub_reached, ali3_where(m->loaded < radius, radius - m->loaded, none));
+  const real min_speed = ali3_same(0.01);
   const real drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */
-  const real fastest = ali3_hypot(ali3_where(ali3_abs(drive) > ali3_abs(m->travel[0]), drive, m->travel[0]), least);
-  const real slip = -m->v[0] / fastest, slip_angle = ali3_atan2(m->v[1], ali3_hypot(m->travel[0], least));
+  const real reference_speed =
+      ali3_hypot(ali3_where(ali3_abs(drive) > ali3_abs(m->travel[0]), drive, m->travel[0]), min_speed);
+  const real slip = -m->v[0] / reference_speed, slip_angle = ali3_atan2(m->v[1], ali3_hypot(m->travel[0], min_speed));
   const real out[] = {force[0], force[1], contact->load, moment, slip, slip_angle, deflection, radius - deflection};
   for (int i = 0; i < CONTACT_X; i++) a->out[i] = out[i];
   const truth bears = contact->load > 0.0;
@@ -148,7 +153,7 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
     a->out[CONTACT_X + i] = a->u[i] + ali3_where(bears, contact->rho[i], contact->near_rho[i]);
     a->out[NORMAL_X + i] = ali3_where(bears, contact->normal[i], contact->near_normal[i]);
   }
-  /* what turns the wheel beside the force at the contact point */
+  /* moment about the axis beyond that of the force at the contact point */
   const real about_axis = force[0] * (ratio - 1.0) * ali3_dot(m->forward, m->push) + resisting;
   a->out[ROLLING_MOMENT] = about_axis * ali3_dot(e, m->left);
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, contact->normal), m->upright);
@@ -156,17 +161,17 @@ void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, con
 
 void ali3_tyre_semidefinite(real C[3]) {
   const real mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
-  const truth is = mean >= split, splits = split > 0.0;
-  if (!ali3_any(ali3_not(is))) return;
+  const truth semidefinite = mean >= split, splits = split > 0.0;
+  if (!ali3_any(ali3_not(semidefinite))) return;
   const real none = {0}, top = ali3_where(mean + split > 0.0, mean + split, none);
   const real cosine = ali3_where(splits, half / split, none), sine = ali3_where(splits, C[1] / split, none);
-  C[0] = ali3_where(is, C[0], 0.5 * top * (1.0 + cosine));
-  C[1] = ali3_where(is, C[1], 0.5 * top * sine);
-  C[2] = ali3_where(is, C[2], 0.5 * top * (1.0 - cosine));
+  C[0] = ali3_where(semidefinite, C[0], 0.5 * top * (1.0 + cosine));
+  C[1] = ali3_where(semidefinite, C[1], 0.5 * top * sine);
+  C[2] = ali3_where(semidefinite, C[2], 0.5 * top * (1.0 - cosine));
 }
 
 #ifndef ALI3_WIDTH
-double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part) {
+double ali3_tyre_depth(const ali3_element_args *a, double raised, double *share) {
   const double *axis = a->u + 3, length = ali3_norm(axis), radius = a->real[0];
   double centre[3], e[3], deepest = -INFINITY;
   for (int i = 0; i < 3; i++) {
@@ -178,18 +183,18 @@ double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part) 
   for (int k = 0; k < count; k++)
     if (contact[k].penetration > deepest) {
       deepest = contact[k].penetration;
-      *part = contact[k].cosine;
+      *share = contact[k].cosine;
     }
   return deepest;
 }
 
-/* A start with the wheel's centre below the surface: the spring of a tyre is not meant for that and would throw the
- * scene up. The rise is the depth along the road's normal; walls are climbed a depth at a time. */
+/* Verdict on a start with the wheel in the road: with the centre below the surface the spring of a tyre would throw the
+ * scene up. The rise is the depth along the road's normal; at a wall it is repeated. */
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised) {
-  double part = 0.0;
-  const double deepest = fmax(ali3_tyre_depth(a, raised, &part), 0.0);
+  double share = 0.0;
+  const double deepest = fmax(ali3_tyre_depth(a, raised, &share), 0.0);
   return (ali3_start_verdict){.excess = deepest - a->real[0],
-                              .rise = deepest > CLEAR ? deepest * part : 0.0,
+                              .rise = deepest > CLEAR ? deepest * share : 0.0,
                               .pressed = deepest - a->real[0] + RIM_HOLDS * a->real[1]};
 }
 #endif

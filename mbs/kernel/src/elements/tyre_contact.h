@@ -5,22 +5,23 @@
 #include "element.h"
 
 #define ALI3_TYRE_SLOW                                                                                                 \
-  1e-5 /* m/s, of the speed that slips refer to; small so that a parked car creeps by micrometres */
-#define ALI3_TYRE_ROLLS 1.0 /* m/s, from which effective radius and trail are those of the rolling tyre */
+  1e-5 /* m/s, added to the reference speed of the slips; small, so that a parked car creeps by micrometres only */
+#define ALI3_TYRE_ROLLS 1.0 /* m/s: speed from which effective radius and trail are those of a rolling tyre */
 #define ALI3_TYRE_HUB                                                                                                  \
-  0.1 /* of the radius: the patch of a wheel that is deeper in the road stays so far from its centre */
+  0.1 /* of the radius: least distance of the patch from the centre of a wheel that is deeper in the road */
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
-#define ALI3_TYRE_NO_GRIP 1e-6 /* of the friction at which the forces of the tyre hold */
+#define ALI3_TYRE_NO_GRIP 1e-6 /* friction ratio below which the horizontal forces are 0 */
 
-/* Bits of the pieces of a tyre's law; those of the second contact lie ALI3_TYRE_CONTACT_BITS higher. */
+/* Bits of the active pieces of a tyre's force law; those of the second contact are shifted by
+ * ALI3_TYRE_CONTACT_BITS. */
 enum {
   ALI3_TYRE_TOUCHES = 1,
   ALI3_TYRE_BOTTOMS = 2, /* on its bottoming radius */
-  ALI3_TYRE_FULLY = 4, /* deep enough for all of its damping */
+  ALI3_TYRE_FULLY = 4, /* at its full damping */
   ALI3_TYRE_PRESSES = 8,
   ALI3_TYRE_CONTACT_BITS = 4,
   ALI3_TYRE_AT_LIMIT = 1 << 8, /* of adhesion */
-  ALI3_TYRE_OVERLOADED = 1 << 9, /* beyond the loads of its curves */
+  ALI3_TYRE_OVERLOADED = 1 << 9, /* load above the range of its curves */
   ALI3_TYRE_AT_RANGE = 1 << 10 /* of slip, slip angle (one bit higher) or camber (two) */
 };
 
@@ -32,36 +33,38 @@ typedef struct {
   real load, friction; /* sums or load-weighted means of the contacts */
   real normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
   real
-      beyond; /* m: depth where the road is nearer to the wheel centre than the patch, which stays on the rim; else 0 */
-  real near_normal[3], near_rho[3]; /* of the nearest contact, also in the air */
+      /* m: depth if the road is nearer to the wheel's centre than ALI3_TYRE_HUB allows the patch to be; else 0 */
+      beyond;
+  real near_normal[3], near_rho[3]; /* normal and patch of the nearest contact, also in the air */
 } ali3_tyre_patch;
 
 typedef struct {
   real forward[3], left[3]; /* unit axes in the road's plane */
   real upright; /* cosine of the inclination */
-  real push[3]; /* velocity of the patch per spin */
+  real push[3]; /* velocity of the patch per rate of the spin, m */
   real loaded; /* loaded radius, m */
-  real travel[2], v[2]; /* velocity of the wheel and slip velocity of the patch along both, m/s */
-  real row[2][7]; /* of the slip velocities, by the rates of the signals */
+  real travel[2], v[2]; /* velocity of the wheel and slip velocity of the patch, both along forward and left, m/s */
+  real row[2][7]; /* derivatives of the slip velocities by the rates of the signals */
 } ali3_tyre_motion;
 
-/* Unit axis of a wheel: an iterate of the solver need not be a unit vector. */
+/* Unit axis of a wheel; in an iterate of the solver `axis` may not have length 1. */
 ALI3_PER_WIDTH void ali3_tyre_axis(const real axis[3], real e[3]);
 
 /* Radial forces of all contacts: adds to f, S and potential, returns the mean patch. */
 ALI3_PER_WIDTH ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *spring);
 
-/* Axes at the patch; velocities and rows follow when the slip radius is known. */
+/* Axes of the patch; velocities and rows are set by ali3_tyre_velocities. */
 ALI3_PER_WIDTH ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const real e[3]);
 
-/* Share of the rolling tyre at a speed: 0 at rest, 1 from ALI3_TYRE_ROLLS on, with a continuous slope. */
+/* Weight of rolling at a speed, m/s: 0 at rest, 1 from ALI3_TYRE_ROLLS on, with a continuous slope. */
 ALI3_PER_WIDTH real ali3_tyre_moving(real speed);
 
-/* `ratio`: slip radius over loaded radius. */
+/* Sets m->travel, m->v and m->row; ratio: slip radius over loaded radius. */
 ALI3_PER_WIDTH void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
                                          real ratio, ali3_tyre_motion *m);
 
-/* The outputs that every tyre begins with, ALI3_TYRE_OUTPUTS in number; `resisting`: of rolling, about the axis. */
+/* The first ALI3_TYRE_OUTPUTS outputs, common to all tyres; resisting: moment of rolling resistance about the axis, N
+ * m. */
 enum { ALI3_TYRE_DEFLECTION = 6, ALI3_TYRE_OUTPUTS = 16 };
 ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
                                       const ali3_tyre_motion *m, real radius, real ratio, const real force[2],
@@ -70,7 +73,8 @@ ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patc
 /* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
 ALI3_PER_WIDTH void ali3_tyre_semidefinite(real C[3]);
 
-/* Depth of a tyre in its road; its first number is the radius, its first integer the road. */
+/* Depth of a tyre in its road, m, if it were higher by `raised`; *part: cosine at the deepest contact. Its first number
+ * is the radius, its first integer the road. */
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part);
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised);
 #define ALI3_TYRE_START_WORDS "lies deeper in the road than its radius"

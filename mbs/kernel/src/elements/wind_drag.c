@@ -1,4 +1,4 @@
-/* Aerodynamic drag F = -rho CdA |w| w / 2 at a point that moves at w over air that moves over the ground. */
+/* Aerodynamic drag F = -rho CdA |w| w / 2 at a point with the velocity w relative to the moving air. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
 #include "moving_air.h"

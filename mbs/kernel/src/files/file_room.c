@@ -1,5 +1,5 @@
-/* Files in memory in place of those of an operating system: the host puts them here by name. An open file stays as it
- * was opened when another takes its name or it is taken away. */
+/* Files in memory, registered by the host, for platforms without an operating system. An open file keeps its content
+ * when it is replaced or removed. */
 #include "file_room.h"
 
 #if defined(ALI3_ALONE)
@@ -13,19 +13,19 @@ struct ali3_file {
   char *path;
   unsigned char *bytes;
   int64_t size;
-  int64_t users; /* times it is open, and one while it is in the room */
+  int64_t users; /* number of open handles, plus one while registered */
 };
 
 static ali3_file *first;
 
-static void leave(ali3_file *file) {
+static void release(ali3_file *file) {
   if (--file->users > 0) return;
   free(file->path);
   free(file->bytes);
   free(file);
 }
 
-/* The link to the file of that path; to NULL where there is none. */
+/* The link that points to the file of a path, or the last link, which is NULL. */
 static ali3_file **link_to(const char *path) {
   ali3_file **link = &first;
   while (*link != NULL && strcmp((*link)->path, path) != 0) link = &(*link)->next;
@@ -46,8 +46,8 @@ int32_t ali3_file_add(const char *path, void *bytes, size_t size) {
   }
   strcpy(copy, path);
   ali3_file_remove(path);
-  const ali3_file made = {.next = first, .path = copy, .bytes = bytes, .size = (int64_t)size, .users = 1};
-  *file = made;
+  const ali3_file entry = {.next = first, .path = copy, .bytes = bytes, .size = (int64_t)size, .users = 1};
+  *file = entry;
   first = file;
   return 1;
 }
@@ -56,7 +56,7 @@ int32_t ali3_file_remove(const char *path) {
   ali3_file **link = link_to(path), *file = *link;
   if (file == NULL) return 0;
   *link = file->next;
-  leave(file);
+  release(file);
   return 1;
 }
 
@@ -77,5 +77,5 @@ int ali3_file_read(ali3_file *file, int64_t from, void *to, size_t size) {
   return 1;
 }
 
-void ali3_file_close(ali3_file *file) { leave(file); }
+void ali3_file_close(ali3_file *file) { release(file); }
 #endif

@@ -1,4 +1,4 @@
-/* Opening and reading with what the C library of each platform has for paths in UTF-8 and files above 2 GB. */
+/* Opens and reads files by the C library of each platform, for paths in UTF-8 and files above 2 GB. */
 #if !defined(_WIN32)
 #define _POSIX_C_SOURCE 200809L
 #define _FILE_OFFSET_BITS 64
@@ -18,16 +18,20 @@
 typedef struct _stat64 file_kind;
 #define IS_REGULAR(mode) (((mode) & _S_IFMT) == _S_IFREG)
 
-/* UTF-16 of UTF-8; 0 where it does not fit or is none. */
+/* Converts UTF-8 to UTF-16; 0 if it does not fit or is invalid. */
 static int wide_path(const char *path, wchar_t *wide) {
   const unsigned char *p = (const unsigned char *)path;
   size_t n = 0;
   while (*p != 0) {
-    const int more = *p < 0x80 ? 0 : *p >= 0xc2 && *p < 0xe0 ? 1 : *p >= 0xe0 && *p < 0xf0 ? 2 : *p < 0xf5 ? 3 : -1;
-    if (more < 0 || (*p >= 0x80 && *p < 0xc2) || n + 3 > ALI3_MOST_PATH) return 0;
-    uint32_t code = more == 0 ? *p : *p & (0x3fu >> more);
+    const int continuation = *p < 0x80                 ? 0
+                             : *p >= 0xc2 && *p < 0xe0 ? 1
+                             : *p >= 0xe0 && *p < 0xf0 ? 2
+                             : *p < 0xf5               ? 3
+                                                       : -1;
+    if (continuation < 0 || (*p >= 0x80 && *p < 0xc2) || n + 3 > ALI3_MOST_PATH) return 0;
+    uint32_t code = continuation == 0 ? *p : *p & (0x3fu >> continuation);
     p++;
-    for (int k = 0; k < more; k++, p++) {
+    for (int k = 0; k < continuation; k++, p++) {
       if ((*p & 0xc0u) != 0x80u) return 0;
       code = code << 6 | (*p & 0x3fu);
     }
@@ -48,7 +52,7 @@ static FILE *open_path(const char *path) {
   return NULL;
 }
 
-static int kind_of(FILE *file, file_kind *kind) { return _fstat64(_fileno(file), kind); }
+static int read_kind(FILE *file, file_kind *kind) { return _fstat64(_fileno(file), kind); }
 
 static int seek(FILE *file, int64_t from) { return _fseeki64(file, from, SEEK_SET); }
 #else
@@ -57,15 +61,15 @@ static int seek(FILE *file, int64_t from) { return _fseeki64(file, from, SEEK_SE
 typedef struct stat file_kind;
 #define IS_REGULAR(mode) S_ISREG(mode)
 
-/* A pipe would wait for its writer, a terminal might become the process's own. */
+/* Does not wait for the writer of a pipe; a terminal does not become the controlling one. */
 static FILE *open_path(const char *path) {
-  const int number = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-  FILE *file = number >= 0 ? fdopen(number, "rb") : NULL;
-  if (number >= 0 && file == NULL) close(number);
+  const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  FILE *file = descriptor >= 0 ? fdopen(descriptor, "rb") : NULL;
+  if (descriptor >= 0 && file == NULL) close(descriptor);
   return file;
 }
 
-static int kind_of(FILE *file, file_kind *kind) { return fstat(fileno(file), kind); }
+static int read_kind(FILE *file, file_kind *kind) { return fstat(fileno(file), kind); }
 
 static int seek(FILE *file, int64_t from) { return fseeko(file, (off_t)from, SEEK_SET); }
 #endif
@@ -103,8 +107,8 @@ ali3_file *ali3_file_open(const char *path, int64_t *size, const char **why) {
     *why = reason(errno);
     return NULL;
   }
-  if (kind_of(file, &kind) == 0 && IS_REGULAR(kind.st_mode)) {
-    setvbuf(file, NULL, _IONBF, 0); /* a buffer would be allocated by the first read */
+  if (read_kind(file, &kind) == 0 && IS_REGULAR(kind.st_mode)) {
+    setvbuf(file, NULL, _IONBF, 0); /* unbuffered, as the first read would allocate the buffer */
     *size = (int64_t)kind.st_size;
     return (ali3_file *)file;
   }

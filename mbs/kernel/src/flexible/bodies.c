@@ -1,4 +1,4 @@
-/* Flexible bodies and those by tables together. */
+/* Mass, forces and energy of flexible and of tabled bodies together. */
 #include "bodies.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"

@@ -6,7 +6,7 @@
 #include "../instance.h"
 #include "mass.h"
 
-enum { MANY = 8 }; /* least number of rows with the same columns that are summed column by column */
+enum { MANY = 8 }; /* least number of rows with equal columns for which they are summed column by column */
 
 /* Adds four columns times their entries of x to `out`, one after the other. */
 ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real *x, const int32_t *col, int32_t n,
@@ -19,7 +19,7 @@ ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real
 }
 
 /* Writes rows i to i + n - 1 of M x, which have the same columns. */
-ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const real *x, real *out) {
+ALI3_INLINED void add_rows(const ali3_instance *in, int32_t i, int32_t n, const real *x, real *out) {
   const ali3_system *S = in->system;
   const real *val = in->mass.val, none = {0};
   const int32_t *col = S->mass_col, end = S->mass_ptr[i + 1];
@@ -32,7 +32,7 @@ ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const
 /* Rows with the same columns, as the modes of a flexible body have, are summed together, column by column: M is
  * symmetric, so the entries of a column are contiguous in its row. `stretches`: whether rows have contiguous columns,
  * which are summed four at a time. */
-ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, bool stretches) {
+ALI3_INLINED void multiply_mass(const ali3_instance *in, const real *x, real *out, bool stretches) {
   const ali3_system *S = in->system;
   const real *val = in->mass.val;
   const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
@@ -48,7 +48,7 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, 
       continue;
     }
     if (stretches && alike >= MANY) {
-      many_rows(in, i, alike, x, out);
+      add_rows(in, i, alike, x, out);
       i += alike - 1;
       continue;
     }
@@ -68,9 +68,9 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, 
 ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
   if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out))) return;
   if (in->system->n_flexible > 0)
-    times_mass(in, x, out, true);
+    multiply_mass(in, x, out, true);
   else
-    times_mass(in, x, out, false);
+    multiply_mass(in, x, out, false);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *in, const real *x, real *out),

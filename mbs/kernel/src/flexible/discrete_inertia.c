@@ -1,7 +1,7 @@
-/* Inertia of flexible bodies over a step, without an error in the energy. M is quadratic in q, and with the mean v and
- * half the change w of the velocities v0 and v1
+/* Inertia forces of flexible bodies over a step that conserve energy exactly. M is quadratic in q, and with the mean v
+ * and half the change w of the velocities v0 and v1
  *   T(q1, v1) - T(q0, v0) = D . ((M1 v1 - M0 v0) / h - g),  g . D = (v0' M1 v1 - v0' M0 v1) / 2,
- * where g, the derivative of v0' M(q) v1 / 2 = T(q, v) - T(q, w) with respect to q in the middle, is exact. */
+ * where g, the derivative of v0' M(q) v1 / 2 = T(q, v) - T(q, w) by q at the middle of the step, is exact. */
 #include <string.h>
 
 #include "../instance.h"
@@ -10,7 +10,7 @@
 #include "discrete_inertia.h"
 #include "flexible_body.h"
 
-/* r += weight d T(q, v) / dq at the q that was prepared; constant parts of M have none. With D_il[j] of flexible_body.c
+/* r += weight d T(q, v) / dq at the prepared q, of the part of M that is not constant. With D_il[j] of flexible_body.c
  *   T = .. + r' . a_i' P_i . eta + a_i' . a_l' J_il / 2 + r' . a_l P_l . eta' + a_i' . a_l D_il . eta'. */
 static void add_gradient(const ali3_instance *in, const double *v, double weight, double *r) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
@@ -28,22 +28,23 @@ static void add_gradient(const ali3_instance *in, const double *v, double weight
       for (int i = 0; i < 4; i++) { /* r_o, then the axes */
         const double *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
         const double *xi = x + 3 * i, along = ali3_product_from_far(row, rate, n);
-        const double both = xi[0] * al[0] + xi[1] * al[1] + xi[2] * al[2];
+        const double coupling = xi[0] * al[0] + xi[1] * al[1] + xi[2] * al[2];
         for (int k = 0; k < 3; k++) total[k] += xi[k] * along;
-        for (int32_t j = 0; j < n; j++) force[j] += both * row[j];
+        for (int32_t j = 0; j < n; j++) force[j] += coupling * row[j];
       }
       for (int k = 0; k < 3; k++) r[f.frame[3 * (l + 1) + k]] += weight * total[k];
     }
-    double turn[9]; /* a_i' . a_l */
+    double axis_products[9]; /* a_i' . a_l */
     for (int i = 0; i < 3; i++)
       for (int l = 0; l < 3; l++) {
         const double *xi = x + 3 * (i + 1), *axis = f.A + 3 * l;
-        turn[3 * i + l] = xi[0] * axis[0] + xi[1] * axis[1] + xi[2] * axis[2];
+        axis_products[3 * i + l] = xi[0] * axis[0] + xi[1] * axis[1] + xi[2] * axis[2];
       }
     for (int p = 0; p < 3; p++) {
       const int i = (p + 1) % 3, k = (p + 2) % 3;
-      const double even = turn[3 * i + k] + turn[3 * k + i], odd = turn[3 * i + k] - turn[3 * k + i];
-      for (int32_t j = 0; j < n; j++) scaled[j] = turn[4 * p] * rate[j];
+      const double even = axis_products[3 * i + k] + axis_products[3 * k + i],
+                   odd = axis_products[3 * i + k] - axis_products[3 * k + i];
+      for (int32_t j = 0; j < n; j++) scaled[j] = axis_products[4 * p] * rate[j];
       ali3_accumulate(n, f.E + p * square, scaled, force);
       for (int32_t j = 0; j < n; j++) scaled[j] = even * rate[j];
       ali3_accumulate(n, f.E + (3 + p) * square, scaled, force);
@@ -61,8 +62,8 @@ void ali3_flexible_momentum(const ali3_instance *in, const double *q, const doub
   ali3_flexible_mass_times(in, v, p);
 }
 
-/* r += h/2 (p1 - p0) - h^2/2 g, p without the constant part of M; mean: D / h, half: (v1 - v0) / 2; the middle of the
- * step was prepared. */
+/* r += h/2 (p1 - p0) - h^2/2 g with momenta p without the constant part of M; mean: D / h, half: (v1 - v0) / 2;
+ * requires bodies prepared at the middle of the step. */
 void ali3_discrete_inertia(const ali3_instance *in, double h, const double *p0, const double *p1, const double *mean,
                            const double *half, double *r) {
   for (int32_t i = 0; i < in->system->size.nq; i++) r[i] += 0.5 * h * (p1[i] - p0[i]);

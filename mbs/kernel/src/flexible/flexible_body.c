@@ -45,7 +45,7 @@ ALI3_INLINED void flexible_prepare(const ali3_instance *in, const real *q) {
   }
 }
 
-/* out += (M(q) - constant part) x at the q that was prepared. */
+/* out += (M(q) - constant part) x at the prepared q. */
 ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, real *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
@@ -79,17 +79,17 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, re
   }
 }
 
-/* Q += Q_v, weight beside its constant part, elastic and damping forces, at the q that was prepared. Without Q_v
- * by discrete gradients, whose inertia is in discrete_inertia.c. */
+/* Q += Q_v, gravity except its constant part, elastic and damping forces at the prepared q. With discrete gradients
+ * without Q_v: their inertia forces are in discrete_inertia.c. */
 ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const real *qd, bool discrete, real *Q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
     real *restrict x = in->flexible.work, *restrict sum = x + n, *restrict rate = sum + n;
-    const double *g = f.gravity, turning = discrete ? 0.0 : 1.0;
+    const double *g = f.gravity, inertia_factor = discrete ? 0.0 : 1.0;
     real Ad[9];
     ali3_gather(9, f.frame + 3, qd, Ad);
-    for (int i = 0; i < 9; i++) Ad[i] *= turning;
+    for (int i = 0; i < 9; i++) Ad[i] *= inertia_factor;
     ali3_gather(n, f.mode, qd, rate);
     ali3_gather(n, f.mode, q, x);
     memset(sum, 0, (size_t)n * sizeof *sum);
@@ -120,42 +120,42 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
 /* Lower triangle of wC C + wK K into the body's front. */
 ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  const bool together = ali3_together(mode, n);
+  const bool contiguous = ali3_together(mode, n);
   for (int32_t j = 0; j < n; j++) {
     const double *restrict C = f->C + (int64_t)j * n, *restrict K = f->K + (int64_t)j * n;
     real *restrict column = block + (int64_t)mode[j] * size;
-    if (together)
+    if (contiguous)
       for (int32_t i = j; i < n; i++) column[mode[0] + i] += wC * C[i] + wK * K[i];
     else
       for (int32_t i = j; i < n; i++) column[mode[i]] += wC * C[i] + wK * K[i];
   }
 }
 
-/* The rows of modes in the columns of the frame; these come first and those lie side by side, unless the front of the
- * body has many others. */
+/* Adds the rows of the modes in the columns of the frame. Usually the frame precedes the modes, which are contiguous;
+ * not if the body's front has many other coordinates. */
 ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  bool together = ali3_together(mode, n);
-  for (int i = 0; i < 12; i++) together = together && f->loc[i] < mode[0];
+  bool contiguous = ali3_together(mode, n);
+  for (int i = 0; i < 12; i++) contiguous = contiguous && f->loc[i] < mode[0];
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++) {
       const real *restrict X = i == 0 ? f->P : f->D + 3 * (i - 1) * n, *restrict Y = X + n, *restrict Z = Y + n;
-      const real *restrict hang = i == 0 ? f->P : f->P + (i - 1) * n;
+      const real *restrict gravity_row = i == 0 ? f->P : f->P + (i - 1) * n;
       const real ax = wM * f->A[k], ay = wM * f->A[3 + k], az = wM * f->A[6 + k];
       const double g = i == 0 ? 0.0 : wK * f->gravity[k];
       const int32_t at = f->loc[3 * i + k];
       real *restrict column = block + (int64_t)at * size + mode[0];
-      if (together) {
+      if (contiguous) {
         ALI3_BY_FOURS
-        for (int32_t j = 0; j < n; j++) column[j] += (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]);
+        for (int32_t j = 0; j < n; j++) column[j] += (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * gravity_row[j]);
         continue;
       }
       for (int32_t j = 0; j < n; j++)
-        ali3_add_lower(block, size, at, mode[j], (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]));
+        ali3_add_lower(block, size, at, mode[j], (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * gravity_row[j]));
     }
 }
 
-/* F += wM (M(q) - constant part) + wC C + wK K at the q that was prepared; K with the part of the weight. */
+/* F += wM (M(q) - constant part) + wC C + wK K at the prepared q; K includes the geometric stiffness of gravity. */
 ALI3_INLINED void flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, real *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
@@ -185,8 +185,8 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_forces,
 ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
                   (const ali3_instance *in, double wM, double wC, double wK, real *F), (in, wM, wC, wK, F))
 
-#ifndef ALI3_WIDTH /* of one instance alone */
-/* K eta with the amplitudes eta of x, which stay in in->flexible.work. */
+#ifndef ALI3_WIDTH /* scalar only */
+/* K eta of the amplitudes eta in x; eta stays in in->flexible.work. */
 ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
   double *eta = in->flexible.work, *force = eta + f->n;
   ali3_gather(f->n, f->mode, x, eta);
@@ -195,7 +195,7 @@ ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_fle
   return force;
 }
 
-/* Energy of the weight beside its constant part, and elastic energy, J. */
+/* Adds the potential energy of gravity except its constant part, and the elastic energy, J. */
 ALI3_INLINED void flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
@@ -210,7 +210,7 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_energy,
                   (const ali3_instance *in, const double *q, double *gravity, double *elastic),
                   (in, q, gravity, elastic))
 
-/* F += weight K, without the part of the weight of the body. */
+/* F += weight K without the geometric stiffness of gravity. */
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {

@@ -1,4 +1,4 @@
-/* Flexible bodies: prepare is for one q, the others use what it left. */
+/* Flexible bodies: ali3_flexible_prepare stores quantities at one q, which the others use. */
 #ifndef ALI3_FLEXIBLE_BODY_H
 #define ALI3_FLEXIBLE_BODY_H
 #include "../algebra/real.h"

@@ -1,4 +1,4 @@
-/* M x: the constant mass matrix and what flexible bodies add to it. */
+/* Products M x with the constant mass matrix and the contributions of flexible and tabled bodies. */
 #include "mass.h"
 #include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
@@ -19,8 +19,8 @@ double ali3_mass_product(const ali3_instance *in, const double *a, const double 
   return sum;
 }
 
-/* Copies lower triangles, four columns at a time: all four from the row at which the first begins, for even lengths. What
- * is copied above the diagonal is not read. */
+/* Copies lower triangles, four columns at a time, all four from the row at which the first begins, so that lengths are
+ * even. Entries above the diagonal are not read. */
 ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {

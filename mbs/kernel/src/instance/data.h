@@ -1,4 +1,4 @@
-/* Data of an instance that callers set: inputs, parameters with the arrays that depend on them, roads, the start. */
+/* Data of an instance that callers set: inputs, parameters and arrays that depend on them, roads, the start. */
 #ifndef ALI3_INSTANCE_DATA_H
 #define ALI3_INSTANCE_DATA_H
 #include "../system.h"

@@ -12,9 +12,9 @@ typedef struct {
   double *S;            /* signal tangents of all elements, wC C + wK K */
   double wC, wK;        /* weights of the last forces */
   double *SB;           /* one element: signals x coordinates */
-  unsigned char *idle;  /* ne: 1 where the last ali3_forces met no force and no tangent */
+  unsigned char *idle;  /* 1 where force and tangent were zero in the last ali3_forces */
   double *S_made, *ud_at; /* of defect_correction.c: S of the tangent in F; ud of the last ali3_forces */
-  double *y, *out, *potential; /* ny, nout, ne: for calls whose caller does not keep these results */
+  double *y, *out, *potential; /* ny, nout, ne: for calls that do not store these results */
 } ali3_element_work;
 
 typedef struct {
@@ -28,7 +28,7 @@ typedef struct {
   ali3_tabled_base_work *base;
   ali3_tabled_parameter_work *parameter;
   double *square;              /* of one group of elements */
-  double *extended[3], *force; /* q, qd, qdd and forces on them, with the dependents behind */
+  double *extended[3], *force; /* q, qd, qdd and forces, each followed by those of dependents */
 } ali3_tabled_memory;
 
 /* Elements whose work sensors read, see ../state/work.c. */

@@ -7,7 +7,7 @@
 
 enum { ALI3_PAST = 4, ALI3_HISTORY_OWNER = 0, ALI3_HISTORY_COUNT, ALI3_HISTORY_TIME, ALI3_HISTORY = 2 + ALI3_PAST };
 
-/* One state; the vectors lie in one block of doubles so that a copy is one memcpy. */
+/* One state; its vectors are in one block of doubles, so that a copy is one memcpy. */
 typedef struct {
   double *q, *qd, *qdd;       /* nq: coordinates and their rates */
   double *lam;                /* nc: multipliers of rows */
@@ -17,8 +17,8 @@ typedef struct {
   double *out, *potential;    /* nout; ne, J: of the last evaluation of the elements */
   double *used;               /* nu: inputs as used in the last step */
   double *y_last, *h_last;    /* ny; 1, s: element states at the start of the last step, its length; 0 at a start */
-  double *on, *anchor;        /* n_switch: 0 or 1; nc where there are any: what a switched row holds */
-  double *history; /* of a method: whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
+  double *on, *anchor;        /* n_switch: 0 or 1; nc with switches: values at which rows are held */
+  double *history; /* of a method: ALI3_METHOD_*, number of past steps, times of their middles relative to now, s */
   double *own; /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
   double *work, *stored; /* J: work since the start, stored energy at the start; see ../state/work.c */
@@ -32,16 +32,16 @@ typedef struct {
   ali3_vectors start; /* before a step that may be halved */
   ali3_vectors whole; /* before a composed step */
   ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its middle, its end by one whole step */
-  ali3_vectors near_branch; /* before a step where branches may be near */
+  ali3_vectors near_branch; /* before a step near other branches */
   ali3_vectors direction; /* a direction in the space of states */
-  size_t n; /* doubles of a state */
+  size_t n; /* number of doubles of a state */
   bool backed_up; /* `start` holds the state before the step */
 } ali3_kept_states;
 
 /* time = base + count h */
 typedef struct {
   double base, h; /* s; h: length of the last step */
-  int64_t count; /* of steps of that length */
-  double now; /* s: the time of in->now within a step */
+  int64_t count; /* number of steps of that length */
+  double now; /* s: time of in->now, also within a step */
 } ali3_clock;
 #endif

@@ -1,4 +1,4 @@
-/* Work memory of a step: Newton's iteration, its tangent, where the step is divided, and the limit of its work. */
+/* Work memory of a step: Newton's iteration, its tangent, the division of the step, and limits of its work. */
 #ifndef ALI3_INSTANCE_STEP_H
 #define ALI3_INSTANCE_STEP_H
 #include <stdbool.h>
@@ -17,7 +17,7 @@ typedef struct {
   double *r, *x, *w; /* nq: residual, right side and correction, scratch */
   double *Q; /* nq, N: generalised forces */
   double *stage; /* ALI3_STAGES x nq: accelerations, of radau.c residuals too */
-  double *shifted; /* nq: q brought near the origin, see ../rows/constraints.c */
+  double *shifted; /* nq: q shifted near the origin, see ../rows/constraints.c */
   double *Phi, *Phit; /* nc: rows, their partial rate */
   double *gamma, *mu; /* nc: Phi'' = Phi_q qdd + gamma; multipliers of the iterate */
   double *lam; /* nc: change of the multipliers */
@@ -32,7 +32,7 @@ typedef struct {
 
 /* Phi_q (row pattern) and the tangent (front storage). */
 typedef struct {
-  double *J, *J_made; /* at the iterate; where F was made */
+  double *J, *J_made; /* at the iterate; of the tangent in F */
   double *F; /* the tangent, then its factors */
   double *local; /* ALI3_LOCAL columns of a front */
 } ali3_tangent_work;
@@ -40,16 +40,16 @@ typedef struct {
 /* Division of a step, see ../methods/contact_event.c and abrupt_force.c. */
 typedef struct {
   double event; /* share of the present part at which a stop is met or left */
-  int32_t events_left; /* how often the present step may still be divided at events; below 0: never */
-  double changed; /* largest change of a judged force in the step, by ali3_divides; below 0: not known */
+  int32_t events_left; /* number of further divisions of the present step at events; negative: none are located */
+  double changed; /* largest change of a judged force in the step, by ali3_divides; negative: not computed */
 } ali3_parting;
 
-/* Limits of the work of a step and of a call, and the residuals that they left. */
+/* Limits of the work of a step and of a call, and the residuals at these limits. */
 typedef struct {
-  int64_t iterations_before; /* report.iterations where the present step began */
-  int64_t *work_left; /* what the caller's call may still spend, see ali3_count_work; NULL: no limit */
-  bool capped; /* the present step is less accurate because of a limit, as of settings.step_iterations */
-  double capped_residual; /* m: what it then left */
+  int64_t iterations_before; /* report.iterations at the start of the present step */
+  int64_t *work_left; /* remaining work of the caller, see ali3_count_work; NULL: no limit */
+  bool capped; /* the present step ended at a limit, for example settings.step_iterations */
+  double capped_residual; /* m: residual of that step */
   double call_residual; /* m: the largest of the steps of a call */
 } ali3_work_bound;
 #endif

@@ -1,4 +1,4 @@
-/* Memory of a group, and what its lanes have of their instances. */
+/* Memory of a group, and copies of numbers between its lanes and their instances. */
 #include "group.h"
 
 #include <string.h>
@@ -13,37 +13,37 @@
 #include "../tabled/tabled.h"
 #include "lanes.h"
 
-enum { LINE = 64 }; /* bytes: the widest vector */
+enum { LINE = 64 }; /* bytes of the widest vector */
 enum { BASE_NUMBERS = sizeof(ali3_tabled_base_work) / sizeof(double) };
 
-/* n numbers of each lane, from a multiple of LINE on. */
-static void *items(const ali3_lane_group *g, ali3_pool *pool, size_t n) {
+/* Allocates n numbers for each lane, aligned to LINE. */
+static void *lane_items(const ali3_lane_group *g, ali3_pool *pool, size_t n) {
   pool->used = (pool->used + LINE - 1) / LINE * LINE;
   return ali3_pool_array(pool, n * (size_t)g->width);
 }
 
-/* `past`: with what is known of past steps. */
-static void place_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, bool past, ali3_pool *pool) {
+/* `with_history`: with data of past steps. */
+static void allocate_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, bool with_history, ali3_pool *pool) {
   const ali3_sizes *z = &g->system->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ng = (size_t)z->ng;
   const bool flexible = g->system->n_flexible > 0;
-  v->q = items(g, pool, nq);
-  v->qd = items(g, pool, nq);
-  v->qdd = items(g, pool, nq);
-  v->lam = items(g, pool, nc);
-  v->s = items(g, pool, ng);
-  v->sd = items(g, pool, ng);
-  v->sdd = items(g, pool, ng);
-  v->y = items(g, pool, (size_t)z->ny);
-  v->mean = items(g, pool, past && flexible ? nq : 0);
-  v->mean_before = items(g, pool, past && flexible ? nq : 0);
-  past = past && !flexible;
-  v->history = items(g, pool, past ? ALI3_HISTORY : 0);
-  v->past_a = items(g, pool, past ? ALI3_PAST * nq : 0);
-  v->past_lam = items(g, pool, past ? ALI3_PAST * nc : 0);
+  v->q = lane_items(g, pool, nq);
+  v->qd = lane_items(g, pool, nq);
+  v->qdd = lane_items(g, pool, nq);
+  v->lam = lane_items(g, pool, nc);
+  v->s = lane_items(g, pool, ng);
+  v->sd = lane_items(g, pool, ng);
+  v->sdd = lane_items(g, pool, ng);
+  v->y = lane_items(g, pool, (size_t)z->ny);
+  v->mean = lane_items(g, pool, with_history && flexible ? nq : 0);
+  v->mean_before = lane_items(g, pool, with_history && flexible ? nq : 0);
+  with_history = with_history && !flexible;
+  v->history = lane_items(g, pool, with_history ? ALI3_HISTORY : 0);
+  v->past_a = lane_items(g, pool, with_history ? ALI3_PAST * nq : 0);
+  v->past_lam = lane_items(g, pool, with_history ? ALI3_PAST * nc : 0);
 }
 
-static void place_step(ali3_lane_group *g, ali3_pool *pool) {
+static void allocate_step(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_sizes *z = &g->system->size;
   real **of_coordinates[] = {&g->mass.floor,    &g->mass.floor_inverse,
                              &g->mass.gravity,  &g->step.D,
@@ -62,53 +62,54 @@ static void place_step(ali3_lane_group *g, ali3_pool *pool) {
                       &g->mixing.step_lam,
                       &g->newton_lam};
   for (size_t k = 0; k < sizeof of_coordinates / sizeof *of_coordinates; k++)
-    *of_coordinates[k] = items(g, pool, (size_t)z->nq);
-  for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = items(g, pool, (size_t)z->nc);
-  g->guide.mean = items(g, pool, (size_t)z->ng);
-  g->guide.follows = items(g, pool, (size_t)z->ng);
+    *of_coordinates[k] = lane_items(g, pool, (size_t)z->nq);
+  for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = lane_items(g, pool, (size_t)z->nc);
+  g->guide.mean = lane_items(g, pool, (size_t)z->ng);
+  g->guide.follows = lane_items(g, pool, (size_t)z->ng);
   g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
 }
 
-static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
+static void allocate_tangents(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
-  g->mass.val = items(g, pool, (size_t)z->nnz_mass);
-  g->tangent.J = items(g, pool, (size_t)z->nnz_rows);
-  g->tangent.J_made = items(g, pool, (size_t)z->nnz_rows);
-  g->tangent.F = items(g, pool, (size_t)z->front_size);
-  g->tangent.F_new = items(g, pool, (size_t)z->front_size);
-  g->tangent.local = items(g, pool, ALI3_LOCAL * (size_t)S->max_front);
-  g->element.u = items(g, pool, (size_t)z->nsig);
-  g->element.ud = items(g, pool, (size_t)z->nsig);
-  g->element.S = items(g, pool, (size_t)S->el_S_off[z->ne]);
-  g->element.SB = items(g, pool, ali3_signal_work(S));
-  g->element.force = items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
-  g->ways = items(g, pool, (size_t)S->n_work_force);
-  g->element.idle = items(g, pool, (size_t)z->ne);
+  g->mass.val = lane_items(g, pool, (size_t)z->nnz_mass);
+  g->tangent.J = lane_items(g, pool, (size_t)z->nnz_rows);
+  g->tangent.J_made = lane_items(g, pool, (size_t)z->nnz_rows);
+  g->tangent.F = lane_items(g, pool, (size_t)z->front_size);
+  g->tangent.F_new = lane_items(g, pool, (size_t)z->front_size);
+  g->tangent.local = lane_items(g, pool, ALI3_LOCAL * (size_t)S->max_front);
+  g->element.u = lane_items(g, pool, (size_t)z->nsig);
+  g->element.ud = lane_items(g, pool, (size_t)z->nsig);
+  g->element.S = lane_items(g, pool, (size_t)S->el_S_off[z->ne]);
+  g->element.SB = lane_items(g, pool, ali3_signal_work(S));
+  g->element.force = lane_items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
+  g->ways = lane_items(g, pool, (size_t)S->n_work_force);
+  g->element.idle = lane_items(g, pool, (size_t)z->ne);
 }
 
-/* Flexible bodies, and what defect_correction.c needs where there are any. */
-static void place_flexible(ali3_lane_group *g, ali3_pool *pool) {
+/* Arrays of flexible bodies and of defect_correction.c, which is used with them. */
+static void allocate_flexible(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
-  const size_t any = S->n_flexible > 0, modes = (size_t)S->n_flex_mode;
-  g->flexible.prepared = items(g, pool, ALI3_FLEX_COUPLING * (size_t)S->n_flexible + ALI3_FLEX_OF_MODE * modes);
-  g->flexible.work = items(g, pool, 3 * (size_t)S->max_modes);
-  g->flexible.P = items(g, pool, 3 * modes);
-  g->flexible.c = items(g, pool, 9 * modes);
-  g->step.stage = items(g, pool, any * 3 * (size_t)S->size.nq);
-  g->element.S_made = items(g, pool, any * (size_t)S->el_S_off[S->size.ne]);
-  g->element.ud_at = items(g, pool, any * (size_t)S->size.nsig);
+  const size_t is_flexible = S->n_flexible > 0, modes = (size_t)S->n_flex_mode;
+  g->flexible.prepared = lane_items(g, pool, ALI3_FLEX_COUPLING * (size_t)S->n_flexible + ALI3_FLEX_OF_MODE * modes);
+  g->flexible.work = lane_items(g, pool, 3 * (size_t)S->max_modes);
+  g->flexible.P = lane_items(g, pool, 3 * modes);
+  g->flexible.c = lane_items(g, pool, 9 * modes);
+  g->step.stage = lane_items(g, pool, is_flexible * 3 * (size_t)S->size.nq);
+  g->element.S_made = lane_items(g, pool, is_flexible * (size_t)S->el_S_off[S->size.ne]);
+  g->element.ud_at = lane_items(g, pool, is_flexible * (size_t)S->size.nsig);
 }
 
-static void place_tabled(ali3_lane_group *g, ali3_pool *pool) {
+static void allocate_tabled(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const size_t extended = S->n_tabled > 0 ? (size_t)(S->size.nq + S->n_dependent) : 0;
-  g->tabled.item = items(g, pool, (size_t)S->n_tabled * (sizeof *g->tabled.item / sizeof(double)));
-  g->tabled.base = items(g, pool, (size_t)S->n_tabled_base * BASE_NUMBERS);
-  g->tabled.parameter = items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled.parameter / sizeof(double)));
-  g->tabled.square = items(g, pool, (size_t)S->tabled_square);
-  for (int k = 0; k < 3; k++) g->tabled.extended[k] = items(g, pool, extended);
-  g->tabled.force = items(g, pool, extended);
+  g->tabled.item = lane_items(g, pool, (size_t)S->n_tabled * (sizeof *g->tabled.item / sizeof(double)));
+  g->tabled.base = lane_items(g, pool, (size_t)S->n_tabled_base * BASE_NUMBERS);
+  g->tabled.parameter =
+      lane_items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled.parameter / sizeof(double)));
+  g->tabled.square = lane_items(g, pool, (size_t)S->tabled_square);
+  for (int k = 0; k < 3; k++) g->tabled.extended[k] = lane_items(g, pool, extended);
+  g->tabled.force = lane_items(g, pool, extended);
 }
 
 static bool has_law(const ali3_element_type *type) {
@@ -117,23 +118,24 @@ static bool has_law(const ali3_element_type *type) {
 #undef ALI3_IS
 }
 
-static void place_elements(ali3_lane_group *g, ali3_pool *pool) {
+static void allocate_elements(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
-  g->el_real = items(g, pool, (size_t)S->el_real_ptr[z->ne]);
-  g->input = items(g, pool, (size_t)z->nu);
-  g->out = items(g, pool, (size_t)S->el_out_ptr[z->ne]);
-  g->potential = items(g, pool, (size_t)z->ne);
+  g->el_real = lane_items(g, pool, (size_t)S->el_real_ptr[z->ne]);
+  g->input = lane_items(g, pool, (size_t)z->nu);
+  g->out = lane_items(g, pool, (size_t)S->el_out_ptr[z->ne]);
+  g->potential = lane_items(g, pool, (size_t)z->ne);
   g->by_law = ali3_pool_items(pool, (size_t)z->ne, sizeof *g->by_law);
   g->road = ali3_pool_items(pool, (size_t)S->nr, sizeof *g->road);
   for (int32_t e = 0; e < z->ne && pool->block != NULL; e++) g->by_law[e] = has_law(S->el_kind[e]);
   for (int32_t r = 0; r < S->nr; r++) {
-    const ali3_lane_road road = {.numbers = items(g, pool, ALI3_ROAD_NUMBERS), .friction_factor = items(g, pool, 1)};
+    const ali3_lane_road road = {.numbers = lane_items(g, pool, ALI3_ROAD_NUMBERS),
+                                 .friction_factor = lane_items(g, pool, 1)};
     if (pool->block != NULL) g->road[r] = road;
   }
 }
 
-static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
+static void allocate_scalars(ali3_lane_group *g, ali3_pool *pool) {
   ali3_mask **masks[] = {&g->lanes,
                          &g->at_work,
                          &g->evaluated,
@@ -147,37 +149,37 @@ static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
                          &g->report.negative_pivots};
   real **numbers[] = {&g->residual, &g->reach, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end,
                       &g->open,     &g->size,  &g->guides,    &g->mass.gravity_const, &g->weight};
-  for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = items(g, pool, 1);
-  for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = items(g, pool, 1);
-  g->squares = items(g, pool, 3);
+  for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = lane_items(g, pool, 1);
+  for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = lane_items(g, pool, 1);
+  g->squares = lane_items(g, pool, 3);
 }
 
-static void place(ali3_lane_group *g, ali3_pool *pool) {
-  place_vectors(g, &g->now, true, pool);
-  place_vectors(g, &g->next, false, pool);
-  place_step(g, pool);
-  place_tangents(g, pool);
-  place_flexible(g, pool);
-  place_tabled(g, pool);
-  place_elements(g, pool);
-  place_counts(g, pool);
+static void allocate(ali3_lane_group *g, ali3_pool *pool) {
+  allocate_vectors(g, &g->now, true, pool);
+  allocate_vectors(g, &g->next, false, pool);
+  allocate_step(g, pool);
+  allocate_tangents(g, pool);
+  allocate_flexible(g, pool);
+  allocate_tabled(g, pool);
+  allocate_elements(g, pool);
+  allocate_scalars(g, pool);
 }
 
 size_t ali3_group_bytes(const ali3_system *s, int32_t width) {
   ali3_lane_group g = {.system = s, .width = width};
   ali3_pool pool = {.block = NULL, .used = 0};
-  place(&g, &pool);
+  allocate(&g, &pool);
   return pool.used + LINE;
 }
 
-/* `block` has ali3_group_bytes. */
+/* `block`: memory of ali3_group_bytes. */
 void ali3_group_place(ali3_lane_group *g, void *block) {
   const size_t past_line = (uintptr_t)block % LINE;
   ali3_pool pool = {.block = (char *)block + (past_line > 0 ? LINE - past_line : 0), .used = 0};
-  place(g, &pool);
+  allocate(g, &pool);
 }
 
-/* A vector of each lane; those that are empty have that of the first. */
+/* Copies a vector of each instance to the group; unused lanes get that of the first. */
 #define PUT(g, to, n, in, from)                                                                                        \
   do {                                                                                                                 \
     const double *vector[ALI3_MOST_LANES];                                                                             \
@@ -188,7 +190,7 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
     (g)->code->spread(to, vector, n);                                                                                  \
   } while (0)
 
-/* To the lanes in group->good. */
+/* Copies a vector to the instances of the lanes in group->good. */
 #define TAKE(g, in, to, from, n)                                                                                       \
   do {                                                                                                                 \
     double *vector[ALI3_MOST_LANES];                                                                                   \
@@ -199,14 +201,14 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
     (g)->code->collect(vector, from, n);                                                                               \
   } while (0)
 
-/* The end of the elements from e on that are all computed in vectors, or all one by one. */
-static int32_t same_way(const ali3_lane_group *g, int32_t e) {
+/* End of the run of elements from e on that are all evaluated in vectors, or all one by one. */
+static int32_t end_of_run(const ali3_lane_group *g, int32_t e) {
   int32_t end = e + 1;
   while (end < g->system->size.ne && g->by_law[end] == g->by_law[e]) end++;
   return end;
 }
 
-static void roads(ali3_lane_group *g) {
+static void copy_roads(ali3_lane_group *g) {
   for (int32_t r = 0; r < g->system->nr; r++) {
     ali3_lane_road *road = &g->road[r];
     for (int32_t l = 0; l < g->used; l++) {
@@ -218,7 +220,7 @@ static void roads(ali3_lane_group *g) {
   }
 }
 
-/* Takes over the numbers of each lane that parameters change and steps do not. */
+/* Copies the numbers that depend on parameters but not on steps to the group. */
 void ali3_group_parameters(ali3_lane_group *g) {
   const ali3_sizes *z = &g->system->size;
   PUT(g, g->mass.val, z->nnz_mass, in, in->mass.val);
@@ -231,10 +233,10 @@ void ali3_group_parameters(ali3_lane_group *g) {
   PUT(g, g->flexible.P, 3 * (int32_t)g->system->n_flex_mode, in, in->system->flex_P);
   PUT(g, g->flexible.c, 9 * (int32_t)g->system->n_flex_mode, in, in->system->flex_c);
   PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->parameters.el_real);
-  roads(g);
+  copy_roads(g);
 }
 
-/* A step begins from in->now with the guides of in->next. */
+/* Copies the start of a step, in->now, and the guides of in->next to the group. */
 void ali3_group_from(ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq, nc = S->size.nc, ng = S->size.ng;
@@ -258,10 +260,10 @@ void ali3_group_from(ali3_lane_group *g) {
     PUT(g, g->now.past_lam, ALI3_PAST * nc, in, in->now.past_lam);
   }
   PUT(g, g->input, S->size.nu, in, in->inputs.forces);
-  for (int32_t r = 0; r < S->nr; r++) /* of the others the instance may be gone, and the place is none on its road */
+  for (int32_t r = 0; r < S->nr; r++) /* lanes that do not step may have no instance or no valid position */
     for (int32_t l = 0; l < g->width; l++) g->road[r].lane[l] = g->lanes[l] ? &g->lane[l]->roads.used[r] : NULL;
   for (int32_t e = 0, end; e < S->size.ne; e = end) {
-    end = same_way(g, e);
+    end = end_of_run(g, e);
     const int32_t first = S->el_state_ptr[e], n = S->el_state_ptr[end] - first;
     if (g->by_law[e] && n > 0) PUT(g, g->now.y + first * g->width, n, in, in->now.y + first);
   }
@@ -276,7 +278,7 @@ void ali3_group_from(ali3_lane_group *g) {
   }
 }
 
-static void counts(const ali3_lane_group *g, int32_t l) {
+static void copy_report(const ali3_lane_group *g, int32_t l) {
   ali3_report *r = &g->lane[l]->report;
   r->last_iterations = (int32_t)g->iterations[l];
   r->iterations += r->last_iterations;
@@ -291,8 +293,8 @@ static void counts(const ali3_lane_group *g, int32_t l) {
   r->velocity_violation = g->velocity_violation[l];
 }
 
-/* Writes the state after a step and its counters to the instances: in->next and, of rigid Systems, its part of the
- * past: the mean acceleration and the multipliers of Newton's loop, before (25). */
+/* Copies the state and the counters after a step to the instances: in->next and, for rigid Systems, the mean
+ * acceleration and multipliers of Newton's iteration, before (25). */
 void ali3_group_to(const ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq;
@@ -306,14 +308,14 @@ void ali3_group_to(const ali3_lane_group *g) {
     TAKE(g, in, in->next.past_a, g->mean_a, nq);
     TAKE(g, in, in->next.past_lam, g->newton_lam, S->size.nc);
   }
-  for (int32_t b = 0; b < S->n_flexible; b++) { /* axes and moments, for the energy of their weight */
-    const int32_t at = ALI3_FLEX_COUPLING * b + ALI3_FLEX_OF_MODE * S->flex_mode_ptr[b];
-    TAKE(g, in, in->flexible.prepared + at, g->flexible.prepared + at * g->width, ALI3_FLEX_COUPLING);
+  for (int32_t b = 0; b < S->n_flexible; b++) { /* axes and moments, for the energy of gravity */
+    const int32_t offset = ALI3_FLEX_COUPLING * b + ALI3_FLEX_OF_MODE * S->flex_mode_ptr[b];
+    TAKE(g, in, in->flexible.prepared + offset, g->flexible.prepared + offset * g->width, ALI3_FLEX_COUPLING);
   }
-  if (S->n_tabled_base > 0) /* for the energy of their weight */
+  if (S->n_tabled_base > 0) /* for the energy of gravity */
     TAKE(g, in, (double *)in->tabled.base, (const double *)g->tabled.base, S->n_tabled_base * BASE_NUMBERS);
   for (int32_t e = 0, end; e < S->size.ne; e = end) {
-    end = same_way(g, e);
+    end = end_of_run(g, e);
     const int32_t state = S->el_state_ptr[e], n_state = S->el_state_ptr[end] - state;
     const int32_t out = S->el_out_ptr[e], n_out = S->el_out_ptr[end] - out;
     if (!g->by_law[e]) continue;
@@ -328,5 +330,5 @@ void ali3_group_to(const ali3_lane_group *g) {
     TAKE(g, in, in->element.force + first, g->element.force + first * g->width, S->work_ptr[end] - S->work_ptr[k]);
   }
   for (int32_t l = 0; l < g->used; l++)
-    if (g->good[l]) counts(g, l);
+    if (g->good[l]) copy_report(g, l);
 }

@@ -1,6 +1,6 @@
-/* A group of instances of one System that advance together, each in a lane of the vectors of the processor. A `real` of
- * the group holds one number of every lane. Sources written in `real` are compiled for instances and for groups, so the
- * members have the same names in both (see real.h and kernels.h). */
+/* A group of instances of one System that advance together, each in a lane of the processor's vectors. A `real` of the
+ * group has one number of each lane. Sources written in `real` are compiled for instances and for groups, whose members
+ * have the same names (see real.h and kernels.h). */
 #ifndef ALI3_GROUP_H
 #define ALI3_GROUP_H
 #include "../algebra/real.h"
@@ -8,7 +8,7 @@
 #include "../instance.h"
 
 #ifdef ALI3_WIDTH
-typedef truth ali3_mask; /* all bits of a lane, or none; counts too */
+typedef truth ali3_mask; /* all bits of a lane or none; also counters */
 #else
 typedef int64_t ali3_mask;
 #endif
@@ -36,7 +36,7 @@ typedef struct ali3_lane_code {
 struct ali3_lane_group {
   const ali3_system *system;
   const ali3_lane_code *code;
-  int32_t width, used; /* number of lanes, and of those with an instance */
+  int32_t width, used; /* number of lanes, and of lanes with an instance */
   ali3_instance *lane[ALI3_MOST_LANES];
   ali3_settings settings; /* those of all lanes */
   ali3_rule rule;
@@ -45,7 +45,7 @@ struct ali3_lane_group {
   struct {
     real *val, *floor, *floor_inverse, *gravity, *gravity_const;
     bool isotropic;
-  } mass; /* this and the following members are those of an instance, with the numbers of all lanes */
+  } mass; /* this and the following members are those of an instance, for all lanes */
   struct {
     real *D, *d0, *r, *x, *w, *hat, *Q, *stage, *shifted, *Phi, *Phit, *gamma, *mu, *lam, *drive;
   } step;
@@ -54,7 +54,7 @@ struct ali3_lane_group {
   } mixing;
   struct {
     real *J, *J_made, *F, *local;
-    real *F_new; /* of lanes that get a new tangent while others keep theirs */
+    real *F_new; /* tangent of lanes that need a new one while others reuse theirs */
   } tangent;
   struct {
     real *u, *ud, *force, *S, *SB, *S_made, *ud_at;
@@ -76,11 +76,10 @@ struct ali3_lane_group {
   real *ways; /* displacements of elements whose work is summed, see ../state/work.c */
   real *el_real, *input, *out, *potential;
   ali3_lane_road *road;
-  bool *by_law; /* ne: the element is computed in vectors */
+  bool *by_law; /* ne: the element is evaluated in vectors */
   real *mean_a, *newton_lam; /* of the last step, for the history */
-  double *discarded; /* receives the numbers of lanes that did not make the step */
-  /* one mask each: lanes that make the step, whose work is counted, that evaluate elements, that converged, and that have
-   * a singular tangent */
+  double *discarded; /* receives the numbers of lanes without a completed step */
+  /* masks of lanes: in the step, counted in the report, evaluating elements, converged, with a singular tangent */
   ali3_mask *lanes, *at_work, *evaluated, *good, *singular;
   ali3_mask *iterations, *worst_row, *worst_coordinate;
   struct {

@@ -1,6 +1,6 @@
-/* The sources of a step, compiled for lanes: included once for each width, with ALI3_WIDTH and the instructions that the
- * processor needs for it. ali3_instance means a group of lanes here, and functions declared ALI3_PER_WIDTH have a version
- * for each width. Systems of lanes have no switches, so their functions are empty. */
+/* The sources of a step, compiled for lanes: included once for each width, with ALI3_WIDTH and the processor
+ * instructions for it. Here ali3_instance is a group of lanes, and functions declared ALI3_PER_WIDTH have one version
+ * for each width. Systems of lanes have no switches, so that their functions are empty. */
 #ifndef ALI3_KERNELS_H
 #define ALI3_KERNELS_H
 #ifdef ALI3_WIDTH

@@ -1,6 +1,6 @@
-/* The step of methods/augmented_lagrangian.c with the control of its iterations by lane: each lane decides alone what
- * follows, and one that is finished keeps its D, multipliers, tangent and forces, from which the rest comes out the same
- * again. Lanes that fail are marked in group->good and repeated from their instances. */
+/* The step of methods/augmented_lagrangian.c with control of the iteration by lane: converged lanes keep D,
+ * multipliers, tangent and forces, so that later iterations of other lanes do not change them. Lanes that fail are not
+ * in group->good and repeat the step in their instances. */
 #ifndef ALI3_LANE_STEP_H
 #define ALI3_LANE_STEP_H
 #ifdef ALI3_WIDTH
@@ -13,17 +13,17 @@
 #include "../rows/turning.h"
 
 static truth all_finite(const real *v, int32_t n) {
-  real sum = {0}; /* v - v is 0 for finite v, NaN else */
+  real sum = {0}; /* v - v is 0 for finite v, else NaN */
   for (int32_t i = 0; i < n; i++) sum += v[i] - v[i];
   return sum == 0.0;
 }
 
-/* Element e of all lanes: f, y, out, potential, idle and, where it is wanted, the tangent. */
-static void law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
+/* Evaluates element e in all lanes: f, y, out, potential, idle and, if required, the tangent. */
+static void evaluate_law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   const ali3_system *S = g->system;
   const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
   const int32_t beside = S->el_beside[e];
-  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
+  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals are not contiguous */
   for (int32_t i = 0; beside < 0 && i < n; i++) u[i] = g->element.u[signal[i]], ud[i] = g->element.ud[signal[i]];
   ali3_element_args a = {.nsig = n,
                          .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
@@ -52,22 +52,22 @@ static void law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   g->element.idle[e] = (truth){0} - a.idle;
 }
 
-/* Element e of the lanes in in->evaluated. */
-static void element(ali3_lane_group *in, int32_t e, real *f, bool tangent) {
+/* Evaluates element e in the lanes of in->evaluated. */
+static void evaluate_element(ali3_lane_group *in, int32_t e, real *f, bool tangent) {
   if (in->by_law[e])
-    law(in, e, f, tangent);
+    evaluate_law(in, e, f, tangent);
   else
     ali3_lane_element(in, e, f, tangent);
 }
 
-/* Elements of these lanes; the others keep theirs, but for the tangent, for which they are not asked again. */
-static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
+/* Evaluates the elements of some lanes; of the others only tangents may change, which they do not read again. */
+static void evaluate_elements(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   *in->evaluated = lanes;
-  for (int32_t e = 0; e < S->size.ne; e++) element(in, e, in->element.force + S->el_sig_ptr[e], tangent);
+  for (int32_t e = 0; e < S->size.ne; e++) evaluate_element(in, e, in->element.force + S->el_sig_ptr[e], tangent);
 }
 
-/* The next iterate writes again what elements have beside f; lanes that have ended come to the same. */
+/* Outputs other than f are overwritten by the next iterate; converged lanes get the same values. */
 void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real *q, const real *qd, real *r) {
   const ali3_system *S = in->system;
   real ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
@@ -79,12 +79,12 @@ void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real
     if (S->el_front[e] < 0) continue;
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++)
       ud[i - S->el_sig_ptr[e]] = in->element.ud[S->el_sig[i]];
-    element(in, e, f, false);
+    evaluate_element(in, e, f, false);
     ali3_add_defect(in, e, ud, f, r);
   }
 }
 
-static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
+static void evaluate_forces(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const real *q = in->next.q, *qd = in->next.qd;
@@ -95,13 +95,13 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
     q = in->tabled.extended[0], qd = in->tabled.extended[1];
   }
   ali3_active_signals(in, q, qd);
-  real *Q = S->n_tabled > 0 ? in->tabled.force : in->step.Q; /* with those on dependents behind */
+  real *Q = S->n_tabled > 0 ? in->tabled.force : in->step.Q; /* followed by those on dependents */
   memcpy(Q, in->mass.gravity, (size_t)nq * sizeof *Q);
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, q);
     ali3_flexible_forces(in, q, qd, false, Q);
   }
-  elements(in, lanes, tangent);
+  evaluate_elements(in, lanes, tangent);
   ali3_add_forces(in, in->element.force, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->step.Q);
 }
@@ -118,56 +118,56 @@ static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
   }
   ali3_constraints(in, in->next.q, in->next.s, in->step.Phi, in->tangent.J);
   ali3_velocity_values(in, in->tangent.J, in->next.qd, rate, in->step.Phi);
-  forces(in, lanes, tangent);
+  evaluate_forces(in, lanes, tangent);
   ali3_mass_times(in, w, r);
   for (int32_t i = 0; i < S->size.nq; i++) r[i] -= c * Q[i];
 }
 
-/* Largest of n sizes |x| factor, infinite where one is NaN; *worst becomes the first that has it, if it is not 0. The
- * factors are numbers of the lanes or the same for all. */
-static inline real largest_of(const real *x, const real *of_lanes, const double *of_all, int32_t n, truth *worst) {
-  enum { CHAINS = 4 }; /* a comparison waits for the last one of its chain */
-  real most[CHAINS] = {0};
-  truth bad = {0};
+/* Largest of n values |x| factor, infinite if one is NaN; *worst: index of the first largest one, unchanged if it is 0.
+ * The factors are those of lanes or common to all. */
+static inline real largest_size(const real *x, const real *of_lanes, const double *of_all, int32_t n, truth *worst) {
+  enum { CHAINS = 4 }; /* independent chains of comparisons hide their latency */
+  real largest[CHAINS] = {0};
+  truth has_nan = {0};
 #define ALI3_SIZE(i) (ali3_abs(x[i]) * (of_all == NULL ? of_lanes[i] : ali3_same(of_all[i])))
   for (int32_t i = 0; i < n; i += CHAINS)
     for (int32_t k = 0; k < CHAINS && i + k < n; k++) {
       const real size = ALI3_SIZE(i + k);
-      bad |= size != size;
-      most[k] = ali3_where(size > most[k], size, most[k]);
+      has_nan |= size != size;
+      largest[k] = ali3_where(size > largest[k], size, largest[k]);
     }
-  for (int k = 1; k < CHAINS; k++) most[0] = ali3_where(most[k] > most[0], most[k], most[0]);
-  const truth any = most[0] > 0.0;
+  for (int k = 1; k < CHAINS; k++) largest[0] = ali3_where(largest[k] > largest[0], largest[k], largest[0]);
+  const truth is_positive = largest[0] > 0.0;
   for (int32_t i = n - 1; i >= 0; i--) {
-    const truth is = (ALI3_SIZE(i) == most[0]) & any;
-    *worst = (is & i) | (~is & *worst);
+    const truth is_worst = (ALI3_SIZE(i) == largest[0]) & is_positive;
+    *worst = (is_worst & i) | (~is_worst & *worst);
   }
 #undef ALI3_SIZE
-  return ali3_where(bad, ali3_same(HUGE_VAL), most[0]);
+  return ali3_where(has_nan, ali3_same(HUGE_VAL), largest[0]);
 }
 
-/* Residual with the multipliers, and violation; returns the lanes where both are finite. */
-static truth judge(ali3_lane_group *in) {
+/* Computes the residual with the multipliers and the violation; returns the lanes in which both are finite. */
+static truth update_residual(ali3_lane_group *in) {
   const ali3_system *S = in->system;
   const double c = in->rule.c;
   const real *r = in->step.r;
   real *x = in->step.x;
   ali3_rows_transposed(S, in->tangent.J, in->next.lam, x);
   for (int32_t i = 0; i < S->size.nq; i++) x[i] = r[i] + c * x[i];
-  *in->residual = largest_of(x, in->mass.floor_inverse, NULL, S->size.nq, in->worst_coordinate);
-  *in->violation = largest_of(in->step.Phi, NULL, S->row_measure, S->size.nc, in->worst_row);
+  *in->residual = largest_size(x, in->mass.floor_inverse, NULL, S->size.nq, in->worst_coordinate);
+  *in->violation = largest_size(in->step.Phi, NULL, S->row_measure, S->size.nc, in->worst_row);
   return (*in->residual < 1e300) & (*in->violation < 1e300);
 }
 
-static truth closed(const ali3_lane_group *in) {
+static truth rows_are_closed(const ali3_lane_group *in) {
   const ali3_system *S = in->system;
-  truth all = {0};
+  truth open = {0};
   for (int32_t k = 0; k < S->size.nc; k++)
-    all |= ~(ali3_abs(in->step.Phi[k]) * S->row_measure[k] <= S->fine * in->settings.tolerance_phi + S->row_round[k]);
-  return ~all;
+    open |= ~(ali3_abs(in->step.Phi[k]) * S->row_measure[k] <= S->fine * in->settings.tolerance_phi + S->row_round[k]);
+  return ~open;
 }
 
-/* The tangent (23) of the present iterate for some lanes, and its factor; the others keep theirs. */
+/* Assembles and factorises the tangent (23) of the present iterate for some lanes; the others keep theirs. */
 static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   const ali3_system *S = in->system;
   real *F = first ? in->tangent.F : in->tangent.F_new;
@@ -192,7 +192,7 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
     ali3_tabled_elements_tangent(in, F);
   }
   ali3_factorise(in, F);
-  if (first) { /* the next iterate makes all of J */
+  if (first) { /* the next iterate overwrites J */
     real *here = in->tangent.J;
     in->tangent.J = in->tangent.J_made;
     in->tangent.J_made = here;
@@ -203,23 +203,23 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   for (int32_t i = 0; i < S->size.front_size; i++) in->tangent.F[i] = ali3_where(lanes, F[i], in->tangent.F[i]);
 }
 
-/* One Newton correction (21) and the multiplier update of the lanes that are not finished; returns where it is finite. */
-static truth correct(ali3_lane_group *in, truth lanes, truth kept, truth mixes, int32_t iteration) {
+/* One Newton correction (21) and the multiplier update of some lanes; returns the lanes in which it is finite. */
+static truth correct(ali3_lane_group *in, truth lanes, truth reused, truth accelerated, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c, alpha = in->alpha;
   const real *Phi = in->step.Phi, *r = in->step.r, *w = in->step.w, *gamma = in->step.gamma;
   real *lam = in->next.lam, *mu = in->step.mu, *x = in->step.x, *change = in->step.lam, *D = in->step.D;
   *in->at_work = lanes;
-  for (int32_t k = 0; k < nc; k++) mu[k] = ali3_where(kept, ali3_same(0.0), lam[k]) + alpha * Phi[k];
+  for (int32_t k = 0; k < nc; k++) mu[k] = ali3_where(reused, ali3_same(0.0), lam[k]) + alpha * Phi[k];
   ali3_rows_transposed(S, in->tangent.J_made, mu, in->step.w);
-  for (int32_t i = 0; i < nq; i++) x[i] = -(ali3_where(kept, x[i], r[i]) + c * w[i]);
+  for (int32_t i = 0; i < nq; i++) x[i] = -(ali3_where(reused, x[i], r[i]) + c * w[i]);
   ali3_solve(in, in->tangent.F, x);
   const truth finite = all_finite(x, nq);
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, in->h, iteration, lanes & finite);
   ali3_rows_times(S, in->tangent.J_made, x, in->step.gamma);
   for (int32_t k = 0; k < nc; k++) change[k] = alpha * (Phi[k] + gamma[k]);
-  ali3_accelerate(in, mixes);
+  ali3_accelerate(in, accelerated);
   for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(lanes, lam[k] + change[k], lam[k]);
   for (int32_t i = 0; i < nq; i++) D[i] = ali3_where(lanes, D[i] + x[i], D[i]);
   return finite;
@@ -227,50 +227,52 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, truth mixes, 
 
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
-  truth active = *in->lanes, kept = {0}, mixes = {0};
-  real before = ali3_same(HUGE_VAL);
-  *in->good = *in->singular = *in->iterations = kept;
+  truth active = *in->lanes, reused = {0}, accelerated = {0};
+  real last_residual = ali3_same(HUGE_VAL);
+  *in->good = *in->singular = *in->iterations = reused;
   *in->reach = (real){0};
   evaluate(in, active, true);
   for (int32_t iteration = 0; iteration < in->settings.max_iterations && ali3_any(active); iteration++) {
-    const truth renewed = active & ~kept;
-    if (ali3_any(renewed)) tangent(in, renewed, iteration == 0);
+    const truth outdated = active & ~reused;
+    if (ali3_any(outdated)) tangent(in, outdated, iteration == 0);
     active &= ~*in->singular;
-    active &= correct(in, active, kept, mixes, iteration);
+    active &= correct(in, active, reused, accelerated, iteration);
     *in->iterations -= active;
     evaluate(in, active, false);
-    active &= judge(in);
-    const truth ended = active & (*in->residual <= in->system->fine * in->settings.tolerance_r) & closed(in);
-    *in->good |= ended;
-    active &= ~ended;
-    kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
-           (*in->residual <= KEPT_RESIDUAL * before);
-    const truth settles = ali3_settles(in->system, iteration + 1) ? *in->residual <= before : (truth){0};
-    mixes = kept | ~settles;
-    *in->reach = ali3_where(settles, REACH * in->rule.rate * *in->residual, (real){0});
-    before = *in->residual;
-    if (ali3_any(active & ~kept)) elements(in, active & ~kept, true);
+    active &= update_residual(in);
+    const truth converged =
+        active & (*in->residual <= in->system->fine * in->settings.tolerance_r) & rows_are_closed(in);
+    *in->good |= converged;
+    active &= ~converged;
+    reused = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
+             (*in->residual <= KEPT_RESIDUAL * last_residual);
+    const truth decreasing = ali3_settles(in->system, iteration + 1) ? *in->residual <= last_residual : (truth){0};
+    accelerated = reused | ~decreasing;
+    *in->reach = ali3_where(decreasing, REACH * in->rule.rate * *in->residual, (real){0});
+    last_residual = *in->residual;
+    if (ali3_any(active & ~reused)) evaluate_elements(in, active & ~reused, true);
   }
 }
 
-/* First guess of D and the multipliers. */
+/* Predicts D and the multipliers. */
 static void predict(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   const double h = in->h;
-  truth goes_on = {0};
+  truth extrapolates = {0};
   if (in->system->n_flexible > 0) {
     for (int32_t i = 0; i < nq; i++) in->step.D[i] = h * (2.0 * in->now.mean[i] - in->now.mean_before[i]);
     memcpy(in->next.lam, in->now.lam, (size_t)nc * sizeof *in->next.lam);
     return;
   }
-  if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA) goes_on = ali3_history_smooth(in, ALI3_PARABOLA, h, false);
-  if (ali3_any(goes_on)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->step.x, in->next.lam);
+  if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA)
+    extrapolates = ali3_history_smooth(in, ALI3_PARABOLA, h, false);
+  if (ali3_any(extrapolates)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->step.x, in->next.lam);
   for (int32_t k = 0; k < nc; k++) {
     const real lam = in->now.lam[k];
-    in->next.lam[k] = lam + ALI3_SHARE * (ali3_where(goes_on, in->next.lam[k], lam) - lam);
+    in->next.lam[k] = lam + ALI3_SHARE * (ali3_where(extrapolates, in->next.lam[k], lam) - lam);
   }
   for (int32_t i = 0; i < nq; i++)
-    in->step.D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->step.x[i], in->now.qdd[i]);
+    in->step.D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(extrapolates, in->step.x[i], in->now.qdd[i]);
 }
 
 /* Sums of balance_squares of methods/energy_balance.c, in its order. */

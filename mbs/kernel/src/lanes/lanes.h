@@ -1,4 +1,4 @@
-/* Groups of instances. */
+/* Groups of instances: memory and copies. */
 #ifndef ALI3_LANES_H
 #define ALI3_LANES_H
 #include "group.h"

@@ -1,4 +1,4 @@
-/* Four lanes. */
+/* The step compiled for groups of four lanes with AVX2. */
 #if defined(__x86_64__)
 #define ALI3_WIDTH 4
 #define ALI3_CODE ali3_code_lanes_4
@@ -8,5 +8,5 @@
 #endif
 #include "kernels.h"
 #else
-#include "group.h" /* no processor of another kind is asked for them */
+#include "group.h" /* on other processors no group has four lanes */
 #endif

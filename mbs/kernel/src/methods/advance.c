@@ -1,4 +1,5 @@
-/* A step by the method of the settings, in parts where it does not converge, a force changes abruptly or inputs jump. */
+/* A step by the method of the settings, in parts where it does not converge, a force changes abruptly or inputs
+ * jump. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -16,7 +17,7 @@
 #include "energy_balance.h"
 #include "steps.h"
 
-static ali3_status by_method(ali3_instance *in, const ali3_request *request) {
+static ali3_status method_step(ali3_instance *in, const ali3_request *request) {
   const ali3_method *method = ali3_method_of(in);
   const double h = request->h;
   const ali3_status inputs = ali3_inputs_begin(in, request->t, h);
@@ -26,28 +27,29 @@ static ali3_status by_method(ali3_instance *in, const ali3_request *request) {
     ali3_vectors_copy_unwritten(in, &in->next, &in->now);
   else if (!method->relative)
     ali3_vectors_copy(in, &in->next, &in->now);
-  const bool by_powers = in->system->n_guide_work > 0 && !(method->has_guides_work && method->has_guides_work(in));
-  const double power = by_powers ? ali3_guides_power(in, &in->now) : 0.0;
+  const bool trapezoidal_work =
+      in->system->n_guide_work > 0 && !(method->has_guides_work && method->has_guides_work(in));
+  const double power = trapezoidal_work ? ali3_guides_power(in, &in->now) : 0.0;
   const ali3_status status = method->step(in, request);
-  if (status == ALI3_OK && by_powers)
+  if (status == ALI3_OK && trapezoidal_work)
     ali3_guides_work(in, &in->now, 0.5 * h * (power + ali3_guides_power(in, &in->now)));
   return status;
 }
 
-enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
+enum { MAX_ITERATIONS = 1000 }; /* of a step including its parts */
 
-/* A part of a step, in halves where it does not converge or a force changes abruptly in it, and up to and from where a
- * stop is met or left. With a limit of the step's iterations only what changes abruptly is divided. */
+/* Makes a part of a step: in halves where it does not converge or a force changes abruptly, and divided where a stop is
+ * met or left. With a limit of iterations only the latter divide it. */
 static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;
   const int64_t made_before = in->report.iterations;
-  if (made_before - in->bound.iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
+  if (made_before - in->bound.iterations_before > MAX_ITERATIONS) return ALI3_TOO_DEAR;
   if (in->bound.work_left != NULL && *in->bound.work_left <= 0) return ALI3_TOO_DEAR;
   in->parting.changed = -1.0;
   in->parting.event = 1.0;
   const int64_t divisions = in->report.divisions;
-  const ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED : by_method(in, part);
+  const ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED : method_step(in, part);
   if (in->bound.work_left != NULL) *in->bound.work_left -= 1 + in->report.iterations - made_before;
   if (status == ALI3_OK) in->clock.now = part->t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, part->h);
@@ -59,43 +61,44 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   if (!divided) in->report.halvings++;
   ali3_back_up(in);
   const int64_t made = in->report.iterations;
-  const bool located = in->parting.event < 1.0;
-  const double share = located ? in->parting.event : 0.5;
+  const bool at_event = in->parting.event < 1.0;
+  const double share = at_event ? in->parting.event : 0.5;
   ali3_request first = *part, second = *part;
   first.t = part->t - (1.0 - share) * part->h;
   first.h = share * part->h;
   first.iterations_end = made + (part->iterations_end - made) / 2;
   second.h = (1.0 - share) * part->h;
-  if (!located) first.depth = second.depth = part->depth - 1;
-  const ali3_status begun = advance_part(in, &first);
-  return begun == ALI3_OK ? advance_part(in, &second) : begun;
+  if (!at_event) first.depth = second.depth = part->depth - 1;
+  const ali3_status first_status = advance_part(in, &first);
+  return first_status == ALI3_OK ? advance_part(in, &second) : first_status;
 }
 
-static const double AT_END = 1e-6; /* of a step: a jump so near to its end is at it */
-static const double ROUND_OFF = 4.0 * DBL_EPSILON; /* of the time of a jump: guides are before or behind it */
+static const double AT_END = 1e-6; /* of a step: a nearer jump is at its end */
+/* Distance from a jump, relative to its time, at which guides are evaluated before and after it. */
+static const double ROUND_OFF = 4.0 * DBL_EPSILON;
 
-/* Velocities, accelerations and multipliers behind a jump of a guide at the present time, as by an impulse of its rows,
- * whose work is that of the guide; nothing of the past predicts the next step. */
+/* Computes velocities, accelerations and multipliers after a jump of a guide at `time`, as by an impulse of its rows,
+ * whose work is that of the guide; clears the history. */
 static ali3_status guide_jump(ali3_instance *in, double time) {
-  const bool counts = in->system->n_guide_work > 0;
-  const double before = counts ? ali3_kinetic_energy(in) : 0.0;
+  const bool has_guide_work = in->system->n_guide_work > 0;
+  const double before = has_guide_work ? ali3_kinetic_energy(in) : 0.0;
   in->clock.now = time;
   ali3_guides_time(in, &in->now, time + ROUND_OFF * fabs(time));
   const ali3_status status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) return status;
-  if (counts) ali3_guides_work(in, &in->now, ali3_kinetic_energy(in) - before);
+  if (has_guide_work) ali3_guides_work(in, &in->now, ali3_kinetic_energy(in) - before);
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
   return ALI3_OK;
 }
 
-/* Time to which the next part of a step of h to time t goes: the next jump of an input or a guide, else t. `*guide`: that
- * time if a guide jumps then, else infinity. */
+/* End of the next part of a step of h to time t: the next jump of an input or a guide, else t. `*guide`: time of the
+ * jump if it is one of a guide, else infinity. */
 static double part_end(const ali3_instance *in, double t, double h, double *guide) {
   const double inputs = ali3_inputs_until(in, t), near = AT_END * h;
-  const double until =
+  const double piece_end =
       in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
-  *guide = until < inputs + near ? until : HUGE_VAL;
-  return until < t - near ? fmin(until, inputs) : fmin(inputs, t);
+  *guide = piece_end < inputs + near ? piece_end : HUGE_VAL;
+  return piece_end < t - near ? fmin(piece_end, inputs) : fmin(inputs, t);
 }
 
 /* Whether a step of h to time t is divided at a jump, or ends at one of a guide. */
@@ -111,16 +114,16 @@ ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
   ali3_request part = *request, rest = *request;
   ali3_events_begin(in, request->depth);
   part.iterations_end = in->report.iterations + in->settings.step_iterations;
-  const double until = part_end(in, t, h, &guide);
-  if (until == t && guide == HUGE_VAL) return advance_part(in, &part);
+  const double piece_end = part_end(in, t, h, &guide);
+  if (piece_end == t && guide == HUGE_VAL) return advance_part(in, &part);
   ali3_back_up(in);
-  if (until < t) in->report.divisions++;
-  part.t = fmin(until, guide - ROUND_OFF * fabs(guide));
-  if (until < t) part.h = until - in->clock.now;
-  if (guide < HUGE_VAL) part.reading = ALI3_READ_ALL; /* the jump reads the state before it */
+  if (piece_end < t) in->report.divisions++;
+  part.t = fmin(piece_end, guide - ROUND_OFF * fabs(guide));
+  if (piece_end < t) part.h = piece_end - in->clock.now;
+  if (guide < HUGE_VAL) part.reading = ALI3_READ_ALL; /* guide_jump needs all of the state before it */
   ali3_status status = advance_part(in, &part);
-  if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(until, guide)) : ALI3_OK;
+  if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(piece_end, guide)) : ALI3_OK;
   in->bound.iterations_before = in->report.iterations;
-  rest.h = t - until;
-  return status == ALI3_OK && until < t ? ali3_advance(in, &rest) : status;
+  rest.h = t - piece_end;
+  return status == ALI3_OK && piece_end < t ? ali3_advance(in, &rest) : status;
 }

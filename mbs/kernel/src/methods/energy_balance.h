@@ -1,4 +1,4 @@
-/* The energy balance of a run. */
+/* Energy balance of a run; energy_balance.c describes the functions. */
 #ifndef ALI3_METHODS_ENERGY_BALANCE_H
 #define ALI3_METHODS_ENERGY_BALANCE_H
 #include "../instance.h"

@@ -1,4 +1,4 @@
-/* Functions of the energy-momentum methods for reports and compositions. */
+/* Functions of the energy-momentum method for reports and compositions; energy_momentum.c describes them. */
 #ifndef ALI3_ENERGY_MOMENTUM_H
 #define ALI3_ENERGY_MOMENTUM_H
 #include "../instance.h"

@@ -1,4 +1,4 @@
-/* Projections of velocities and accelerations. */
+/* Projections of velocities and accelerations onto the rows; projection.c describes the functions. */
 #ifndef ALI3_PROJECTION_H
 #define ALI3_PROJECTION_H
 #include "../algebra/real.h"

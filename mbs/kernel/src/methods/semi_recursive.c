@@ -1,8 +1,7 @@
-/* Semi-recursive formulation: explicit Runge-Kutta rules on the relative coordinates of a spanning tree (J. Garcia de
+/* Semi-recursive formulation: explicit Runge-Kutta methods on the relative coordinates of a spanning tree (J. Garcia de
  * Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapters 5 and 8). Loops are closed by a
- * second transformation to independent rates; positions and velocities return to the rows at the end of a step. What
- * goes from step to step lies in the state's history of the method; natural coordinates are written when they are read.
- * */
+ * second transformation to independent rates; positions and velocities are projected onto the rows at the end of a
+ * step. The method's state is in the history of in->now; natural coordinates are computed when they are read. */
 #include <math.h>
 #include <string.h>
 
@@ -23,60 +22,59 @@
 #include "steps.h"
 #include "tableau.h"
 
-static const double TURNS = 1e4, TWO_PI = 6.283185307179586; /* rad: beyond, whole turns are taken off */
-static const double BROKEN = 1e3; /* m: the rows are lost */
+static const double MAX_ANGLE = 1e4, TWO_PI = 6.283185307179586; /* rad: whole turns of larger angles are removed */
+static const double MAX_VIOLATION = 1e3; /* m: a larger violation is divergence */
 
-/* Numbers of the method in a state: q, qd, qdd, turned angles, rank, order of rows, order of joints. They begin at
- * `own`. */
-static void store(const ali3_instance *in, double *own) {
+/* Writes the state of the method to `state`: q, qd, qdd, turned angles, rank, order of rows, order of joints. */
+static void store(const ali3_instance *in, double *state) {
   const ali3_tree *T = in->system->tree;
   const ali3_tree_work *w = in->tree;
   const size_t n = (size_t)T->n;
-  memcpy(own, w->state, 2 * n * sizeof(double));
-  memcpy(own + 2 * n, w->qdd, n * sizeof(double));
-  memcpy(own + 3 * n, w->turned, (size_t)T->n_angle * sizeof(double));
+  memcpy(state, w->state, 2 * n * sizeof(double));
+  memcpy(state + 2 * n, w->qdd, n * sizeof(double));
+  memcpy(state + 3 * n, w->turned, (size_t)T->n_angle * sizeof(double));
   if (T->n_row == 0) return;
-  double *order = own + 3 * n + T->n_angle;
+  double *order = state + 3 * n + T->n_angle;
   *order++ = w->rank;
   for (int32_t i = 0; i < T->n_row; i++) *order++ = w->row_order[i];
   for (int32_t j = 0; j < T->n; j++) *order++ = w->column_order[j];
 }
 
-/* n different whole numbers from `first` on; a restored state may hold anything. */
+/* Whether v has the n different integers from `first` on, as a restored state may have other values. */
 static bool permutation(const double *v, int32_t n, int32_t first, int32_t *out) {
-  bool seen[ALI3_LANES] = {false};
+  bool used[ALI3_LANES] = {false};
   for (int32_t i = 0; i < n; i++) {
     if (!(v[i] >= first && v[i] < first + n)) return false;
     out[i] = (int32_t)v[i];
-    if (seen[out[i] - first]) return false;
-    seen[out[i] - first] = true;
+    if (used[out[i] - first]) return false;
+    used[out[i] - first] = true;
   }
   return true;
 }
 
-static bool recall(const ali3_instance *in, const double *own) {
+static bool restore(const ali3_instance *in, const double *state) {
   const ali3_tree *T = in->system->tree;
   ali3_tree_work *w = in->tree;
   const size_t n = (size_t)T->n;
-  memcpy(w->state, own, 2 * n * sizeof(double));
-  memcpy(w->qdd, own + 2 * n, n * sizeof(double));
-  memcpy(w->turned, own + 3 * n, (size_t)T->n_angle * sizeof(double));
+  memcpy(w->state, state, 2 * n * sizeof(double));
+  memcpy(w->qdd, state + 2 * n, n * sizeof(double));
+  memcpy(w->turned, state + 3 * n, (size_t)T->n_angle * sizeof(double));
   w->rank = 0;
   if (T->n_row == 0) return true;
-  const double *order = own + 3 * n + T->n_angle;
+  const double *order = state + 3 * n + T->n_angle;
   if (!(order[0] >= 0.0 && order[0] <= T->n_row && order[0] <= T->n)) return false;
   w->rank = (int32_t)order[0];
   return permutation(order + 1, T->n_row, 0, w->row_order) &&
          permutation(order + 1 + T->n_row, T->n, 1, w->column_order);
 }
 
-static void place(const ali3_instance *in, const double *x) {
+static void set_positions(const ali3_instance *in, const double *x) {
   memcpy(in->tree->q + 1, x, (size_t)in->system->tree->n * sizeof(double));
   ali3_tree_place(in->system->tree, in->tree);
 }
 
-/* Frames, joint motions and the factorised rows at the positions in x. */
-static void position(const ali3_instance *in) {
+/* Computes frames, joint motions and the factorised rows at the positions that are set. */
+static void factorise_rows(const ali3_instance *in) {
   const ali3_system *S = in->system;
   ali3_tree_joints(S->tree, in->tree);
   if (S->tree->n_row == 0) return;
@@ -84,12 +82,12 @@ static void position(const ali3_instance *in) {
   ali3_loops_factorise(S->tree, in->tree);
 }
 
-/* Joint accelerations at the positions placed and the rates qd. */
+/* Joint accelerations at the positions that are set and the rates qd. */
 static ali3_status accelerations(ali3_instance *in, const double *qd, double *qdd) {
   const ali3_system *S = in->system;
   const ali3_tree *T = S->tree;
   ali3_tree_work *w = in->tree;
-  bool good;
+  bool solved;
   memcpy(w->qd + 1, qd, (size_t)T->n * sizeof(double));
   ali3_tree_move(T, w);
   ali3_tree_forces(T, w);
@@ -112,24 +110,24 @@ static ali3_status accelerations(ali3_instance *in, const double *qd, double *qd
   if (S->size.ne > 0) ali3_angles_load(S, w, in->step.Q);
   if (T->n_row > 0) {
     ali3_loops_bias(S, w);
-    good = ali3_loops_solve(T, w, qdd);
+    solved = ali3_loops_solve(T, w, qdd);
   } else {
-    good = ali3_tree_factorise(T, w, w->load);
+    solved = ali3_tree_factorise(T, w, w->load);
     ali3_tree_solve(T, w, w->load);
     memcpy(qdd, w->load + 1, (size_t)T->n * sizeof(double));
   }
   in->report.iterations++;
   in->report.factorizations++;
-  return good ? ALI3_OK : ALI3_SINGULAR;
+  return solved ? ALI3_OK : ALI3_SINGULAR;
 }
 
-/* From natural coordinates, where another method or a start has left the state. */
-static ali3_status begin(ali3_instance *in) {
+/* Computes the state of the method from natural coordinates, after a start or another method. */
+static ali3_status start_from_natural(ali3_instance *in) {
   ali3_tree_work *w = in->tree;
   const ali3_tree *T = in->system->tree;
   ali3_tree_read(in, in->now.q, in->now.qd, w->state);
   ali3_angles_read(in->system, w, in->now.q);
-  place(in, w->state);
+  set_positions(in, w->state);
   ali3_tree_joints(T, w);
   if (T->n_row > 0) {
     ali3_loops_rows(in->system, w, true);
@@ -139,15 +137,15 @@ static ali3_status begin(ali3_instance *in) {
   return accelerations(in, w->state + T->n, w->qdd);
 }
 
-/* Accelerations at the start of a step where its inputs are not those at the end of the last. */
-static ali3_status after_jump(ali3_instance *in) {
+/* Computes accelerations at the start of a step after a jump of its inputs. */
+static ali3_status accelerations_after_jump(ali3_instance *in) {
   ali3_tree_work *w = in->tree;
-  place(in, w->state);
-  position(in);
+  set_positions(in, w->state);
+  factorise_rows(in);
   return accelerations(in, w->state + in->system->tree->n, w->qdd);
 }
 
-/* w->sum = state + h times the rates of the stages with their weights. */
+/* w->sum = state + h times the weighted sum of the rates of the stages. */
 static void combine(const ali3_instance *in, double h, const double *weight, int32_t stages) {
   ali3_tree_work *w = in->tree;
   const int32_t n = 2 * in->system->tree->n;
@@ -161,30 +159,30 @@ static void combine(const ali3_instance *in, double h, const double *weight, int
   for (int32_t i = 0; i < n; i++) sum[i] = w->state[i] + h * sum[i];
 }
 
-static double largest(const double *v, int32_t n) {
+static double largest_size(const double *v, int32_t n) {
   double most = 0.0;
   for (int32_t i = 0; i < n; i++) most = fabs(v[i]) > most ? fabs(v[i]) : most;
   return most;
 }
 
-/* Positions in w->sum placed and back on the rows, with the factors of the last stage, which was at the end of the step
- * or near it; then velocities. */
-static ali3_status close(ali3_instance *in) {
+/* Projects positions in w->sum onto the rows with the factors of the last stage, which was at or near the end of the
+ * step; then velocities. */
+static ali3_status project(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_tree *T = S->tree;
   ali3_tree_work *w = in->tree;
   double *qd = w->sum + T->n;
   for (int32_t sweep = 0;; sweep++) {
-    place(in, w->sum);
+    set_positions(in, w->sum);
     if (T->n_row == 0) break;
     ali3_loops_rows(S, w, false);
-    const double violation = largest(w->Phi, T->n_row);
+    const double violation = largest_size(w->Phi, T->n_row);
     in->report.violation = violation;
     if (violation <= S->fine * in->settings.tolerance_phi) break;
-    if (sweep == in->settings.max_iterations || !(violation < BROKEN)) return ALI3_NOT_CONVERGED;
+    if (sweep == in->settings.max_iterations || !(violation < MAX_VIOLATION)) return ALI3_NOT_CONVERGED;
     ali3_loops_correct(T, w, w->Phi, w->sum);
   }
-  position(in);
+  factorise_rows(in);
   if (T->n_row == 0) return ALI3_OK;
   for (int32_t i = 0; i < T->n_row; i++) {
     w->gamma[i] = 0.0;
@@ -196,20 +194,20 @@ static ali3_status close(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Natural coordinates of v at the state of the method, with what its readers need. */
-static ali3_status show(ali3_instance *in, ali3_vectors *v, ali3_reading reading, bool controlled) {
+/* Writes natural coordinates at the state of the method to v, and what `reading` needs. */
+static ali3_status write_natural(ali3_instance *in, ali3_vectors *v, ali3_reading reading, bool controlled) {
   const ali3_system *S = in->system;
   ali3_tree_accelerate(S->tree, in->tree, in->tree->qdd);
   ali3_tree_write(in, v->q, v->qd, v->qdd);
   const bool sensors = reading == ALI3_READ_SENSORS;
-  if (controlled && sensors) return ALI3_OK; /* only the motion is looked at */
+  if (controlled && sensors) return ALI3_OK; /* only the motion is read */
   if (sensors && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
-  /* not from the last multipliers: bits must not depend on which states were read */
+  /* multipliers start from zero, so that results do not depend on which states were read */
   memset(v->lam, 0, (size_t)S->size.nc * sizeof(double));
   const ali3_status status = ali3_index_one(in, v);
   if (status != ALI3_OK) return status;
-  ali3_tree_write(in, v->q, v->qd, v->qdd); /* those of the multipliers' solution have its error */
-  in->report.iterations--; /* evaluations of the method itself are counted */
+  ali3_tree_write(in, v->q, v->qd, v->qdd); /* the solution for the multipliers has changed them by its error */
+  in->report.iterations--; /* only evaluations of the method are counted */
   in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
   ali3_rows_times(S, in->tangent.J, v->qd, in->step.mu);
   int32_t worst = 0;
@@ -217,9 +215,9 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v, ali3_reading reading
   return ALI3_OK;
 }
 
-static void turn_back(const ali3_system *S, ali3_tree_work *w) {
+static void remove_turns(const ali3_system *S, ali3_tree_work *w) {
   for (int32_t j = 0; j < S->tree->n; j++)
-    if (fabs(w->state[j]) > TURNS && S->tree->slide[j + 1] == 0.0) {
+    if (fabs(w->state[j]) > MAX_ANGLE && S->tree->slide[j + 1] == 0.0) {
       const double angle = TWO_PI * floor(w->state[j] / TWO_PI + 0.5);
       w->state[j] -= angle;
       w->q[j + 1] = w->state[j];
@@ -227,8 +225,8 @@ static void turn_back(const ali3_system *S, ali3_tree_work *w) {
     }
 }
 
-/* In the metric of the diagonal of the mass matrix; w->stage[0] has rates and accelerations at the start of the step,
- * w->sum and w->qdd those at its end. */
+/* Adds the step to the accuracy measures, in the metric of the diagonal of the mass matrix; w->stage[0] has rates and
+ * accelerations at the start of the step, w->sum and w->qdd those at its end. */
 static void balance(ali3_instance *in, double h) {
   const ali3_tree *T = in->system->tree;
   const ali3_tree_work *w = in->tree;
@@ -247,7 +245,7 @@ static void balance(ali3_instance *in, double h) {
   ali3_balance_motion(in, speed, change, fmax(miss, back));
 }
 
-/* From in->now by a step h; in->now changes only when the step is good. */
+/* Makes a step of h from in->now, which changes only if it succeeds. */
 static ali3_status step(ali3_instance *in, const ali3_request *request, const ali3_tableau *rule) {
   const ali3_system *S = in->system;
   const ali3_tree *T = S->tree;
@@ -255,15 +253,15 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   const int64_t before = in->report.iterations;
   const double h = request->h;
   const bool read = request->reading != ALI3_READ_NOTHING;
-  const bool mine = in->now.history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
+  const bool has_state = in->now.history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
   ali3_tree_work *w = in->tree;
   ali3_status status = ali3_inputs_at(in, 0.0);
   if (status != ALI3_OK) return status;
   in->inputs.forces = in->inputs.middle;
-  if (!(mine && recall(in, in->now.own)))
-    status = begin(in);
+  if (!(has_state && restore(in, in->now.own)))
+    status = start_from_natural(in);
   else if (ali3_inputs_jump(in))
-    status = after_jump(in);
+    status = accelerations_after_jump(in);
   else
     ali3_work_recall(in);
   ali3_work_first(in, h * rule->weight[0]);
@@ -273,8 +271,8 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
     combine(in, h, rule->stage_weight[stage], stage);
     status = ali3_inputs_at(in, rule->node[stage]);
     if (status != ALI3_OK) break;
-    place(in, w->sum);
-    position(in);
+    set_positions(in, w->sum);
+    factorise_rows(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
     status = accelerations(in, w->sum + n, w->stage[stage] + n);
     ali3_work_stage(in, h * rule->weight[stage], in->watch.now, in->watch.sum);
@@ -282,7 +280,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   in->inputs.forces = in->inputs.set;
   if (status == ALI3_OK) {
     combine(in, h, rule->weight, rule->stages);
-    status = close(in);
+    status = project(in);
   }
   if (status == ALI3_OK) status = accelerations(in, w->sum + n, w->qdd);
   ali3_iterations_since(in, before);
@@ -290,13 +288,13 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   if (!ali3_finite(w->sum, 2 * n) || !ali3_finite(w->qdd, n)) return ALI3_NOT_FINITE;
   balance(in, h);
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
-  turn_back(S, w);
+  remove_turns(S, w);
   ali3_vectors *v = read ? &in->next : &in->now;
   if (read) ali3_vectors_copy(in, v, &in->now);
   ali3_work_stage(in, 1.0, in->watch.sum, v->work);
   ali3_work_store(in, v);
   if (read) {
-    status = show(in, v, request->reading, request->controlled);
+    status = write_natural(in, v, request->reading, request->controlled);
     if (status != ALI3_OK) return status;
   }
   store(in, v->own);
@@ -307,16 +305,16 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   return read ? ali3_accept(in) : ALI3_OK;
 }
 
-/* After steps of which not all was read: the natural coordinates of the last one. */
-static void report(ali3_instance *in) {
+/* Writes the natural coordinates of the last state, after steps that were not read. */
+static void report_last(ali3_instance *in) {
   ali3_tree_work *w = in->tree;
-  if (!recall(in, in->now.own)) return;
-  place(in, w->state);
+  if (!restore(in, in->now.own)) return;
+  set_positions(in, w->state);
   ali3_tree_joints(in->system->tree, w);
   memcpy(w->qd + 1, w->state + in->system->tree->n, (size_t)in->system->tree->n * sizeof(double));
   ali3_tree_move(in->system->tree, w);
   ali3_vectors_copy(in, &in->next, &in->now);
-  if (show(in, &in->next, ALI3_READ_ALL, false) != ALI3_OK) { /* nothing but the motion */
+  if (write_natural(in, &in->next, ALI3_READ_ALL, false) != ALI3_OK) { /* only the motion is known */
     ali3_tree_write(in, in->next.q, in->next.qd, in->next.qdd);
     memset(in->next.lam, 0, (size_t)in->system->size.nc * sizeof(double));
   }
@@ -332,7 +330,7 @@ static ali3_status step_8(ali3_instance *in, const ali3_request *request) { retu
 const ali3_method ali3_method_semi_recursive = {.step = step_8,
                                                 .takes = takes,
                                                 .excludes = ALI3_STATES_IN_WORDS,
-                                                .after_sampled = report,
+                                                .after_sampled = report_last,
                                                 .owner = ALI3_METHOD_SEMI_RECURSIVE,
                                                 .relative = true,
                                                 .stable_rate = 5.0,
@@ -343,7 +341,7 @@ static ali3_status step_4(ali3_instance *in, const ali3_request *request) { retu
 const ali3_method ali3_method_semi_recursive_4 = {.step = step_4,
                                                   .takes = takes,
                                                   .excludes = ALI3_STATES_IN_WORDS,
-                                                  .after_sampled = report,
+                                                  .after_sampled = report_last,
                                                   .owner = ALI3_METHOD_SEMI_RECURSIVE,
                                                   .relative = true,
                                                   .stable_rate = 2.5,

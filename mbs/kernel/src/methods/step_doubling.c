@@ -1,5 +1,5 @@
-/* Error of a step by step doubling: one whole step against two halves, of which the halves stay (Hairer, Norsett,
- * Wanner, "Solving Ordinary Differential Equations I", second edition, II.4). */
+/* Error of a step by step doubling: one whole step and two halves, whose result is used (Hairer, Norsett, Wanner,
+ * "Solving Ordinary Differential Equations I", second edition, II.4). */
 #include <math.h>
 #include <string.h>
 
@@ -10,11 +10,11 @@
 #include "error_control.h"
 #include "steps.h"
 
-/* Order with which two halves of a long step are taken to err less than the whole: those of order eight at loose
- * tolerances turn by radians, and erred up to four times what order eight says. */
-enum { TRUSTED = 6 };
+/* Largest order assumed in the error estimate: long steps of order eight at loose tolerances turn by radians, and their
+ * errors were up to four times the estimate for order eight. */
+enum { MAX_ORDER = 6 };
 
-/* A step from time t that is never halved inside; the caller restores what a failed one changed. */
+/* A step from time t that is not halved; the caller restores the state after a failure. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading) {
   in->kept.backed_up = false;
   in->bound.iterations_before = in->report.iterations;
@@ -23,35 +23,36 @@ ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading 
   return ali3_advance(in, &request);
 }
 
-static double scale_of(const ali3_measure *measure, int32_t i) {
+static double unit_length(const ali3_measure *measure, int32_t i) {
   return measure->scale != NULL ? measure->scale[i] : 1.0;
 }
 
-/* Largest of |q_i| and, where there is mass, |qd_i| over the rate (1/s), in parts of the length of the control. */
+/* Largest of |q_i| and, for coordinates with mass, |qd_i| over the rate (1/s), relative to the length of the
+ * control. */
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate) {
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++) {
     const double size = fabs(q[i]), speed = in->mass.missing[i] == 0.0 ? fabs(qd[i]) / rate : 0.0;
-    const double part = scale_of(measure, i) * fmax(size, speed);
+    const double part = unit_length(measure, i) * fmax(size, speed);
     if (!(part <= largest) && largest == largest) largest = part; /* a NaN stays */
   }
   return largest / measure->control->length;
 }
 
-/* Rate by which velocities are measured, 1/s: that of the present motion, and at least the one given. `all`: with the
- * coordinates that have no mass, such as driven angles. */
+/* Reference rate of velocities, 1/s: that of the present motion, at least the given one. `all`: includes coordinates
+ * without mass, such as driven angles. */
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all) {
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++)
-    if (all || in->mass.missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
+    if (all || in->mass.missing[i] == 0.0) largest = fmax(largest, unit_length(measure, i) * fabs(in->now.qd[i]));
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* From in->now, which stays in in->kept.origin, to in->now by way of in->kept.centre; *error in parts of the length. A
- * failed step leaves in->now as it was. */
+/* Makes a step from in->now, which is saved in in->kept.origin, to in->now; its middle is in in->kept.centre. *error is
+ * relative to the length. After a failed step in->now is unchanged. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
@@ -67,7 +68,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
     status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h, ALI3_READ_SENSORS);
   }
   if (status == ALI3_OK) {
-    const int32_t order = ali3_method_order(in) < TRUSTED ? ali3_method_order(in) : TRUSTED;
+    const int32_t order = ali3_method_order(in) < MAX_ORDER ? ali3_method_order(in) : MAX_ORDER;
     const double share = 1.0 / (ldexp(1.0, order) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
       in->step.w[i] = share * (in->now.q[i] - in->kept.coarse.q[i]);

@@ -1,4 +1,4 @@
-/* A step by the method of the settings, and what methods share of each other's steps. */
+/* A step by the method of the settings, and functions by which methods make parts of a step. */
 #ifndef ALI3_STEPS_H
 #define ALI3_STEPS_H
 #include "../instance.h"

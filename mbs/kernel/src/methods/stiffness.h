@@ -1,4 +1,4 @@
-/* Why an explicit method refused a step. */
+/* Cause of a refused step of an explicit method. */
 #ifndef ALI3_STIFFNESS_H
 #define ALI3_STIFFNESS_H
 #include "../instance.h"

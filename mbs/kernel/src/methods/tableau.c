@@ -1,4 +1,4 @@
-/* Explicit Runge-Kutta rules. */
+/* Coefficients of explicit Runge-Kutta methods. */
 #include "tableau.h"
 #include "../instance.h"
 

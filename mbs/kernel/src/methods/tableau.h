@@ -1,4 +1,4 @@
-/* Explicit Runge-Kutta rules as tables of coefficients. */
+/* Explicit Runge-Kutta methods as tables of coefficients. */
 #ifndef ALI3_TABLEAU_H
 #define ALI3_TABLEAU_H
 #include "../instance.h"

@@ -1,4 +1,4 @@
-/* Beginning and end of a requested step, common to all methods. */
+/* Start and end of a requested step, common to all methods. */
 #include "whole_step.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "energy_watch.h"
 #include "newton.h"
 
-/* The inputs go straight to `end` (nu), or are held where it is NULL. */
+/* Starts a step of h, s; inputs change linearly to `end` (nu), NULL: they are constant. */
 ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_reading reading,
                             ali3_whole_step *step) {
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
@@ -30,9 +30,9 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
     in->report.failures++;
     return ALI3_BEYOND_TABLE;
   }
-  const ali3_status aimed = ali3_inputs_aim(in, h, end);
-  if (aimed != ALI3_OK) return aimed;
-  step->t_base = h == in->clock.h ? in->clock.base : ali3_time(in); /* an integer counter while h stays the same */
+  const ali3_status input_status = ali3_inputs_aim(in, h, end);
+  if (input_status != ALI3_OK) return input_status;
+  step->t_base = h == in->clock.h ? in->clock.base : ali3_time(in); /* counted steps of equal h add no round-off */
   step->count = h == in->clock.h ? in->clock.count + 1 : 1;
   step->asked = (ali3_request){
       .t = step->t_base + (double)step->count * h, .h = h, .depth = in->settings.max_halvings, .reading = reading};
@@ -40,13 +40,13 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
   in->bound.capped = false;
   in->bound.capped_residual = 0.0;
   in->bound.iterations_before = step->before.iterations;
-  in->kept.backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
+  in->kept.backed_up = false; /* only halves and a new owner of the history change in->now before a step is accepted */
   in->clock.now = ali3_time(in);
   ali3_branch_before(in);
   return ALI3_OK;
 }
 
-/* `status`: of the step. */
+/* Ends a step with the status of the method; after a failure restores the state before it. */
 ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_status status) {
   if (status == ALI3_OK) status = ali3_branch_after(in, &step->asked);
   in->report.last_status = (int32_t)status;
@@ -58,7 +58,7 @@ ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_s
     return status;
   }
   if (in->report.halvings != step->before.halvings || in->report.divisions != step->before.divisions)
-    ali3_iterations_since(in, step->before.iterations); /* not of the last half only */
+    ali3_iterations_since(in, step->before.iterations); /* of all halves */
   in->report.steps++;
   const bool balanced = ali3_has_balance(in);
   if (balanced || step->asked.reading != ALI3_READ_NOTHING) ali3_energy_trend(in, balanced);

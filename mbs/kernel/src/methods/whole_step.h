@@ -1,4 +1,4 @@
-/* Beginning and end of a requested step, before and after the method. */
+/* Start and end of a requested step, before and after the method. */
 #ifndef ALI3_WHOLE_STEP_H
 #define ALI3_WHOLE_STEP_H
 #include "../instance.h"
@@ -6,8 +6,8 @@
 
 typedef struct {
   ali3_request asked;
-  double t_base; /* the time from which steps of this length are counted */
-  int64_t count; /* of them, this one included */
+  double t_base; /* start time of the count of steps of this length, s */
+  int64_t count; /* number of steps of this length, including this one */
   ali3_report before;
 } ali3_whole_step;
 

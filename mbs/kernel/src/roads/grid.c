@@ -1,10 +1,10 @@
-/* Interpolation between the points of a grid. A cubic through a step leaves the range of its ends by 4/27 of half the
- * step: it dips before a rise and bulges before a drop. Where that is more than PART of the spacing, beyond what a
- * parabola through the ends would, the slope of the point is limited to those of which the cubic stays in between (F. N.
- * Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246) or to that of twice the parabola with the
- * smaller of the curvatures at both ends (A. Suresh, H. T. Huynh, Journal of Computational Physics 136, 1997, 83-99),
- * which keeps the crests of smooth roads; the twist of that point is none. A slope is one of its point, so that all
- * patches around it stay C1. */
+/* Interpolation between the points of a grid. A cubic through a step exceeds the range of its ends by 4/27 of half the
+ * step: it dips before a rise and bulges before a drop. Where that is more than MAX_OVERSHOOT of the spacing, beyond a
+ * parabola through the ends, the slope at the point is limited to slopes for which the cubic stays in the range (F. N.
+ * Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246) or to twice that of the parabola with
+ * the smaller one of the curvatures at both ends (A. Suresh, H. T. Huynh, Journal of Computational Physics 136, 1997,
+ * 83-99), which preserves the crests of smooth roads; the twist at that point is zero. Slopes belong to points, so that
+ * the patches around one are C1. */
 #include "grid.h"
 
 #include <math.h>
@@ -13,12 +13,12 @@
 #include "../algebra/processor.h"
 #include "../algebra/small_vectors.h"
 
-#define PART 0.005                      /* of the spacing */
-#define MOST_SLOPE (27.0 / 4.0 * PART) /* change from point to point over the spacing that leaves the range by PART */
+#define MAX_OVERSHOOT 0.005                           /* of the spacing */
+#define MAX_SLOPE_CHANGE (27.0 / 4.0 * MAX_OVERSHOOT) /* change of the slope that overshoots so much */
 
-enum { MOST_CELLS = 400 }; /* looked at for a top */
-#define OVERSHOOT 0.35     /* a bicubic patch leaves the range of its values by less than this part of it */
-enum { AROUND = 6 };       /* points along a side of what slopes at the corners of a cell depend on */
+enum { MAX_POINTS = 400 }; /* read by ali3_grid_top */
+#define OVERSHOOT 0.35     /* relative bound by which a bicubic patch exceeds the range of its values */
+enum { AROUND = 6 };       /* points along a side that slopes at the corners of a cell depend on */
 
 static int cell_of(double s, int n) { return s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0; }
 
@@ -32,7 +32,7 @@ ALI3_INLINED void cubic(double s, int n, double w[4], double dw[4]) {
   const double d10 = (1.0 - t) * (1.0 - 3.0 * t) * left, d11 = t * (3.0 * t - 2.0) * right, d01 = 6.0 * t * (1.0 - t);
   w[0] = -h10, w[1] = 1.0 - h01 - h11, w[2] = h01 + h10, w[3] = h11;
   dw[0] = -d10, dw[1] = -d01 - d11, dw[2] = d01 + d10, dw[3] = d11;
-  if (outside) dw[0] = dw[1] = dw[2] = dw[3] = 0.0; /* the border value goes on */
+  if (outside) dw[0] = dw[1] = dw[2] = dw[3] = 0.0; /* constant beyond the border */
 }
 
 static double height(const ali3_grid *g, int32_t i, int32_t j) {
@@ -43,44 +43,44 @@ static double friction(const ali3_grid *g, int32_t i, int32_t j) {
   return g->file != NULL ? ali3_road_file_friction(g->file, i, j) : g->mu[(int64_t)i * g->ny + j];
 }
 
-static int32_t within(int32_t i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
+static int32_t clamped_index(int32_t i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 
 static double smaller(double a, double b) { return a * b > 0.0 ? (fabs(a) < fabs(b) ? a : b) : 0.0; }
 
-/* Narrows low..high to slopes with which a segment of the difference d keeps its range, or follows a parabola. */
-static void narrow(double d, double parabola, double *low, double *high) {
+/* Limits low..high to slopes with which a segment of difference d stays in its range, or follows a parabola. */
+static void limit_slope(double d, double parabola, double *low, double *high) {
   const double a = fmin(0.0, fmin(3.0 * d, parabola)), b = fmax(0.0, fmax(3.0 * d, parabola));
   *low = fmax(*low, a);
   *high = fmin(*high, b);
 }
 
-/* Difference per spacing at the third of five points in a line, and whether it was limited. */
+/* Difference per spacing at the third of five collinear points; *limited: it was limited. */
 static double slope_of(const double z[5], double spacing, int *limited) {
   double d[4], low = -INFINITY, high = INFINITY;
   for (int k = 0; k < 4; k++) d[k] = z[k + 1] - z[k];
   const double before = d[1] - d[0], here = d[2] - d[1], after = d[3] - d[2], own = 0.5 * (d[1] + d[2]);
-  narrow(d[2], d[2] - smaller(here, after), &low, &high);
-  narrow(d[1], d[1] + smaller(before, here), &low, &high);
+  limit_slope(d[2], d[2] - smaller(here, after), &low, &high);
+  limit_slope(d[1], d[1] + smaller(before, here), &low, &high);
   const double slope = ali3_clamp(own, low, high);
-  if (!(fabs(slope - own) > MOST_SLOPE * spacing)) return own;
+  if (!(fabs(slope - own) > MAX_SLOPE_CHANGE * spacing)) return own;
   *limited = 1;
   return slope;
 }
 
-/* A corner of a cell, 0 or 1 along both, from the values around; at the border slopes are one-sided and stay in the range
- * anyway. */
+/* Corner (k, l) of a cell, each 0 or 1, from the values around it; at the border slopes are one-sided and stay in the
+ * range. */
 static ali3_grid_point corner_at(const ali3_grid *g, const ali3_cell *cell, const double v[AROUND][AROUND], int k,
-                                 int l, int *any) {
+                                 int l, int *any_limited) {
   double line[5];
   int limited = 0;
-  const int i = cell->i + 1 + k, j = cell->j + 1 + l, a = k + 2, b = l + 2; /* in the grid, in the values */
+  const int i = cell->i + 1 + k, j = cell->j + 1 + l, a = k + 2, b = l + 2; /* indices in the grid, in the values */
   ali3_grid_point c = {.z = v[a][b]};
   const int left = i > 0, right = i + 1 < g->nx, down = j > 0, up = j + 1 < g->ny;
   for (int n = -2; n <= 2; n++) line[n + 2] = v[a + n][b];
   c.x = left && right ? slope_of(line, g->dx, &limited) : left ? line[2] - line[1] : line[3] - line[2];
   c.y = down && up ? slope_of(&v[a][b - 2], g->dy, &limited) : down ? v[a][b] - v[a][b - 1] : v[a][b + 1] - v[a][b];
   if (limited) {
-    *any = 1;
+    *any_limited = 1;
     return c;
   }
   const double twist = v[a + right][b + up] - v[a + right][b - down] - (v[a - left][b + up] - v[a - left][b - down]);
@@ -88,7 +88,7 @@ static ali3_grid_point corner_at(const ali3_grid *g, const ali3_cell *cell, cons
   return c;
 }
 
-/* Weights of value and slope at both ends of a segment, and their derivatives. */
+/* Hermite weights w[value, slope][end] of a segment, and their derivatives. */
 ALI3_INLINED void hermite(double t, int outside, double w[2][2], double dw[2][2]) {
   const double s = 1.0 - t;
   w[0][1] = t * t * (3.0 - 2.0 * t), w[0][0] = 1.0 - w[0][1], w[1][0] = t * s * s, w[1][1] = -t * t * s;
@@ -96,7 +96,7 @@ ALI3_INLINED void hermite(double t, int outside, double w[2][2], double dw[2][2]
   dw[1][0] = outside ? 0.0 : s * (1.0 - 3.0 * t), dw[1][1] = outside ? 0.0 : t * (3.0 * t - 2.0);
 }
 
-/* Height of a patch whose slopes are limited, and its slopes where they are wanted. */
+/* Height of a patch with limited slopes, and its slopes unless NULL. */
 ALI3_INLINED double limited_patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
   const int first[2] = {cell->i + 1, cell->j + 1};
   double wx[2][2], dx[2][2], wy[2][2], dy[2][2], z = 0.0;
@@ -115,7 +115,7 @@ ALI3_INLINED double limited_patch(const ali3_grid *g, const ali3_cell *cell, con
   return z;
 }
 
-/* Height and slope on the patch of any cell that is held. */
+/* Height and slope (unless NULL) on the patch of the loaded cell. */
 ALI3_INLINED double patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
   double wx[4], dx[4], wy[4], dy[4], z = 0.0;
   if (cell->limited) return limited_patch(g, cell, s, slope);
@@ -136,17 +136,17 @@ ALI3_INLINED double patch(const ali3_grid *g, const ali3_cell *cell, const doubl
 static int may_be_limited(const ali3_grid *g, const double v[4][4]) {
   for (int k = 1; k < 3; k++)
     for (int l = 1; l < 3; l++)
-      if (fabs(v[k + 1][l] - 2.0 * v[k][l] + v[k - 1][l]) > 2.0 * MOST_SLOPE * g->dx ||
-          fabs(v[k][l + 1] - 2.0 * v[k][l] + v[k][l - 1]) > 2.0 * MOST_SLOPE * g->dy)
+      if (fabs(v[k + 1][l] - 2.0 * v[k][l] + v[k - 1][l]) > 2.0 * MAX_SLOPE_CHANGE * g->dx ||
+          fabs(v[k][l + 1] - 2.0 * v[k][l] + v[k][l - 1]) > 2.0 * MAX_SLOPE_CHANGE * g->dy)
         return 1;
   return 0;
 }
 
-/* Heights of n x n points from the indices i, j on; those outside are those of the border. */
-static void block(const ali3_grid *g, int i, int j, int n, double *v) {
+/* Reads heights of n x n points from the indices i, j on; outside the grid those of the border. */
+static void read_heights(const ali3_grid *g, int i, int j, int n, double *v) {
   if (g->file == NULL || i < 0 || j < 0 || i + n > g->nx || j + n > g->ny) {
     for (int k = 0; k < n; k++)
-      for (int l = 0; l < n; l++) v[k * n + l] = height(g, within(i + k, g->nx), within(j + l, g->ny));
+      for (int l = 0; l < n; l++) v[k * n + l] = height(g, clamped_index(i + k, g->nx), clamped_index(j + l, g->ny));
     return;
   }
   int32_t stride, size[2];
@@ -159,10 +159,11 @@ static void block(const ali3_grid *g, int i, int j, int n, double *v) {
     }
 }
 
-/* Values around the cell with the indices i, j before its first corner, and the range that the patch keeps. */
-static void fill(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
+/* Reads the values around the cell with the indices i0, j0 before its first corner, and computes the bounds of its
+ * patch. */
+static void fill_cell(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
   cell->held = 1, cell->limited = cell->bears = 0, cell->i = i0, cell->j = j0;
-  block(g, i0, j0, 4, cell->z[0]);
+  read_heights(g, i0, j0, 4, cell->z[0]);
   double low = cell->z[0][0], high = low;
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++) {
@@ -172,68 +173,68 @@ static void fill(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
   cell->least = low - OVERSHOOT * (high - low), cell->most = high + OVERSHOOT * (high - low);
   if (!may_be_limited(g, (const double (*)[4])cell->z)) return;
   double around[AROUND][AROUND];
-  block(g, i0 - 1, j0 - 1, AROUND, around[0]);
+  read_heights(g, i0 - 1, j0 - 1, AROUND, around[0]);
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++)
       cell->corner[i][j] = corner_at(g, cell, (const double (*)[AROUND])around, i, j, &cell->limited);
 }
 
-/* Frictions at the corners of the held cell. */
-static void hold_friction(const ali3_grid *g, ali3_cell *cell) {
+/* Reads the frictions at the corners of the loaded cell. */
+static void load_friction(const ali3_grid *g, ali3_cell *cell) {
   if (cell->bears) return;
   cell->bears = 1;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) cell->friction[i][j] = friction(g, cell->i + 1 + i, cell->j + 1 + j);
 }
 
-static int is_held(const ali3_cell *cell, int i0, int j0) { return cell->held && cell->i == i0 && cell->j == j0; }
+static int is_loaded(const ali3_cell *cell, int i0, int j0) { return cell->held && cell->i == i0 && cell->j == j0; }
 
-/* Holds a cell: of a file, as it was filled before, unless a tile was lost then. */
-static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
-  if (is_held(cell, i0, j0)) return;
+/* Loads a cell; cells of a file are stored with it, unless a tile could not be read. */
+static void load_cell(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
+  if (is_loaded(cell, i0, j0)) return;
   if (g->file == NULL) {
-    fill(g, cell, i0, j0);
+    fill_cell(g, cell, i0, j0);
     return;
   }
-  ali3_cell *kept = ali3_road_file_cell(g->file, i0, j0);
-  if (is_held(kept, i0, j0)) {
-    *cell = *kept;
+  ali3_cell *stored = ali3_road_file_cell(g->file, i0, j0);
+  if (is_loaded(stored, i0, j0)) {
+    *cell = *stored;
     return;
   }
-  fill(g, cell, i0, j0);
-  hold_friction(g, cell);
-  if (ali3_road_file_lost(g->file) == NULL) *kept = *cell;
+  fill_cell(g, cell, i0, j0);
+  load_friction(g, cell);
+  if (ali3_road_file_lost(g->file) == NULL) *stored = *cell;
 }
 
-/* Holds the cell at a place; s: the place in spacings from the first point. */
-static void hold_at(const ali3_grid *g, ali3_cell *cell, double x, double y, double s[2]) {
+/* Loads the cell at a point; s: its position in spacings from the first point. */
+static void load_cell_at(const ali3_grid *g, ali3_cell *cell, double x, double y, double s[2]) {
   s[0] = ali3_clamp((x - g->x0) / g->dx, -1.0, (double)g->nx);
   s[1] = ali3_clamp((y - g->y0) / g->dy, -1.0, (double)g->ny);
-  hold(g, cell, cell_of(s[0], g->nx) - 1, cell_of(s[1], g->ny) - 1);
+  load_cell(g, cell, cell_of(s[0], g->nx) - 1, cell_of(s[1], g->ny) - 1);
 }
 
 ali3_surface ali3_grid_near(const ali3_grid *g, ali3_cell *cell, double x, double y) {
   double s[2], slope[2] = {0.0, 0.0};
-  hold_at(g, cell, x, y, s);
-  hold_friction(g, cell);
+  load_cell_at(g, cell, x, y, s);
+  load_friction(g, cell);
   const double z = patch(g, cell, s, slope);
   const double tx = ali3_clamp(s[0] - (cell->i + 1), 0.0, 1.0), ty = ali3_clamp(s[1] - (cell->j + 1), 0.0, 1.0);
   const double (*m)[2] = (const double (*)[2])cell->friction;
   const double mu = (1.0 - tx) * ((1.0 - ty) * m[0][0] + ty * m[0][1]) + tx * ((1.0 - ty) * m[1][0] + ty * m[1][1]);
   const double size = sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
-  const ali3_surface found = {z, {-slope[0] / size, -slope[1] / size, 1.0 / size}, mu};
-  return found;
+  const ali3_surface surface = {z, {-slope[0] / size, -slope[1] / size, 1.0 / size}, mu};
+  return surface;
 }
 
 double ali3_grid_height(const ali3_grid *g, ali3_cell *cell, double x, double y) {
   double s[2];
-  hold_at(g, cell, x, y, s);
+  load_cell_at(g, cell, x, y, s);
   return patch(g, cell, s, NULL);
 }
 
 int ali3_grid_is_below(const ali3_grid *g, ali3_cell *cell, double x, double y, double z) {
   double s[2];
-  hold_at(g, cell, x, y, s);
+  load_cell_at(g, cell, x, y, s);
   return cell->most <= z || (cell->least <= z && patch(g, cell, s, NULL) <= z);
 }
 
@@ -245,24 +246,24 @@ ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y) {
 double ali3_grid_chord(const ali3_grid *g, double x, double y) {
   const double sx = ali3_clamp((x - g->x0) / g->dx, 0.0, (double)(g->nx - 1)),
                sy = ali3_clamp((y - g->y0) / g->dy, 0.0, (double)(g->ny - 1));
-  const int i = within((int)sx, g->nx - 1), j = within((int)sy, g->ny - 1);
+  const int i = clamped_index((int)sx, g->nx - 1), j = clamped_index((int)sy, g->ny - 1);
   const double a = height(g, i, j), b = height(g, i + 1, j), c = height(g, i, j + 1), d = height(g, i + 1, j + 1);
   const double near = a + (sx - i) * (b - a), far = c + (sx - i) * (d - c);
   return near + (sy - j) * (far - near);
 }
 
-/* Indices low..high of the values that cells within reach of a place take. */
-static void cells(double place, double reach, double first, double spacing, int n, int *low, int *high) {
-  const double last = (double)(n - 1), a = (place - reach - first) / spacing, b = (place + reach - first) / spacing;
+/* Index range low..high of the points that cells within reach of a position depend on. */
+static void index_range(double centre, double reach, double first, double spacing, int n, int *low, int *high) {
+  const double last = (double)(n - 1), a = (centre - reach - first) / spacing, b = (centre + reach - first) / spacing;
   *low = (int)ali3_clamp(a - 1.0, 0.0, last);
   *high = (int)ali3_clamp(b + 3.0, 0.0, last);
 }
 
-double ali3_grid_top(const ali3_grid *g, const double place[3], double reach) {
+double ali3_grid_top(const ali3_grid *g, const double centre[3], double reach) {
   int low[2], high[2];
-  cells(place[0], reach, g->x0, g->dx, g->nx, &low[0], &high[0]);
-  cells(place[1], reach, g->y0, g->dy, g->ny, &low[1], &high[1]);
-  if ((int64_t)(high[0] - low[0] + 1) * (high[1] - low[1] + 1) > MOST_CELLS) return INFINITY;
+  index_range(centre[0], reach, g->x0, g->dx, g->nx, &low[0], &high[0]);
+  index_range(centre[1], reach, g->y0, g->dy, g->ny, &low[1], &high[1]);
+  if ((int64_t)(high[0] - low[0] + 1) * (high[1] - low[1] + 1) > MAX_POINTS) return INFINITY;
   double top = -INFINITY, bottom = INFINITY;
   for (int i = low[0]; i <= high[0]; i++)
     for (int j = low[1]; j <= high[1]; j++) {

@@ -1,11 +1,11 @@
-/* Heights and frictions on a regular grid: C1 bicubic and bilinear in between; outside the border goes on. */
+/* Heights and frictions on a regular grid: C1 bicubic and bilinear interpolation; constant beyond the border. */
 #ifndef ALI3_ROAD_GRID_H
 #define ALI3_ROAD_GRID_H
 #include <stdint.h>
 
 #include "road_file.h"
 
-typedef struct { /* the values lie in memory, y fastest, or in the tiles of a file */
+typedef struct { /* values in memory, y fastest, or in the tiles of a file */
   int32_t nx, ny;
   double x0, y0, dx, dy;
   const double *z, *mu;
@@ -17,13 +17,13 @@ typedef struct {
 } ali3_surface;
 
 ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y);
-/* The same, for places that follow each other in few cells: what lies around the last one is found once. */
+/* The same for successive points in few cells, whose values are read once. */
 ali3_surface ali3_grid_near(const ali3_grid *g, ali3_cell *cell, double x, double y);
 double ali3_grid_height(const ali3_grid *g, ali3_cell *cell, double x, double y);
-/* Whether the surface at a place is not above z. */
+/* Whether the surface at a point is not above z. */
 int ali3_grid_is_below(const ali3_grid *g, ali3_cell *cell, double x, double y, double z);
 /* Height of the bilinear surface. */
 double ali3_grid_chord(const ali3_grid *g, double x, double y);
-/* No point of the grid within reach of a place in x and y is higher; infinite where that takes too long to see. */
+/* Upper bound of the heights within reach of a position in x and y; infinite where that takes too many points. */
 double ali3_grid_top(const ali3_grid *g, const double place[3], double reach);
 #endif

@@ -1,5 +1,5 @@
-/* The tiles of a road's file in memory: the one that was not used for the longest time makes room. What they
- * hold is the file's, so a road does not depend on which of them are there. */
+/* The tiles of a road file in memory: the least recently used one is replaced. Heights do not depend on which tiles are
+ * in memory. */
 #include "road_file.h"
 
 #include <math.h>
@@ -14,8 +14,8 @@
 
 enum { GRID = 2 }; /* elements/road.h */
 enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, HINTS = 256, TEXT = 200 };
-enum { CELLS = 16 }; /* kept along x and y: a car with its wheels on the points of its grid */
-static const double TABLE_FRICTION = 0.9; /* of a text without frictions */
+enum { CELLS = 16 }; /* stored along x and y: enough for the wheels of a car */
+static const double TABLE_FRICTION = 0.9; /* of a table without frictions */
 
 struct ali3_road_file {
   void (*release)(void *block);
@@ -30,14 +30,14 @@ struct ali3_road_file {
   uint64_t clock, when[ALI3_TILES_NEAR];
   unsigned char hint[HINTS];
   unsigned char *slot; /* n_slots x tile_bytes */
-  unsigned char *record; /* of version 2: room for what stands in the file */
-  double *values; /* of a text: all of its grid, in place of tiles */
-  ali3_cell *cells; /* CELLS x CELLS, of this file and so never out of date */
+  unsigned char *record; /* of version 2: work for a record of the file */
+  double *values; /* of a table: all values, in place of tiles */
+  ali3_cell *cells; /* CELLS x CELLS cells of this file, never out of date */
   char lost[TEXT];
 };
 
-static int refuse(char *message, size_t size, const char *why) {
-  if (message != NULL && size > 0) snprintf(message, size, "%s", why);
+static int refuse(char *message, size_t size, const char *error) {
+  if (message != NULL && size > 0) snprintf(message, size, "%s", error);
   return 0;
 }
 
@@ -58,8 +58,8 @@ void ali3_road_file_size(const ali3_road_file *file, int32_t *nx, int32_t *ny) {
   *ny = (int32_t)file->head.ny;
 }
 
-/* NULL, or what is wrong with the values of a tile; points beyond the grid count too. */
-static const char *value_problem(const ali3_road_file *file, const double *value) {
+/* NULL, or what is wrong with the values of a tile, including those beyond the grid. */
+static const char *value_error(const ali3_road_file *file, const double *value) {
   for (int k = 0; k < POINTS; k++)
     if (!(fabs(value[k]) <= ALI3_ROAD_HIGHEST)) return "has a height that is not finite or beyond 1e5 m";
   for (int k = POINTS; k < file->head.maps * POINTS; k++)
@@ -67,8 +67,8 @@ static const char *value_problem(const ali3_road_file *file, const double *value
   return NULL;
 }
 
-/* NULL, or why a tile of version 1 is none. */
-static const char *own_tile(const ali3_road_file *file, int64_t number, unsigned char *to) {
+/* Reads a tile of version 1; NULL, or why it is invalid. */
+static const char *read_own_tile(const ali3_road_file *file, int64_t number, unsigned char *to) {
   const int64_t from = ALI3_ROAD_HEADER + number * (int64_t)file->tile_bytes;
   const size_t checked = file->tile_bytes - sizeof(uint32_t);
   int64_t written;
@@ -81,20 +81,20 @@ static const char *own_tile(const ali3_road_file *file, int64_t number, unsigned
 
 static int read_tile(ali3_road_file *file, int64_t number, unsigned char *to) {
   const ali3_tile_table table = {file->stream, file->head.size, file->n_tiles, ALI3_ROAD_HEADER, file->head.maps};
-  const char *why = file->stream == NULL                ? "cannot be read"
-                    : file->version == ALI3_ROAD_SHARED ? ali3_shared_tile(&table, number, file->record, (double *)to)
-                                                        : own_tile(file, number, to);
-  if (why == NULL) why = value_problem(file, (const double *)to);
+  const char *error = file->stream == NULL                ? "cannot be read"
+                      : file->version == ALI3_ROAD_SHARED ? ali3_shared_tile(&table, number, file->record, (double *)to)
+                                                          : read_own_tile(file, number, to);
+  if (error == NULL) error = value_error(file, (const double *)to);
   file->reads++;
-  if (why == NULL) return 1;
+  if (error == NULL) return 1;
   const double *p = file->head.real;
   snprintf(file->lost, sizeof file->lost, "its part from x = %.6g m, y = %.6g m on %s",
            p[0] + (double)(number / file->tiles_y) * ALI3_ROAD_TILE * p[2],
-           p[1] + (double)(number % file->tiles_y) * ALI3_ROAD_TILE * p[3], why);
+           p[1] + (double)(number % file->tiles_y) * ALI3_ROAD_TILE * p[3], error);
   return 0;
 }
 
-/* A slot for a tile: a free one, or that which was not used for the longest time. */
+/* A slot for a tile: a free one, or the least recently used one. */
 static int32_t free_slot(ali3_road_file *file) {
   if (file->used_slots < file->n_slots) return file->used_slots++;
   int32_t oldest = 0;
@@ -138,11 +138,11 @@ double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j) {
 const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride) {
   *stride = file->values != NULL ? (int32_t)file->head.ny : ALI3_ROAD_TILE;
   if (file->values != NULL) return file->values + (int64_t)i * file->head.ny + j;
-  const int32_t at[2] = {i % ALI3_ROAD_TILE, j % ALI3_ROAD_TILE};
+  const int32_t offset[2] = {i % ALI3_ROAD_TILE, j % ALI3_ROAD_TILE};
   for (int k = 0; k < 2; k++)
-    if (size[k] > ALI3_ROAD_TILE - at[k]) size[k] = ALI3_ROAD_TILE - at[k];
+    if (size[k] > ALI3_ROAD_TILE - offset[k]) size[k] = ALI3_ROAD_TILE - offset[k];
   const double *tile = tile_at(file, i, j);
-  return tile != NULL ? tile + at[0] * ALI3_ROAD_TILE + at[1] : NULL;
+  return tile != NULL ? tile + offset[0] * ALI3_ROAD_TILE + offset[1] : NULL;
 }
 
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j) {
@@ -156,8 +156,8 @@ ali3_cell *ali3_road_file_cell(const ali3_road_file *file, int32_t i, int32_t j)
   return &file->cells[(uint32_t)i % CELLS * CELLS + (uint32_t)j % CELLS];
 }
 
-/* CRC-32 of the checksums of all tiles, in memory, or of the table of them; 0 where it cannot be read. */
-static uint32_t contents_of(ali3_road_file *file) {
+/* CRC-32 of the checksums of all tiles in memory, or of the table of shared tiles; 0: it cannot be read. */
+static uint32_t checksum_of_tiles(ali3_road_file *file) {
   uint32_t crc[ALI3_TILES_NEAR];
   const size_t table = (size_t)file->n_tiles * ALI3_TILE_ENTRY;
   if (file->version == ALI3_ROAD_SHARED)
@@ -167,8 +167,8 @@ static uint32_t contents_of(ali3_road_file *file) {
   return ali3_crc32(crc, (size_t)file->n_tiles * sizeof *crc);
 }
 
-/* Memory for what is near; all of a small grid, whose stream is then closed. */
-static int place_tiles(ali3_road_file *file, char *message, size_t size) {
+/* Marks all slots as empty; reads all tiles of a small grid and closes its stream. */
+static int load_tiles(ali3_road_file *file, char *message, size_t size) {
   for (int k = 0; k < ALI3_TILES_NEAR; k++) file->number[k] = -1;
   for (int64_t number = 0; file->n_tiles <= ALI3_TILES_NEAR && number < file->n_tiles; number++) {
     unsigned char *to = file->slot + (size_t)number * file->tile_bytes;
@@ -177,7 +177,7 @@ static int place_tiles(ali3_road_file *file, char *message, size_t size) {
     file->used_slots++;
   }
   if (file->used_slots < file->n_tiles) return 1;
-  if (file->n_tiles > 0 && file->head.contents != contents_of(file))
+  if (file->n_tiles > 0 && file->head.contents != checksum_of_tiles(file))
     return refuse(message, size, "parts of it belong to another file");
   ali3_file_close(file->stream);
   file->stream = NULL;
@@ -191,13 +191,13 @@ void ali3_road_file_close(ali3_road_file *file) {
   file->release(file);
 }
 
-/* Values of a text that no road has; 0 and a sentence. */
-static int table_values(const ali3_road_table *t, char *message, size_t size) {
+/* Whether all values of a table are valid; if not, writes a sentence. */
+static int check_table(const ali3_road_table *t, char *message, size_t size) {
   const int64_t points = t->nx * t->ny;
   for (int64_t k = 0; k < t->maps * points; k++) {
     const double v = t->values[k];
-    const int good = k < points ? fabs(v) <= ALI3_ROAD_HIGHEST : v >= 0.0 && v <= ALI3_ROAD_FRICTION;
-    if (good) continue;
+    const int valid = k < points ? fabs(v) <= ALI3_ROAD_HIGHEST : v >= 0.0 && v <= ALI3_ROAD_FRICTION;
+    if (valid) continue;
     if (message != NULL && size > 0)
       snprintf(message, size, "its %s at row %lld, column %lld of the points is %g", k < points ? "height" : "friction",
                (long long)(k % points / t->ny + 1), (long long)(k % t->ny + 1), v);
@@ -206,11 +206,11 @@ static int table_values(const ali3_road_table *t, char *message, size_t size) {
   return 1;
 }
 
-/* A file as it begins, and room behind it for its cells and for tiles; NULL: no memory. */
-static ali3_road_file *with_room(const ali3_road_file *start, size_t room,
-                                 void *(*allocate)(size_t count, size_t size)) {
+/* Allocates a copy of `start` with cells and `size` bytes for tiles; NULL: no memory. */
+static ali3_road_file *allocate_file(const ali3_road_file *start, size_t size,
+                                     void *(*allocate)(size_t count, size_t size)) {
   const size_t before = (sizeof *start + 15u) / 16u * 16u, cells = CELLS * CELLS * sizeof(ali3_cell);
-  ali3_road_file *file = allocate(1, before + cells + room);
+  ali3_road_file *file = allocate(1, before + cells + size);
   if (file == NULL) return NULL;
   *file = *start;
   file->cells = (ali3_cell *)((unsigned char *)file + before);
@@ -219,39 +219,39 @@ static ali3_road_file *with_room(const ali3_road_file *start, size_t room,
   return file;
 }
 
-/* All of a text is read and its stream closed. */
+/* Opens a table, which is read completely, and closes its stream. */
 static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*allocate)(size_t count, size_t size),
                                   char *message, size_t message_size) {
   ali3_road_table t = {0};
   ali3_road_header *h = &start->head;
   char *text = size <= ALI3_MOST_TABLE ? allocate(1, (size_t)size + 1) : NULL;
-  int good = text != NULL ? ali3_file_read(start->stream, 0, text, (size_t)size)
-                          : refuse(message, message_size,
-                                   "it is longer than 64 MB; make a road file of it by: ali3 "
-                                   "road INPUT OUTPUT.road");
+  int valid = text != NULL ? ali3_file_read(start->stream, 0, text, (size_t)size)
+                           : refuse(message, message_size,
+                                    "it is longer than 64 MB; make a road file of it by: ali3 "
+                                    "road INPUT OUTPUT.road");
   ali3_file_close(start->stream);
   start->stream = NULL;
-  if (good) {
+  if (valid) {
     start->identity = ali3_crc32(text, (size_t)size);
-    good = ali3_road_table_read(text, (size_t)size, &t, allocate, start->release, message, message_size);
+    valid = ali3_road_table_read(text, (size_t)size, &t, allocate, start->release, message, message_size);
   } else if (text != NULL) {
     refuse(message, message_size, "it cannot be read");
   }
   if (text != NULL) start->release(text);
-  if (!good) return NULL;
-  const ali3_road_header given = {.kind = GRID,
-                                  .nx = t.nx,
-                                  .ny = t.ny,
-                                  .tile = ALI3_ROAD_TILE,
-                                  .maps = t.maps,
-                                  .real = {t.first[0], t.first[1], t.spacing[0], t.spacing[1], TABLE_FRICTION}};
-  *h = given;
-  const char *why = ali3_road_grid_problem(h);
+  if (!valid) return NULL;
+  const ali3_road_header header = {.kind = GRID,
+                                   .nx = t.nx,
+                                   .ny = t.ny,
+                                   .tile = ALI3_ROAD_TILE,
+                                   .maps = t.maps,
+                                   .real = {t.first[0], t.first[1], t.spacing[0], t.spacing[1], TABLE_FRICTION}};
+  *h = header;
+  const char *error = ali3_road_grid_problem(h);
   ali3_road_file *file = NULL;
-  if (why != NULL)
-    refuse(message, message_size, why);
-  else if (table_values(&t, message, message_size))
-    file = with_room(start, 0, allocate);
+  if (error != NULL)
+    refuse(message, message_size, error);
+  else if (check_table(&t, message, message_size))
+    file = allocate_file(start, 0, allocate);
   if (file == NULL) {
     start->release(t.values);
     return NULL;
@@ -277,31 +277,31 @@ static int is_text(const char *path) {
 ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t count, size_t size),
                                     void (*release)(void *block), char *message, size_t message_size) {
   unsigned char bytes[ALI3_ROAD_HEADER] = {0};
-  const char *why = NULL;
+  const char *error = NULL;
   int64_t size = 0;
   ali3_road_file start = {.release = release};
-  start.stream = ali3_file_open(path, &size, &why);
-  if (why == NULL && is_text(path)) return open_table(&start, size, allocate, message, message_size);
-  if (why == NULL && !ali3_file_read(start.stream, 0, bytes, size < ALI3_ROAD_HEADER ? (size_t)size : sizeof bytes))
-    why = "it cannot be read";
-  if (why == NULL) why = ali3_road_header_problem(bytes, size, &start.head, &start.version, &start.identity);
+  start.stream = ali3_file_open(path, &size, &error);
+  if (error == NULL && is_text(path)) return open_table(&start, size, allocate, message, message_size);
+  if (error == NULL && !ali3_file_read(start.stream, 0, bytes, size < ALI3_ROAD_HEADER ? (size_t)size : sizeof bytes))
+    error = "it cannot be read";
+  if (error == NULL) error = ali3_road_header_problem(bytes, size, &start.head, &start.version, &start.identity);
   ali3_road_file *file = NULL;
-  if (why == NULL) {
+  if (error == NULL) {
     start.tile_bytes = ali3_road_tile_bytes(&start.head);
     start.tiles_y = ali3_road_tiles_along(start.head.ny);
     start.n_tiles = ali3_road_tiles_along(start.head.nx) * start.tiles_y;
     start.n_slots = start.n_tiles < ALI3_TILES_NEAR ? (int32_t)start.n_tiles : ALI3_TILES_NEAR;
-    const size_t room = (size_t)start.n_slots * start.tile_bytes;
-    file = with_room(&start, room + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0), allocate);
-    if (file == NULL) why = "there is not enough memory";
-    if (file != NULL) file->record = file->slot + room;
+    const size_t size = (size_t)start.n_slots * start.tile_bytes;
+    file = allocate_file(&start, size + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0), allocate);
+    if (file == NULL) error = "there is not enough memory";
+    if (file != NULL) file->record = file->slot + size;
   }
-  if (why != NULL) {
+  if (error != NULL) {
     if (start.stream != NULL) ali3_file_close(start.stream);
-    refuse(message, message_size, why);
+    refuse(message, message_size, error);
     return NULL;
   }
-  if (place_tiles(file, message, message_size)) return file;
+  if (load_tiles(file, message, message_size)) return file;
   ali3_road_file_close(file);
   return NULL;
 }

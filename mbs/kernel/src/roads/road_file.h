@@ -1,14 +1,14 @@
-/* A road in a file: header, then the grid in tiles, of which a fixed number is kept in memory.
+/* A road in a file: header, then the grid in tiles, of which a fixed number is in memory.
  *
- * Little endian. Header, 128 bytes: magic "ALI3ROAD" (8), version (4), CRC-32 of what follows it up to byte 128 (4), size
- * of the file (8), kind as in elements/road.h (4), CRC-32 of the checksums of all tiles in their order, 0 without a grid
- * (4), nx (8), ny (8), points along the side of a tile (4), maps: 1 heights, 2 heights and frictions (4), eight reals
- * (64), zeros (8). Reals of a plane: height, grade in x, grade in y, friction; of a kerb: x of the edge, lower height,
- * step, side, friction; of a grid: x0, y0, dx, dy, friction where there is no map of it, else 1.
- * Tile (I, J), the points 32 I.. in x and 32 J.. in y, has number I * (tiles in y) + J; the tiles follow each other by
- * number: 32 x 32 heights, y fastest, as many frictions where there is a map of them, the number (8), zeros (4), CRC-32
- * of all this (4). Points beyond the last row or column are zeros. In version 2 the tiles of a grid are stored as
- * shared_tile.h says, and the checksum of the tiles is that of their table. */
+ * Little endian. Header, 128 bytes: magic "ALI3ROAD" (8), version (4), CRC-32 of the bytes after it up to byte 128 (4),
+ * size of the file (8), kind as in elements/road.h (4), CRC-32 of the checksums of all tiles in their order, 0 without
+ * a grid (4), nx (8), ny (8), points along the side of a tile (4), maps: 1 heights, 2 heights and frictions (4), eight
+ * reals (64), zeros (8). Reals of a plane: height, grade in x, grade in y, friction; of a kerb: x of the edge, lower
+ * height, step, side, friction; of a grid: x0, y0, dx, dy, friction if there is no map of it, else 1.
+ * Tile (I, J), with the points from 32 I in x and 32 J in y on, has number I * (tiles in y) + J; tiles are in the order
+ * of their numbers: 32 x 32 heights, y fastest, as many frictions if there is a map of them, the number (8), zeros (4),
+ * CRC-32 of all this (4). Points beyond the last row or column are zeros. In version 2 tiles are stored as in
+ * shared_tile.h, and the checksum of the tiles is that of their table. */
 #ifndef ALI3_ROAD_FILE_H
 #define ALI3_ROAD_FILE_H
 #include <stddef.h>
@@ -24,12 +24,13 @@
 #define ALI3_ROAD_FRICTION 10.0
 #define ALI3_ROAD_POINTS 1e12
 enum { ALI3_ROAD_HEADER = 128, ALI3_ROAD_REALS = 8 };
-enum { ALI3_TILES_NEAR = 64 }; /* kept in memory: 16 kB each, 8 kB without frictions */
+enum { ALI3_TILES_NEAR = 64 }; /* in memory: 16 kB each, 8 kB without frictions */
 
 typedef struct ali3_road_file ali3_road_file;
 
-/* Opens and checks a file; one that ends in .csv or .txt as a text (road_table.h), which is read as a whole. NULL if it is refused, with one sentence, without its full stop, in `message`. What fits into
- * memory is read at once and the file is closed; nothing is allocated later. */
+/* Opens and checks a file; one that ends in .csv or .txt is a table (road_table.h), which is read completely. NULL: it
+ * is refused, with a sentence without its full stop in `message`. Small files are read completely and closed; nothing
+ * is allocated later. */
 ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t count, size_t size),
                                     void (*release)(void *block), char *message, size_t message_size);
 void ali3_road_file_close(ali3_road_file *file);
@@ -37,20 +38,20 @@ void ali3_road_file_close(ali3_road_file *file);
 int32_t ali3_road_file_kind(const ali3_road_file *file);
 const double *ali3_road_file_reals(const ali3_road_file *file);
 void ali3_road_file_size(const ali3_road_file *file, int32_t *nx, int32_t *ny);
-uint32_t ali3_road_file_identity(const ali3_road_file *file); /* another content, another number */
+uint32_t ali3_road_file_identity(const ali3_road_file *file); /* checksum of its content */
 
-/* Height and friction of a point of the grid. Where its tile cannot be read both are 0 and the file counts as lost. */
+/* Height and friction of a point of the grid; 0 if its tile cannot be read, and the file counts as lost. */
 double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j);
-/* Heights from point (i, j) on, rows apart by `stride`; `size`, of rows and columns, is cut to those in memory there.
+/* Heights from point (i, j) on, rows apart by `stride`; `size`, rows and columns, is reduced to those of one tile.
  * NULL: lost. */
 const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride);
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j);
-/* Room for the cell with the indices i, j before its first corner, and for all that lie 16 apart: holds the last one that
- * was put there. */
+/* Storage for the cell with the indices i, j before its first corner, shared with all cells that are multiples of 16
+ * apart. */
 ali3_cell *ali3_road_file_cell(const ali3_road_file *file, int32_t i, int32_t j);
 
-/* NULL, or what was wrong with the last tile that could not be read, a sentence without its full stop. */
+/* NULL, or the reason why the last tile could not be read, a sentence without its full stop. */
 const char *ali3_road_file_lost(const ali3_road_file *file);
-void ali3_road_file_forgive(ali3_road_file *file); /* the next tile is tried again */
+void ali3_road_file_forgive(ali3_road_file *file); /* clears the loss */
 int64_t ali3_road_file_reads(const ali3_road_file *file); /* tiles read so far */
 #endif

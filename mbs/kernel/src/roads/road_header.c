@@ -8,9 +8,9 @@
 #include "shared_tile.h"
 
 enum { PLANE, KERB, GRID }; /* elements/road.h */
-enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, MOST_SIDE = 1 << 30 };
+enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, MAX_POINTS = 1 << 30 };
 
-static const char *plane_and_kerb_problem(const ali3_road_header *h) {
+static const char *plane_and_kerb_error(const ali3_road_header *h) {
   const double *p = h->real, friction = p[h->kind == PLANE ? 3 : 4];
   if (h->nx != 0 || h->ny != 0 || h->maps != 0 || h->contents != 0) return "a plane or kerb has no grid";
   for (int i = 0; i < ALI3_ROAD_REALS; i++)
@@ -25,7 +25,7 @@ static const char *plane_and_kerb_problem(const ali3_road_header *h) {
 const char *ali3_road_grid_problem(const ali3_road_header *h) {
   const double *p = h->real;
   if (h->tile != ALI3_ROAD_TILE || (h->maps != 1 && h->maps != 2)) return "its tiles have another form";
-  if (h->nx < 2 || h->ny < 2 || h->nx > MOST_SIDE || h->ny > MOST_SIDE ||
+  if (h->nx < 2 || h->ny < 2 || h->nx > MAX_POINTS || h->ny > MAX_POINTS ||
       (double)h->nx * (double)h->ny > ALI3_ROAD_POINTS)
     return "its grid has fewer than 2 x 2 or more than 1e12 points";
   if (!(p[2] > 0.0 && p[3] > 0.0)) return "the spacing of its grid is not positive";
@@ -60,14 +60,14 @@ const char *ali3_road_header_problem(const unsigned char *bytes, int64_t size, a
            "road";
   if (*crc != ali3_crc32(bytes + 16, ALI3_ROAD_HEADER - 16)) return "its header was altered or damaged";
   if (h->kind < PLANE || h->kind > GRID) return "it has an unknown kind of road";
-  const char *why = h->kind == GRID ? ali3_road_grid_problem(h) : plane_and_kerb_problem(h);
-  if (why != NULL) return why;
+  const char *error = h->kind == GRID ? ali3_road_grid_problem(h) : plane_and_kerb_error(h);
+  if (error != NULL) return error;
   const int64_t tiles = h->kind == GRID ? ali3_road_tiles_along(h->nx) * ali3_road_tiles_along(h->ny) : 0;
   const int shared = *version == ALI3_ROAD_SHARED;
-  const int64_t least = ALI3_ROAD_HEADER + tiles * (shared ? ALI3_TILE_ENTRY : (int64_t)ali3_road_tile_bytes(h));
-  const int64_t whole = shared ? h->size : least;
-  if (h->size != whole || whole < least) return "its header contradicts itself";
-  return size == whole  ? NULL
-         : size < whole ? "it ends too early: it was cut off"
-                        : "it is longer than its header says";
+  const int64_t min_size = ALI3_ROAD_HEADER + tiles * (shared ? ALI3_TILE_ENTRY : (int64_t)ali3_road_tile_bytes(h));
+  const int64_t full_size = shared ? h->size : min_size;
+  if (h->size != full_size || full_size < min_size) return "its header contradicts itself";
+  return size == full_size  ? NULL
+         : size < full_size ? "it ends too early: it was cut off"
+                            : "it is longer than its header says";
 }

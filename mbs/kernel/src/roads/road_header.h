@@ -6,7 +6,7 @@
 
 #include "road_file.h"
 
-enum { ALI3_ROAD_TRAILER = 16 }; /* bytes of a tile of version 1 behind its values */
+enum { ALI3_ROAD_TRAILER = 16 }; /* bytes of a tile of version 1 after its values */
 
 typedef struct { /* from byte 16 on */
   int64_t size;
@@ -22,5 +22,5 @@ const char *ali3_road_header_problem(const unsigned char *bytes, int64_t size, a
                                      uint32_t *crc);
 const char *ali3_road_grid_problem(const ali3_road_header *h); /* NULL, or what is wrong with the numbers of a grid */
 int64_t ali3_road_tiles_along(int64_t points);
-size_t ali3_road_tile_bytes(const ali3_road_header *h); /* of a tile in memory */
+size_t ali3_road_tile_bytes(const ali3_road_header *h); /* size of a tile in memory, bytes */
 #endif

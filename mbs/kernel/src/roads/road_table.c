@@ -1,7 +1,7 @@
-/* Reads a table of heights. The first row has the y of the columns behind a cell that is no number, the first column
- * the x of the rows; another row that begins with no number begins the frictions. Cells are parted by semicolons, tabs
- * or commas, the first of these that the first row has; unless it is a comma, the decimal mark may be one. Lines that
- * begin with # are left out. Independent of the locale. */
+/* Reads a table of heights. The first row has the y of the columns after a cell that is not a number, the first column
+ * the x of the rows; another row that does not begin with a number begins the frictions. Cells are separated by
+ * semicolons, tabs or commas, the first of these in the first row; unless it is the comma, the decimal separator may be
+ * a comma. Lines that begin with # are comments. Independent of the locale. */
 #include "road_table.h"
 
 #include <math.h>
@@ -9,12 +9,12 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double REGULAR = 1e-6; /* of the spacing */
+static const double REGULAR = 1e-6; /* tolerance of coordinates, of the spacing */
 
 typedef struct {
-  const char *at, *end;
+  const char *position, *end;
   int line;
-  char mark;
+  char separator;
   char *message;
   size_t message_size;
 } reader;
@@ -27,11 +27,11 @@ static int refuse(const reader *r, const char *format, ...) {
   return 0;
 }
 
-/* The next line that is neither empty nor a remark; 0 at the end of the text. */
+/* Finds the next line that is not empty and no comment; 0 at the end of the text. */
 static int next_line(reader *r, const char **line, const char **line_end) {
-  while (r->at < r->end) {
-    const char *start = r->at, *stop = memchr(start, '\n', (size_t)(r->end - start));
-    r->at = stop != NULL ? stop + 1 : r->end;
+  while (r->position < r->end) {
+    const char *start = r->position, *stop = memchr(start, '\n', (size_t)(r->end - start));
+    r->position = stop != NULL ? stop + 1 : r->end;
     if (stop == NULL) stop = r->end;
     r->line++;
     while (start < stop && (*start == ' ' || *start == '\r')) start++;
@@ -44,9 +44,9 @@ static int next_line(reader *r, const char **line, const char **line_end) {
   return 0;
 }
 
-/* Ends a cell of a line; its blanks are left out. */
+/* Returns the end of a cell of a line, without blanks around it; *next: start of the next cell or NULL. */
 static const char *cell_end(const reader *r, const char **cell, const char *line_end, const char **next) {
-  const char *stop = memchr(*cell, r->mark, (size_t)(line_end - *cell));
+  const char *stop = memchr(*cell, r->separator, (size_t)(line_end - *cell));
   *next = stop != NULL ? stop + 1 : NULL;
   if (stop == NULL) stop = line_end;
   while (*cell < stop && **cell == ' ') ++*cell;
@@ -56,27 +56,28 @@ static const char *cell_end(const reader *r, const char **cell, const char *line
 
 static int digit(const char *p, const char *end) { return p < end && *p >= '0' && *p <= '9'; }
 
-/* A whole cell as a number, the same on every platform: at most one and a half units in the last place off, exact to 15
+/* Parses a cell as a number, identically on all platforms: error at most 1.5 units in the last place, exact to 15
  * digits. */
-static int number(const reader *r, const char *p, const char *end, double *value) {
+static int parse_number(const reader *r, const char *p, const char *end, double *value) {
   uint64_t digits = 0;
-  int power = 0, given = 0, exponent = 0, negative_exponent;
+  int power = 0, has_digits = 0, exponent = 0, negative_exponent;
   const int negative = p < end && *p == '-';
   if (p < end && (*p == '-' || *p == '+')) p++;
-  for (int behind = 0; digit(p, end) || (!behind && p < end && (*p == '.' || (*p == ',' && r->mark != ','))); p++) {
+  for (int in_fraction = 0;
+       digit(p, end) || (!in_fraction && p < end && (*p == '.' || (*p == ',' && r->separator != ','))); p++) {
     if (!digit(p, end)) {
-      behind = 1;
+      in_fraction = 1;
       continue;
     }
-    given = 1;
+    has_digits = 1;
     if (digits < 100000000000000000u) {
       digits = 10 * digits + (uint64_t)(*p - '0');
-      power -= behind;
+      power -= in_fraction;
     } else {
-      power += !behind;
+      power += !in_fraction;
     }
   }
-  if (!given) return 0;
+  if (!has_digits) return 0;
   if (p < end && (*p == 'e' || *p == 'E')) {
     p++;
     negative_exponent = p < end && *p == '-';
@@ -96,18 +97,18 @@ static int number(const reader *r, const char *p, const char *end, double *value
   return p == end && v < 1e300;
 }
 
-/* Numbers of a line from its second cell on, n of them, and its first one, NAN where that is none. */
-static int row(const reader *r, const char *line, const char *line_end, int64_t n, double *first, double *to) {
+/* Reads the n numbers of a line from its second cell on, and the first one, NAN if it is not a number. */
+static int read_row(const reader *r, const char *line, const char *line_end, int64_t n, double *first, double *to) {
   const char *cell = line, *next;
   for (int64_t k = 0; k <= n; k++) {
     if (cell == NULL)
       return refuse(r, "line %d has %lld cells, the first one %lld", r->line, (long long)k, (long long)n + 1);
     const char *stop = cell_end(r, &cell, line_end, &next);
     double value = NAN;
-    const int good = number(r, cell, stop, &value);
+    const int valid = parse_number(r, cell, stop, &value);
     if (k == 0)
-      *first = good ? value : NAN;
-    else if (good)
+      *first = valid ? value : NAN;
+    else if (valid)
       to[k - 1] = value;
     else
       return refuse(r, "'%.*s' in line %d is not a number", (int)(stop - cell < 20 ? stop - cell : 20), cell, r->line);
@@ -116,15 +117,15 @@ static int row(const reader *r, const char *line, const char *line_end, int64_t 
   return cell == NULL || refuse(r, "line %d has more cells than the first one", r->line);
 }
 
-/* Columns behind the first of the first line, rows below it, and whether a second table follows. */
-static int count(reader *r, ali3_road_table *t) {
+/* Counts columns and rows after the first ones and finds whether a second table follows. */
+static int count_cells(reader *r, ali3_road_table *t) {
   const char *line, *line_end, *next;
   double value;
   int64_t rows[2] = {0, 0};
   if (!next_line(r, &line, &line_end)) return refuse(r, "it is empty");
-  r->mark = memchr(line, ';', (size_t)(line_end - line)) != NULL    ? ';'
-            : memchr(line, '\t', (size_t)(line_end - line)) != NULL ? '\t'
-                                                                    : ',';
+  r->separator = memchr(line, ';', (size_t)(line_end - line)) != NULL    ? ';'
+                 : memchr(line, '\t', (size_t)(line_end - line)) != NULL ? '\t'
+                                                                         : ',';
   const char *cell = line, *corner_end = cell_end(r, &cell, line_end, &next);
   if (corner_end > cell && corner_end[-1] == '"') corner_end--;
   const size_t corner = (size_t)(corner_end - cell);
@@ -132,19 +133,19 @@ static int count(reader *r, ali3_road_table *t) {
       (corner < 3 || memcmp(corner_end - 3, "[m]", 3) != 0))
     return refuse(r, "its first cell is '%.*s'; coordinates and heights must be in m", (int)(corner < 40 ? corner : 40),
                   cell);
-  if (number(r, cell, corner_end, &value))
+  if (parse_number(r, cell, corner_end, &value))
     return refuse(r, "its first cell is a number, so that it has no coordinates; make a road file of it by: ali3 road "
                      "INPUT OUTPUT.road --spacing DX DY");
   t->ny = 0;
   while (next != NULL) {
     t->ny++;
-    next = memchr(next, r->mark, (size_t)(line_end - next));
+    next = memchr(next, r->separator, (size_t)(line_end - next));
     if (next != NULL) next++;
   }
   t->maps = 1;
   while (next_line(r, &line, &line_end)) {
     cell = line;
-    if (number(r, cell, cell_end(r, &cell, line_end, &next), &value))
+    if (parse_number(r, cell, cell_end(r, &cell, line_end, &next), &value))
       rows[t->maps - 1]++;
     else if (++t->maps > 2)
       return refuse(r, "line %d begins a third table; there are heights and frictions", r->line);
@@ -156,8 +157,8 @@ static int count(reader *r, ali3_road_table *t) {
          refuse(r, "it has %lld rows of heights and %lld of frictions", (long long)rows[0], (long long)rows[1]);
 }
 
-/* First value and spacing of n ascending coordinates. */
-static int regular(const reader *r, const double *v, int64_t n, char name, double *first, double *spacing) {
+/* First value and spacing of n ascending, equidistant coordinates. */
+static int check_spacing(const reader *r, const double *v, int64_t n, char name, double *first, double *spacing) {
   const double step = (v[n - 1] - v[0]) / (double)(n - 1);
   if (!(step > 0.0)) return refuse(r, "its coordinates %c do not ascend", name);
   for (int64_t k = 0; k < n; k++) {
@@ -170,23 +171,25 @@ static int regular(const reader *r, const double *v, int64_t n, char name, doubl
   return 1;
 }
 
-/* Reads both tables; x and y have room for the coordinates. The second one must have those of the first. */
-static int fill(reader *r, ali3_road_table *t, double *x, double *y) {
+/* Reads both tables; x and y are work for coordinates. The second table must have those of the first. */
+static int read_values(reader *r, ali3_road_table *t, double *x, double *y) {
   const char *line, *line_end;
   double first;
   for (int32_t map = 0; map < t->maps; map++) {
-    double *to = t->values + map * t->nx * t->ny, place[2], step[2];
-    if (!next_line(r, &line, &line_end) || !row(r, line, line_end, t->ny, &first, y)) return 0;
+    double *to = t->values + map * t->nx * t->ny, first_point[2], step[2];
+    if (!next_line(r, &line, &line_end) || !read_row(r, line, line_end, t->ny, &first, y)) return 0;
     for (int64_t i = 0; i < t->nx; i++, to += t->ny) {
-      if (!next_line(r, &line, &line_end) || !row(r, line, line_end, t->ny, &first, to)) return 0;
+      if (!next_line(r, &line, &line_end) || !read_row(r, line, line_end, t->ny, &first, to)) return 0;
       if (!(first - first == 0.0)) return refuse(r, "line %d begins with no number", r->line);
       x[i] = first;
     }
-    if (!regular(r, x, t->nx, 'x', &place[0], &step[0]) || !regular(r, y, t->ny, 'y', &place[1], &step[1])) return 0;
+    if (!check_spacing(r, x, t->nx, 'x', &first_point[0], &step[0]) ||
+        !check_spacing(r, y, t->ny, 'y', &first_point[1], &step[1]))
+      return 0;
     for (int k = 0; k < 2; k++) {
-      if (map > 0 && (place[k] != t->first[k] || step[k] != t->spacing[k]))
+      if (map > 0 && (first_point[k] != t->first[k] || step[k] != t->spacing[k]))
         return refuse(r, "its frictions have other coordinates than its heights");
-      t->first[k] = place[k];
+      t->first[k] = first_point[k];
       t->spacing[k] = step[k];
     }
   }
@@ -194,20 +197,20 @@ static int fill(reader *r, ali3_road_table *t, double *x, double *y) {
 }
 
 int ali3_road_table_read(const char *text, size_t size, ali3_road_table *t,
-                         void *(*allocate)(size_t count, size_t size), void (*release)(void *block), char *message,
-                         size_t message_size) {
-  reader r = {.at = text, .end = text + size, .message = message, .message_size = message_size};
-  if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) r.at += 3;
-  const char *start = r.at;
-  if (!count(&r, t)) return 0;
+                         void *(*allocate)(size_t count_cells, size_t size), void (*release)(void *block),
+                         char *message, size_t message_size) {
+  reader r = {.position = text, .end = text + size, .message = message, .message_size = message_size};
+  if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) r.position += 3;
+  const char *start = r.position;
+  if (!count_cells(&r, t)) return 0;
   const size_t points = (size_t)t->nx * (size_t)t->ny;
   if (t->nx > (int64_t)size / t->ny) return refuse(&r, "it has fewer cells than rows and columns");
   t->values = allocate((size_t)t->maps * points + (size_t)t->nx + (size_t)t->ny, sizeof(double));
   if (t->values == NULL) return refuse(&r, "there is not enough memory");
   double *x = t->values + (size_t)t->maps * points;
-  r.at = start;
+  r.position = start;
   r.line = 0;
-  if (fill(&r, t, x, x + t->nx)) return 1;
+  if (read_values(&r, t, x, x + t->nx)) return 1;
   release(t->values);
   t->values = NULL;
   return 0;

@@ -1,4 +1,4 @@
-/* A road as a text: a table of heights with its coordinates, and below it one of frictions where there is one. */
+/* A road as text: a table of heights with its coordinates, optionally followed by one of frictions. */
 #ifndef ALI3_ROAD_TABLE_H
 #define ALI3_ROAD_TABLE_H
 #include <stddef.h>
@@ -9,7 +9,7 @@ enum { ALI3_MOST_TABLE = 1 << 26 }; /* bytes of a text */
 typedef struct {
   int64_t nx, ny;
   double first[2], spacing[2];
-  double *values; /* nx * ny heights, y fastest; behind them as many frictions where maps is 2 */
+  double *values; /* nx * ny heights, y fastest; followed by as many frictions if maps is 2 */
   int32_t maps;
 } ali3_road_table;
 

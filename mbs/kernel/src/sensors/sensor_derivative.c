@@ -13,7 +13,7 @@
 
 typedef struct {
   double v[3], d[3]; /* value and change */
-} moving;
+} dual_vector;
 
 /* Signal i (order 0) or its first or second rate, of a state, without the constant. */
 static double signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, int32_t order) {
@@ -25,8 +25,8 @@ static double signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, 
   return sum;
 }
 
-static moving vector(const ali3_instance *in, const int32_t *v, int32_t order, int32_t n) {
-  moving m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+static dual_vector vector(const ali3_instance *in, const int32_t *v, int32_t order, int32_t n) {
+  dual_vector m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (int32_t i = 0; i < n; i++) {
     m.v[i] = signal(in, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
     m.d[i] = signal(in, &in->kept.direction, v[i], order);
@@ -36,7 +36,7 @@ static moving vector(const ali3_instance *in, const int32_t *v, int32_t order, i
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static double dot_change(const moving *a, const moving *b) { return dot(a->d, b->v) + dot(a->v, b->d); }
+static double dot_change(const dual_vector *a, const dual_vector *b) { return dot(a->d, b->v) + dot(a->v, b->d); }
 
 static void cross(const double a[3], const double b[3], double out[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
@@ -58,14 +58,14 @@ static double change_signal_rate(const ali3_instance *in, const int32_t *v, cons
 }
 
 static double change_component(const ali3_instance *in, const int32_t *v, const double *real) {
-  const moving p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3);
+  const dual_vector p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3);
   (void)real;
   return dot_change(&p, &a);
 }
 
 static double change_carried(const ali3_instance *in, const int32_t *v, const double *real) {
-  const moving axis = vector(in, v + 16, 0, 3);
-  moving p;
+  const dual_vector axis = vector(in, v + 16, 0, 3);
+  dual_vector p;
   (void)real;
   ali3_carried(in, v + 1, v[0], p.v);
   ali3_carried(in, v + 1, v[0] + 1, p.d);
@@ -73,21 +73,21 @@ static double change_carried(const ali3_instance *in, const int32_t *v, const do
 }
 
 static double change_angle(const ali3_instance *in, const int32_t *v, const double *real) {
-  const moving y = vector(in, v, 0, 1), x = vector(in, v + 1, 0, 1);
+  const dual_vector y = vector(in, v, 0, 1), x = vector(in, v + 1, 0, 1);
   (void)real;
   return angle_change(y.v[0], x.v[0], y.d[0], x.d[0]);
 }
 
 static double change_pitch(const ali3_instance *in, const int32_t *v, const double *real) {
-  const moving u = vector(in, v, 0, 1);
+  const dual_vector u = vector(in, v, 0, 1);
   (void)real;
   const double rest = 1.0 - u.v[0] * u.v[0];
   return rest > 0.0 ? -u.d[0] / sqrt(rest) : 0.0;
 }
 
 static double change_angular_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  const moving a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3);
-  const moving ad = vector(in, v, 1, 3), bd = vector(in, v + 3, 1, 3);
+  const dual_vector a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3);
+  const dual_vector ad = vector(in, v, 1, 3), bd = vector(in, v + 3, 1, 3);
   return real[0] * (0.5 * (dot_change(&ad, &b) - dot_change(&bd, &a)));
 }
 
@@ -98,7 +98,7 @@ static double change_quaternion(const ali3_instance *in, const int32_t *v, const
   (void)real;
   ali3_quaternion(in, v + 1, p);
   for (int32_t i = 0; i < 3; i++) {
-    const moving a = vector(in, v + 1 + 3 * i, 0, 3);
+    const dual_vector a = vector(in, v + 1 + 3 * i, 0, 3);
     cross(a.v, a.d, one);
     for (int32_t j = 0; j < 3; j++) w[j] += 0.5 * one[j];
   }
@@ -148,14 +148,14 @@ static double change_mass(const ali3_instance *in, const int32_t *v, const doubl
 
 static double change_norm(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  const moving p = vector(in, v + 2, v[0], v[1]);
+  const dual_vector p = vector(in, v + 2, v[0], v[1]);
   const double length = sqrt(dot(p.v, p.v));
   return length > 0.0 ? dot(p.v, p.d) / length : 0.0;
 }
 
 static double change_direction(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  const moving p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3), b = vector(in, v + 7, 0, 3);
+  const dual_vector p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3), b = vector(in, v + 7, 0, 3);
   const double along = dot(p.v, a.v), across = dot(p.v, b.v);
   if (v[0] == 1 && along * along + across * across < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION) return 0.0;
   return angle_change(across, along, dot_change(&p, &b), dot_change(&p, &a));
@@ -163,9 +163,9 @@ static double change_direction(const ali3_instance *in, const int32_t *v, const 
 
 static double change_angle_about(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  const moving a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3), c = vector(in, v + 6, 0, 3);
+  const dual_vector a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3), c = vector(in, v + 6, 0, 3);
   double one[3], two[3];
-  moving turn;
+  dual_vector turn;
   cross(b.v, a.v, turn.v);
   cross(b.d, a.v, one);
   cross(b.v, a.d, two);
@@ -189,7 +189,7 @@ static sensor_function *const change_of[ALI3_SENSOR_TYPE_COUNT] = {
 #undef ALI3_SENSOR_TYPE
 };
 
-/* Accelerations have no known rates. */
+/* Whether the rate is computed; accelerations have none. */
 static unsigned char rate_known(int32_t type, const int32_t *v) {
   switch (ali3_sensor_types[type].rate) {
   case ALI3_RATE_ALWAYS:

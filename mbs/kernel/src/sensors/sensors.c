@@ -28,7 +28,7 @@ static void vector(const ali3_instance *in, const int32_t *v, int32_t order, dou
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Component along a moving axis of a vector (order 0) or of its rates. */
-static double along(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
+static double moving_component(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
   double p[3], a[3];
   vector(in, points, order, p);
   vector(in, axis, 0, a);
@@ -49,7 +49,7 @@ static double value_signal_second_rate(const ali3_instance *in, const int32_t *v
 
 static double value_component(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  return along(in, v + 1, v + 4, v[0]);
+  return moving_component(in, v + 1, v + 4, v[0]);
 }
 
 /* Value or rate of a signal of modal coordinates; contiguous coordinates are summed four at a time. */
@@ -69,8 +69,8 @@ void ali3_carried(const ali3_instance *in, const int32_t *v, int32_t order, doub
     for (int32_t k = 0; k <= order; k++) {
       double axis[3];
       vector(in, v + 3 + 3 * i, order - k, axis);
-      const double along = binomial[order][k] * signal_of_modes(in, v[12 + i], k);
-      for (int j = 0; j < 3; j++) out[j] += axis[j] * along;
+      const double factor = binomial[order][k] * signal_of_modes(in, v[12 + i], k);
+      for (int j = 0; j < 3; j++) out[j] += axis[j] * factor;
     }
 }
 
@@ -222,7 +222,7 @@ static double value_norm(const ali3_instance *in, const int32_t *v, const double
 }
 
 static double value_direction(const ali3_instance *in, const int32_t *v, const double *real) {
-  const double x = along(in, v + 1, v + 4, v[0]), y = along(in, v + 1, v + 7, v[0]);
+  const double x = moving_component(in, v + 1, v + 4, v[0]), y = moving_component(in, v + 1, v + 7, v[0]);
   (void)real;
   return v[0] == 1 && x * x + y * y < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION ? 0.0 : ali3_atan2(y, x);
 }

@@ -1,5 +1,5 @@
-/* The equations of index one at given positions and velocities: M qdd + Phi_q' lam = Q, Phi_q qdd = -gamma, by the
- * augmented Lagrangian, which does not ask for independent rows. */
+/* Equations of index one at given positions and velocities: M qdd + Phi_q' lam = Q, Phi_q qdd = -gamma, by the
+ * augmented Lagrangian, which also converges with redundant rows. */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@
 enum { SOLVES = 2, ITERATIONS = 60 };
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 
-/* Accelerations and multipliers at q, qd and the guides of v: v->qdd and v->lam are improved from what they hold. */
+/* Accelerations and multipliers at q, qd and the guides of v, iterated from the present v->qdd and v->lam. */
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
@@ -58,8 +58,9 @@ ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
   return ali3_factorise(in, in->tangent.F);
 }
 
-/* M x + Phi_q' lam = Q, Phi_q x = -b, in corrections with the factorised metric; x and lam start from zero. Ends at the
- * relative tolerance, or after ITERATIONS: where b and Phi_q x are zero but for round-off, the violation has no scale. */
+/* Solves M x + Phi_q' lam = Q, Phi_q x = -b by corrections with the factorised metric, from x = 0 and lam = 0. Ends at
+ * the relative tolerance, or after ITERATIONS: if b and Phi_q x are zero except for round-off, the violation has no
+ * scale. */
 ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
                                  double *lam) {
   const ali3_system *S = in->system;

@@ -1,6 +1,6 @@
-/* Consistent start: nearest position on Phi = 0 in the mass metric, where bending has its price, nearest velocities,
- * then accelerations and multipliers. All three are proximal augmented Lagrangian iterations, which do not ask for a
- * full-rank Phi_q. */
+/* Consistent start: nearest position on Phi = 0 in the metric of mass and bending stiffness, nearest velocities in the
+ * mass metric, then accelerations and multipliers. All three are proximal augmented Lagrangian iterations, which also
+ * converge for a rank-deficient Phi_q. */
 #include <math.h>
 #include <string.h>
 
@@ -21,14 +21,15 @@
 #include "initialise.h"
 
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
-static const double CLOSED = 1e-12; /* violation that needs no work, m */
-static const double ASSEMBLED = 1e-9; /* violation beyond round-off accepted when nothing better can be had, m */
+static const double CLOSED = 1e-12; /* m: violation that counts as closed */
+static const double ASSEMBLED = 1e-9; /* m: largest violation accepted when the iteration makes no further progress */
 static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
-static const double BENDING = 1.0; /* of K beside M when positions are closed, s^2: bodies turn rather than bend */
+/* S^2: factor on K in the metric of positions, large enough that bodies move rather than bend. */
+static const double BENDING = 1.0;
 static const double ROUND_OFF = 1e-13;
 enum { POSITION_ITERATIONS = 200 };
 
-/* F = M(q) + what massless coordinates lack + BENDING K + ALPHA Phi_q' Phi_q, factorised. */
+/* F = M(q) + floor of massless coordinates + BENDING K + ALPHA Phi_q' Phi_q, factorised. */
 static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   ali3_bodies_prepare(in, q);
@@ -40,8 +41,8 @@ static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   return ali3_factorise(in, in->tangent.F);
 }
 
-/* Minimises w' (M + BENDING K) w on Phi = 0, w the way from the position given: added up, for a difference of positions
- * far away loses digits. */
+/* Minimises w' (M + BENDING K) w on Phi = 0, w: displacement from the given position, accumulated, as a difference of
+ * positions far from the origin loses digits. */
 static ali3_status close_position(ali3_instance *in) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
@@ -69,20 +70,20 @@ static ali3_status close_position(ali3_instance *in) {
     double longest = 0.0;
     for (int32_t i = 0; i < nq; i++)
       if (fabs(in->step.x[i]) > longest) longest = fabs(in->step.x[i]);
-    const double part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+    const double step_fraction = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
     ali3_rows_times(S, in->tangent.J, in->step.x, in->step.gamma);
-    for (int32_t k = 0; k < nc; k++) /* a shortened step gives no information on the multipliers */
-      lam[k] = part < 1.0 ? 0.0 : in->step.mu[k] + ALPHA * in->step.gamma[k];
+    for (int32_t k = 0; k < nc; k++) /* a shortened step gives no estimate of the multipliers */
+      lam[k] = step_fraction < 1.0 ? 0.0 : in->step.mu[k] + ALPHA * in->step.gamma[k];
     for (int32_t i = 0; i < nq; i++) {
-      w[i] += part * in->step.x[i];
-      q[i] += part * in->step.x[i];
+      w[i] += step_fraction * in->step.x[i];
+      q[i] += step_fraction * in->step.x[i];
     }
   }
   memcpy(in->now.q, q, (size_t)nq * sizeof(double));
   return ALI3_OK;
 }
 
-/* The velocity nearest to the one given in the mass metric: M dv + Phi_q' mu = 0, Phi_q (v + dv) + Phi_t = 0. */
+/* Nearest velocity to the given one in the mass metric: M dv + Phi_q' mu = 0, Phi_q (v + dv) + Phi_t = 0. */
 static ali3_status close_velocity(ali3_instance *in) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
@@ -101,8 +102,8 @@ static ali3_status close_velocity(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Velocities of in->now made consistent, then forces, accelerations and multipliers; at a start also discrete states,
- * such as a gear, that fit it. */
+/* Makes the velocities of in->now consistent and computes forces, accelerations and multipliers; at a start also sets
+ * discrete states, such as a gear, to match. */
 ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;

@@ -1,5 +1,5 @@
-/* Forces at the ports of rigid bodies from the motion of the same model without ports: positions, velocities,
- * accelerations and multipliers are those of that model; the forces balance the residual of M qdd + Phi_q' lam = Q. */
+/* Forces at the ports of rigid bodies from a motion of the same model without ports. Positions, velocities,
+ * accelerations and multipliers are copied from it; the port forces are the residual of M qdd + Phi_q' lam = Q. */
 #include <string.h>
 
 #include "../algebra/finite.h"
@@ -14,15 +14,15 @@ static void copy(double *to, const double *from, int64_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
-/* Whether the coordinates of `ported` follow from those of `without`, and the rest of both states has equal sizes. */
-static bool same_model(const ali3_system *ported, const ali3_system *without) {
-  const ali3_sizes *a = &ported->size, *b = &without->size;
-  return ported->n_ported_ptr == (int64_t)b->nq + 1 && ported->n_ported_lam_ptr == (int64_t)b->nc + 1 &&
+/* Whether the coordinates of `target` map from those of `source`, and the rest of both states has equal sizes. */
+static bool same_model(const ali3_system *target, const ali3_system *source) {
+  const ali3_sizes *a = &target->size, *b = &source->size;
+  return target->n_ported_ptr == (int64_t)b->nq + 1 && target->n_ported_lam_ptr == (int64_t)b->nc + 1 &&
          a->nu == b->nu && a->np == b->np && a->ng == b->ng && a->ne == b->ne && a->ny == b->ny && a->nout == b->nout &&
-         a->n_switch == b->n_switch && ported->nr == without->nr;
+         a->n_switch == b->n_switch && target->nr == source->nr;
 }
 
-/* to += A from, A of n columns. */
+/* to += A from, with A of n columns in compressed form. */
 static void add_columns(int64_t n, const int32_t *ptr, const int32_t *row, const double *val, const double *from,
                         double *to) {
   for (int64_t j = 0; j < n; j++)
@@ -35,20 +35,20 @@ static void map_coordinates(const ali3_system *S, const double *from, const doub
   add_columns(S->n_ported_ptr - 1, S->ported_ptr, S->ported_row, S->ported_val, from, to);
 }
 
-/* Multipliers of the rows from those of the model without ports; those of ports become 0. */
+/* Multipliers of the rows from those of the model without ports; 0 for rows of ports. */
 static void map_multipliers(const ali3_system *S, const double *from, double *to) {
   memset(to, 0, (size_t)S->size.nc * sizeof(double));
   add_columns(S->n_ported_lam_ptr - 1, S->ported_lam_ptr, S->ported_lam_row, S->ported_lam_val, from, to);
 }
 
-/* Takes the state of the model without ports; the multipliers of ports are left to `balance`. */
-static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
+/* Copies the state of the model without ports, except the multipliers of ports. */
+static ali3_status copy_state(ali3_instance *in, const ali3_instance *source) {
   const ali3_system *S = in->system;
   const ali3_sizes *z = &S->size;
-  const ali3_vectors *from = &without->now;
+  const ali3_vectors *from = &source->now;
   ali3_vectors *v = &in->now;
-  if (z->np > 0 && memcmp(in->parameters.value, without->parameters.value, (size_t)z->np * sizeof(double)) != 0 &&
-      !ali3_parameters_take(in, without->parameters.value))
+  if (z->np > 0 && memcmp(in->parameters.value, source->parameters.value, (size_t)z->np * sizeof(double)) != 0 &&
+      !ali3_parameters_take(in, source->parameters.value))
     return ALI3_BAD_ARGUMENT;
   map_coordinates(S, from->q, S->ported_const, v->q);
   map_coordinates(S, from->qd, NULL, v->qd);
@@ -67,8 +67,8 @@ static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   return ALI3_OK;
 }
 
-/* Forces as at the end of the last step, or at a start. */
-static void forces(ali3_instance *in) {
+/* Computes the forces as at the end of the last step, or at a start. */
+static void end_forces(ali3_instance *in) {
   ali3_vectors *v = &in->now;
   const bool stepped = v->h_last[0] > 0.0;
   const ali3_force_call call = {.q = v->q,
@@ -82,28 +82,28 @@ static void forces(ali3_instance *in) {
   ali3_forces(in, &call);
 }
 
-/* Multipliers of the ports from the residual without them. */
-static void balance(ali3_instance *in) {
+/* Multipliers of the ports from the residual of the equations of motion without them. */
+static void solve_port_multipliers(ali3_instance *in) {
   const ali3_system *S = in->system;
-  double *open = in->step.r;
+  double *residual = in->step.r;
   ali3_constraints(in, in->now.q, in->now.s, in->step.Phi, in->tangent.J);
   ali3_rows_transposed(S, in->tangent.J, in->now.lam, in->step.x);
-  ali3_mass_times(in, in->now.qdd, open);
-  for (int32_t i = 0; i < S->size.nq; i++) open[i] = in->step.Q[i] - open[i] - in->step.x[i];
+  ali3_mass_times(in, in->now.qdd, residual);
+  for (int32_t i = 0; i < S->size.nq; i++) residual[i] = in->step.Q[i] - residual[i] - in->step.x[i];
   for (int32_t r = 0; r < S->size.nc; r++)
     for (int32_t k = S->ported_force_ptr[r]; k < S->ported_force_ptr[r + 1]; k++)
-      in->now.lam[r] += S->ported_force_val[k] * open[S->ported_force_col[k]];
+      in->now.lam[r] += S->ported_force_val[k] * residual[S->ported_force_col[k]];
 }
 
-ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without) {
-  if (in == NULL || without == NULL || !same_model(in->system, without->system)) return ALI3_BAD_ARGUMENT;
-  if (!without->start.initialised) return ALI3_NOT_INITIALISED;
-  const ali3_status status = take_state(in, without);
+ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *source) {
+  if (in == NULL || source == NULL || !same_model(in->system, source->system)) return ALI3_BAD_ARGUMENT;
+  if (!source->start.initialised) return ALI3_NOT_INITIALISED;
+  const ali3_status status = copy_state(in, source);
   if (status != ALI3_OK) return status;
-  memcpy(in->roads.used, without->roads.used,
-         (size_t)in->system->nr * sizeof *in->roads.used); /* tiles that are in memory */
-  forces(in);
+  memcpy(in->roads.used, source->roads.used,
+         (size_t)in->system->nr * sizeof *in->roads.used); /* uses its tiles, which are in memory */
+  end_forces(in);
   memcpy(in->roads.used, in->roads.own, (size_t)in->system->nr * sizeof *in->roads.used);
-  balance(in);
+  solve_port_multipliers(in);
   return ali3_finite(in->now.lam, in->system->size.nc) ? ALI3_OK : ALI3_NOT_FINITE;
 }

@@ -1,20 +1,25 @@
-/* A start in motion that is held while the rest settles: what is held, and the scene put back to it. */
+/* A start in motion, held until the rest has settled. */
 #ifndef ALI3_SETTLED_START_H
 #define ALI3_SETTLED_START_H
 #include "../instance.h"
 
-/* Coordinates along x of the heaviest point and of the heaviest direction; their place, velocity, direction, rate. */
+/* Coordinates along x of the heaviest point and direction; position (m) and velocity (m/s) of the point, unit direction
+ * and its yaw rate (rad/s). */
 typedef struct {
   int32_t point, axis;
   double place[2], velocity[2], direction[2], rate;
 } ali3_held_motion;
 
-bool ali3_hold(ali3_instance *in, ali3_held_motion *held); /* false: no body has a point and a direction of its own */
-double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *held); /* sine of the angle to the left */
-void ali3_follow_slope(ali3_instance *in, const ali3_held_motion *held); /* the velocity of a start: along the road */
-/* `kept`: the share of the velocity beside the held one that stays. */
-void ali3_put_back(ali3_instance *in, const ali3_held_motion *held, double kept);
-double ali3_kept_velocity(const ali3_held_motion *held, double h, double done); /* done: share of the settling */
-/* m/s beside the held motion, or at which the road comes to parts unevenly in it */
+/* Measures the motion; false: no body has a point and a direction of its own. */
+bool ali3_hold(ali3_instance *in, ali3_held_motion *held);
+/* Sine of the change of heading, positive to the left. */
+double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *held);
+/* Adds the vertical velocity that follows the road. */
+void ali3_follow_slope(ali3_instance *in, const ali3_held_motion *held);
+/* Moves the scene back to the held motion; kept_velocity: factor on the difference of velocities. */
+void ali3_put_back(ali3_instance *in, const ali3_held_motion *held, double kept_velocity);
+/* `progress`: fraction of the settling time. */
+double ali3_kept_velocity(const ali3_held_motion *held, double h, double progress);
+/* Largest deviation of a velocity from the held motion, or of climb rates of the contacts in it, m/s. */
 double ali3_unsettled_speed(ali3_instance *in, const ali3_held_motion *held);
 #endif

@@ -1,4 +1,4 @@
-/* Checks of a start by the elements, and how much higher the scene must begin. */
+/* Checks of a start by the elements, rise needed to start, and detection of wheels driven into the road. */
 #include <stdio.h>
 
 #include "../elements/road.h"
@@ -7,7 +7,7 @@
 #include "../tabled/tabled.h"
 #include "initialise.h"
 
-enum { MOST_RISES = 100 }; /* an element may ask for its rise bit by bit */
+enum { MOST_RISES = 100 }; /* an element may report its rise in parts */
 
 ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road *roads, const double *q, int32_t e,
                                        double *u) {
@@ -35,7 +35,7 @@ ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road 
   return a;
 }
 
-/* Verdict of element e on in->now; {0} of elements without one. */
+/* Verdict of element e on in->now; {0} for elements without a check. */
 static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double raised) {
   double u[ALI3_MAX_SIGNALS] = {0.0};
   if (in->system->el_kind[e]->start == NULL) return (ali3_start_verdict){0};
@@ -43,13 +43,13 @@ static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double rai
   return in->system->el_kind[e]->start(&a, raised);
 }
 
-double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words) {
+double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **text) {
   int32_t worst = -1;
-  double most = 0.0, raised = 0.0;
+  double largest = 0.0, raised = 0.0;
   for (int32_t e = 0; in != NULL && e < in->system->size.ne; e++) {
     const double excess = verdict(in, e, 0.0).excess;
-    if (!(excess > most)) continue;
-    most = excess;
+    if (!(excess > largest)) continue;
+    largest = excess;
     worst = e;
   }
   for (int32_t e = 0; worst >= 0 && e < in->system->size.ne; e++)
@@ -59,21 +59,23 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
       raised += rise;
     }
   if (element != NULL) *element = worst;
-  if (words != NULL) *words = worst >= 0 ? in->system->el_kind[worst]->start_words : "";
+  if (text != NULL) *text = worst >= 0 ? in->system->el_kind[worst]->start_words : "";
   return raised;
 }
 
-/* A vehicle that rolls over presses the centre of a wheel some millimetres into the ground; this is a face. */
+/* radii: depth of a wheel's centre above which it was driven into a face; a rolled-over vehicle presses it some
+ * millimetres into the ground */
 static const double DEEP = 0.5; /* radii */
-static const double NO_FORCE = 1e-6; /* of the weight */
+static const double NO_FORCE = 1e-6; /* factor on the largest weight on a coordinate */
 
-/* Depth, m, down to which the tyre of element e is one: on a road without faces to its hub. */
-static double to_hub(const ali3_instance *in, int32_t e) {
+/* Depth of the tyre of element e at its hub, m: the limit on a road without faces. */
+static double hub_depth(const ali3_instance *in, int32_t e) {
   return (1.0 - ALI3_TYRE_HUB) * in->parameters.el_real[in->system->el_real_ptr[e]];
 }
 
-/* The first wheel whose centre is deep in its grid; what rims meet on any road goes into `report`, if there is one. */
-static ali3_status look(const ali3_instance *in, ali3_report *report, int32_t *element, char *text, size_t size) {
+/* The first wheel whose centre is deep in a grid road, with a message; on any road the deepest pressed rim is stored in
+ * `report`, if given. */
+static ali3_status find_wheel(const ali3_instance *in, ali3_report *report, int32_t *element, char *text, size_t size) {
   if (text != NULL && size > 0) text[0] = 0;
   if (element != NULL) *element = -1;
   for (int32_t e = 0; in != NULL && e < in->system->size.ne; e++) {
@@ -81,39 +83,39 @@ static ali3_status look(const ali3_instance *in, ali3_report *report, int32_t *e
     double u[ALI3_MAX_SIGNALS] = {0.0}, spacing[2];
     if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
     const bool grid = ali3_road_spacing(&in->roads.used[S->el_int[S->el_int_ptr[e]]], spacing);
-    if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + ALI3_TYRE_DEFLECTION] > to_hub(in, e))) continue;
+    if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + ALI3_TYRE_DEFLECTION] > hub_depth(in, e))) continue;
     const ali3_element_args a = ali3_start_arguments(in, in->roads.used, in->now.q, e, u);
     const ali3_start_verdict v = S->el_kind[e]->start(&a, 0.0);
-    const double sunk = v.excess, pressed = grid ? v.pressed : sunk + a.real[0] - to_hub(in, e);
+    const double depth = v.excess, pressed = grid ? v.pressed : depth + a.real[0] - hub_depth(in, e);
     if (report != NULL && pressed > report->rim_pressed) {
       report->rim_pressed = pressed;
       report->rim_time = ali3_time(in);
       report->rim_x = u[0], report->rim_y = u[1];
       report->rim_element = e;
     }
-    if (!grid || !(sunk > DEEP * a.real[0])) continue;
+    if (!grid || !(depth > DEEP * a.real[0])) continue;
     if (element != NULL) *element = e;
     if (text != NULL)
       snprintf(
           text, size,
           "at x = %.6g m, y = %.6g m the centre of a wheel of %.3g m radius is %.2g m below the road, whose points "
           "are %.3g by %.3g m apart: it has been driven into a face that is too high",
-          u[0], u[1], a.real[0], sunk, spacing[0], spacing[1]);
+          u[0], u[1], a.real[0], depth, spacing[0], spacing[1]);
     return ALI3_WHEEL_IN_ROAD;
   }
   return ALI3_OK;
 }
 
 ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size) {
-  return look(in, NULL, element, text, size);
+  return find_wheel(in, NULL, element, text, size);
 }
 
-ali3_status ali3_wheels_watch(ali3_instance *in) { return look(in, &in->report, NULL, NULL, 0); }
+ali3_status ali3_wheels_watch(ali3_instance *in) { return find_wheel(in, &in->report, NULL, NULL, 0); }
 
 double ali3_no_force(const ali3_instance *in) {
-  double most = 0.0;
-  for (int32_t i = 0; in != NULL && i < in->system->size.nq; i++) most = fmax(most, fabs(in->mass.gravity[i]));
-  return NO_FORCE * most;
+  double largest = 0.0;
+  for (int32_t i = 0; in != NULL && i < in->system->size.nq; i++) largest = fmax(largest, fabs(in->mass.gravity[i]));
+  return NO_FORCE * largest;
 }
 
 ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text, size_t size) {
@@ -135,6 +137,6 @@ ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text,
              "At %.4g s a wheel at x = %.4g m, y = %.4g m was %.2g m deep in the road: the rim is pressed in by %.2g m "
              "more than it holds, so loads from there on are those of a stiff spring. Let it fall less high, or drive "
              "slower there.",
-             r->rim_time, r->rim_x, r->rim_y, r->rim_pressed + to_hub(in, e), r->rim_pressed);
+             r->rim_time, r->rim_x, r->rim_y, r->rim_pressed + hub_depth(in, e), r->rim_pressed);
   return ALI3_OK;
 }

@@ -1,6 +1,6 @@
-/* A scene may start in static equilibrium. Where parameters at the start change that equilibrium, it is solved again here:
- * at the place of the drawing, on the roads of the file, with the start values of the inputs. Some parameters have other
- * values during the search, which the file gives (a drive that pushes has no equilibrium). */
+/* Start in static equilibrium. If parameters change the equilibrium of the file, it is solved again here: at the
+ * position of the drawing, on the roads of the file, with the start values of the inputs. The file may give other
+ * values of parameters for the search (for example, a drive that pushes has no equilibrium). */
 #include <math.h>
 #include <string.h>
 
@@ -11,17 +11,17 @@
 #include "initialise.h"
 
 static const double TOLERANCE = 1e-8; /* N, N m */
-static const double SAME = 1e-9; /* m: a smaller move is round-off, where the file lacks the start of its search */
+static const double SAME = 1e-9; /* m: a smaller displacement is round-off, if the file lacks the start of its search */
 enum { ITERATIONS = 400 };
 
-/* Makes q the start of the scene. A pose then turns each horizontal component by pose_cos and pose_sin. */
+/* Sets q as the start of the scene; a pose then rotates each horizontal component by pose_cos and pose_sin. */
 static void set_start(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   memcpy(in->start.q, q, (size_t)S->size.nq * sizeof(double));
   for (int32_t i = 0; S->size.has_pose && i < S->size.nq; i++) {
     if (S->pose_partner[i] == 0) {
-      const double moved = S->pose_0[i] + (q[i] - S->q0[i]); /* pose_0 is not q0 for spins */
-      in->start.pose_0[i] = S->pose_0[i] == S->q0[i] ? q[i] : moved; /* the same without round-off */
+      const double shifted = S->pose_0[i] + (q[i] - S->q0[i]); /* pose_0 differs from q0 for spins */
+      in->start.pose_0[i] = S->pose_0[i] == S->q0[i] ? q[i] : shifted; /* avoids round-off */
     } else {
       in->start.pose_cos[i] = q[i];
       in->start.pose_sin[i] = ali3_turned(S, i, q, false);
@@ -29,8 +29,8 @@ static void set_start(ali3_instance *in, const double *q) {
   }
 }
 
-/* Whether a parameter that writes to elements or guides is not as in the file. */
-static bool changed(const ali3_instance *in) {
+/* Whether a parameter that writes to anything but roads differs from the file. */
+static bool parameters_changed(const ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
@@ -44,8 +44,8 @@ static void exchange_roads(ali3_instance *in) {
   in->roads.own = road;
 }
 
-/* Sets roads of the System, its own values of parameters and start values of inputs for the search. The values of the
- * instance are kept in parameters.work and inputs.work. */
+/* Sets the roads of the System, its values of parameters and the start values of inputs for the search. The values of
+ * the instance are stored in parameters.work and inputs.work. */
 static ali3_status prepare(ali3_instance *in) {
   const ali3_system *S = in->system;
   memcpy(in->parameters.work, in->parameters.value, (size_t)S->size.np * sizeof(double));
@@ -72,9 +72,9 @@ static void restore(ali3_instance *in) {
   ali3_parameters_switch(in);
 }
 
-/* Solves for the equilibrium: coordinates into in->step.stage (nq), states into in->now.y. It starts where the compiler
- * started, so that the same parameters give the same bits in a file and in an instance. */
-static ali3_status search(ali3_instance *in, double t) {
+/* Solves for the equilibrium: coordinates to in->step.stage (nq), states to in->now.y. It starts where the compiler
+ * started, so that equal parameters give equal bits in a file and in an instance. */
+static ali3_status solve_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
   ali3_vectors_copy(in, &in->kept.whole, &in->now);
   memcpy(in->now.q, S->n_static_q > 0 ? S->static_q : S->q0, (size_t)S->size.nq * sizeof(double));
@@ -89,25 +89,25 @@ static ali3_status search(ali3_instance *in, double t) {
   return ALI3_NO_EQUILIBRIUM;
 }
 
-/* Before a start at time t: moves it to the equilibrium of the parameters, unless coordinates were given. */
+/* Moves a start at time t to the equilibrium of the parameters, unless coordinates were given. */
 ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
   if (S->n_static_start == 0 || in->start.placed == ALI3_PLACED_BY_Q) return ALI3_OK;
-  const bool solve = changed(in);
-  if (!solve && !in->start.moved) return ALI3_OK;
+  const bool needed = parameters_changed(in);
+  if (!needed && !in->start.moved) return ALI3_OK;
   memcpy(in->now.y, S->y0, (size_t)S->size.ny * sizeof(double));
   ali3_file_start(in);
   in->start.moved = false;
-  if (solve) {
-    const ali3_report before = in->report;
+  if (needed) {
+    const ali3_report report = in->report;
     ali3_status status = prepare(in);
-    if (status == ALI3_OK) status = search(in, t);
+    if (status == ALI3_OK) status = solve_equilibrium(in, t);
     restore(in);
     if (status != ALI3_OK) return status;
-    in->report = before; /* the search is no part of the run */
-    double most = 0.0;
-    for (int32_t i = 0; i < S->size.nq; i++) most = fmax(most, fabs(in->step.stage[i] - S->q0[i]));
-    in->start.moved = most > (S->n_static_q > 0 ? 0.0 : SAME);
+    in->report = report; /* the search is not part of the run */
+    double largest = 0.0;
+    for (int32_t i = 0; i < S->size.nq; i++) largest = fmax(largest, fabs(in->step.stage[i] - S->q0[i]));
+    in->start.moved = largest > (S->n_static_q > 0 ? 0.0 : SAME);
     if (in->start.moved) set_start(in, in->step.stage);
   }
   if (in->start.placed == ALI3_PLACED_BY_POSE) return ali3_set_pose(in, in->start.pose);

@@ -1,11 +1,11 @@
-/* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance
- * improves. The mass keeps free directions (position on a plane) where they are. A coordinate that no row, stiffness
- * or weight touches, such as the spin of a driven wheel, cannot come into balance at rest: it is held. in->step.w marks
- * with 0 what may be held, in->step.d0 what is; both have 1 elsewhere.
+/* Static equilibrium by a pseudo-transient Newton iteration with mass / c + stiffness, where c increases while the
+ * residual decreases. The mass keeps free directions (position on a plane) constant. A coordinate without row,
+ * stiffness and weight, such as the spin of a driven wheel, cannot balance at rest and is held. in->step.w is 0 for
+ * coordinates that may be held, in->step.d0 for those that are; both are 1 elsewhere.
  *
- * At rest friction holds nothing before it is deflected. Where there is no equilibrium without it, the way from the
- * drawing is taken as one step of LONG, whose end then has the deflections: what damps does nothing, what sticks is a
- * spring, and what slips holds its bound. */
+ * At rest undeflected friction transmits no force. If there is no equilibrium without it, the displacement from the
+ * drawing is treated as one step of duration LONG, whose end has the deflections: dampers have no force, sticking
+ * contacts are springs, sliding ones transmit their limit. */
 #include <math.h>
 #include <string.h>
 
@@ -22,18 +22,19 @@
 
 static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
 static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */
-static const double PENALTY = 1e9; /* c alpha, as in a step with eps_rel = 2.5e-10 */
+static const double PENALTY = 1e9; /* c alpha, equal to that of a step with eps_rel = 2.5e-10 */
 static const double CLOSED = 1e-10; /* m */
-static const double OPEN = 1e-2; /* m: c does not grow beyond it */
-enum { SLOW = 20 }; /* iterations after which rows that close slowly, c K being large beside PENALTY, make c smaller */
+static const double OPEN = 1e-2; /* m: violation above which c does not increase */
+/* Iterations after which c is reduced if rows close slowly because c K is large relative to PENALTY. */
+enum { SLOW = 20 };
 static const double LONG = 1e6; /* s */
-static const double ROUND_OFF = 1e-12; /* of the forces in balance */
-/* rad: between these iterations have turned a scene that floats, as nothing holds it; it is put back to the drawing */
+static const double ROUND_OFF = 1e-12; /* of the largest force */
+/* rad: a heading change between these is drift of a scene without horizontal support, which is moved back */
 static const double TURNED = 1e-12, HELD = 1e-6;
 
-/* Forces at rest, g = Phi_q' lam - Q in in->step.r; largest |g_i| goes to the report, what lies above round-off is
- * returned. `h`: of the step from the drawing, or 0. */
-static double balance(ali3_instance *in, double c, double h) {
+/* Residual of the forces at rest, g = Phi_q' lam - Q, in in->step.r. Stores the largest |g_i| in the report; returns
+ * it, or 0 within round-off. `h`: of the step from the drawing, or 0. */
+static double evaluate_residual(ali3_instance *in, double c, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
   double largest = 0.0, scale = 0.0;
@@ -55,7 +56,7 @@ static double balance(ali3_instance *in, double c, double h) {
   for (int32_t i = 0; i < S->size.nq; i++) {
     scale = fmax(scale, fabs(in->step.Q[i]));
     in->step.r[i] = in->step.d0[i] * (in->step.r[i] - in->step.Q[i]);
-    if (!(fabs(in->step.r[i]) <= largest) && largest == largest) { /* a NaN stays */
+    if (!(fabs(in->step.r[i]) <= largest) && largest == largest) { /* keeps a NaN */
       largest = fabs(in->step.r[i]);
       in->report.worst_coordinate = i;
     }
@@ -82,8 +83,8 @@ static ali3_status factorise(ali3_instance *in, double c) {
   return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
 }
 
-/* *part: what was taken of the Newton step. */
-static ali3_status correct(ali3_instance *in, double c, double *part) {
+/* Newton step, shortened to the factor *step_fraction. */
+static ali3_status newton_step(ali3_instance *in, double c, double *step_fraction) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   double *lam = in->next.lam, longest = 0.0;
@@ -94,14 +95,14 @@ static ali3_status correct(ali3_instance *in, double c, double *part) {
   if (!ali3_finite(in->step.x, nq)) return ALI3_NOT_FINITE;
   for (int32_t i = 0; i < nq; i++)
     if (fabs(in->step.x[i]) > longest) longest = fabs(in->step.x[i]);
-  *part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+  *step_fraction = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
   ali3_rows_times(S, in->tangent.J, in->step.x, in->step.gamma);
-  for (int32_t k = 0; k < nc; k++) lam[k] += *part * PENALTY / c * (in->step.Phi[k] + in->step.gamma[k]);
-  for (int32_t i = 0; i < nq; i++) in->next.q[i] += *part * in->step.x[i];
+  for (int32_t k = 0; k < nc; k++) lam[k] += *step_fraction * PENALTY / c * (in->step.Phi[k] + in->step.gamma[k]);
+  for (int32_t i = 0; i < nq; i++) in->next.q[i] += *step_fraction * in->step.x[i];
   return ALI3_OK;
 }
 
-static void mark(ali3_instance *in) {
+static void mark_holdable(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.nq; i++) {
     in->step.w[i] = in->mass.gravity[i] == 0.0 ? 0.0 : 1.0;
@@ -110,37 +111,37 @@ static void mark(ali3_instance *in) {
   for (int32_t k = 0; k < S->size.nnz_rows; k++) in->step.w[S->row_col[k]] = 1.0;
 }
 
-/* The equilibrium in in->next, from in->now; in->element.y has its states. */
-static ali3_status search(ali3_instance *in, double tolerance, int32_t max_iterations, double h) {
+/* Iterates from in->now to the equilibrium in in->next with its states in in->element.y. */
+static ali3_status iterate(ali3_instance *in, double tolerance, int32_t max_iterations, double h) {
   ali3_status status = ALI3_OK;
   ali3_vectors_copy(in, &in->next, &in->now);
   memset(in->next.qd, 0, (size_t)in->system->size.nq * sizeof(double));
-  mark(in);
-  double c = FIRST_C, last = balance(in, c, h);
+  mark_holdable(in);
+  double c = FIRST_C, residual = evaluate_residual(in, c, h);
   int32_t iteration = 0;
   for (; iteration < max_iterations; iteration++) {
-    if (!(last < 1e300) || !(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
-    if (iteration > 0 && last <= tolerance && in->report.violation <= CLOSED) break;
+    if (!(residual < 1e300) || !(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
+    if (iteration > 0 && residual <= tolerance && in->report.violation <= CLOSED) break;
     while ((status = factorise(in, c)) == ALI3_SINGULAR && c > LEAST_C) {
       c *= 0.25;
-      balance(in, c, h);
+      evaluate_residual(in, c, h);
     }
-    double part = 1.0;
-    if (status == ALI3_OK) status = correct(in, c, &part);
+    double step_fraction = 1.0;
+    if (status == ALI3_OK) status = newton_step(in, c, &step_fraction);
     if (status != ALI3_OK) return status;
-    const double previous = last, used = c, open = in->report.violation;
-    last = balance(in, c, h);
-    const bool closes = in->report.violation <= CLOSED || in->report.violation < 0.5 * open;
-    if (part < 1.0 || last > 4.0 * previous)
+    const double previous = residual, previous_c = c, previous_violation = in->report.violation;
+    residual = evaluate_residual(in, c, h);
+    const bool rows_close = in->report.violation <= CLOSED || in->report.violation < 0.5 * previous_violation;
+    if (step_fraction < 1.0 || residual > 4.0 * previous)
       c = fmax(0.5 * c, LEAST_C);
-    else if (iteration >= SLOW && !closes)
+    else if (iteration >= SLOW && !rows_close)
       c = fmax(0.25 * c, FIRST_C);
     else if (in->report.violation <= OPEN)
       c = fmin(4.0 * c, LARGEST_C);
-    if (c != used) last = balance(in, c, h); /* the element tangents carry c */
+    if (c != previous_c) residual = evaluate_residual(in, c, h); /* the tangents of elements include c */
   }
   in->report.last_iterations = iteration;
-  return last <= tolerance && in->report.violation <= CLOSED ? ALI3_OK : ALI3_NOT_CONVERGED;
+  return residual <= tolerance && in->report.violation <= CLOSED ? ALI3_OK : ALI3_NOT_CONVERGED;
 }
 
 ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations) {
@@ -148,17 +149,17 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
   ali3_status status = ali3_solve_initial(in, t);
   if (status != ALI3_OK) return status;
-  ali3_held_motion drawn;
-  const bool floats = S->size.has_pose && ali3_hold(in, &drawn);
-  status = search(in, tolerance, max_iterations, 0.0);
+  ali3_held_motion start;
+  const bool floats = S->size.has_pose && ali3_hold(in, &start);
+  status = iterate(in, tolerance, max_iterations, 0.0);
   if (status != ALI3_OK && S->size.ny > 0) {
-    status = search(in, tolerance, max_iterations, LONG);
+    status = iterate(in, tolerance, max_iterations, LONG);
     if (status == ALI3_OK) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
   }
   if (status != ALI3_OK) return status;
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
-  const double turned = floats ? fabs(ali3_heading_change(in, &drawn)) : 0.0;
-  if (turned > TURNED && turned < HELD) ali3_put_back(in, &drawn, 0.0);
+  const double heading_change = floats ? fabs(ali3_heading_change(in, &start)) : 0.0;
+  if (heading_change > TURNED && heading_change < HELD) ali3_put_back(in, &start, 0.0);
   return ali3_solve_rates(in, true);
 }

@@ -1,7 +1,7 @@
 /* Axes of wheels whose direction on their carrier is set by parameters. The vectors f, g and e of a wheel are signals,
- * linear in the three axes of its carrier. An instance with the drawn axes uses the System as it was loaded; any other
- * has a copy of the System, `turned`, with its own coefficients, so that steps cost the same. The diametral inertia
- * I (1 - e e') of the wheel, which belongs to its carrier, turns with the axis. */
+ * linear in the three axes of its carrier. An instance with the drawn axes uses the System as loaded; any other has a
+ * copy of the System, `turned`, with its own coefficients, so that steps have equal cost. The diametral inertia I (1 -
+ * e e') of the wheel, which is part of its carrier's, rotates with the axis. */
 #include <string.h>
 
 #include "../algebra/elementary.h"
@@ -10,8 +10,8 @@
 #include "axes.h"
 
 enum { X, Y, Z, AXES, REALS = ALI3_AXIS_REALS, SIGNALS = ALI3_AXIS_SIGNALS };
-enum { AZIMUTH, ELEVATION }; /* of an axis, rad: in axis_real */
-enum { MOMENTS = 4 }; /* in ali3_tabled.mass: the first of xx, yy, zz, yz, zx, xy */
+enum { AZIMUTH, ELEVATION }; /* rad: indices of the numbers of an axis in axis_real */
+enum { MOMENTS = 4 }; /* first of the second moments xx, yy, zz, yz, zx, xy in ali3_tabled.mass */
 
 void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_system *T = s->turned;
@@ -26,7 +26,7 @@ void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->axes.mass = ali3_pool_array(p, tabled * ALI3_TABLED_MOMENTS);
 }
 
-/* Columns: forward and level, along the axis, up in the plane of the wheel. */
+/* Rotation matrix; columns: horizontal forward, along the axis, up in the plane of the wheel. */
 static void axes_of(const double *angle, double R[AXES][AXES]) {
   const double ca = ali3_cos(angle[AZIMUTH]), sa = ali3_sin(angle[AZIMUTH]);
   const double ce = ali3_cos(angle[ELEVATION]), se = ali3_sin(angle[ELEVATION]);
@@ -114,14 +114,16 @@ static void write_moments(ali3_instance *in, int64_t k) {
     in->axes.mass[ALI3_TABLED_MOMENTS * table + MOMENTS + i] += change[entry[i][0]][entry[i][1]];
 }
 
-/* Writes the spin of wheel k at a start with a speed: it rolls, and its loaded radius grows with its inclination. */
+/* Writes the spin of wheel k for a start with a speed: it rolls, and its loaded radius increases with its
+ * inclination. */
 static void write_speed(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->base;
   const double *radius = S->axis_rolling + 2 * k, *drawn = S->axis_real + REALS * k,
                *now = in->parameters.axis_real + REALS * k;
   if (!S->size.has_pose || !(radius[0] > 0.0)) return;
-  const double leaned = radius[0] + radius[1] * (1.0 / ali3_cos(now[ELEVATION]) - 1.0 / ali3_cos(drawn[ELEVATION]));
-  in->axes.speed[S->axis_spin[k]] = ali3_cos(now[AZIMUTH]) * ali3_cos(now[ELEVATION]) / leaned;
+  const double loaded_radius =
+      radius[0] + radius[1] * (1.0 / ali3_cos(now[ELEVATION]) - 1.0 / ali3_cos(drawn[ELEVATION]));
+  in->axes.speed[S->axis_spin[k]] = ali3_cos(now[AZIMUTH]) * ali3_cos(now[ELEVATION]) / loaded_radius;
 }
 
 void ali3_axes_apply(ali3_instance *in) {

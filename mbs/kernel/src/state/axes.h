@@ -1,17 +1,17 @@
-/* Axes of wheels whose direction on their carrier parameters write. */
+/* Axes of wheels with directions set by parameters. */
 #ifndef ALI3_AXES_H
 #define ALI3_AXES_H
 #include "../instance.h"
 #include "../system/pool.h"
 
-/* Room for the axes of an instance. */
+/* Places the arrays for the axes of an instance. */
 void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool);
-/* After parameters have changed axes: what follows from them. */
+/* Updates the System of the instance after parameters have changed axes. */
 void ali3_axes_apply(ali3_instance *in);
-/* Whether parameters leave the axis of wheel k as it is drawn. */
+/* Whether the axis of wheel k is as drawn. */
 bool ali3_axis_as_drawn(const ali3_instance *in, int64_t k);
 /* Change of the second moments of wheel k about its centre, along the axes of the drawing. */
 void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]);
-/* Whether both have the same axes: one System then serves both. */
+/* Whether both instances have equal axes, so that one System applies to both. */
 bool ali3_axes_same(const ali3_instance *one, const ali3_instance *other);
 #endif

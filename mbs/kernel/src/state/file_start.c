@@ -1,4 +1,4 @@
-/* The start of a System as its file has it. */
+/* Resets the start of an instance to that of the System's file. */
 #include <string.h>
 
 #include "../instance.h"

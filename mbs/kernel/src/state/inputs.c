@@ -1,6 +1,6 @@
-/* Inputs at the times within a step. Values that the caller has set go straight from the present ones to those given for
- * the end of the step, or are held; a function of time is asked for each of them: behind a jump at the start of the
- * step, before one at its end. */
+/* Inputs within a step. Values set by the caller are interpolated linearly to those given for the end of the step,
+ * or constant; a function of time is called at each time: after a jump at the start of the step, before a jump at
+ * its end. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,12 +10,13 @@
 #include "inputs.h"
 #include "road_files.h"
 
-static const double NEAR = 1e-9; /* of a step: a part that ends so near to its end ends there */
-/* Relative round-off of a value that is reached and set again, or of a table at one of its times, from either side. */
+static const double NEAR = 1e-9; /* of a step: tolerance for a part that ends at its end */
+/* Relative round-off between a value reached by interpolation and the same value set again, or read from a table on
+ * either side of a time. */
 static const double ROUND_OFF = 1e-13;
 
-/* Whether inputs (nu) give all roads at ports their normals. */
-static ali3_status normals(ali3_instance *in, const double *input) {
+/* Checks that inputs (nu) give the roads at ports valid normals. */
+static ali3_status check_normals(ali3_instance *in, const double *input) {
   const double *const used = in->inputs.forces;
   in->inputs.forces = input;
   const ali3_status status = ali3_roads_normals(in);
@@ -23,8 +24,8 @@ static ali3_status normals(ali3_instance *in, const double *input) {
   return status;
 }
 
-/* Inputs of the function at time t to `to` (nu), held in their ranges. */
-static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
+/* Calls the input function at time t and writes its values to `to` (nu), limited to their ranges. */
+static ali3_status call_function(ali3_instance *in, double t, bool after, double *to) {
   const ali3_system *S = in->system;
   memcpy(in->inputs.work, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   const ali3_float_control host = in->inputs.host_control;
@@ -35,11 +36,11 @@ static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
   if (refused != 0) return ALI3_BAD_ARGUMENT;
   if (!ali3_finite(in->inputs.work, S->size.nu)) return ALI3_BAD_ARGUMENT;
   for (int32_t i = 0; i < S->size.nu; i++) to[i] = fmax(S->input_min[i], fmin(S->input_max[i], in->inputs.work[i]));
-  return normals(in, to);
+  return check_normals(in, to);
 }
 
-/* For a step of size h from the present time: from the present inputs to `end` (nu), held in their ranges; NULL: they
- * are held. */
+/* Sets the inputs of a step of size h from the present time: from the present values to `end` (nu), limited to their
+ * ranges; NULL: constant. */
 ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
   const ali3_system *S = in->system;
   if (end != NULL && !ali3_finite(end, S->size.nu)) return ALI3_BAD_ARGUMENT;
@@ -52,44 +53,46 @@ ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
   return ALI3_OK;
 }
 
-/* Inputs at both ends of a step, or a part of one, of size h that ends at time t: in->inputs.begin and in->inputs.set. */
+/* Computes the inputs at both ends of a step, or of a part of one, that ends at time t: in->inputs.begin and
+ * in->inputs.set. */
 ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   in->inputs.part_time = in->clock.now;
   in->inputs.part_length = h;
   if (in->inputs.function != NULL) {
-    const ali3_status status = ask(in, in->clock.now, true, in->inputs.begin);
-    return status == ALI3_OK ? ask(in, t, false, in->inputs.set) : status;
+    const ali3_status status = call_function(in, in->clock.now, true, in->inputs.begin);
+    return status == ALI3_OK ? call_function(in, t, false, in->inputs.set) : status;
   }
-  const double left = in->inputs.whole_time + in->inputs.whole_length - t;
+  const double remaining = in->inputs.whole_time + in->inputs.whole_length - t;
   memcpy(in->inputs.begin, in->clock.now == in->inputs.whole_time ? in->inputs.from : in->now.used,
          (size_t)S->size.nu * sizeof(double));
   memcpy(in->inputs.set, in->inputs.to, (size_t)S->size.nu * sizeof(double));
-  if (left > fmax(NEAR * in->inputs.whole_length, 4.0 * DBL_EPSILON * fabs(t))) /* late times are coarse */
+  /* large times have a coarse resolution */
+  if (remaining > fmax(NEAR * in->inputs.whole_length, 4.0 * DBL_EPSILON * fabs(t)))
     for (int32_t i = 0; i < S->size.nu; i++)
-      in->inputs.set[i] -= left / in->inputs.whole_length * (in->inputs.to[i] - in->inputs.from[i]);
+      in->inputs.set[i] -= remaining / in->inputs.whole_length * (in->inputs.to[i] - in->inputs.from[i]);
   return ali3_roads_normals(in);
 }
 
-/* in->inputs.middle becomes the inputs at a share, 0 to 1, of the step that was given to ali3_inputs_begin. */
-ali3_status ali3_inputs_at(ali3_instance *in, double share) {
+/* Writes the inputs at a fraction, 0 to 1, of the step begun by ali3_inputs_begin to in->inputs.middle. */
+ali3_status ali3_inputs_at(ali3_instance *in, double fraction) {
   const double *u0 = in->inputs.begin;
   const size_t size = (size_t)in->system->size.nu * sizeof(double);
-  if (in->inputs.function != NULL && share > 0.0 && share < 1.0)
-    return ask(in, in->inputs.part_time + share * in->inputs.part_length, false, in->inputs.middle);
+  if (in->inputs.function != NULL && fraction > 0.0 && fraction < 1.0)
+    return call_function(in, in->inputs.part_time + fraction * in->inputs.part_length, false, in->inputs.middle);
   if (in->inputs.function != NULL)
-    memcpy(in->inputs.middle, share > 0.0 ? in->inputs.set : u0, size);
+    memcpy(in->inputs.middle, fraction > 0.0 ? in->inputs.set : u0, size);
   else
     for (int32_t i = 0; i < in->system->size.nu; i++)
-      in->inputs.middle[i] = u0[i] + share * (in->inputs.set[i] - u0[i]);
+      in->inputs.middle[i] = u0[i] + fraction * (in->inputs.set[i] - u0[i]);
   return ALI3_OK;
 }
 
-/* Whether the inputs jump at the start of the step: the accelerations that the last one left then do not hold. */
+/* Whether the inputs jump at the start of the step, so that the last accelerations are invalid. */
 bool ali3_inputs_jump(const ali3_instance *in) {
   for (int32_t i = 0; i < in->system->size.nu; i++) {
-    const double before = in->now.used[i], behind = in->inputs.begin[i];
-    if (fabs(behind - before) > ROUND_OFF * (fabs(behind) + fabs(before))) return true;
+    const double before = in->now.used[i], after = in->inputs.begin[i];
+    if (fabs(after - before) > ROUND_OFF * (fabs(after) + fabs(before))) return true;
   }
   return false;
 }

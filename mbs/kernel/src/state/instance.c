@@ -1,4 +1,4 @@
-/* Instances: memory, settings, inputs, the state to start from. */
+/* Instances: memory, settings, inputs, start position and velocity. */
 #include <math.h>
 #include <string.h>
 
@@ -17,11 +17,11 @@
 uint32_t ali3_version(void) { return ALI3_SYSTEM_VERSION; }
 
 size_t ali3_instance_size(const ali3_system *s) {
-  ali3_instance counted;
+  ali3_instance placed;
   ali3_pool pool = {.block = NULL, .used = 0};
   if (s == NULL) return 0;
-  ali3_pool_items(&pool, 1, sizeof counted);
-  ali3_workspace_place(s, &counted, &pool);
+  ali3_pool_items(&pool, 1, sizeof placed);
+  ali3_workspace_place(s, &placed, &pool);
   return pool.used;
 }
 
@@ -71,7 +71,7 @@ ali3_settings ali3_default_settings(void) {
   return settings;
 }
 
-/* Only Newton's iteration of the augmented Lagrangian has iterates that can be accepted. */
+/* A limit of iterations requires the augmented Lagrangian, whose iterates can be accepted before convergence. */
 static bool limit_valid(const ali3_settings *s) {
   return s->step_iterations == 0 || (s->step_iterations > 0 && s->step_iterations <= 1000 &&
                                      (s->method == ALI3_METHOD_ALI3P || s->method == ALI3_METHOD_GENERALISED_ALPHA));
@@ -94,9 +94,9 @@ static void copy(double *to, const double *from, int64_t n) {
 ali3_status ali3_reset(ali3_instance *in) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_system *S = in->system;
-  const ali3_report none = {0};
+  const ali3_report no_report = {0};
   in->settings = ali3_default_settings();
-  in->report = none;
+  in->report = no_report;
   in->clock.base = in->clock.h = 0.0;
   in->clock.count = 0;
   in->start.initialised = 0;
@@ -136,12 +136,12 @@ ali3_status ali3_reset(ali3_instance *in) {
                             .input = &in->inputs.forces};
     in->roads.used[r] = in->roads.own[r] = road;
     in->roads.own[r].file = NULL;
-    in->roads.own[r].input = &S->input_start; /* the drawing is one on what the inputs start with */
+    in->roads.own[r].input = &S->input_start; /* the drawing refers to the start values of the inputs */
   }
   return ali3_parameters_apply(in);
 }
 
-/* Clamped to the range of the input. */
+/* Sets an input, limited to its range. */
 ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value) {
   if (in == NULL || index < 0 || index >= in->system->size.nu || !(value - value == 0.0)) return ALI3_BAD_ARGUMENT;
   in->inputs.set[index] = fmax(in->system->input_min[index], fmin(in->system->input_max[index], value));
@@ -157,16 +157,17 @@ ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value
 ali3_status ali3_set_pose(ali3_instance *in, const double *pose) {
   if (in == NULL || pose == NULL || !in->system->size.has_pose || !ali3_finite(pose, ALI3_POSE))
     return ALI3_BAD_ARGUMENT;
-  const double x = pose[0], y = pose[1], z = pose[2], yaw = pose[3], speed = pose[4], left = pose[5], rate = pose[6];
+  const double x = pose[0], y = pose[1], z = pose[2], yaw = pose[3], speed = pose[4], lateral_speed = pose[5],
+               rate = pose[6];
   if (fmax(fabs(x), fmax(fabs(y), fabs(z))) > ALI3_FARTHEST) return ALI3_TOO_FAR;
-  if (fmax(fmax(fabs(speed), fabs(left)), fmax(fabs(yaw), fabs(rate))) > ALI3_FASTEST) return ALI3_TOO_FAR;
+  if (fmax(fmax(fabs(speed), fabs(lateral_speed)), fmax(fabs(yaw), fabs(rate))) > ALI3_FASTEST) return ALI3_TOO_FAR;
   const ali3_system *S = in->system;
   const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {
     in->now.q[i] = in->start.pose_0[i] + c * in->start.pose_cos[i] + s * in->start.pose_sin[i] + x * S->pose_x[i] +
                    y * S->pose_y[i] + z * S->pose_z[i];
     in->now.qd[i] = speed * (c * S->pose_x[i] + s * S->pose_y[i] + S->pose_speed[i]);
-    if (left != 0.0) in->now.qd[i] += left * (c * S->pose_y[i] - s * S->pose_x[i]);
+    if (lateral_speed != 0.0) in->now.qd[i] += lateral_speed * (c * S->pose_y[i] - s * S->pose_x[i]);
     if (rate != 0.0) in->now.qd[i] += rate * (c * in->start.pose_sin[i] - s * in->start.pose_cos[i]);
   }
   memmove(in->start.pose, pose, sizeof in->start.pose);

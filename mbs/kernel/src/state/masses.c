@@ -1,8 +1,8 @@
 /* Masses of an instance. The points of payloads are signals p = C q + c, so that a payload of mass m adds m C'C to the
- * mass matrix, m C'g to the force of gravity and -m g.c to its energy. A body whose inertia parameters write has it in
- * the matrix of the System as drawn; the change of its moments over (1, place) adds in the same way, between signals.
- * What turns r times as fast as a coordinate adds J r^2 there; the matrix of the System has it with the ratio r of the
- * drawing. Whatever reads masses reads these sums. */
+ * mass matrix, m C'g to the force of gravity and -m g.c to its energy. A body with inertia set by parameters is in the
+ * matrix of the System as drawn; the change of its moments over (1, position) is added in the same way, between
+ * signals. An armature that rotates r times as fast as a coordinate adds J r^2, of which the System includes that of
+ * the drawn ratio. */
 #include <math.h>
 #include <string.h>
 
@@ -12,42 +12,42 @@
 #include "axes.h"
 #include "masses.h"
 
-static bool changes(const ali3_system *s) {
+static bool has_changes(const ali3_system *s) {
   return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0 || s->n_axis_inertia > 0;
 }
 
-/* Memory of the sums, where something changes them. */
+/* Places the arrays of the sums, if anything changes them. */
 void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
-  const bool loaded = changes(s);
-  const size_t nq = loaded ? (size_t)s->size.nq : 0;
+  const bool changing = has_changes(s);
+  const size_t nq = changing ? (size_t)s->size.nq : 0;
   in->parameters.payload_mass = ali3_pool_array(p, (size_t)s->n_payload_mass);
   in->parameters.armature_ratio = ali3_pool_array(p, (size_t)s->n_armature_ratio);
   in->parameters.inertia_real = ali3_pool_array(p, (size_t)s->n_inertia_real);
-  in->mass.own.val = ali3_pool_array(p, loaded ? (size_t)s->size.nnz_mass : 0);
-  in->mass.own.front = ali3_pool_array(p, loaded ? (size_t)s->size.front_size : 0);
+  in->mass.own.val = ali3_pool_array(p, changing ? (size_t)s->size.nnz_mass : 0);
+  in->mass.own.front = ali3_pool_array(p, changing ? (size_t)s->size.front_size : 0);
   in->mass.own.floor = ali3_pool_array(p, nq);
   in->mass.own.floor_inverse = ali3_pool_array(p, nq);
   in->mass.own.missing = ali3_pool_array(p, nq);
   in->mass.own.gravity = ali3_pool_array(p, nq);
 }
 
-/* Once, for a new instance. */
+/* Selects the mass arrays of a new instance. */
 void ali3_masses_start(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_own_masses *own = &in->mass.own;
-  const bool loaded = changes(S);
-  in->mass.val = loaded ? own->val : S->mass_val;
+  const bool changing = has_changes(S);
+  in->mass.val = changing ? own->val : S->mass_val;
   in->mass.isotropic = true;
-  in->mass.front = loaded ? own->front : S->front_mass;
-  in->mass.floor = loaded ? own->floor : S->mass_floor;
-  in->mass.floor_inverse = loaded ? own->floor_inverse : S->mass_floor_inverse;
-  in->mass.missing = loaded ? own->missing : S->mass_missing;
-  in->mass.gravity = loaded ? own->gravity : S->gravity_force;
+  in->mass.front = changing ? own->front : S->front_mass;
+  in->mass.floor = changing ? own->floor : S->mass_floor;
+  in->mass.floor_inverse = changing ? own->floor_inverse : S->mass_floor_inverse;
+  in->mass.missing = changing ? own->missing : S->mass_missing;
+  in->mass.gravity = changing ? own->gravity : S->gravity_force;
   in->mass.gravity_const = S->gravity_const[0];
 }
 
-/* A mass on a signal whose component of gravity is g. */
-static void add(ali3_instance *in, int32_t signal, double mass, double g) {
+/* Adds a mass on a signal with component g of gravity. */
+static void add_point_mass(ali3_instance *in, int32_t signal, double mass, double g) {
   const ali3_system *S = in->system;
   const int32_t first = S->sig_ptr[signal], end = S->sig_ptr[signal + 1];
   for (int32_t a = first; a < end; a++) {
@@ -61,8 +61,8 @@ static void add(ali3_instance *in, int32_t signal, double mass, double g) {
   in->mass.gravity_const -= mass * g * S->sig_const[signal];
 }
 
-/* A moment of mass between the signals of two vectors. */
-static void couple(ali3_instance *in, int32_t one, int32_t other, double moment) {
+/* Adds a moment of mass between the signals of two vectors. */
+static void add_moment(ali3_instance *in, int32_t one, int32_t other, double moment) {
   const ali3_system *S = in->system;
   for (int32_t a = S->sig_ptr[one]; a < S->sig_ptr[one + 1]; a++) {
     const int32_t row = S->sig_col[a], start = S->mass_ptr[row], n = S->mass_ptr[row + 1] - start;
@@ -72,8 +72,8 @@ static void couple(ali3_instance *in, int32_t one, int32_t other, double moment)
   }
 }
 
-/* Moments of a body over (1, place from `origin`): mass, mass times place, and second moments tr(I) / 2 - I of its
- * inertia about the centre of mass, moved to the origin. */
+/* Moments of a body over (1, position from `origin`): mass, first moments, and second moments tr(I)/2 - I of its
+ * inertia about the centre of mass, transferred to the origin. */
 static void moments(const double *real, const double *origin, double out[4][4]) {
   static const int product[3][3] = {{4, 7, 8}, {7, 5, 9}, {8, 9, 6}};
   const double half = 0.5 * (real[4] + real[5] + real[6]);
@@ -86,8 +86,8 @@ static void moments(const double *real, const double *origin, double out[4][4]) 
   }
 }
 
-/* Changes the mass matrix by the inertia of body k; nothing if it is that of the System. */
-static void weigh(ali3_instance *in, int64_t k) {
+/* Adds the change of the inertia of body k to the mass matrix, if it differs from the System's. */
+static void apply_inertia(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
   const double *old = S->inertia_real + k * ALI3_INERTIA_REALS,
                *now = in->parameters.inertia_real + k * ALI3_INERTIA_REALS;
@@ -100,15 +100,15 @@ static void weigh(ali3_instance *in, int64_t k) {
     for (int x = 0; x < 3; x++) {
       const int32_t own = signal[3 * v + x];
       const double first = (after[0][v] - before[0][v]) * S->inertia_gravity[x];
-      for (int w = 0; w < 4; w++) couple(in, own, signal[3 * w + x], after[v][w] - before[v][w]);
+      for (int w = 0; w < 4; w++) add_moment(in, own, signal[3 * w + x], after[v][w] - before[v][w]);
       for (int32_t a = S->sig_ptr[own]; a < S->sig_ptr[own + 1]; a++)
         in->mass.own.gravity[S->sig_col[a]] += first * S->sig_val[a];
       in->mass.gravity_const -= first * S->sig_const[own];
     }
 }
 
-/* Changes the mass matrix by the ratio of an armature; nothing if it is that of the System. */
-static void turn(ali3_instance *in, int64_t k) {
+/* Adds the change of an armature's ratio to the mass matrix. */
+static void apply_armature(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
   const int32_t row = S->armature_col[k], start = S->mass_ptr[row];
   double *mass = in->mass.own.val + start + ali3_find(S->mass_col + start, S->mass_ptr[row + 1] - start, row);
@@ -116,8 +116,9 @@ static void turn(ali3_instance *in, int64_t k) {
   *mass = fmax(*mass + S->armature_inertia[k] * (now * now - old * old), 0.0);
 }
 
-/* Changes the mass matrix by the axis of wheel k on its carrier, unless that is tabled; nothing if it is as drawn. */
-static void tilt(ali3_instance *in, int64_t k) {
+/* Adds the change by the axis of wheel k on its carrier to the mass matrix, if it differs from the drawing and the
+ * carrier is not tabled. */
+static void apply_axis(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->base;
   const int32_t *frame = S->axis_frame + k * ALI3_AXIS_SIGNALS;
   double change[3][3];
@@ -125,11 +126,11 @@ static void tilt(ali3_instance *in, int64_t k) {
   ali3_axis_moments(in, k, change);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      for (int x = 0; x < 3; x++) couple(in, frame[3 * i + x], frame[3 * j + x], change[i][j]);
+      for (int x = 0; x < 3; x++) add_moment(in, frame[3 * i + x], frame[3 * j + x], change[i][j]);
 }
 
-/* Mass that each joint of the tree carries, with the payloads. */
-static void carry(ali3_instance *in) {
+/* Mass carried by each joint of the tree, including payloads. */
+static void sum_carried_mass(ali3_instance *in) {
   const ali3_tree *T = in->system->tree;
   double *carried = in->tree->composite;
   memcpy(carried, T->composite, sizeof T->composite);
@@ -138,21 +139,21 @@ static void carry(ali3_instance *in) {
       carried[b] += in->parameters.payload_mass[k];
 }
 
-/* After payloads, ratios, inertias or axes have changed. */
+/* Updates the masses after payloads, ratios, inertias or axes have changed. */
 void ali3_masses_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_own_masses *own = &in->mass.own;
-  if (S->tree != NULL) carry(in);
-  if (!changes(S)) return;
+  if (S->tree != NULL) sum_carried_mass(in);
+  if (!has_changes(S)) return;
   memcpy(own->val, S->mass_val, (size_t)S->size.nnz_mass * sizeof(double));
   memcpy(own->gravity, S->gravity_force, (size_t)S->size.nq * sizeof(double));
   in->mass.gravity_const = S->gravity_const[0];
   for (int64_t i = 0; i < 3 * S->n_payload_mass; i++)
     if (in->parameters.payload_mass[i / 3] > 0.0)
-      add(in, S->payload_signal[i], in->parameters.payload_mass[i / 3], S->payload_gravity[i % 3]);
-  for (int64_t k = 0; k < S->n_armature_ratio; k++) turn(in, k);
-  for (int64_t k = 0; k < S->n_inertia_real / ALI3_INERTIA_REALS; k++) weigh(in, k);
-  for (int64_t k = 0; k < S->n_axis_inertia; k++) tilt(in, k);
+      add_point_mass(in, S->payload_signal[i], in->parameters.payload_mass[i / 3], S->payload_gravity[i % 3]);
+  for (int64_t k = 0; k < S->n_armature_ratio; k++) apply_armature(in, k);
+  for (int64_t k = 0; k < S->n_inertia_real / ALI3_INERTIA_REALS; k++) apply_inertia(in, k);
+  for (int64_t k = 0; k < S->n_axis_inertia; k++) apply_axis(in, k);
   in->mass.isotropic = ali3_mass_isotropic(S, own->val);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
 }

@@ -1,4 +1,4 @@
-/* The mass matrix of an instance: that of the System and its payloads. */
+/* Mass matrix of an instance: that of the System with payloads, armatures, inertias and axes set by parameters. */
 #ifndef ALI3_MASSES_H
 #define ALI3_MASSES_H
 #include "../instance.h"

@@ -1,5 +1,5 @@
-/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads, payloads, armatures,
- * bodies and sensors, and the switches with which it starts. */
+/* Parameters of an instance, written to its copies of the data of elements, guides, roads, payloads, armatures, bodies,
+ * axes and sensors, and to the start states of switches. */
 #include "parameters.h"
 
 #include <string.h>
@@ -13,14 +13,14 @@
 
 ALI3_BRANCHES_AS_WRITTEN
 
-/* Number that a parameter of a value writes to its target k. */
+/* Number that a parameter with a value writes to target k. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
   const bool inverse = S->n_par_inverse > 0 && S->par_inverse[k];
   const double product = inverse ? S->par_scale[k] / value : S->par_scale[k] * value;
   return S->n_par_offset > 0 ? product + S->par_offset[k] : product;
 }
 
-/* The data of an instance that parameters write, by target. */
+/* Arrays of an instance that parameters write, by target. */
 typedef struct {
   double *of[ALI3_TARGET_COUNT];
 } targets;
@@ -44,27 +44,27 @@ static void write(ali3_instance *in, int32_t p) {
     target.of[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameters.value[p]);
 }
 
-/* The check of target k, or with k = -1 of all data. */
+/* Checks target k, or all data if k = -1. */
 static const char *check(const ali3_instance *in, int64_t k) {
   const targets target = targets_of(in);
   const double *const *data = (const double *const *)target.of;
   return k < 0 ? ali3_check_data(in->system, data) : ali3_check_target(in->system, k, data);
 }
 
-static bool writes_to(const ali3_system *S, int32_t p, int32_t family) {
+static bool has_target(const ali3_system *S, int32_t p, int32_t family) {
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     if (S->par_target[k] == family) return true;
   return false;
 }
 
-/* The switches that parameters write to stand as these say. */
+/* Sets the switches with parameters to their values. */
 void ali3_parameters_switch(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int64_t k = 0; k < S->n_par_target; k++)
     if (S->par_target[k] == ALI3_TARGET_SWITCH) in->now.on[S->par_index[k]] = in->parameters.switch_on[S->par_index[k]];
 }
 
-/* All of them; refused as a whole when an element, guide or road cannot take its data. */
+/* Applies all parameters; ALI3_BAD_ARGUMENT if the data of an element, guide or road become invalid. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   for (int32_t p = 0; p < in->system->size.np; p++) write(in, p);
   ali3_guides_measure(in);
@@ -74,8 +74,8 @@ ali3_status ali3_parameters_apply(ali3_instance *in) {
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
-/* Whether elements, guides and roads take these values, size.np doubles at any address; if not, the instance keeps its
- * own, which parameters.work has after this in both cases. */
+/* Sets all values (size.np doubles at any address) if the data they write are valid, else keeps the present ones; in
+ * both cases the previous values are in parameters.work afterwards. */
 bool ali3_parameters_take(ali3_instance *in, const void *values) {
   const size_t size = (size_t)in->system->size.np * sizeof(double);
   memcpy(in->parameters.work, in->parameters.value, size);
@@ -86,12 +86,12 @@ bool ali3_parameters_take(ali3_instance *in, const void *values) {
   return false;
 }
 
-/* One of them, and the checks of what it writes to. */
-static ali3_status take(ali3_instance *in, int32_t p, double value) {
+/* Sets one parameter and checks the data that it writes. */
+static ali3_status write_checked(ali3_instance *in, int32_t p, double value) {
   const ali3_system *S = in->system;
   in->parameters.value[p] = value;
   write(in, p);
-  if (writes_to(S, p, ALI3_TARGET_GUIDE)) ali3_guides_measure(in);
+  if (has_target(S, p, ALI3_TARGET_GUIDE)) ali3_guides_measure(in);
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     if (check(in, k) != NULL) return ALI3_BAD_ARGUMENT;
   return ALI3_OK;
@@ -106,24 +106,24 @@ ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
   if (!in_range(in, index, value)) return ALI3_BAD_ARGUMENT;
   const double before = in->parameters.value[index];
   if (in->start.initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
-  const ali3_status status = take(in, index, value);
-  if (status != ALI3_OK) take(in, index, before);
+  const ali3_status status = write_checked(in, index, value);
+  if (status != ALI3_OK) write_checked(in, index, before);
   in->report.free_states = 0;
-  const bool axes = writes_to(in->system, index, ALI3_TARGET_AXIS);
-  const bool masses = axes || writes_to(in->system, index, ALI3_TARGET_PAYLOAD) ||
-                      writes_to(in->system, index, ALI3_TARGET_ARMATURE) ||
-                      writes_to(in->system, index, ALI3_TARGET_INERTIA);
+  const bool axes = has_target(in->system, index, ALI3_TARGET_AXIS);
+  const bool masses = axes || has_target(in->system, index, ALI3_TARGET_PAYLOAD) ||
+                      has_target(in->system, index, ALI3_TARGET_ARMATURE) ||
+                      has_target(in->system, index, ALI3_TARGET_INERTIA);
   if (status == ALI3_OK && axes) ali3_axes_apply(in);
   if (status == ALI3_OK && masses) ali3_masses_apply(in);
-  if (status == ALI3_OK && writes_to(in->system, index, ALI3_TARGET_SWITCH)) ali3_parameters_switch(in);
+  if (status == ALI3_OK && has_target(in->system, index, ALI3_TARGET_SWITCH)) ali3_parameters_switch(in);
   return status;
 }
 
 ali3_status ali3_try_parameter(ali3_instance *in, int32_t index, double value) {
   if (!in_range(in, index, value)) return ALI3_BAD_ARGUMENT;
   const double before = in->parameters.value[index];
-  const ali3_status status = take(in, index, value);
-  take(in, index, before);
+  const ali3_status status = write_checked(in, index, value);
+  write_checked(in, index, before);
   return status;
 }
 

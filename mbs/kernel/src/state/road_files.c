@@ -1,4 +1,4 @@
-/* Files in place of the roads of a System: set before a start, read as the scene comes near. */
+/* Road files of an instance: set before a start, read while the scene moves. */
 #include "road_files.h"
 
 #include <stdio.h>

@@ -1,16 +1,16 @@
-/* Files in place of the roads of a System. */
+/* Road files of an instance, replacing roads of the System. */
 #ifndef ALI3_ROAD_FILES_H
 #define ALI3_ROAD_FILES_H
 #include "../instance.h"
 
-/* ALI3_ROAD_LOST where a part of a file could not be read since ali3_roads_forgive. */
+/* ALI3_ROAD_LOST if part of a file could not be read since ali3_roads_forgive. */
 ali3_status ali3_roads_status(const ali3_instance *in);
 void ali3_roads_forgive(ali3_instance *in);
-/* Whether a road is a file or at ports: how high it lies under a start is not known before. */
+/* Whether a road is a file or at a port, so that its height under the start is unknown when the System is made. */
 bool ali3_roads_from_outside(const ali3_instance *in);
-/* ALI3_BAD_NORMAL where the inputs in use give a road at a port none. */
+/* ALI3_BAD_NORMAL if the inputs in use give a road at a port an invalid normal. */
 ali3_status ali3_roads_normals(const ali3_instance *in);
-/* Checksum of the System and of what its roads are. */
+/* Checksum of the System and of its road files. */
 uint32_t ali3_model_crc(const ali3_instance *in);
 void ali3_roads_close(ali3_instance *in);
 #endif

@@ -1,10 +1,10 @@
-/* Displacements of the signals whose elements' work a sensor asks for. */
+/* Displacements over a step of the signals of elements whose work is sensed. */
 #include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../tabled/tabled.h"
 #include "work.h"
 
-ALI3_INLINED void signal_displacements(const ali3_instance *in, real *ways) {
+ALI3_INLINED void signal_displacements(const ali3_instance *in, real *displacement) {
   const ali3_system *S = in->system;
   const real *D = in->step.D;
   if (S->n_tabled > 0) {
@@ -17,9 +17,10 @@ ALI3_INLINED void signal_displacements(const ali3_instance *in, real *ways) {
       real sum = {0};
       ALI3_SHORT
       for (int32_t t = S->sig_ptr[*signal]; t < S->sig_ptr[*signal + 1]; t++) sum += S->sig_val[t] * D[S->sig_col[t]];
-      ways[i] = sum;
+      displacement[i] = sum;
     }
   }
 }
 
-ALI3_BY_PROCESSOR(in->system, void, signal_displacements, (const ali3_instance *in, real *ways), (in, ways))
+ALI3_BY_PROCESSOR(in->system, void, signal_displacements, (const ali3_instance *in, real *displacement),
+                  (in, displacement))

@@ -1,5 +1,5 @@
-/* A copy in memory of what inputs, parameters and steps change, for steps that are taken back. It returns to the
- * instance it was taken of, so it needs no header, checksum or checks of ali3_state_restore. */
+/* Snapshot of the state, inputs and parameters in memory, for steps that are undone. It is restored to the same
+ * instance, so it needs neither header nor checksum nor the checks of ali3_state_restore. */
 #include <string.h>
 
 #include "../instance.h"
@@ -7,10 +7,12 @@
 #include "snapshot.h"
 #include "vectors.h"
 
-static size_t numbers(const ali3_system *s) { return ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np; }
+static size_t number_count(const ali3_system *s) {
+  return ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np;
+}
 
 size_t ali3_snapshot_size(const ali3_system *s) {
-  return s != NULL ? sizeof(ali3_snapshot_head) + numbers(s) * sizeof(double) : 0;
+  return s != NULL ? sizeof(ali3_snapshot_head) + number_count(s) * sizeof(double) : 0;
 }
 
 static void copy(double *to, const double *from, size_t n) {
@@ -40,10 +42,10 @@ void ali3_snapshot_restore(ali3_instance *in, const void *snapshot) {
   in->clock.base = head->t_base;
   in->clock.h = head->h_last;
   in->clock.count = head->count;
-  in->branch.known = false; /* the angles are those of a later position */
+  in->branch.known = false; /* its angles are of a later position */
   copy(in->now.q, vector, in->kept.n);
   copy(in->inputs.set, vector + in->kept.n, nu);
   if (np == 0 || memcmp(in->parameters.value, parameter, np * sizeof(double)) == 0) return;
   copy(in->parameters.value, parameter, np);
-  ali3_parameters_apply(in); /* they were accepted before */
+  ali3_parameters_apply(in); /* these values are valid, as they were applied before */
 }

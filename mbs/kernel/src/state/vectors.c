@@ -1,4 +1,4 @@
-/* The vectors of a state: their places in one block, and copies of the whole block. */
+/* Vectors of a state: their positions in one block, and copies of the whole block. */
 #include <string.h>
 
 #include "../algebra/finite.h"
@@ -50,8 +50,8 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
   memcpy(to->q, from->q, in->kept.n * sizeof(double));
 }
 
-/* Copies the part of the state that a method which fills it does not write: all but positions, velocities,
- * accelerations and multipliers, and the past of the last two if there is one that steps do not write. */
+/* Copies the vectors that a method does not write: all except positions, velocities, accelerations and multipliers, and
+ * the past of the last two if steps do not write it. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
   const double *end = from->q + in->kept.n, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
   const bool past = in->system->n_flexible > 0 && from->history[ALI3_HISTORY_COUNT] > 0.0;
@@ -59,18 +59,18 @@ void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, cons
   if (!past) memcpy(to->q + (past_end - from->q), past_end, (size_t)(end - past_end) * sizeof(double));
 }
 
-/* Once a step, before anything changes in->now: what it goes back to when the step fails. */
+/* Stores in->now once per step, before it changes, for a failed step. */
 void ali3_back_up(ali3_instance *in) {
   if (in->kept.backed_up) return;
   ali3_vectors_copy(in, &in->kept.start, &in->now);
   in->kept.backed_up = true;
 }
 
-/* Whether a state is finite; of the past only what the step added, since the rest was checked in a state before. */
+/* Whether a state is finite; of the past only what the step added, as the rest was checked before. */
 ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v) {
   const int64_t nq = in->system->size.nq, nc = in->system->size.nc;
-  const double *behind = v->past_lam + ALI3_PAST * nc;
-  const double *const begin[] = {v->q, v->past_lam, behind};
+  const double *rest = v->past_lam + ALI3_PAST * nc;
+  const double *const begin[] = {v->q, v->past_lam, rest};
   const double *const end[] = {v->past_a + nq, v->past_lam + nc, v->q + in->kept.n};
   for (int k = 0; k < 3; k++)
     if (!ali3_finite_inlined(begin[k], end[k] - begin[k])) return false;
@@ -79,7 +79,7 @@ ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v)
 
 ALI3_BY_PROCESSOR(in->system, bool, vectors_finite, (const ali3_instance *in, const ali3_vectors *v), (in, v))
 
-/* in->next becomes the state when all of it is finite and the road under it is known. */
+/* Swaps in->next in as the state if it is finite and the road under it could be read. */
 ali3_status ali3_accept(ali3_instance *in) {
   if (!ali3_vectors_finite(in, &in->next)) return ALI3_NOT_FINITE;
   if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;

@@ -1,4 +1,4 @@
-/* The vectors of a state: their places, copies, the state before a step and after it. */
+/* Vectors of a state: placing, copying, backup and acceptance of a step. */
 #ifndef ALI3_STATE_VECTORS_H
 #define ALI3_STATE_VECTORS_H
 #include "../instance.h"

@@ -1,12 +1,13 @@
-/* Work of force elements on the mechanism, of those that sensors of type 19 name: by the quadrature that the method of
- * a step itself uses, so that the work of all forces is the change of the energy but for what the method errs by.
+/* Work of force elements on the mechanism, of the elements named by work sensors, by the quadrature of the method
+ * itself, so that the total work equals the change of energy except for the error of the method.
  *
- * Trapezoidal rule: D'(f0 + f1)/2 with the forces that Newton's loop balanced. Energy-momentum: D'f of the middle,
- * where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages.
+ * Trapezoidal rule: D'(f0 + f1)/2 with the forces of the converged Newton iteration. Energy-momentum: D'f of the
+ * middle, where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages.
  *
- * The work of guides is behind that of the elements: with the energy balance of ALi3-P and generalised-alpha
- * (../methods/constraint_work.c), by the force of driven rows along their own way with energy-momentum and Radau, by
- * the powers of the stages with Runge-Kutta, and in relative coordinates as the mean of the powers at both ends. */
+ * The work of guides is stored after that of the elements: with ALi3-P and generalised-alpha from the energy balance
+ * (../methods/constraint_work.c), with energy-momentum and Radau from the forces of driven rows along their guides,
+ * with Runge-Kutta from the powers of the stages, and in relative coordinates as the mean of the powers at both
+ * ends. */
 #include <string.h>
 
 #include "../algebra/number_pairs.h"
@@ -20,12 +21,12 @@ static void copy(double *to, const double *from, int32_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
-/* v has the forces of the last ali3_forces. */
+/* Stores the watched forces and powers of the last ali3_forces, evaluated at v. */
 void ali3_work_store(const ali3_instance *in, ali3_vectors *v) {
   copy(v->watched, in->watch.now, in->system->n_work + in->system->n_work_force);
 }
 
-/* Power of the guides at a state. */
+/* Power of the guides at a state, W. */
 double ali3_guides_power(ali3_instance *in, const ali3_vectors *v) {
   double power = 0.0;
   ali3_constraint_rate(in, v->q, v, in->step.mu);
@@ -37,7 +38,7 @@ void ali3_guides_work(const ali3_instance *in, ali3_vectors *v, double work) {
   if (in->system->n_guide_work > 0) v->work[in->system->n_work] += work;
 }
 
-/* A start, where no work has been done yet; the last ali3_forces was that of v. */
+/* Resets the work at a start; the last ali3_forces was at v. */
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   if (S->n_guide_work > 0) v->work[S->n_work] = 0.0;
@@ -48,8 +49,8 @@ void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
   if (S->n_input_work > 0) memset(v->by_inputs, 0, (size_t)S->n_input_work * sizeof(double));
 }
 
-/* Forces at a state, with what its elements have stored. */
-static void forces_at(ali3_instance *in, const ali3_vectors *v, double *potential) {
+/* Evaluates the forces and potentials at a state. */
+static void evaluate_forces(ali3_instance *in, const ali3_vectors *v, double *potential) {
   const ali3_force_call call = {.q = v->q,
                                 .qd = v->qd,
                                 .y_old = v->y,
@@ -60,75 +61,75 @@ static void forces_at(ali3_instance *in, const ali3_vectors *v, double *potentia
   ali3_forces(in, &call);
 }
 
-/* Forces at in->now with the inputs of the last step, for a method that did not make that step. */
+/* Evaluates the forces at in->now with the inputs of the last step, for a method that did not make that step. */
 void ali3_work_reopen(ali3_instance *in) {
   ali3_vectors *v = &in->now;
   if (in->system->n_work == 0) return;
   in->inputs.forces = v->used;
-  forces_at(in, v, in->element.potential);
+  evaluate_forces(in, v, in->element.potential);
   in->inputs.forces = in->inputs.set;
   ali3_work_store(in, v);
 }
 
-/* A step D from in->now to in->next with the mean of the forces at its ends (share = 1/2) or those of the last
- * ali3_forces (share = 1). */
+/* Adds the work of a step D from in->now to in->next, with the mean of the forces at its ends (share = 1/2) or the
+ * forces of the last ali3_forces (share = 1). */
 void ali3_work_step(ali3_instance *in, double share) {
   if (in->system->n_work == 0) return;
   ali3_signal_displacements(in, in->next.step_way);
   ali3_work_along(in, share);
 }
 
-/* Powers are those of the start: a method that reads them has stored its own, or reopens. */
+/* Leaves the powers of the start unchanged: a method that reads them stores its own or calls ali3_work_reopen. */
 ALI3_INLINED void work_along(ali3_instance *in, double share) {
   const ali3_system *S = in->system;
-  const double *before = in->now.watched + S->n_work, *way = in->next.step_way;
+  const double *before = in->now.watched + S->n_work, *displacement = in->next.step_way;
   double *mean = in->next.step_force, *after = in->next.watched + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
     const double *force = in->element.force + S->el_sig_ptr[S->work_element[k]];
     const int32_t n = S->work_ptr[k + 1] - S->work_ptr[k];
     ALI3_EACH(0, n, ALI3_AT(after) = ALI3_AT(force);
               ALI3_AT(mean) = share * ALI3_AT(force) + (1.0 - share) * ALI3_AT(before))
-    in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean, way, n);
-    before += n, way += n, mean += n, after += n;
+    in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean, displacement, n);
+    before += n, displacement += n, mean += n, after += n;
   }
 }
 
 ALI3_BY_PROCESSOR(in->system, void, work_along, (ali3_instance * in, double share), (in, share))
 
-/* sum (n_work) gets the share of a stage, `weight` in s. */
+/* sum (n_work) += weight (s) times the powers of a stage. */
 void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum) {
   for (int32_t k = 0; k < in->system->n_work; k++) sum[k] += weight * power[k];
 }
 
-/* The powers at the start of a step that goes on from the last one. */
+/* Restores the powers at the start of a step that continues the last one. */
 void ali3_work_recall(ali3_instance *in) { copy(in->watch.now, in->now.watched, in->system->n_work); }
 
-/* The first stage, with the powers of the last ali3_forces: in->watch.sum begins. */
+/* Initialises in->watch.sum by the first stage with the powers of the last ali3_forces. */
 void ali3_work_first(ali3_instance *in, double weight) {
   for (int32_t k = 0; k < in->system->n_work; k++) in->watch.sum[k] = weight * in->watch.now[k];
 }
 
-/* in->next, a little, dt, behind a state whose work it has: the work until there. */
+/* Adds the work from the state in->next was extrapolated from, dt earlier, s. */
 void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
   if (in->system->n_guide_work > 0) ali3_guides_work(in, v, dt * ali3_guides_power(in, v));
   if (in->system->n_work == 0) return;
-  forces_at(in, v, v->potential);
+  evaluate_forces(in, v, v->potential);
   ali3_work_stage(in, dt, in->watch.now, v->work);
 }
 
-/* A jump of the inputs at in->now, of which in->next is a copy, from where the elements stored `before` (ne) to where
- * they store `behind`. */
-void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *behind) {
+/* Adds the change of potentials by a jump of the inputs at in->now, of which in->next is a copy; before, after_jump
+ * (ne): potentials on both sides. */
+void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *after_jump) {
   const ali3_system *S = in->system;
   for (int32_t k = 0; k < S->n_input_work; k++) {
-    in->now.by_inputs[k] += behind[S->work_element[k]] - before[S->work_element[k]];
+    in->now.by_inputs[k] += after_jump[S->work_element[k]] - before[S->work_element[k]];
     in->next.by_inputs[k] = in->now.by_inputs[k];
   }
 }
 
-/* Sum over the n elements in `element`; kind 1: with the change of their potentials since the start, but for what the
- * inputs did to them, which is kind 2. */
+/* Sum over the n elements in `element`, J; kind 0: work; 1: also the change of their potentials since the start,
+ * without the part by inputs; 2: that part. */
 double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element) {
   double sum = 0.0;
   for (int32_t i = 0; i < n; i++) {

@@ -1,4 +1,4 @@
-/* Memory of an instance: one function places its arrays, called once to count and once to place. */
+/* Memory of an instance: the same functions count the memory, without a block, and place the arrays in it. */
 #include "workspace.h"
 
 #include "../elements/road.h"
@@ -11,7 +11,7 @@
 #include "masses.h"
 #include "vectors.h"
 
-/* Signals times coordinates of the largest element. */
+/* Size of S B of the largest element: signals times coordinates. */
 size_t ali3_signal_work(const ali3_system *s) {
   size_t largest = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {
@@ -38,7 +38,7 @@ static void place_states(const ali3_system *s, ali3_instance *in, ali3_pool *p) 
   place_state(s, &in->kept.coarse, p);
 }
 
-/* Inputs, parameters and the data that parameters write to. */
+/* Places inputs, parameters and the data that parameters write. */
 static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nu = (size_t)s->size.nu, np = (size_t)s->size.np;
   in->inputs.set = ali3_pool_array(p, nu);
@@ -60,7 +60,7 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   ali3_axes_place(s, in, p);
 }
 
-/* Coordinates and rows of a step. */
+/* Places vectors of coordinates and of rows for a step. */
 static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nq = (size_t)s->size.nq, nc = (size_t)s->size.nc;
   in->step.D = ali3_pool_padded(p, nq);
@@ -88,7 +88,7 @@ static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->mixing.step_lam = ali3_pool_array(p, nc);
 }
 
-/* Jacobians, signals and tangents. */
+/* Places Jacobians, signals and tangents. */
 static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   in->tangent.J = ali3_pool_padded(p, (size_t)z->nnz_rows);
@@ -109,7 +109,7 @@ static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->tangent.local = ali3_pool_array(p, ALI3_LOCAL * (size_t)s->max_front);
 }
 
-/* Arrays of radau.c; only for Systems whose stages need nothing but q, qd and the time. */
+/* Places the arrays of radau.c, only for Systems whose stages depend on q, qd and the time alone. */
 static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_states_are_coordinates(s) ? ALI3_RADAU : 0;
@@ -123,7 +123,7 @@ static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) 
   in->radau.F_K = ali3_pool_array(p, stages > 0 ? (size_t)z->front_size : 0);
 }
 
-/* Arrays of flexible bodies and elements. */
+/* Places the arrays of flexible bodies, tabled bodies and elements. */
 static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   in->flexible.prepared =
@@ -141,7 +141,7 @@ static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->element.potential = ali3_pool_array(p, (size_t)z->ne);
 }
 
-/* Arrays of branch_watch.c. */
+/* Places the arrays of branch_watch.c. */
 static void place_modes(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t triads = (size_t)ali3_triad_count(s), loops = (size_t)ali3_loop_count(s);
   in->branch.sine = ali3_pool_array(p, triads);
@@ -153,7 +153,7 @@ static void place_modes(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   if (triads > 0) place_state(s, &in->kept.near_branch, p);
 }
 
-/* Arrays of start_equilibrium.c and work.c. */
+/* Places the arrays of start_equilibrium.c and work.c. */
 static void place_start_and_work(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nq = (size_t)s->size.nq;
   in->start.q = ali3_pool_array(p, nq);

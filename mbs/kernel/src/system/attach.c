@@ -1,4 +1,4 @@
-/* Attaches generated code to a System, or refuses it. */
+/* Attaches generated code to a System of the same structure. */
 #include <string.h>
 
 #include "../files/crc32.h"
@@ -11,7 +11,7 @@ static uint32_t hash_bytes(uint32_t hash, const void *bytes, int64_t size) {
   return ali3_crc32(both, sizeof both);
 }
 
-/* Generated code leaves out terms whose factor is +0: which factors are is part of the hash. */
+/* Hash of the positions of factors +0, as generated code omits their terms. */
 static uint32_t hash_zeros(uint32_t hash, const double *x, int64_t n) {
   const double zero = 0.0;
   for (int64_t i = 0; i < n; i++) {
@@ -21,10 +21,11 @@ static uint32_t hash_zeros(uint32_t hash, const double *x, int64_t n) {
   return hash;
 }
 
-/* A hash of the arrays whose pattern generated code has fixed. */
+/* Hash of the arrays whose pattern is fixed in generated code. */
 static uint32_t structure_of(const ali3_system *s) {
-  const int32_t nq = s->size.nq, nc = s->size.nc, more[] = {nq, nc, s->size.nf, s->size.ne, s->n_tabled, s->n_flexible};
-  uint32_t hash = hash_bytes(ALI3_GENERATED_VERSION, more, sizeof more);
+  const int32_t nq = s->size.nq, nc = s->size.nc,
+                counts[] = {nq, nc, s->size.nf, s->size.ne, s->n_tabled, s->n_flexible};
+  uint32_t hash = hash_bytes(ALI3_GENERATED_VERSION, counts, sizeof counts);
 #define HASH(name) hash = hash_bytes(hash, s->name, s->n_##name * (int64_t)sizeof *s->name);
   HASH(row_ptr)
   HASH(row_col)
@@ -61,7 +62,7 @@ static uint32_t structure_of(const ali3_system *s) {
   HASH(el_loc)
 #undef HASH
   hash = hash_zeros(hash, s->row_lin, s->n_row_lin);
-  /* Which numbers of the System stand for three. */
+  /* Numbers that apply to three rows or signals. */
   hash = hash_bytes(hash, s->row_triples, nc);
   hash = hash_bytes(hash, s->active_triple, s->n_active);
   hash = hash_bytes(hash, s->el_triple, s->n_el_sig);

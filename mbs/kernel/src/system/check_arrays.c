@@ -61,7 +61,7 @@ static ali3_status check_values(ali3_message m, const limits_of_array *a) {
 }
 
 /* clang-format off */
-/* Expansions of the words of the list; `n` is the length of the array that is checked. */
+/* Definitions of the words in the list; `n`: length of the checked array. */
 #define ANY n
 #define RELATED_LENGTH n
 #define OR_NONE(size) (n == 0 ? 0 : (size))

@@ -5,8 +5,8 @@
 #include "loading.h"
 #include "message.h"
 
-/* Local indices must name the coordinates of the signals in the element's front. */
-static ali3_status check_element_places(const ali3_system *s, int32_t e, int64_t entries, ali3_message m) {
+/* Local indices refer to the coordinates of the signals in the element's front. */
+static ali3_status check_local_indices(const ali3_system *s, int32_t e, int64_t entries, ali3_message m) {
   const int32_t f = s->el_front[e], n_loc = s->el_loc_ptr[e + 1] - s->el_loc_ptr[e];
   if (n_loc != entries && !(f == -1 && n_loc == 0))
     return ali3_bad(m, "element %d has %d local indices for %lld signal entries", (int)e, (int)n_loc,
@@ -38,7 +38,7 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
     int64_t entries = 0;
     for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
       entries += s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]];
-    CHECK(check_element_places(s, e, entries, m));
+    CHECK(check_local_indices(s, e, entries, m));
   }
   return ALI3_OK;
 }

@@ -1,4 +1,4 @@
-/* Checks the flexible bodies of a System: places in the fronts, symmetry. */
+/* Checks the flexible bodies of a System: coordinates in the fronts, symmetry. */
 #include <math.h>
 
 #include "../system.h"
@@ -9,8 +9,8 @@
 enum { MAX_SQUARE = 1 << 24 };
 static const double SYMMETRY = 1e-9;
 
-/* Every coordinate of the body is in its front at the place named, once, and the modes ascend. */
-static ali3_status check_places(const ali3_system *s, int32_t b, ali3_message m) {
+/* Every coordinate of the body is in its front at its local index, once, and the modes ascend. */
+static ali3_status check_coordinates(const ali3_system *s, int32_t b, ali3_message m) {
   const int32_t first = s->flex_mode_ptr[b], n = s->flex_mode_ptr[b + 1] - first, front = s->flex_front[b];
   const int32_t *idx = s->front_idx + s->front_ptr[front], size = s->front_ptr[front + 1] - s->front_ptr[front];
   const int32_t *loc = s->flex_loc + 12 * (int64_t)b + first, *frame = s->flex_frame + 12 * (int64_t)b;
@@ -30,7 +30,7 @@ static ali3_status check_places(const ali3_system *s, int32_t b, ali3_message m)
   return ALI3_OK;
 }
 
-/* M is n x n and M' = sign M. */
+/* Checks that the n x n matrix M has M' = sign M. */
 static ali3_status check_symmetry(const double *M, int32_t n, double sign, const char *name, int32_t b,
                                   ali3_message m) {
   double largest = 0.0;
@@ -48,7 +48,7 @@ ali3_status ali3_check_flexible(ali3_system *s, ali3_message m) {
   for (int64_t b = 0; b < nb; b++) {
     const int64_t n = s->flex_mode_ptr[b + 1] - s->flex_mode_ptr[b];
     square += n * n;
-    CHECK(check_places(s, (int32_t)b, m));
+    CHECK(check_coordinates(s, (int32_t)b, m));
   }
   if (square > MAX_SQUARE) return ali3_bad(m, "the flexible bodies have too many modes");
   CHECK(ali3_check_length(m, "flex_T", s->n_flex_T, 9 * square));

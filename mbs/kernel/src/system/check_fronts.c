@@ -1,4 +1,4 @@
-/* Checks fronts and rows of a System: every local index must name its coordinate. */
+/* Checks fronts and rows of a System: every local index refers to its coordinate. */
 #include "../system.h"
 #include "check.h"
 #include "loading.h"
@@ -6,7 +6,7 @@
 
 enum { MAX_FRONT = 4096, MAX_FRONT_STORAGE = 1 << 26 };
 
-/* Pivots first, ascending, all below nq; the others must lie in the parent, where front_map says. */
+/* Pivots come first and ascend below nq; the other coordinates are in the parent front at front_map. */
 static ali3_status check_front(const ali3_system *s, int32_t f, ali3_message m) {
   const int32_t first = s->front_col[f], n_pivot = s->front_col[f + 1] - first, parent = s->front_parent[f];
   const int32_t *idx = s->front_idx + s->front_ptr[f], *map = s->front_map + s->front_ptr[f];
@@ -68,7 +68,7 @@ static ali3_status check_row_pattern(const ali3_system *s, int32_t k, ali3_messa
   return ALI3_OK;
 }
 
-/* A term h q_a q_b: 0 <= b <= a < n, or b = -1 (linear), or a = b = -1 (constant) where these are allowed. */
+/* Checks a term h q_a q_b: 0 <= b <= a < n, or b = -1 (linear), or a = b = -1 (constant) where `low` allows them. */
 static ali3_status check_term(ali3_message m, const char *name, int32_t a, int32_t b, int32_t n, int32_t low) {
   if (a < low || a >= n || b < low || b > a)
     return ali3_bad(m, "a term of '%s' multiplies entries %d and %d of a row with %d", name, (int)a, (int)b, (int)n);
@@ -101,7 +101,7 @@ static ali3_status check_switches(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* A condition on velocities holds nothing else: no constant, no products of positions, no angle, no guide. */
+/* A condition on velocities has no constant, no products of positions, no angle and no guide. */
 static ali3_status check_velocities(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_velocity_row;
   for (int64_t i = 0; i < n; i++) {

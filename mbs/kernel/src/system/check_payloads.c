@@ -1,5 +1,5 @@
-/* Checks the payloads of a System, point masses at signals for which the mass matrix must have room, its armatures, and
- * bodies whose inertia parameters write. */
+/* Checks the payloads of a System (point masses at signals, with entries in the mass matrix), its armatures, and bodies
+ * with inertia set by parameters. */
 #include "../system.h"
 #include "check.h"
 #include "loading.h"
@@ -15,7 +15,7 @@ bool ali3_mass_has_room(const ali3_system *s, int32_t one, int32_t other) {
   return true;
 }
 
-/* The arrays of signals and of the mass matrix are checked. */
+/* Requires checked arrays of signals and of the mass matrix. */
 ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_payload_mass;
   for (int64_t i = 0; i < 3 * n; i++) CHECK(ali3_check_independent(s, s->payload_signal[i], "a payload", m));
@@ -43,9 +43,10 @@ ali3_status ali3_check_armatures(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_armature_ratio;
   for (int64_t k = 0; k < n; k++) {
     const int32_t row = s->armature_col[k], first = s->mass_ptr[row];
-    const int32_t at = ali3_find(s->mass_col + first, s->mass_ptr[row + 1] - first, row);
-    const double turns = s->armature_inertia[k] * s->armature_ratio[k] * s->armature_ratio[k];
-    if (!(s->armature_inertia[k] >= 0.0) || at < 0 || !(turns <= (1.0 + 1e-9) * s->mass_val[first + at]))
+    const int32_t entry = ali3_find(s->mass_col + first, s->mass_ptr[row + 1] - first, row);
+    const double armature_inertia = s->armature_inertia[k] * s->armature_ratio[k] * s->armature_ratio[k];
+    if (!(s->armature_inertia[k] >= 0.0) || entry < 0 ||
+        !(armature_inertia <= (1.0 + 1e-9) * s->mass_val[first + entry]))
       return ali3_bad(m, "the inertia of armature %d is not in that of its coordinate", (int)k);
   }
   return ALI3_OK;

@@ -19,13 +19,13 @@ const ali3_sensor_type ali3_sensor_types[ALI3_SENSOR_TYPE_COUNT] = {
 #undef ALI3_SENSOR_TYPE
 };
 
-/* The least value of an integer with this letter. */
+/* Least value of an integer with this letter. */
 static int64_t least(char letter) {
   if (letter == 'S' || letter == 'G' || letter == 'T') return -1;
   return letter == 'N' ? 1 : (letter == 'P' ? 2 : 0);
 }
 
-/* The value that the integer at v must be below. */
+/* Upper limit, excluded, of the integer at v. */
 static int64_t limit(const ali3_system *s, char letter, const int32_t *v) {
   switch (letter) {
   case 's':

@@ -1,4 +1,5 @@
-/* Checks tabled bodies and numbers of a System: their sizes first, as signals name them; the rest with the fronts. */
+/* Checks tabled bodies and numbers of a System: their sizes here, before signals refer to them; the rest with the
+ * fronts. */
 #include "../tabled/tabled.h"
 #include "check.h"
 #include "loading.h"
@@ -12,9 +13,9 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   if (n > MAX_TABLED) return ali3_bad(m, "%lld lookup-table bodies and numbers", (long long)n);
   for (int64_t i = 0; i < n; i++) {
     const int32_t *size = s->tabled_size + 3 * i;
-    const bool one = size[2] == 1;
+    const bool single = size[2] == 1;
     if ((size[0] != 1 && size[0] != ALI3_TABLED_BODY) || size[1] < FEWEST || size[1] > MOST ||
-        (!one && (size[2] < FEWEST || size[2] > MOST)))
+        (!single && (size[2] < FEWEST || size[2] > MOST)))
       return ali3_bad(m, "table %lld has %d functions at %d by %d points", (long long)i, (int)size[0], (int)size[1],
                       (int)size[2]);
     s->n_dependent += size[0];
@@ -39,7 +40,7 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* Refuses a signal of dependent coordinates where the coordinates themselves are read. */
+/* Refuses a signal of dependent coordinates for a purpose that reads coordinates directly. */
 ali3_status ali3_check_independent(const ali3_system *s, int32_t signal, const char *what, ali3_message m) {
   for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++)
     if (s->sig_col[k] >= s->size.nq) return ali3_bad(m, "%s is on a lookup-table body", what);

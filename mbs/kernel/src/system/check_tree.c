@@ -1,4 +1,5 @@
-/* Checks the tree of a System: parents before children, cut joints, and that nothing else moves the bodies. */
+/* Checks the tree of a System: parents before children, cut joints, and that nothing but joints constrains its
+ * bodies. */
 #include "../instance.h"
 #include "../tree/tree.h"
 #include "check.h"
@@ -39,13 +40,13 @@ static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* Whether components of points and vectors and angles are as many as the coordinates. */
+/* Checks that the components of points and vectors and the angles are as many as the coordinates. */
 static ali3_status check_coordinates(const ali3_system *s, ali3_message m) {
   const int64_t parts = s->n_tree_out_body;
-  int64_t named = s->n_tree_angle_col;
-  for (int64_t i = 0; i < 3 * parts; i++) named += s->tree_out_col[i] >= 0;
-  if (named != s->size.nq)
-    return ali3_bad(m, "the bodies of the tree name %lld coordinates of %d", (long long)named, (int)s->size.nq);
+  int64_t referenced = s->n_tree_angle_col;
+  for (int64_t i = 0; i < 3 * parts; i++) referenced += s->tree_out_col[i] >= 0;
+  if (referenced != s->size.nq)
+    return ali3_bad(m, "the bodies of the tree name %lld coordinates of %d", (long long)referenced, (int)s->size.nq);
   return ALI3_OK;
 }
 

@@ -1,4 +1,5 @@
-/* Derives, when a System is loaded, the entries of the tangents of elements, and the elements of contacts and works. */
+/* Derives, when a System is loaded, entries of the tangents of elements, their contacts, and the elements with sensed
+ * work. */
 #include "derive_elements.h"
 
 #include <stdlib.h>
@@ -12,8 +13,8 @@
 #include "loading.h"
 #include "sensor_types.h"
 
-/* Whether rows i to i + 2 of a sparse matrix have the same columns, one further from row to row, none twice, and the same
- * values. */
+/* Whether rows i to i + 2 of a sparse matrix have equal values in columns that increase by one from row to row, without
+ * common columns. */
 bool ali3_is_triple(const int32_t *ptr, const int32_t *col, const double *val, int32_t i) {
   const int32_t n = ptr[i + 1] - ptr[i];
   const int32_t *a = col + ptr[i], *b = col + ptr[i + 1], *c = col + ptr[i + 2];
@@ -23,7 +24,7 @@ bool ali3_is_triple(const int32_t *ptr, const int32_t *col, const double *val, i
   return ali3_same_values(ptr, val, i);
 }
 
-/* Triples of n rows in the order in which they are gone through. */
+/* Marks the triples of n rows in the order of their evaluation. */
 static void derive_triples(const ali3_system *s, const int32_t *row, int32_t n, unsigned char *triple) {
   for (int32_t a = 0; a < n; a++) {
     triple[a] = a + 2 < n && row[a + 1] == row[a] + 1 && row[a + 2] == row[a] + 2 &&
@@ -37,7 +38,7 @@ static int compare_int32(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* Entries of element e: value and the coordinate within the element; its coordinates ascend as in the front. */
+/* Entries of element e: value and index of the coordinate in the element, whose coordinates ascend as in the front. */
 static void derive_element(ali3_system *s, int32_t e) {
   const int32_t first = s->el_entry_ptr[e], start = s->el_coordinate_ptr[e];
   const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
@@ -57,16 +58,17 @@ static void derive_element(ali3_system *s, int32_t e) {
       if (unique == 0 || coordinate[i] != coordinate[unique - 1]) coordinate[unique++] = coordinate[i];
     for (int32_t i = 0; i < n; i++) s->el_entry_local[first + i] = ali3_find(coordinate, unique, loc[i]);
   }
-  int32_t apart = unique - 1;
-  while (apart > 0 && coordinate[apart - 1] == coordinate[apart] - 1) apart--;
-  s->el_apart[e] = apart;
+  int32_t contiguous_from = unique - 1;
+  while (contiguous_from > 0 && coordinate[contiguous_from - 1] == coordinate[contiguous_from] - 1) contiguous_from--;
+  s->el_apart[e] = contiguous_from;
   s->el_entry_ptr[e + 1] = first + n;
   s->el_coordinate_ptr[e + 1] = start + unique;
 }
 
-/* Outputs of an element that are forces of a contact or a stop. */
+/* Range of the outputs of an element that are forces of a contact or a stop. */
 static ali3_contact_forces_of contact_of(const ali3_system *s, int32_t e) {
-  enum { LOAD = 2, OF_A_TYRE = 3 }; /* output of a tyre; first outputs of what touches a road that are forces */
+  /* output of a tyre; number of the first outputs that are forces, of elements on roads */
+  enum { LOAD = 2, OF_A_TYRE = 3 };
   const ali3_element_type *kind = s->el_kind[e];
   const int32_t out = s->el_out_ptr[e], n_out = s->el_out_ptr[e + 1] - out;
   const bool tyre = kind->depth == ali3_tyre_depth, stop = kind->stops;
@@ -113,16 +115,16 @@ void ali3_elements_derive(ali3_system *s) {
   }
 }
 
-/* Elements that sensors of work name, in their own order. */
+/* Lists the elements with sensed work, in ascending order. */
 void ali3_work_derive(ali3_system *s) {
   for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
   for (int32_t i = 0; i < s->size.ns; i++) {
     const int32_t *v = s->sen_int + s->sen_int_ptr[i];
-    const bool guided = s->sen_type[i] == ALI3_SENSOR_GUIDED_WORK;
-    if (guided) s->n_guide_work = 1;
+    const bool guide_work = s->sen_type[i] == ALI3_SENSOR_GUIDED_WORK;
+    if (guide_work) s->n_guide_work = 1;
     if (s->sen_type[i] == ALI3_SENSOR_WORK)
-      v++; /* behind the kind */
-    else if (!guided)
+      v++; /* after the kind */
+    else if (!guide_work)
       continue;
     for (int32_t k = 1; k <= v[0]; k++) s->work_of[v[k]] = 0;
   }

@@ -1,4 +1,4 @@
-/* Elements and their signals when a System is loaded. */
+/* Derived data of elements and their signals when a System is loaded. */
 #ifndef ALI3_DERIVE_ELEMENTS_H
 #define ALI3_DERIVE_ELEMENTS_H
 #include "../system.h"

@@ -1,4 +1,4 @@
-/* Derives, when a System is loaded, the terms of its rows with their places, in the order of the loops. */
+/* Derives, when a System is loaded, the terms of its rows with their positions, in the order of the loops. */
 #include "derive_rows.h"
 
 #include <float.h>
@@ -99,49 +99,50 @@ static void derive_rows(ali3_system *s) {
   }
 }
 
-/* Whether row k states an angle alone, whose coordinate has inertia or stands beside others in another row. */
-static bool turns_more(const ali3_system *s, int32_t k, int32_t theta) {
-  bool more = s->mass_floor[theta] > 0.0 && s->mass_missing[theta] == 0.0;
+/* Whether row k only defines an angle, and its coordinate has inertia or is in another row with others. */
+static bool has_other_effects(const ali3_system *s, int32_t k, int32_t theta) {
+  bool affects = s->mass_floor[theta] > 0.0 && s->mass_missing[theta] == 0.0;
   for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++)
     if (s->row_lin[i] != 0.0) return false;
   if (s->row_const[k] != 0.0 || s->quad_ptr[k] < s->quad_ptr[k + 1]) return false;
-  for (int32_t other = 0; other < s->size.nc && !more; other++)
+  for (int32_t other = 0; other < s->size.nc && !affects; other++)
     for (int32_t i = s->row_ptr[other]; i < s->row_ptr[other + 1]; i++)
-      more |= other != k && s->row_col[i] == theta && s->row_ptr[other + 1] - s->row_ptr[other] > 1;
-  return more;
+      affects |= other != k && s->row_col[i] == theta && s->row_ptr[other + 1] - s->row_ptr[other] > 1;
+  return affects;
 }
 
 static void derive_turning(ali3_system *s) {
   for (int32_t i = 0; i < s->n_angle_row; i++)
-    if (turns_more(s, s->angle_row[i], s->angle_theta_col[i])) s->turning[s->n_turning++] = i;
+    if (has_other_effects(s, s->angle_row[i], s->angle_theta_col[i])) s->turning[s->n_turning++] = i;
 }
 
-static const double DECIDES = 1e-12; /* m: a smaller round-off is none beside the tolerances of rows */
+static const double DECIDES = 1e-12; /* m: a smaller round-off is negligible relative to the tolerances of rows */
 
-/* The largest coordinate of row k: where the scene has moved, any component of a vector may be as large. */
+/* Largest magnitude of the coordinates of row k, applied to all of them, as a moved scene may have it in any component
+ * of a vector. */
 static double largest_of_row(const ali3_system *s, int32_t k) {
   double largest = 0.0;
   for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) largest = fmax(largest, fabs(s->q0[s->row_col[i]]));
   return largest;
 }
 
-/* Round-off of the sum of a row's terms, below which no step converges: that of squares of coordinates far away, or of
+/* Round-off of the sum of a row's terms, which limits convergence: of squares of coordinates far from the origin, or of
  * a large scene. */
 static void derive_round(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++) {
     const double largest = largest_of_row(s, k);
-    double most = fabs(s->row_const[k]);
-    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) most += fabs(s->row_lin[i]) * largest;
-    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++) most += fabs(s->quad[t].h) * largest * largest;
+    double magnitude = fabs(s->row_const[k]);
+    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) magnitude += fabs(s->row_lin[i]) * largest;
+    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++) magnitude += fabs(s->quad[t].h) * largest * largest;
     const double unit = 4.0 * DBL_EPSILON * s->row_measure[k];
-    s->row_round[k] = unit * most > DECIDES ? unit * most : unit * ali3_row_sum(s, k, s->q0);
+    s->row_round[k] = unit * magnitude > DECIDES ? unit * magnitude : unit * ali3_row_sum(s, k, s->q0);
   }
   for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
   s->largest_round = 0.0;
   for (int32_t k = 0; k < s->size.nc; k++) s->largest_round = fmax(s->largest_round, s->row_round[k]);
 }
 
-/* Whether the coordinates of row k are triples of neighbours, of which each has as many terms as the others. */
+/* Whether the coordinates of row k are triples of consecutive ones with equal numbers of terms. */
 static bool in_triples(const ali3_system *s, int32_t k) {
   const int32_t *ptr = s->hess_ptr, *col = s->row_col, end = s->row_ptr[k + 1];
   if ((end - s->row_ptr[k]) % ALI3_TRIPLE != 0) return false;
@@ -153,8 +154,8 @@ static bool in_triples(const ali3_system *s, int32_t k) {
   return true;
 }
 
-/* Whether the second factors of the terms of a row of triples are three neighbours each too. */
-static bool of_points(const ali3_system *s, int32_t k) {
+/* Whether the second factors of the terms of a row of triples are triples as well. */
+static bool has_point_factors(const ali3_system *s, int32_t k) {
   const int32_t *ptr = s->hess_ptr, *col = s->hess_col;
   for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i += ALI3_TRIPLE)
     for (int32_t x = ptr[i], y = ptr[i + 1], z = ptr[i + 2]; x < ptr[i + 1]; x++, y++, z++)
@@ -162,8 +163,8 @@ static bool of_points(const ali3_system *s, int32_t k) {
   return true;
 }
 
-/* Entry from which row k is a stretch, the end of the row where it would be short. */
-static int32_t stretch_of(const ali3_system *s, int32_t k) {
+/* First entry of the stretch of row k; the end of the row if it were short. */
+static int32_t find_stretch(const ali3_system *s, int32_t k) {
   const int32_t *ptr = s->hess_ptr, *col = s->hess_col, end = s->row_ptr[k + 1];
   int32_t i = end - 1;
   for (; i > s->row_ptr[k]; i--) {
@@ -176,7 +177,8 @@ static int32_t stretch_of(const ali3_system *s, int32_t k) {
   return end - i < ALI3_SHORTEST ? end : i;
 }
 
-/* The terms of `count` entries from `first` on, one after the other, in turn. */
+/* Interleaves the terms of `count` entries with `terms` terms each, stored one entry after the other from `first`
+ * on. */
 static void interleave(ali3_system *s, int32_t first, int32_t count, int32_t terms) {
   int32_t col[MOST_IN_TURN];
   double val[MOST_IN_TURN];
@@ -189,7 +191,7 @@ static void interleave(ali3_system *s, int32_t first, int32_t count, int32_t ter
     }
 }
 
-/* The products of the rows once more, sorted by the entry of Phi_q they add to. */
+/* Second derivatives of the rows, sorted by the entry of Phi_q they contribute to. */
 static void derive_hessian(ali3_system *s) {
   memset(s->hess_ptr, 0, ((size_t)s->n_row_col + 1) * sizeof(int32_t));
   for (int64_t t = 0; t < s->n_quad_a; t++) {
@@ -197,7 +199,7 @@ static void derive_hessian(ali3_system *s) {
     if (s->quad[t].a != s->quad[t].b) s->hess_ptr[s->quad[t].jb + 1]++;
   }
   for (int64_t i = 0; i < s->n_row_col; i++) s->hess_ptr[i + 1] += s->hess_ptr[i];
-  for (int64_t t = 0; t < s->n_quad_a; t++) { /* hess_ptr[i] moves to the end of entry i, the start of i + 1 */
+  for (int64_t t = 0; t < s->n_quad_a; t++) { /* moves hess_ptr[i] to the end of entry i, the start of i + 1 */
     const ali3_term x = s->quad[t];
     const int32_t at = s->hess_ptr[x.ja]++;
     s->hess_col[at] = x.b;
@@ -211,26 +213,26 @@ static void derive_hessian(ali3_system *s) {
   s->hess_ptr[0] = 0;
   for (int32_t k = 0; k < s->size.nc; k++) {
     s->row_triples[k] = in_triples(s, k);
-    if (s->row_triples[k] && of_points(s, k)) s->row_triples[k] = ALI3_POINTS;
+    if (s->row_triples[k] && has_point_factors(s, k)) s->row_triples[k] = ALI3_POINTS;
     for (int32_t i = s->row_ptr[k]; s->row_triples[k] == ALI3_POINTS && i < s->row_ptr[k + 1]; i += ALI3_TRIPLE)
       interleave(s, s->hess_ptr[i], ALI3_TRIPLE, s->hess_ptr[i + 1] - s->hess_ptr[i]);
     const bool none = s->row_triples[k] || s->n_flexible == 0;
-    const int32_t first = none ? s->row_ptr[k + 1] : stretch_of(s, k);
+    const int32_t first = none ? s->row_ptr[k + 1] : find_stretch(s, k);
     s->row_stretch[k] = first;
     if (first < s->row_ptr[k + 1])
       interleave(s, s->hess_ptr[first], s->row_ptr[k + 1] - first, s->hess_ptr[first + 1] - s->hess_ptr[first]);
   }
 }
 
-/* Rows of a front, whose number at is known behind it, have the same stretch. */
-static bool alike(const ali3_system *s, int32_t k, int32_t next) {
+/* Whether row `next` is in the front of row k and has the same stretch. */
+static bool same_stretch(const ali3_system *s, int32_t k, int32_t next) {
   const int32_t first = s->row_stretch[k], other = s->row_stretch[next];
   return s->row_front[next] == s->row_front[k] && s->row_ptr[next + 1] - other == s->row_ptr[k + 1] - first &&
          s->row_loc[first] == s->row_loc[other];
 }
 
 static void derive_alike_rows(ali3_system *s) {
-  int32_t *end = s->front_row_ptr + 1; /* of a front; first its begin, which moves on with each row */
+  int32_t *end = s->front_row_ptr + 1; /* ends of fronts; initially their starts, advanced with each row */
   const int32_t n = s->size.nc, nf = s->size.nf;
   for (int32_t k = 0; k < n; k++)
     if (s->row_front[k] + 1 < nf) end[s->row_front[k] + 1]++;
@@ -239,35 +241,35 @@ static void derive_alike_rows(ali3_system *s) {
   for (int32_t at = n - 1; at >= 0; at--) {
     const int32_t k = s->front_row[at];
     s->row_alike[at] = s->row_stretch[k] < s->row_ptr[k + 1];
-    if (s->row_alike[at] > 0 && at + 1 < n && alike(s, k, s->front_row[at + 1]))
+    if (s->row_alike[at] > 0 && at + 1 < n && same_stretch(s, k, s->front_row[at + 1]))
       s->row_alike[at] += s->row_alike[at + 1];
   }
 }
 
-/* Whether term x of row k has one factor in its stretch and stands below the other in the front; the entry of the
- * stretch goes to *entry. */
+/* Whether term x of row k has one factor in its stretch and is below the other in the front; *entry: entry of the
+ * stretch. */
 static bool in_stretch(const ali3_system *s, int32_t k, const ali3_term *x, int32_t *entry) {
   const int32_t first = s->row_stretch[k], other = x->ja < x->jb ? x->ja : x->jb;
   *entry = x->ja < x->jb ? x->jb : x->ja;
   return *entry >= first && other < first && s->row_loc[other] < s->row_loc[first];
 }
 
-/* Terms of row k with its stretch go to the end; without all of them none does. */
+/* Moves the terms of row k with its stretch to the end, if they are complete. */
 static void derive_stretch_terms(ali3_system *s, int32_t k) {
   const int32_t begin = s->quad_ptr[k], end = s->quad_ptr[k + 1], first = s->row_stretch[k];
   const int32_t n = s->row_ptr[k + 1] - first;
   const int32_t terms = n > 0 ? s->hess_ptr[first + 1] - s->hess_ptr[first] : 0;
-  int32_t found = 0, entry = 0;
+  int32_t matching = 0, entry = 0;
   s->quad_end[k] = end;
-  for (int32_t t = begin; t < end; t++) found += in_stretch(s, k, &s->quad[t], &entry);
-  if (found == 0 || found != n * terms) return;
-  s->quad_end[k] = end - found;
-  int32_t kept = begin;
+  for (int32_t t = begin; t < end; t++) matching += in_stretch(s, k, &s->quad[t], &entry);
+  if (matching == 0 || matching != n * terms) return;
+  s->quad_end[k] = end - matching;
+  int32_t next_other = begin;
   for (int32_t t = begin; t < end; t++) {
     const ali3_term x = s->quad[t];
     if (!in_stretch(s, k, &x, &entry)) {
-      s->quad[t] = s->quad[kept];
-      s->quad[kept++] = x;
+      s->quad[t] = s->quad[next_other];
+      s->quad[next_other++] = x;
     } else if (entry == first) {
       const int32_t partner = x.ja == first ? x.b : x.a;
       for (int32_t m = 0; m < terms; m++)
@@ -276,7 +278,7 @@ static void derive_stretch_terms(ali3_system *s, int32_t k) {
   }
 }
 
-/* First terms of the entries before the stretch of row k from which on terms lie side by side. */
+/* First terms of each entry of row k from which on its coordinates are consecutive. */
 static void derive_runs(ali3_system *s, int32_t k) {
   const bool any = s->row_stretch[k] < s->row_ptr[k + 1];
   for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
@@ -300,7 +302,7 @@ static void derive_stretches(ali3_system *s) {
   }
 }
 
-/* After the masses: they tell which angles turn with more than what they measure. */
+/* Requires the masses, by which angles have inertia. */
 void ali3_rows_derive(ali3_system *s) {
   derive_rows(s);
   derive_round(s);

@@ -1,10 +1,10 @@
-/* Rows when a System is loaded. */
+/* Derived data of rows when a System is loaded. */
 #ifndef ALI3_DERIVE_ROWS_H
 #define ALI3_DERIVE_ROWS_H
 #include "../system.h"
 #include "pool.h"
 
-enum { ALI3_SHORTEST = 8 }; /* stretch of neighbours that has a loop of its own */
+enum { ALI3_SHORTEST = 8 }; /* least number of consecutive coordinates with a separate loop */
 
 void ali3_rows_place(ali3_system *s, ali3_pool *p);
 void ali3_rows_derive(ali3_system *s);

@@ -1,6 +1,6 @@
-/* Derives, when a System is loaded, where lookup-table bodies and the elements on them act in the fronts of the tangent.
- * Elements on the same bodies form a group, which has its own signals, coordinates and, where all signals are points,
- * directions or numbers of these bodies, a decomposition in such parts. */
+/* Derives, when a System is loaded, positions of lookup-table bodies and of the elements on them in the fronts of the
+ * tangent. Elements on the same bodies form a group with its own signals, coordinates and, if all signals are points,
+ * directions or numbers of these bodies, a decomposition into such parts. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,18 +30,18 @@ void ali3_tabled_place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_entry_dependent = ali3_pool_items(p, n_entry, sizeof *s->el_entry_dependent);
 }
 
-/* Index of a value in a list; -1: it is not in it. */
-static int32_t place_of(const int32_t *list, int32_t n, int32_t value) {
+/* Index of a value in a list; -1: not found. */
+static int32_t find_index(const int32_t *list, int32_t n, int32_t value) {
   for (int32_t i = 0; i < n; i++)
     if (list[i] == value) return i;
   return -1;
 }
 
-/* Coordinate k of an item, first those of its base, then its parameters; -1: it has none. */
+/* Coordinate k of an item, first those of its base, then its parameters; -1: none. */
 static int32_t coordinate(const ali3_tabled *c, int32_t k) { return k < 12 ? c->frame[k] : c->param[k - 12]; }
 
 /* Writes the local indices of the coordinates of an item in a front; false: one is not in the front. */
-static bool find(const ali3_system *s, const ali3_tabled *c, int32_t front, int32_t *loc) {
+static bool find_local(const ali3_system *s, const ali3_tabled *c, int32_t front, int32_t *loc) {
   const int32_t *idx = s->front_idx + s->front_ptr[front], size = s->front_ptr[front + 1] - s->front_ptr[front];
   for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) {
     const int32_t i = coordinate(c, k);
@@ -51,7 +51,7 @@ static bool find(const ali3_system *s, const ali3_tabled *c, int32_t front, int3
   return true;
 }
 
-/* Fills in item i; *dependents and *coefficients count those of the items before it and are advanced. */
+/* Initialises item i and advances *dependents and *coefficients, the counts of the items before it. */
 static ali3_status derive_item(const ali3_system *s, int32_t i, int32_t *dependents, int64_t *coefficients,
                                ali3_message m) {
   ali3_tabled *c = s->tabled + i;
@@ -71,7 +71,8 @@ static ali3_status derive_item(const ali3_system *s, int32_t i, int32_t *depende
   for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++)
     if (coordinate(c, k) >= 0 && coordinate(c, k) < least) least = coordinate(c, k);
   while (least >= s->front_col[c->front + 1]) c->front++;
-  return find(s, c, c->front, c->loc) ? ALI3_OK : ali3_bad(m, "a coordinate of table %d is not in its front", (int)i);
+  return find_local(s, c, c->front, c->loc) ? ALI3_OK
+                                            : ali3_bad(m, "a coordinate of table %d is not in its front", (int)i);
 }
 
 static int ascending(const void *a, const void *b) {
@@ -80,7 +81,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* The item to which a dependent belongs. */
-static int32_t owner(const ali3_system *s, int32_t dependent) {
+static int32_t item_of(const ali3_system *s, int32_t dependent) {
   int32_t i = s->n_tabled - 1;
   while (s->tabled[i].first > dependent) i--;
   return i;
@@ -92,7 +93,7 @@ static void derive_seen(ali3_system *s) {
     for (int32_t k = s->sig_ptr[s->active_signal[a]]; k < s->sig_ptr[s->active_signal[a] + 1]; k++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
       if (d < 0) continue;
-      ali3_tabled *c = s->tabled + owner(s, d);
+      ali3_tabled *c = s->tabled + item_of(s, d);
       const int32_t vector = (d - c->first) / 3;
       int32_t n = 0;
       while (n < c->n_seen && c->seen[n] != vector) n++;
@@ -111,7 +112,7 @@ static void entries_of_base(const ali3_system *s, const ali3_tabled_base *base, 
   for (int i = 0; i < ALI3_TABLED_BODY; i++) at[i] = entry_at(s, base->front, base->loc[i], loc);
 }
 
-/* Number of the parameter of a base with coordinate `column`, at `loc` in its front; it is added if it is new. */
+/* Index of the parameter of a base with coordinate `column`, at `loc` in its front; adds a new one. */
 static int32_t parameter_of(ali3_system *s, ali3_tabled_base *base, int32_t column, int32_t loc) {
   int32_t p = base->first;
   while (p < base->end && s->tabled_parameter[p].column != column) p++;
@@ -150,9 +151,9 @@ static void derive_bases(ali3_system *s) {
 }
 
 /* Adds a value to a list unless it is in it; false: the list is full. */
-static bool add_once(int32_t *list, int32_t *count, int32_t most, int32_t value) {
-  if (place_of(list, *count, value) >= 0) return true;
-  if (*count == most) return false;
+static bool add_once(int32_t *list, int32_t *count, int32_t capacity, int32_t value) {
+  if (find_index(list, *count, value) >= 0) return true;
+  if (*count == capacity) return false;
   list[(*count)++] = value;
   return true;
 }
@@ -160,82 +161,82 @@ static bool add_once(int32_t *list, int32_t *count, int32_t most, int32_t value)
 /* Collects the signals of element e, the items on which they depend, and the local indices of all their coordinates. */
 static ali3_status collect_element(const ali3_system *s, int32_t e, ali3_tabled_group *of, ali3_message m) {
   const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
-  bool room = true;
+  bool fits = true;
   for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
-    room = room && add_once(of->signal, &of->n_signal, ALI3_TABLED_SIGNALS, s->el_sig[i]);
+    fits = fits && add_once(of->signal, &of->n_signal, ALI3_TABLED_SIGNALS, s->el_sig[i]);
     for (int32_t k = s->sig_ptr[s->el_sig[i]]; k < s->sig_ptr[s->el_sig[i] + 1]; k++, loc++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
       if (d < 0)
-        room = room && add_once(of->loc, &of->m, ALI3_TABLED_MOST, *loc);
+        fits = fits && add_once(of->loc, &of->m, ALI3_TABLED_MOST, *loc);
       else
-        room = room && add_once(of->item, &of->n_item, ALI3_TABLED_ITEMS, owner(s, d));
+        fits = fits && add_once(of->item, &of->n_item, ALI3_TABLED_ITEMS, item_of(s, d));
     }
   }
   for (int32_t n = 0; n < of->n_item; n++) {
     int32_t loc_of_item[ALI3_TABLED_COLUMNS];
-    if (!find(s, s->tabled + of->item[n], of->front, loc_of_item))
+    if (!find_local(s, s->tabled + of->item[n], of->front, loc_of_item))
       return ali3_bad(m, "a coordinate of table %d is not in the front of element %d", (int)of->item[n], (int)e);
     for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++)
-      room = room && (loc_of_item[k] < 0 || add_once(of->loc, &of->m, ALI3_TABLED_MOST, loc_of_item[k]));
+      fits = fits && (loc_of_item[k] < 0 || add_once(of->loc, &of->m, ALI3_TABLED_MOST, loc_of_item[k]));
   }
-  return room ? ALI3_OK : ali3_bad(m, "element %d is on too many lookup-table bodies and coordinates", (int)e);
+  return fits ? ALI3_OK : ali3_bad(m, "element %d is on too many lookup-table bodies and coordinates", (int)e);
 }
 
 /* Adds the coordinates and signals of an element, `of`, to a group with the same items; false: they do not fit. */
-static bool joins(ali3_tabled_group *group, const ali3_tabled_group *of) {
-  ali3_tabled_group both = *group;
+static bool try_join(ali3_tabled_group *group, const ali3_tabled_group *of) {
+  ali3_tabled_group joined = *group;
   if (group->front != of->front || group->n_item != of->n_item) return false;
   if (memcmp(group->item, of->item, (size_t)of->n_item * sizeof *of->item) != 0) return false;
   for (int32_t i = 0; i < of->m; i++)
-    if (!add_once(both.loc, &both.m, ALI3_TABLED_MOST, of->loc[i])) return false;
+    if (!add_once(joined.loc, &joined.m, ALI3_TABLED_MOST, of->loc[i])) return false;
   for (int32_t i = 0; i < of->n_signal; i++)
-    if (!add_once(both.signal, &both.n_signal, ALI3_TABLED_SIGNALS, of->signal[i])) return false;
-  *group = both;
+    if (!add_once(joined.signal, &joined.n_signal, ALI3_TABLED_SIGNALS, of->signal[i])) return false;
+  *group = joined;
   return true;
 }
 
-/* Notes for each entry of the signals of element e its coordinate in the group, or its item and dependent. */
+/* Stores for each entry of the signals of element e its coordinate in the group, or its item and dependent. */
 static void derive_entries(ali3_system *s, int32_t e, ali3_tabled_group *group) {
   const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
   int32_t at = s->el_entry_ptr[e];
   for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
-    const int32_t signal = s->el_sig[i], number = place_of(group->signal, group->n_signal, signal);
-    s->tabled_signal[i] = number;
-    group->entry[number] = at;
-    group->n_entry[number] = s->sig_ptr[signal + 1] - s->sig_ptr[signal];
+    const int32_t signal = s->el_sig[i], index = find_index(group->signal, group->n_signal, signal);
+    s->tabled_signal[i] = index;
+    group->entry[index] = at;
+    group->n_entry[index] = s->sig_ptr[signal + 1] - s->sig_ptr[signal];
     for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, at++, loc++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
-      s->el_entry_dependent[at] = d < 0 ? -1 : d - s->tabled[owner(s, d)].first;
+      s->el_entry_dependent[at] = d < 0 ? -1 : d - s->tabled[item_of(s, d)].first;
       s->el_entry_local[at] =
-          d < 0 ? ali3_find(group->loc, group->m, *loc) : place_of(group->item, group->n_item, owner(s, d));
+          d < 0 ? ali3_find(group->loc, group->m, *loc) : find_index(group->item, group->n_item, item_of(s, d));
     }
   }
 }
 
-/* The vector to whose component x entry k of a group belongs: 0 for r and 1 to 3 for the axes of the base, 4 + 4 item +
- * vector for an item; -1: none. */
+/* Index of the vector of whose component x entry k of a group is part: 0 for r and 1 to 3 for the axes of the base, 4 +
+ * 4 item + vector for an item; -1: none. */
 static int32_t source_of(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t k, int x) {
   const int32_t d = s->el_entry_dependent[k], local = s->el_entry_local[k];
   if (d >= 0) return s->tabled[group->item[local]].n == ALI3_TABLED_BODY && d % 3 == x ? 4 + 4 * local + d / 3 : -1;
-  const int32_t at = frame == NULL ? -1 : place_of(frame, ALI3_TABLED_BODY, local);
+  const int32_t at = frame == NULL ? -1 : find_index(frame, ALI3_TABLED_BODY, local);
   return at >= 0 && at % 3 == x ? at / 3 : -1;
 }
 
 /* Whether signals i to i + 2 of a group are the components of a vector; *place: whether it is a point, thus has r. */
 static bool is_vector(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t i,
-                      bool *place) {
+                      bool *is_point) {
   const int32_t first = group->entry[i], n = group->n_entry[i];
-  *place = false;
+  *is_point = false;
   if (i + 2 >= group->n_signal || group->n_entry[i + 1] != n || group->n_entry[i + 2] != n) return false;
   for (int32_t k = first; k < first + n; k++) {
     const int32_t source = source_of(s, group, frame, k, 0);
     for (int x = 0; x < 3; x++) {
-      int32_t same = 0; /* 1: there once, with the same value */
+      int32_t same = 0; /* 1: found once, with the same value */
       for (int32_t o = group->entry[i + x], end = o + n; o < end; o++)
         if (source_of(s, group, frame, o, x) == source) same += s->el_entry_value[o] == s->el_entry_value[k] ? 1 : 2;
       if (source < 0 || same != 1) return false;
     }
-    *place = *place || source == 0;
+    *is_point = *is_point || source == 0;
   }
   return true;
 }
@@ -246,7 +247,7 @@ static bool is_number(const ali3_system *s, const ali3_tabled_group *group, cons
     const int32_t local = s->el_entry_local[k];
     if (s->el_entry_dependent[k] >= 0) {
       if (s->tabled[group->item[local]].n != 1) return false;
-    } else if (frame != NULL && place_of(frame, 12, local) >= 0) {
+    } else if (frame != NULL && find_index(frame, 12, local) >= 0) {
       return false;
     }
   }
@@ -292,10 +293,10 @@ static bool derive_parts(const ali3_system *s, ali3_tabled_group *group) {
     group->base = base;
   }
   for (int32_t i = 0; i < group->n_signal; i++) {
-    bool place;
-    if (is_vector(s, group, frame, i, &place)) {
+    bool is_point;
+    if (is_vector(s, group, frame, i, &is_point)) {
       if (group->n_vector == ALI3_TABLED_VECTORS) return false;
-      group->place[group->n_vector] = place;
+      group->place[group->n_vector] = is_point;
       group->part[i] = (int8_t)group->n_vector;
       group->part[i + 1] = group->part[i + 2] = ALI3_TABLED_COMPONENT;
       group->vector[group->n_vector++] = i;
@@ -311,11 +312,11 @@ static bool derive_parts(const ali3_system *s, ali3_tabled_group *group) {
     for (int p = 0; p < 2; p++) {
       const int32_t slot = group->slot[n][12 + p];
       if (slot >= 0 && !add_once(slots, &group->n_along, ALI3_TABLED_SINGLES, slot)) return false;
-      group->along[n][p] = (int8_t)(slot < 0 ? -1 : place_of(slots, group->n_along, slot));
+      group->along[n][p] = (int8_t)(slot < 0 ? -1 : find_index(slots, group->n_along, slot));
     }
   group->n_single = group->n_along;
   for (int32_t j = 0; j < group->m; j++)
-    if (frame == NULL || place_of(frame, 12, j) < 0)
+    if (frame == NULL || find_index(frame, 12, j) < 0)
       if (!add_once(slots, &group->n_single, ALI3_TABLED_SINGLES, j)) return false;
   for (int32_t i = 0; i < group->n_single; i++) {
     const int32_t loc = group->loc[slots[i]];
@@ -333,8 +334,8 @@ static void derive_group(ali3_system *s, int32_t g) {
   int32_t loc[ALI3_TABLED_COLUMNS];
   qsort(group->loc, (size_t)group->m, sizeof *group->loc, ascending);
   for (int32_t n = 0; n < group->n_item; n++) {
-    find(s, s->tabled + group->item[n], group->front, loc);
-    for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) group->slot[n][k] = place_of(group->loc, group->m, loc[k]);
+    find_local(s, s->tabled + group->item[n], group->front, loc);
+    for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) group->slot[n][k] = find_index(group->loc, group->m, loc[k]);
   }
   group->first = group->end = g == 0 ? 0 : group[-1].end;
   for (int32_t e = 0; e < s->size.ne; e++) {
@@ -356,7 +357,7 @@ static ali3_status derive_groups(ali3_system *s, ali3_message m) {
     s->el_tabled[e] = -1;
     if (s->el_front[e] < 0 || !ali3_on_tabled(s, e)) continue;
     CHECK(collect_element(s, e, &of, m));
-    while (g < s->n_tabled_group && !joins(s->tabled_group + g, &of)) g++;
+    while (g < s->n_tabled_group && !try_join(s->tabled_group + g, &of)) g++;
     s->el_tabled[e] = g;
     if (g == s->n_tabled_group) s->tabled_group[s->n_tabled_group++] = of;
   }

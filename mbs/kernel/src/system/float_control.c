@@ -1,10 +1,10 @@
-/* Sets and restores the control of floating point. */
+/* Sets and restores the floating-point control register: default rounding, no flushing of denormals. */
 #include "../../include/ali3.h"
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 
-enum { FLAGS = 0x3f, USUAL = 0x1f80, THERE = 1 << 16 }; /* THERE: of a result, that it is not 0 */
+enum { FLAGS = 0x3f, USUAL = 0x1f80, THERE = 1 << 16 }; /* THERE: marks a saved value, so that it is not 0 */
 
 ali3_float_control ali3_float_control_set(void) {
   const unsigned now = _mm_getcsr();
@@ -13,8 +13,8 @@ ali3_float_control ali3_float_control_set(void) {
   return (now & ~(unsigned)FLAGS) | THERE;
 }
 
-void ali3_float_control_restore(ali3_float_control before) {
-  if (before != 0) _mm_setcsr((_mm_getcsr() & FLAGS) | ((unsigned)before & ~(unsigned)THERE));
+void ali3_float_control_restore(ali3_float_control previous) {
+  if (previous != 0) _mm_setcsr((_mm_getcsr() & FLAGS) | ((unsigned)previous & ~(unsigned)THERE));
 }
 #elif defined(__aarch64__)
 ali3_float_control ali3_float_control_set(void) {
@@ -25,11 +25,11 @@ ali3_float_control ali3_float_control_set(void) {
   return now;
 }
 
-void ali3_float_control_restore(ali3_float_control before) {
-  if (before != 0) __asm__ volatile("msr fpcr, %0" ::"r"(before) : "memory");
+void ali3_float_control_restore(ali3_float_control previous) {
+  if (previous != 0) __asm__ volatile("msr fpcr, %0" ::"r"(previous) : "memory");
 }
 #else
 ali3_float_control ali3_float_control_set(void) { return 0; }
 
-void ali3_float_control_restore(ali3_float_control before) { (void)before; }
+void ali3_float_control_restore(ali3_float_control previous) { (void)previous; }
 #endif

@@ -25,12 +25,12 @@ const char *ali3_check_axis(const double *real);
 ali3_status ali3_check_axes(const ali3_system *s, ali3_message m);
 ali3_status ali3_system_turn(ali3_system *s, ali3_message m);
 ali3_status ali3_check_ported(const ali3_system *s, ali3_message m);
-/* Data of elements, guides, roads, payloads and armatures, in the order of ALI3_TARGET_*: all, or of what target k of a parameter
- * belongs to. */
+/* Checks data in the order of ALI3_TARGET_*: all of them, or those that target k of a parameter writes. NULL: valid. */
 const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_TARGET_COUNT]);
 const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]);
 ali3_status ali3_system_derive(ali3_system *s, ali3_message m);
-/* A mass matrix in front storage, its diagonal, and what massless coordinates lack; each may be that of an instance. */
+/* A mass matrix in front storage, its diagonal, and the floor of massless coordinates; also for the masses of an
+ * instance. */
 bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i);
 bool ali3_mass_isotropic(const ali3_system *s, const double *val);
 void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front, double *floor, double *floor_inverse,

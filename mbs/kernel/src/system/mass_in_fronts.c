@@ -1,4 +1,5 @@
-/* A mass matrix in front storage, from which each tangent starts, and its diagonal, which is positive everywhere. */
+/* Mass matrix in front storage, the initial value of each tangent, and its diagonal, made positive for massless
+ * coordinates. */
 #include <math.h>
 #include <string.h>
 
@@ -15,21 +16,21 @@ bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i) {
   return true;
 }
 
-/* Whether the mass matrix with these values still has equal rows for the three coordinates of a point. */
+/* Whether the mass matrix with these values has equal rows for the three coordinates of each point. */
 bool ali3_mass_isotropic(const ali3_system *s, const double *val) {
   for (int32_t i = 0; i < s->size.nq; i++)
     if (s->mass_alike[i] == 0 && !ali3_same_values(s->mass_ptr, val, i)) return false;
   return true;
 }
 
-/* Raises the floor to the masses of bodies that tables place on a base, which may be lighter. */
-static void raise_to_carried(const ali3_system *s, double *floor) {
+/* Raises the floor to the masses of tabled bodies on a base, which may be lighter itself. */
+static void raise_floor(const ali3_system *s, double *floor) {
   for (int32_t i = 0; i < s->n_tabled; i++) {
     const double *m = s->tabled_mass + ALI3_TABLED_MOMENTS * (int64_t)i;
     const int32_t *frame = s->tabled_frame + 12 * (int64_t)i;
     for (int k = 0; frame[0] >= 0 && k < 12; k++) {
-      const double own = k < 3 ? m[0] : m[3 + k / 3]; /* the mass, then second moments */
-      if (floor[frame[k]] < own) floor[frame[k]] = own;
+      const double value = k < 3 ? m[0] : m[3 + k / 3]; /* the mass, then second moments */
+      if (floor[frame[k]] < value) floor[frame[k]] = value;
     }
   }
 }
@@ -49,13 +50,13 @@ void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front,
       positive++;
     }
   }
-  /* a massless coordinate is an angle: it gets the inertia of a mean mass at the scale of the drawing */
+  /* massless coordinates are angles: their floor is the inertia of a mean mass at the scale of the drawing */
   const double mean = positive > 0 ? sum / positive : 1.0, typical = s->fine * s->fine * mean;
   for (int32_t i = 0; i < nq; i++) {
     const bool massless = !(floor[i] > 1e-12 * fmin(typical, mean));
     missing[i] = massless ? typical : 0.0;
     if (massless) floor[i] = typical;
   }
-  raise_to_carried(s, floor);
+  raise_floor(s, floor);
   for (int32_t i = 0; i < nq; i++) floor_inverse[i] = 1.0 / floor[i];
 }

@@ -1,4 +1,4 @@
-/* The sentence that a refused System file leaves. */
+/* Message of a refused System file. */
 #include "message.h"
 
 #include <stdarg.h>

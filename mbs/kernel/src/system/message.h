@@ -1,4 +1,4 @@
-/* The sentence that a refused System file leaves. */
+/* Message of a refused System file. */
 #ifndef ALI3_MESSAGE_H
 #define ALI3_MESSAGE_H
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* A System with axes that parameters write: its file has room in the signals of a wheel for every direction. The System as
- * loaded drops the entries that are zero as drawn, so that these cost nothing; `turned` keeps them, for instances whose
- * axes are not those of the drawing. */
+/* System with axes set by parameters: its file has entries for every direction of a wheel's signals. The System as
+ * loaded drops those that are zero as drawn, so that they cost nothing; `turned` keeps them, for instances with other
+ * axes. */
 #include <math.h>
 #include <string.h>
 
@@ -11,9 +11,9 @@
 #include "pool.h"
 
 enum { FRAME = ALI3_AXIS_SIGNALS };
-static const double STEEPEST = 1.4; /* rad of elevation */
+static const double STEEPEST = 1.4; /* rad: largest elevation of an axis */
 
-/* Two angles of an axis; also of a parameter. */
+/* Checks the two angles of an axis; NULL: valid. */
 const char *ali3_check_axis(const double *real) {
   return fabs(real[0]) <= 7.0 && fabs(real[1]) <= STEEPEST ? NULL : "the axis of a wheel must not stand upright";
 }
@@ -26,7 +26,7 @@ static bool has_all(const ali3_system *s, int32_t to, int32_t from) {
   return true;
 }
 
-/* The arrays of signals, tables and of the mass matrix are checked. */
+/* Requires checked arrays of signals, of tables and of the mass matrix. */
 ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_axis_inertia;
   for (int64_t k = 0; k < n; k++)
@@ -48,10 +48,10 @@ ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
 typedef struct {
   int32_t *sig_ptr, *sig_col, *el_loc_ptr, *el_loc;
   double *sig_val;
-  bool *written; /* of each signal */
+  bool *written; /* whether axes write each signal */
 } lean;
 
-static void place(const ali3_system *s, ali3_pool *p, lean *to) {
+static void place_arrays(const ali3_system *s, ali3_pool *p, lean *to) {
   const size_t nsig = (size_t)s->size.nsig, entries = (size_t)s->n_sig_col;
   to->sig_val = ali3_pool_items(p, entries, sizeof(double));
   to->sig_ptr = ali3_pool_items(p, nsig + 1, sizeof(int32_t));
@@ -61,24 +61,24 @@ static void place(const ali3_system *s, ali3_pool *p, lean *to) {
   to->written = ali3_pool_items(p, nsig, sizeof(bool));
 }
 
-/* Whether entry k of a signal stays. */
-static bool stays(const ali3_system *s, const lean *to, int32_t signal, int32_t k) {
+/* Whether entry k of a signal is kept. */
+static bool is_kept(const ali3_system *s, const lean *to, int32_t signal, int32_t k) {
   return !to->written[signal] || s->sig_val[k] != 0.0;
 }
 
-static void drop(ali3_system *s, lean *to) {
+static void drop_zeros(ali3_system *s, lean *to) {
   int32_t n = 0, at = 0;
   for (int64_t i = 0; i < s->n_axis_signal; i++) to->written[s->axis_signal[i]] = true;
   for (int32_t e = 0; e < s->size.ne; e++) {
     const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
     for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
       for (int32_t k = s->sig_ptr[s->el_sig[i]]; k < s->sig_ptr[s->el_sig[i] + 1]; k++, loc++)
-        if (stays(s, to, s->el_sig[i], k)) to->el_loc[at++] = *loc;
+        if (is_kept(s, to, s->el_sig[i], k)) to->el_loc[at++] = *loc;
     to->el_loc_ptr[e + 1] = at;
   }
   for (int32_t i = 0; i < s->size.nsig; i++) {
     for (int32_t k = s->sig_ptr[i]; k < s->sig_ptr[i + 1]; k++) {
-      if (!stays(s, to, i, k)) continue;
+      if (!is_kept(s, to, i, k)) continue;
       to->sig_col[n] = s->sig_col[k];
       to->sig_val[n++] = s->sig_val[k];
     }
@@ -93,7 +93,7 @@ static void drop(ali3_system *s, lean *to) {
   s->n_el_loc = at;
 }
 
-/* s->turned, and s without what is zero as drawn; before s is derived. */
+/* Creates s->turned, and drops the entries of s that are zero as drawn; before s is derived. */
 ali3_status ali3_system_turn(ali3_system *s, ali3_message m) {
   ali3_pool pool = {NULL, 0};
   lean to;
@@ -103,12 +103,12 @@ ali3_status ali3_system_turn(ali3_system *s, ali3_message m) {
   *turned = *s;
   s->turned = turned;
   CHECK(ali3_system_derive(turned, m));
-  place(s, &pool, &to);
+  place_arrays(s, &pool, &to);
   s->lean = s->memory.allocate(1, pool.used);
   if (s->lean == NULL) return ALI3_NO_MEMORY;
   pool.block = s->lean;
   pool.used = 0;
-  place(s, &pool, &to);
-  drop(s, &to);
+  place_arrays(s, &pool, &to);
+  drop_zeros(s, &to);
   return ALI3_OK;
 }

@@ -1,5 +1,5 @@
-/* Pieces of one block of memory. The function that hands them out is walked twice: with a NULL block it only counts, so
- * that what is asked for and what is placed cannot differ. */
+/* Arrays in one block of memory. The placing function is called twice, first with a NULL block to count, so that the
+ * allocated and the placed memory are equal. */
 #ifndef ALI3_POOL_H
 #define ALI3_POOL_H
 #include <stddef.h>
@@ -9,7 +9,7 @@ typedef struct {
   size_t used; /* bytes */
 } ali3_pool;
 
-/* The address sanitizer sees one block. A build for it (tests/sanitize.py) has gaps that nothing may touch. */
+/* The address sanitizer sees one block; builds for it (tests/sanitize.py) have poisoned gaps between arrays. */
 #if defined(ALI3_GAPS)
 #include <sanitizer/asan_interface.h>
 enum { ALI3_GAP = 64 }; /* bytes */
@@ -21,24 +21,24 @@ static inline void ali3_pool_gap(ali3_pool *pool) {
 static inline void ali3_pool_gap(ali3_pool *pool) { (void)pool; }
 #endif
 
-/* Numbers lie side by side, so that several pieces can be copied as one. */
+/* Contiguous numbers, so that several arrays can be copied as one. */
 static inline double *ali3_pool_numbers(ali3_pool *pool, size_t count) {
   double *piece = pool->block != NULL ? (double *)(pool->block + pool->used) : NULL;
   pool->used += count * sizeof(double);
   return piece;
 }
 
-/* Numbers that are no part of a larger copy. */
+/* Numbers that are not copied with others. */
 static inline double *ali3_pool_array(ali3_pool *pool, size_t count) {
   double *piece = ali3_pool_numbers(pool, count);
   ali3_pool_gap(pool);
   return piece;
 }
 
-/* Such numbers with one more behind them that holds nothing: three are read and written as four (`ali3_three`). */
+/* Numbers followed by one unused number, as three are read and written as four (`ali3_three`). */
 static inline double *ali3_pool_padded(ali3_pool *pool, size_t count) { return ali3_pool_array(pool, count + 1); }
 
-/* Items of any kind, from a multiple of 16 bytes to one. */
+/* Items of any type, aligned to 16 bytes. */
 static inline void *ali3_pool_items(ali3_pool *pool, size_t count, size_t item) {
   pool->used = (pool->used + 15u) / 16u * 16u;
   void *piece = pool->block != NULL ? pool->block + pool->used : NULL;

@@ -86,17 +86,17 @@ enum {
       ALI3_SENSOR_TYPE_COUNT
 };
 
-/* Whether positions, velocities and accelerations of a state are all that the rate of a sensor asks for: never, always,
- * or where its first or second integer, an order or a kind, is below 2. */
+/* ALI3_RATE_*: whether the rate of a sensor depends only on positions, velocities and accelerations: never, always, or
+ * if its first or second integer, an order or a kind, is below 2. */
 enum { ALI3_RATE_NEVER = 0, ALI3_RATE_ALWAYS, ALI3_RATE_BY_FIRST, ALI3_RATE_BY_SECOND };
 
-/* Quantities from which a value is computed: positions and velocities; inputs; forces or accelerations; the counts of
- * the solver; multipliers, which are forces too. */
+/* ALI3_READS_*: quantities that the value depends on: positions and velocities; inputs; forces or accelerations; counts
+ * of the solver; multipliers, which include forces. */
 enum { ALI3_READS_MOTION = 0, ALI3_READS_INPUTS, ALI3_READS_FORCES, ALI3_READS_SOLVER, ALI3_READS_ROWS };
 
 typedef struct {
   const char *integers;
-  int32_t reals, reals_each; /* numbers, and more of each item */
+  int32_t reals, reals_each; /* number of reals, and of further ones per item */
   int32_t rate, reads;
 } ali3_sensor_type;
 

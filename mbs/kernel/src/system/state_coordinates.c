@@ -1,9 +1,9 @@
-/* Whether q and qd are all states of a System. */
+/* Test whether q and qd are the only states of a System. */
 #include "state_coordinates.h"
 #include "../rows/guides.h"
 #include "../system.h"
 
-/* No element states and no filtered guides: what a stage inside a step needs is then known from q, qd and the time. */
+/* True without element states and filtered guides: stages inside a step then depend only on q, qd and the time. */
 bool ali3_states_are_coordinates(const ali3_system *S) {
   if (S->size.ny > 0) return false;
   for (int32_t g = 0; g < S->size.ng; g++)

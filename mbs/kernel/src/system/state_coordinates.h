@@ -1,4 +1,4 @@
-/* Whether q and qd are all states of a System. */
+/* Test whether q and qd are the only states of a System. */
 #ifndef ALI3_STATE_COORDINATES_H
 #define ALI3_STATE_COORDINATES_H
 #include "../system.h"

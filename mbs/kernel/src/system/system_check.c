@@ -1,4 +1,4 @@
-/* Checks the content of a System: mass, signals, inputs, guides, roads, parameters. Nothing is indexed before its
+/* Checks the content of a System: mass, signals, inputs, guides, roads, parameters. Indices are used only after their
  * check. */
 #include <math.h>
 
@@ -76,8 +76,9 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
   return ALI3_OK;
 }
 
-/* A mass that changes while it moves would take momentum from nowhere, rows that a parameter turns on an impact. */
-static ali3_status check_fixed(const ali3_system *s, ali3_message m) {
+/* Parameters of masses and switches are fixed during a run: a changed mass would violate the balance of momentum,
+ * switched rows would cause an impact. */
+static ali3_status check_fixed_parameters(const ali3_system *s, ali3_message m) {
   for (int32_t p = 0; p < s->size.np; p++)
     for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
       if (s->par_target[k] >= ALI3_TARGET_PAYLOAD && s->par_target[k] != ALI3_TARGET_SENSOR &&
@@ -108,7 +109,7 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   for (int32_t p = 0; p < np; p++)
     if (!(s->par_min[p] <= s->par_value[p] && s->par_value[p] <= s->par_max[p]))
       return ali3_bad(m, "parameter %d is %g, outside its range", (int)p, s->par_value[p]);
-  return check_fixed(s, m);
+  return check_fixed_parameters(s, m);
 }
 
 static const char *check_element(const ali3_system *s, int32_t e, const double *el_real) {
@@ -143,17 +144,18 @@ static const char *check_ratio(double ratio) {
   return ratio > 0.0 && ratio - ratio == 0.0 ? NULL : "the ratio of an armature must be a number above 0";
 }
 
-/* No principal moment is above the sum of the two others: tr(I) / 2 - I has no negative value. */
+/* Whether no principal moment exceeds the sum of the two others: tr(I) / 2 - I has no negative eigenvalue. */
 bool ali3_inertia_possible(const double *real) {
   const double half = 0.5 * (real[4] + real[5] + real[6]);
   const double x = half - real[4], y = half - real[5], z = half - real[6], xy = real[7], xz = real[8], yz = real[9];
-  const double least = -1e-9 * half;
+  const double tolerance = -1e-9 * half;
   const double det = x * (y * z - yz * yz) - xy * (xy * z + yz * xz) - xz * (xy * yz + y * xz);
-  return half > 0.0 && x >= least && y >= least && z >= least && x * y - xy * xy >= least * half &&
-         x * z - xz * xz >= least * half && y * z - yz * yz >= least * half && det >= least * half * half;
+  return half > 0.0 && x >= tolerance && y >= tolerance && z >= tolerance && x * y - xy * xy >= tolerance * half &&
+         x * z - xz * xz >= tolerance * half && y * z - yz * yz >= tolerance * half && det >= tolerance * half * half;
 }
 
-/* Checks each number of an inertia alone, as they are set one after the other; together they are checked at a start. */
+/* Checks the numbers of an inertia separately, as they are set one after the other; together they are checked at a
+ * start. */
 static const char *check_inertia(const double *real) {
   for (int i = 0; i < ALI3_INERTIA_REALS; i++)
     if (!(real[i] - real[i] == 0.0)) return "the inertia of a body must be numbers";
@@ -175,13 +177,13 @@ const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_
     text = check_inertia(data[ALI3_TARGET_INERTIA] + k);
   for (int64_t k = 0; text == NULL && k < s->n_axis_real; k += ALI3_AXIS_REALS)
     text = ali3_check_axis(data[ALI3_TARGET_AXIS] + k);
-  const double *on = data[ALI3_TARGET_SWITCH]; /* those of a file are 0 or 1 */
+  const double *on = data[ALI3_TARGET_SWITCH]; /* NULL: of a file, whose values are checked with its arrays */
   for (int32_t k = 0; text == NULL && on != NULL && k < s->size.n_switch; k++) text = check_switch(on[k]);
   return text;
 }
 
-/* Whose data item `index` is: ptr[i] <= index < ptr[i + 1]. */
-static int32_t owner(const int32_t *ptr, int32_t n, int32_t index) {
+/* Owner i of data item `index`: ptr[i] <= index < ptr[i + 1]. */
+static int32_t find_owner(const int32_t *ptr, int32_t n, int32_t index) {
   int32_t low = 0, high = n - 1;
   while (low < high) {
     const int32_t middle = low + (high - low + 1) / 2;
@@ -193,12 +195,14 @@ static int32_t owner(const int32_t *ptr, int32_t n, int32_t index) {
   return low;
 }
 
-/* The check of what target k of a parameter belongs to. */
+/* Checks the data that target k of a parameter writes. */
 const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]) {
   const int32_t index = s->par_index[k], family = s->par_target[k];
-  if (family == ALI3_TARGET_ELEMENT) return check_element(s, owner(s->el_real_ptr, s->size.ne, index), data[family]);
-  if (family == ALI3_TARGET_GUIDE) return check_guide(s, owner(s->guide_real_ptr, s->size.ng, index), data[family]);
-  if (family == ALI3_TARGET_ROAD) return check_road(s, owner(s->road_real_ptr, s->nr, index), data[family]);
+  if (family == ALI3_TARGET_ELEMENT)
+    return check_element(s, find_owner(s->el_real_ptr, s->size.ne, index), data[family]);
+  if (family == ALI3_TARGET_GUIDE)
+    return check_guide(s, find_owner(s->guide_real_ptr, s->size.ng, index), data[family]);
+  if (family == ALI3_TARGET_ROAD) return check_road(s, find_owner(s->road_real_ptr, s->nr, index), data[family]);
   if (family == ALI3_TARGET_PAYLOAD) return check_payload(data[family][index]);
   if (family == ALI3_TARGET_SENSOR) return NULL;
   if (family == ALI3_TARGET_INERTIA)

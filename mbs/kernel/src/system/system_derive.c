@@ -1,4 +1,5 @@
-/* Derives from a System file the arrays of the loops: the mass matrix in front storage, and those of other files. */
+/* Derives from a System file the arrays of the kernel's loops: mass matrix in front storage, flexible bodies; calls the
+ * derivations of the other files. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +19,7 @@
 
 enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
 
-static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
+static void place_arrays(ali3_system *s, ali3_pool *p, size_t n_entry) {
   const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne;
   ali3_rows_place(s, p);
   s->front_mass = ali3_pool_items(p, (size_t)s->size.front_size, sizeof(double));
@@ -54,7 +55,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->tree = s->n_tree_parent > 0 ? ali3_pool_items(p, 1, sizeof *s->tree) : NULL;
 }
 
-/* The longest stretch of a row whose columns are neighbours, its first entry and its end; none where it is short. */
+/* Longest stretch of consecutive columns of a row, first entry and end; empty if it is short. */
 static void longest_stretch(const int32_t *col, int32_t begin, int32_t end, int32_t *stretch) {
   stretch[0] = stretch[1] = end;
   for (int32_t i = begin, first = begin; i < end; i++) {
@@ -123,14 +124,14 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   if (n_entry > MAX_SIGNAL_ENTRIES || (int64_t)s->size.ne * ALI3_MAX_SIGNALS * ALI3_MAX_SIGNALS > MAX_SIGNAL_ENTRIES)
     return ali3_bad(m, "the elements have %lld signal entries", (long long)n_entry);
   ali3_pool pool = {NULL, 0};
-  place(s, &pool, (size_t)n_entry);
+  place_arrays(s, &pool, (size_t)n_entry);
   s->derived = s->memory.allocate(1, pool.used > 0 ? pool.used : 1);
   if (s->derived == NULL) return ALI3_NO_MEMORY;
   pool.block = s->derived;
   pool.used = 0;
-  place(s, &pool, (size_t)n_entry);
+  place_arrays(s, &pool, (size_t)n_entry);
   s->has_avx2 = ali3_processor_lanes() > 2;
-  s->fine = s->n_fineness > 0 ? s->fineness[0] : 1.0; /* of all that follows */
+  s->fine = s->n_fineness > 0 ? s->fineness[0] : 1.0; /* used by the following derivations */
   derive_mass(s);
   ali3_rows_derive(s);
   ali3_elements_derive(s);

@@ -1,4 +1,4 @@
-/* The container of a System file: header, directory, copies; the content is checked in system_check.c. */
+/* Reads the container of a System file: header, directory, copies; system_check.c checks the content. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -136,7 +136,8 @@ ali3_status ali3_system_load_with(const void *bytes, size_t size, const ali3_mem
 
 void ali3_system_free(ali3_system *s) {
   if (s == NULL) return;
-  const ali3_memory memory = s->memory; /* a host's release need not take a null pointer */
+  /* copied, as s is released; null pointers are not passed, which a host's release may refuse */
+  const ali3_memory memory = s->memory;
   if (s->turned != NULL) {
     if (s->turned->derived != NULL) memory.release(s->turned->derived);
     memory.release(s->turned);

@@ -1,4 +1,4 @@
-/* Dependent coordinates of tabled bodies and numbers, and what goes along B = dX/dq and back. */
+/* Dependent coordinates of tabled bodies and numbers, their rates by B = dX/dq, and generalised forces by B'. */
 #include "tabled.h"
 
 #include <string.h>
@@ -11,8 +11,8 @@ static real parameter(const ali3_tabled *c, int which, const real *x) {
 
 static const double EARTH[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, STILL[12];
 
-/* r and Y of a base from a vector of coordinates; of the earth `fixed`. */
-static void base_of(const ali3_tabled_base *b, const real *x, const double *fixed, real out[12]) {
+/* Reads r and Y of a base from a vector of coordinates; `fixed` for the earth. */
+static void read_base(const ali3_tabled_base *b, const real *x, const double *fixed, real out[12]) {
   for (int i = 0; i < 12; i++) out[i] = b->frame[0] < 0 ? ali3_same(fixed[i]) : x[b->frame[i]];
 }
 
@@ -21,7 +21,7 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
   for (int32_t b = 0; b < S->n_tabled_base; b++) {
     real frame[12];
     ali3_tabled_base_work *w = in->tabled.base + b;
-    base_of(S->tabled_base + b, q, EARTH, frame);
+    read_base(S->tabled_base + b, q, EARTH, frame);
     memcpy(w->axes, frame + 3, sizeof w->axes);
     memset(w->mass, 0, sizeof w->mass);
   }
@@ -47,7 +47,8 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
                          in->tabled.parameter[p].turned + 3 * v);
 }
 
-/* First derivatives of functions i to i + n by rates a, b of the parameters, for B qd, and second ones. */
+/* First and second time derivatives of functions i to i + n - 1 at rates a, b of the parameters, without second rates
+ * of these. */
 static void rates(const ali3_tabled *c, const ali3_tabled_work *w, real a, real b, int32_t i, int32_t n, real *first,
                   real *second) {
   for (int32_t k = 0; k < n; k++, i++) {
@@ -60,23 +61,23 @@ static void rates(const ali3_tabled *c, const ali3_tabled_work *w, real a, real 
 }
 
 /* Vector v of B x. */
-static void along(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *x,
-                  const real frame[12], int32_t v, real out[3]) {
-  real first[3], second[3], moved[3];
+static void first_rate(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *x,
+                       const real frame[12], int32_t v, real out[3]) {
+  real first[3], second[3], rotated[3];
   rates(c, w, parameter(c, 0, x), parameter(c, 1, x), 3 * v, 3, first, second);
-  ali3_tabled_turn(in->tabled.base[c->base].axes, first, moved);
+  ali3_tabled_turn(in->tabled.base[c->base].axes, first, rotated);
   ali3_tabled_turn(frame + 3, w->value[0] + 3 * v, out);
-  for (int k = 0; k < 3; k++) out[k] += moved[k];
+  for (int k = 0; k < 3; k++) out[k] += rotated[k];
 }
 
-/* Vector v of Bd qd: what of the second rates of X comes from rates. */
-static void bend(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
-                 const real frame[12], int32_t v, real out[3]) {
-  real first[3], second[3], moved[3];
+/* Vector v of Bd qd, the part of the second rates of X by the rates of coordinates. */
+static void second_rate(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
+                        const real frame[12], int32_t v, real out[3]) {
+  real first[3], second[3], rotated[3];
   rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 3 * v, 3, first, second);
   ali3_tabled_turn(in->tabled.base[c->base].axes, second, out);
-  ali3_tabled_turn(frame + 3, first, moved);
-  for (int k = 0; k < 3; k++) out[k] += 2.0 * moved[k];
+  ali3_tabled_turn(frame + 3, first, rotated);
+  for (int k = 0; k < 3; k++) out[k] += 2.0 * rotated[k];
 }
 
 static void extend_number(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
@@ -91,7 +92,7 @@ static void extend_number(const ali3_instance *in, const ali3_tabled *c, const a
 }
 
 void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd, bool all) {
-  static const int32_t every[4] = {0, 1, 2, 3};
+  static const int32_t all_vectors[4] = {0, 1, 2, 3};
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const real *from[3] = {q, qd, qdd};
@@ -100,7 +101,7 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     const ali3_tabled_work *w = work_of(in, i);
-    const int32_t *vector = all ? every : c->seen, n = all ? 4 : c->n_seen;
+    const int32_t *vector = all ? all_vectors : c->seen, n = all ? 4 : c->n_seen;
     real place[12], rate[12], second[12];
     if (c->n != ALI3_TABLED_BODY) {
       extend_number(in, c, w, qd, qdd, nq + c->first);
@@ -108,18 +109,18 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
     }
     if (n == 0) continue;
     const ali3_tabled_base *b = S->tabled_base + c->base;
-    base_of(b, q, EARTH, place);
-    base_of(b, qd, STILL, rate);
-    if (qdd != NULL) base_of(b, qdd, STILL, second);
+    read_base(b, q, EARTH, place);
+    read_base(b, qd, STILL, rate);
+    if (qdd != NULL) read_base(b, qdd, STILL, second);
     for (int32_t k = 0; k < n; k++) {
       const int32_t v = vector[k], to = nq + c->first + 3 * v;
-      real bent[3];
+      real curvature[3];
       ali3_tabled_turn(place + 3, w->value[0] + 3 * v, in->tabled.extended[0] + to);
-      along(in, c, w, qd, rate, v, in->tabled.extended[1] + to);
+      first_rate(in, c, w, qd, rate, v, in->tabled.extended[1] + to);
       if (qdd == NULL) continue;
-      along(in, c, w, qdd, second, v, in->tabled.extended[2] + to);
-      bend(in, c, w, qd, rate, v, bent);
-      for (int x = 0; x < 3; x++) in->tabled.extended[2][to + x] += bent[x];
+      first_rate(in, c, w, qdd, second, v, in->tabled.extended[2] + to);
+      second_rate(in, c, w, qd, rate, v, curvature);
+      for (int x = 0; x < 3; x++) in->tabled.extended[2][to + x] += curvature[x];
     }
   }
 }
@@ -130,26 +131,26 @@ void ali3_tabled_way(const ali3_instance *in, const real *D) {
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     const ali3_tabled_work *w = work_of(in, i);
-    real *way = in->tabled.extended[0] + S->size.nq + c->first, frame[12];
+    real *displacement = in->tabled.extended[0] + S->size.nq + c->first, frame[12];
     if (c->n != ALI3_TABLED_BODY) {
       real second;
-      rates(c, w, parameter(c, 0, D), parameter(c, 1, D), 0, 1, way, &second);
-      way[0] -= 0.5 * second;
+      rates(c, w, parameter(c, 0, D), parameter(c, 1, D), 0, 1, displacement, &second);
+      displacement[0] -= 0.5 * second;
       continue;
     }
     if (c->n_seen == 0) continue;
-    base_of(S->tabled_base + c->base, D, STILL, frame);
+    read_base(S->tabled_base + c->base, D, STILL, frame);
     for (int32_t k = 0; k < c->n_seen; k++) {
-      real bent[3];
-      along(in, c, w, D, frame, c->seen[k], way + 3 * c->seen[k]);
-      bend(in, c, w, D, frame, c->seen[k], bent);
-      for (int x = 0; x < 3; x++) way[3 * c->seen[k] + x] -= 0.5 * bent[x];
+      real curvature[3];
+      first_rate(in, c, w, D, frame, c->seen[k], displacement + 3 * c->seen[k]);
+      second_rate(in, c, w, D, frame, c->seen[k], curvature);
+      for (int x = 0; x < 3; x++) displacement[3 * c->seen[k] + x] -= 0.5 * curvature[x];
     }
   }
 }
 
-/* Q += B' f, of the vectors that are seen. */
-static void back(const ali3_tabled *c, const ali3_tabled_work *w, const real *f, real *Q) {
+/* Q += B' f of the vectors on which signals depend. */
+static void add_generalised_forces(const ali3_tabled *c, const ali3_tabled_work *w, const real *f, real *Q) {
   for (int p = 0; p < (c->count[1] > 1 ? 2 : 1); p++) {
     real sum = {0};
     if (c->n != ALI3_TABLED_BODY) sum = w->by[p][0] * f[0];
@@ -174,7 +175,7 @@ void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q) {
     ali3_tabled_work *w = work_of(in, i);
     if (c->n_seen == 0) continue;
     memcpy(w->force, in->tabled.force + S->size.nq + c->first, (size_t)c->n * sizeof *w->force);
-    back(c, w, w->force, Q);
+    add_generalised_forces(c, w, w->force, Q);
   }
 }
 
@@ -182,17 +183,17 @@ void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q) {
 void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity) {
   for (int32_t i = 0; i < in->system->n_tabled; i++) {
     const ali3_tabled *c = in->system->tabled + i;
-    double frame[12], X[12], P[12], bent[12];
+    double frame[12], X[12], P[12], curvature[12];
     if (!ali3_tabled_heavy(c)) continue;
-    base_of(in->system->tabled_base + c->base, qd, STILL, frame);
+    read_base(in->system->tabled_base + c->base, qd, STILL, frame);
     for (int32_t v = 0; v < 4; v++) {
-      along(in, c, work_of(in, i), qd, frame, v, X + 3 * v);
-      bend(in, c, work_of(in, i), qd, frame, v, bent + 3 * v);
+      first_rate(in, c, work_of(in, i), qd, frame, v, X + 3 * v);
+      second_rate(in, c, work_of(in, i), qd, frame, v, curvature + 3 * v);
     }
     for (int k = 0; k < 3; k++) X[k] += frame[k];
     ali3_tabled_moments(c->mass, X, P);
     for (int k = 0; k < 12; k++) {
-      *kinetic += P[k] * bent[k];
+      *kinetic += P[k] * curvature[k];
       *gravity -= c->mass[k / 3] * c->gravity[k % 3] * X[k];
     }
   }
@@ -200,7 +201,7 @@ void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kineti
 
 ali3_status ali3_beyond_table(const ali3_instance *in, int32_t *column, double value_and_ends[3]) {
   ali3_status status = ALI3_OK;
-  double farthest = 1.0; /* spacing */
+  double farthest = 1.0; /* in spacings of control points */
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   if (column != NULL) *column = -1;
   for (int32_t i = 0; i < in->system->n_tabled; i++) {

@@ -1,7 +1,8 @@
-/* Inertia of tabled bodies. With X_v = sum_K T_Kv y_K, y = (r, Y) and J the moments of a body, M = B' M_X B has T J T' of
- * r and Y, Y T J dT'/dp with a parameter and tr(dT/dp J dT'/dq) between two, where Y is orthonormal. All are sums over
- * the bodies of a base, so that a product with M costs as much for many bodies as for one. So has Q_v = -B' M_X Bd qd:
- * of the rates of Y with those of parameters only what is antisymmetric in Y' Yd is there. */
+/* Inertia of tabled bodies. With X_v = sum_K T_Kv y_K, y = (r, Y) and J the moments of a body, M = B' M_X B consists of
+ * T J T' for r and Y, Y T J dT'/dp with a parameter, and tr(dT/dp J dT'/dq) between two, where Y is orthonormal. All
+ * are sums over the bodies of a base, so that a product with M has the same cost for many bodies as for one. The same
+ * applies to Q_v = -B' M_X Bd qd: the rates of Y with those of parameters contribute only by the antisymmetric part of
+ * Y' Yd. */
 #include <string.h>
 
 #include "../algebra/processor.h"
@@ -36,15 +37,15 @@ ALI3_INLINED void gather(const real *T, const real *P, real *out) {
 
 ALI3_INLINED void tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w) {
   ali3_tabled_base_work *b = in->tabled.base + c->base;
-  real P[12], own[12], by[2][12];
-  memset(own, 0, sizeof own);
+  real P[12], product[12], by[2][12];
+  memset(product, 0, sizeof product);
   moments(c->mass, w->value[0], P);
-  gather(w->value[0], P, own);
+  gather(w->value[0], P, product);
   b->mass[0][0] += c->mass[0];
   for (int k = 0; k < 3; k++) {
-    b->mass[0][1 + k] += own[k];
-    b->mass[1 + k][0] += own[k];
-    for (int K = 0; K < 3; K++) b->mass[1 + K][1 + k] += own[3 + 3 * K + k];
+    b->mass[0][1 + k] += product[k];
+    b->mass[1 + k][0] += product[k];
+    for (int K = 0; K < 3; K++) b->mass[1 + K][1 + k] += product[3 + 3 * K + k];
   }
   const int n_par = c->count[1] > 1 ? 2 : 1;
   for (int p = 0; p < n_par; p++) {
@@ -94,9 +95,9 @@ void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out) {
   }
 }
 
-/* -B' M_X Bd qd of a body, but for what the rates of Y have to do with r and Y. */
-ALI3_INLINED void add_rates(const ali3_tabled *c, const ali3_tabled_work *w, const real *qd, const real *turning,
-                            ali3_tabled_base_work *base, real *Q) {
+/* Adds -B' M_X Bd qd of a body, without the terms of the rates of Y on r and Y. */
+ALI3_INLINED void add_velocity_terms(const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
+                                     const real *turning, ali3_tabled_base_work *base, real *Q) {
   const real a = qd[c->param[0]], b = c->count[1] > 1 ? qd[c->param[1]] : ali3_same(0.0);
   real t[12], P[12];
   for (int i = 0; i < 12; i++) {
@@ -123,7 +124,7 @@ ALI3_INLINED void tabled_inertia_forces(const ali3_instance *in, const real *qd,
     memset(turning, 0, sizeof turning);
     for (int k = 0; c->count[1] > 1 && c->frame[0] >= 0 && k < 3; k++)
       for (int x = 0; x < 3; x++) turning[k] += w->axes[3 * k + x] * qd[c->frame[3 + 3 * ((k + 1) % 3) + x]];
-    add_rates(c, in->tabled.item + i, qd, turning, w, Q);
+    add_velocity_terms(c, in->tabled.item + i, qd, turning, w, Q);
   }
   for (int32_t b = 0; b < S->n_tabled_base; b++) {
     const ali3_tabled_base *base = S->tabled_base + b;
@@ -153,7 +154,7 @@ ALI3_BY_PROCESSOR(in->system, void, tabled_inertia_forces, (const ali3_instance 
                   (in, qd, Q))
 
 #ifndef ALI3_WIDTH
-/* Energy of the weight of tabled bodies where they are prepared, J. */
+/* Potential energy of gravity of the prepared tabled bodies, J. */
 double ali3_tabled_gravity(const ali3_instance *in, const double *q) {
   double energy = 0.0;
   for (int32_t b = 0; b < in->system->n_tabled_base; b++) {

@@ -1,4 +1,4 @@
-/* Tangents of tabled bodies and of elements on them, into fronts. */
+/* Tangents of tabled bodies and of the elements on them, added to fronts. */
 #include <string.h>
 
 #include "../algebra/fronts.h"
@@ -8,7 +8,7 @@
 
 enum { FIRST_PARAMETER = 12 };
 
-/* wM M of all bodies of a base, and what the weight changes in Q: -wK d2(g . X)/dY dp. */
+/* Adds wM M of all bodies of a base, and the geometric stiffness of gravity: -wK d2(g . X)/dY dp. */
 ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
   const ali3_tabled_base *base = S->tabled_base + b;
@@ -31,7 +31,7 @@ ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double
   }
 }
 
-/* Tangent of one item: wM M between its parameters, -wK f d2X/dq2 with the force of elements and the weight. */
+/* Adds the tangent of one item: wM M between its parameters, -wK f d2X/dq2 with the forces of elements and gravity. */
 static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
   const ali3_tabled *c = S->tabled + i;
@@ -49,9 +49,9 @@ static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, r
   for (int p = 0; p < n_par; p++) {
     const int32_t at = c->loc[FIRST_PARAMETER + p];
     for (int o = 0; o <= p; o++) {
-      const real *bent = w->value[ALI3_BY_AA + p + o];
+      const real *second_derivative = w->value[ALI3_BY_AA + p + o];
       real sum = {0};
-      for (int32_t k = 0; k < c->n; k++) sum += f[k] * bent[k];
+      for (int32_t k = 0; k < c->n; k++) sum += f[k] * second_derivative[k];
       real value = -wK * sum;
       if (heavy) value += wM * w->inertia[p + o];
       ali3_add_lower(block, size, at, c->loc[FIRST_PARAMETER + o], value);
@@ -72,9 +72,10 @@ void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F)
   for (int32_t i = 0; i < in->system->n_tabled; i++) add_item(in, i, wM, wK, F);
 }
 
-/* Row of B of a signal: its coefficient `value` of dependent d of an item, over the coordinates of the group. */
-ALI3_INLINED void spread(const ali3_tabled *c, const ali3_tabled_work *w, const int32_t *slot, int32_t d, double value,
-                         real *row) {
+/* Adds to the row of B of a signal its coefficient `value` of dependent d of an item, over the coordinates of the
+ * group. */
+ALI3_INLINED void add_dependent(const ali3_tabled *c, const ali3_tabled_work *w, const int32_t *slot, int32_t d,
+                                double value, real *row) {
   row[slot[FIRST_PARAMETER]] += value * w->by[0][d];
   if (c->count[1] > 1) row[slot[FIRST_PARAMETER + 1]] += value * w->by[1][d];
   if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
@@ -82,8 +83,8 @@ ALI3_INLINED void spread(const ali3_tabled *c, const ali3_tabled_work *w, const 
   for (int k = 0; k < 3; k++) row[slot[3 + 3 * k + x]] += value * w->value[0][3 * v + k];
 }
 
-/* B, n x m: the signals of a group by its coordinates, made of its tables. */
-ALI3_INLINED void rows_of(const ali3_instance *in, const ali3_tabled_group *of, int32_t m, real *B) {
+/* B (n x m) of the signals of a group by its coordinates. */
+ALI3_INLINED void compute_B(const ali3_instance *in, const ali3_tabled_group *of, int32_t m, real *B) {
   const ali3_system *S = in->system;
   memset(B, 0, (size_t)(of->n_signal * m) * sizeof *B);
   for (int32_t i = 0; i < of->n_signal; i++)
@@ -93,13 +94,13 @@ ALI3_INLINED void rows_of(const ali3_instance *in, const ali3_tabled_group *of, 
       if (d < 0)
         row[local] += S->el_entry_value[k];
       else
-        spread(S->tabled + of->item[local], in->tabled.item + of->item[local], of->slot[local], d, S->el_entry_value[k],
-               row);
+        add_dependent(S->tabled + of->item[local], in->tabled.item + of->item[local], of->slot[local], d,
+                      S->el_entry_value[k], row);
     }
 }
 
-/* Sum of the tangents of a group's elements by its signals, n x n; returns whether none has any. */
-ALI3_INLINED truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, real *sum) {
+/* Sum of the tangents of a group's elements by its signals, n x n; returns the lanes in which all elements are idle. */
+ALI3_INLINED truth sum_tangents(const ali3_instance *in, const ali3_tabled_group *of, real *sum) {
   const ali3_system *S = in->system;
   truth idle = ali3_same(0.0) == 0.0;
   memset(sum, 0, (size_t)(of->n_signal * of->n_signal) * sizeof *sum);
@@ -107,26 +108,26 @@ ALI3_INLINED truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, 
     const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
     const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
     const real *from = in->element.S + S->el_S_off[e];
-    const truth still = in->element.idle[e];
-    if (!ali3_any(ali3_not(still))) continue;
-    idle &= still;
+    const truth idle_lanes = in->element.idle[e];
+    if (!ali3_any(ali3_not(idle_lanes))) continue;
+    idle &= idle_lanes;
     for (int32_t i = 0; i < n; i++) {
       real *row = sum + place[i] * of->n_signal;
-      for (int32_t k = 0; k < n; k++) row[place[k]] = ali3_add_unless(still, row[place[k]], from[i * n + k]);
+      for (int32_t k = 0; k < n; k++) row[place[k]] = ali3_add_unless(idle_lanes, row[place[k]], from[i * n + k]);
     }
   }
   return idle;
 }
 
-/* B' S B of the elements of a group without parts. */
-ALI3_INLINED void add_whole(ali3_instance *in, const ali3_tabled_group *of, real *F) {
+/* Adds B' S B of the elements of a group without parts. */
+ALI3_INLINED void add_undivided(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   const ali3_system *S = in->system;
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
   const int32_t n = of->n_signal, m = of->m;
   real *block = F + S->front_off[of->front], *sum = in->tabled.square, *B = sum + n * n, *SB = B + n * m;
-  const truth idle = sum_of(in, of, sum);
+  const truth idle = sum_tangents(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
-  rows_of(in, of, m, B);
+  compute_B(in, of, m, B);
   memset(SB, 0, (size_t)(n * m) * sizeof *SB);
   for (int32_t i = 0; i < n; i++)
     for (int32_t k = 0; k < n; k++)
@@ -140,7 +141,7 @@ ALI3_INLINED void add_whole(ali3_instance *in, const ali3_tabled_group *of, real
 }
 
 /* B of the parts of a group. */
-ALI3_INLINED void parts_of(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
+ALI3_INLINED void compute_part_B(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
   const ali3_system *S = in->system;
   memset(p->share, 0, (size_t)of->n_vector * sizeof *p->share);
   memset(p->along, 0, (size_t)of->n_vector * sizeof *p->along);
@@ -171,16 +172,16 @@ ALI3_INLINED void parts_of(const ali3_instance *in, const ali3_tabled_group *of,
     }
 }
 
-/* to (n) += the numbers `from` but in the lanes that are still. */
-ALI3_INLINED void add_numbers(real *restrict to, const real *restrict from, truth still, bool some, int32_t n) {
+/* to (n) += from, except in idle lanes. */
+ALI3_INLINED void add_numbers(real *restrict to, const real *restrict from, truth idle_lanes, bool some, int32_t n) {
   if (!some)
     for (int32_t i = 0; i < n; i++) to[i] += from[i];
   else
-    for (int32_t i = 0; i < n; i++) to[i] = ali3_add_unless(still, to[i], from[i]);
+    for (int32_t i = 0; i < n; i++) to[i] = ali3_add_unless(idle_lanes, to[i], from[i]);
 }
 
-/* Sum of the tangents of a group's elements by its parts, of numbers with vectors once; returns as sum_of. */
-ALI3_INLINED truth sum_of_parts(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
+/* Sum of the tangents of a group's elements by its parts, of numbers with vectors once; returns as `sum_tangents`. */
+ALI3_INLINED truth sum_part_tangents(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
   const ali3_system *S = in->system;
   truth idle = ali3_same(0.0) == 0.0;
   for (int32_t i = 0; i < of->n_vector; i++)
@@ -191,21 +192,21 @@ ALI3_INLINED truth sum_of_parts(const ali3_instance *in, const ali3_tabled_group
     const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
     const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
     const real *from = in->element.S + S->el_S_off[e];
-    const truth still = in->element.idle[e];
-    const bool some = ali3_any(still);
-    if (!ali3_any(ali3_not(still))) continue;
-    idle &= still;
+    const truth idle_lanes = in->element.idle[e];
+    const bool some = ali3_any(idle_lanes);
+    if (!ali3_any(ali3_not(idle_lanes))) continue;
+    idle &= idle_lanes;
     for (int32_t i = 0; i < n; i++) {
       const int32_t a = of->part[place[i]];
       for (int32_t k = 0; k < n; k++) {
         const int32_t b = of->part[place[k]];
         const real *at = from + i * n + k;
         if (a >= 0 && b >= 0)
-          for (int x = 0; x < 3; x++) add_numbers(p->vectors[a][b] + 3 * x, at + x * n, still, some, 3);
+          for (int x = 0; x < 3; x++) add_numbers(p->vectors[a][b] + 3 * x, at + x * n, idle_lanes, some, 3);
         else if (b >= 0)
-          add_numbers(p->mixed[-1 - a][b], at, still, some, 3);
+          add_numbers(p->mixed[-1 - a][b], at, idle_lanes, some, 3);
         else if (a < 0)
-          add_numbers(p->numbers[-1 - a] + (-1 - b), at, still, some, 1);
+          add_numbers(p->numbers[-1 - a] + (-1 - b), at, idle_lanes, some, 1);
         if (b >= 0) k += 2;
       }
       if (a >= 0) i += 2;
@@ -215,7 +216,7 @@ ALI3_INLINED truth sum_of_parts(const ali3_instance *in, const ali3_tabled_group
 }
 
 /* S B of the parts of a group. */
-ALI3_INLINED void times_parts(const ali3_tabled_group *of, ali3_tabled_parts *p) {
+ALI3_INLINED void multiply_parts(const ali3_tabled_group *of, ali3_tabled_parts *p) {
   for (int32_t i = 0; i < of->n_vector; i++) {
     const ali3_tabled_list *beside = of->beside + i;
     for (int K = 0; of->base >= 0 && K < 4; K++) {
@@ -247,13 +248,13 @@ ALI3_INLINED void times_parts(const ali3_tabled_group *of, ali3_tabled_parts *p)
     }
 }
 
-/* B' S B of the elements of a group with parts, but that between the axes of its base, which goes into p->base. */
-ALI3_INLINED void add_parted(ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p, real *F) {
-  const truth idle = sum_of_parts(in, of, p);
+/* Adds B' S B of the elements of a group with parts, except between the axes of its base, which is added to p->base. */
+ALI3_INLINED void add_by_parts(ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p, real *F) {
+  const truth idle = sum_part_tangents(in, of, p);
   const bool some = ali3_any(idle);
   if (!ali3_any(ali3_not(idle))) return;
-  parts_of(in, of, p);
-  times_parts(of, p);
+  compute_part_B(in, of, p);
+  multiply_parts(of, p);
   for (int K = 0; of->base >= 0 && K < 4; K++)
     for (int L = 0; L <= K; L++) {
       real sum[9] = {0};
@@ -279,7 +280,7 @@ ALI3_INLINED void add_parted(ali3_instance *in, const ali3_tabled_group *of, ali
   }
 }
 
-/* Squares between r and Y of a base, from the diagonal on. */
+/* Adds the entries between r and Y of a base, from the diagonal on. */
 ALI3_INLINED void add_axes(const ali3_tabled_base *base, const ali3_tabled_parts *p, real *F) {
   for (int i = 0; i < 12; i++)
     for (int j = 0; j <= i; j++) F[base->at[i][j]] += p->base[i / 3][j / 3][3 * (i % 3) + j % 3];
@@ -291,13 +292,13 @@ ALI3_INLINED void tabled_elements_tangent(ali3_instance *in, real *F) {
   int32_t base = -1; /* of p->base */
   for (int32_t g = 0; g < S->n_tabled_group; g++) {
     const ali3_tabled_group *of = S->tabled_group + g;
-    const bool begins = of->parted && of->base >= 0 && of->base != base;
-    if (base >= 0 && (begins || !of->parted)) add_axes(S->tabled_base + base, p, F), base = -1;
-    if (begins) memset(p->base, 0, sizeof p->base), base = of->base;
+    const bool new_base = of->parted && of->base >= 0 && of->base != base;
+    if (base >= 0 && (new_base || !of->parted)) add_axes(S->tabled_base + base, p, F), base = -1;
+    if (new_base) memset(p->base, 0, sizeof p->base), base = of->base;
     if (of->parted)
-      add_parted(in, of, p, F);
+      add_by_parts(in, of, p, F);
     else
-      add_whole(in, of, F);
+      add_undivided(in, of, F);
   }
   if (base >= 0) add_axes(S->tabled_base + base, p, F);
 }

@@ -53,7 +53,7 @@ void ali3_tree_joints(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* Velocities, and what their products with the frames add to the accelerations. */
+/* Velocities, and the parts of accelerations that are quadratic in them. */
 void ali3_tree_move(const ali3_tree *T, ali3_tree_work *w) {
   for (int32_t b = 1; b <= T->n; b++) {
     const int32_t p = T->parent[b];
@@ -77,7 +77,7 @@ void ali3_tree_move(const ali3_tree *T, ali3_tree_work *w) {
     w->drift_rate[1][b] = (o2 * s0 - o0 * s2) + (v2 * t0 - v0 * t2);
     w->drift_rate[2][b] = (o0 * s1 - o1 * s0) + (v0 * t1 - v1 * t0);
   }
-  for (int i = 0; i < 3; i++) w->drift_rate[i][0] = -w->gravity[i]; /* as if the ground rose */
+  for (int i = 0; i < 3; i++) w->drift_rate[i][0] = -w->gravity[i]; /* gravity as an acceleration of the ground */
   for (int32_t b = 1; b <= T->n; b++) {
     const int32_t p = T->parent[b];
     for (int i = 0; i < 3; i++) {
@@ -87,7 +87,7 @@ void ali3_tree_move(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* Adds the joint accelerations qdd (n) to the rates, and takes the rise of the ground out. */
+/* Adds the joint accelerations qdd (n) to the rates and removes the acceleration of the ground. */
 void ali3_tree_accelerate(const ali3_tree *T, ali3_tree_work *w, const double *qdd) {
   ali3_lanes spin[3] = {{0.0}}, drift[3] = {{0.0}};
   for (int i = 0; i < 3; i++) drift[i][0] = w->gravity[i];

@@ -1,7 +1,7 @@
-/* Relative coordinates along a spanning tree of the bodies: what the files of the semi-recursive method share.
- * Everything is in earth axes with respect to the origin of the earth, so that what belongs to a body adds up along the
- * tree without transformations. Most quantities are arrays over bodies ("lanes"), body 0 is the ground; loops over
- * lanes have no branches and no dependence from body to body, recursions along the tree have little arithmetic. */
+/* Relative coordinates along a spanning tree of the bodies, shared by the files of the semi-recursive method.
+ * Quantities are in earth axes with respect to the origin of the earth, so that those of bodies add up along the tree
+ * without transformations. Most are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes have no
+ * branches and no dependence between bodies, recursions along the tree have few operations. */
 #ifndef ALI3_TREE_H
 #define ALI3_TREE_H
 #include "../algebra/number_pairs.h"
@@ -10,7 +10,7 @@
 enum { ALI3_MOST_JOINTS = 64, ALI3_LANES = 66, ALI3_MOST_CUT_ROWS = 64, ALI3_MOST_ANGLES = 64 };
 typedef double ali3_lanes[ALI3_LANES];
 
-/* Before a loop whose rounds do not depend on each other; never before a sum, which it would allow to be reordered. */
+/* For loops with independent iterations; not for sums, which it would allow to be reordered. */
 #if defined(__clang__)
 #define ALI3_FOR_LANES _Pragma("clang loop vectorize(assume_safety) interleave(disable) unroll(disable)")
 #else
@@ -28,34 +28,35 @@ struct ali3_tree {
   ali3_lanes place[3];      /* origin of the joint in the frame of the parent */
   ali3_lanes mass, composite, centre[3];
   ali3_lanes round, first, first_axis[3], second, second_axis[3]; /* inertia: round 1 + first e e' + second g g' */
-  ali3_lanes turn, slide;   /* 1 and 0 of a revolute, 0 and 1 of a prismatic joint */
+  ali3_lanes turn, slide;   /* 1 and 0 for a revolute, 0 and 1 for a prismatic joint */
   double gravity[3];        /* acceleration */
 };
 
 struct ali3_tree_work {
   ali3_lanes q, qd, sine, cosine;
   double relative[ALI3_LANES][3][4];      /* axes and origin of the frame in the frame of the parent */
-  double frame[ALI3_LANES][3][4]; /* [b][i]: component i of the axes of body b and of the way from its parent */
+  /* [b][i]: component i of the axes of body b and of the displacement from its parent */
+  double frame[ALI3_LANES][3][4];
   ali3_lanes origin[3];
   ali3_lanes turn[3], shift[3]; /* motion per unit rate of the joint: angular, and linear at the earth's origin */
   ali3_lanes spin[3], drift[3]; /* angular velocity, linear velocity at the earth's origin */
-  ali3_lanes spin_rate[3], drift_rate[3]; /* their rates without those of the joint rates, gravity taken off */
+  ali3_lanes spin_rate[3], drift_rate[3]; /* their rates without joint accelerations, minus gravity */
   ali3_lanes inertia[6], moment[3]; /* xx, yy, zz, yz, zx, xy about the earth's origin, mass times centre: composite */
   ali3_lanes torque[3], force[3]; /* of inertia and gravity without the joint accelerations: composite */
   ali3_lanes angular[3], linear[3]; /* composite momentum per unit rate of the joint */
-  ali3_lanes composite; /* mass that each joint carries */
+  ali3_lanes composite; /* mass carried by each joint */
   ali3_lanes load; /* right side of M qdd = load */
-  double gravity[3]; /* zero where the forces of the System bring it */
-  double mass[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M, lower triangle; zero where neither joint moves the other */
+  double gravity[3]; /* zero if the forces of the System include it */
+  double mass[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M, lower triangle; zero between joints on different branches */
   double dense[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* a matrix and its factors */
   double product[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M times the columns of the null space */
-  double row[ALI3_MOST_CUT_ROWS][ALI3_LANES]; /* of the cut joints */
+  double row[ALI3_MOST_CUT_ROWS][ALI3_LANES]; /* Jacobian of the rows of the cut joints */
   double upper[ALI3_MOST_CUT_ROWS][ALI3_LANES]; /* factors of the chosen rows */
   double Phi[ALI3_MOST_CUT_ROWS], gamma[ALI3_MOST_CUT_ROWS];
   int32_t row_order[ALI3_MOST_CUT_ROWS], column_order[ALI3_LANES], rank; /* the first `rank` of both are the chosen */
   double stage[ALI3_STAGES][2 * ALI3_LANES], sum[2 * ALI3_LANES]; /* rates of (q, qd) at the stages of a step */
-  double state[2 * ALI3_LANES], qdd[ALI3_LANES]; /* where the method is */
-  double turned[ALI3_MOST_ANGLES]; /* angles where their joints are at zero: whole turns are in them */
+  double state[2 * ALI3_LANES], qdd[ALI3_LANES]; /* state at the present stage */
+  double turned[ALI3_MOST_ANGLES]; /* values of the angles at zero joint coordinates, including whole turns */
 };
 
 /* tree_derive.c */

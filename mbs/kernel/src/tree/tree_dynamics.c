@@ -1,8 +1,8 @@
 /* Inertia, inertia forces and mass matrix of a tree: composite bodies about the origin of the earth. */
 #include "tree.h"
 
-/* Inertia of each body about its centre of mass, in earth axes, and where that is. */
-static void inertia(const ali3_tree *T, ali3_tree_work *w) {
+/* Inertia of each body about its centre of mass in earth axes, and the position of that. */
+static void centroidal_inertia(const ali3_tree *T, ali3_tree_work *w) {
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     double c[3], e[3], rc[3];
@@ -39,9 +39,9 @@ static void inertia(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* Inertia of each body about the origin of the earth, and the forces its velocity and gravity ask for. */
+/* Inertia of each body about the origin of the earth, and its inertia forces by velocity and gravity. */
 void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
-  inertia(T, w);
+  centroidal_inertia(T, w);
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     const double c0 = w->moment[0][b], c1 = w->moment[1][b], c2 = w->moment[2][b], m = T->mass[b];
@@ -75,8 +75,8 @@ void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* From bodies to what each joint carries. */
-static void composite(const ali3_tree *T, ali3_tree_work *w) {
+/* Accumulates the bodies to the composite bodies of the joints. */
+static void accumulate_composites(const ali3_tree *T, ali3_tree_work *w) {
   for (int32_t b = T->n; b > 0; b--) {
     const int32_t p = T->parent[b];
     if (p == 0) continue;
@@ -90,7 +90,7 @@ static void composite(const ali3_tree *T, ali3_tree_work *w) {
 }
 
 /* Momentum of the composite bodies per unit rate of their joints, and the right side without other forces. */
-static void momenta(const ali3_tree *T, ali3_tree_work *w) {
+static void composite_momenta(const ali3_tree *T, ali3_tree_work *w) {
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     const double t0 = w->turn[0][b], t1 = w->turn[1][b], t2 = w->turn[2][b];
@@ -109,10 +109,10 @@ static void momenta(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* M: row j for the bodies on its path to the ground, from whole runs of neighbours. */
+/* M: row j for the bodies on its path to the ground, by runs of consecutive bodies. */
 void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
-  composite(T, w);
-  momenta(T, w);
+  accumulate_composites(T, w);
+  composite_momenta(T, w);
   for (int32_t j = 1; j <= T->n; j++) {
     const double a0 = w->angular[0][j], a1 = w->angular[1][j], a2 = w->angular[2][j];
     const double l0 = w->linear[0][j], l1 = w->linear[1][j], l2 = w->linear[2][j];
@@ -126,8 +126,8 @@ void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* row -= f p + g q from `first` to `last`, in whole pairs: what lies beside the path is zero, above the diagonal
- * unread. */
+/* row -= f p + g q from `first` to `last`, in whole pairs: entries beyond the path are zero, those above the diagonal
+ * are not read. */
 static void subtract(double *restrict row, const double *restrict p, double f, const double *restrict q, double g,
                      int32_t first, int32_t last) {
   ALI3_SHORT
@@ -138,41 +138,41 @@ static void subtract(double *restrict row, const double *restrict p, double f, c
   }
 }
 
-/* M = L' D L from the leaves to the root, which keeps the zeros between branches (Featherstone 2005), two joints of a
- * run at a time; b goes to L'^-1 b. The diagonal takes 1/D. */
+/* M = L' D L from the leaves to the root, which preserves the zeros between branches (Featherstone 2005), two joints of
+ * a run at a time; b becomes L'^-1 b. The diagonal stores 1/D. */
 bool ali3_tree_factorise(const ali3_tree *T, ali3_tree_work *w, double *b) {
   bool positive = true;
   for (int32_t k = T->n; k > 0;) {
-    const int32_t below = T->run[k] < k ? k - 1 : k; /* its parent, or itself where a run begins */
-    double *p = w->mass[k], *q = w->mass[below];
-    const double f = 1.0 / p[k], own = b[k];
+    const int32_t previous = T->run[k] < k ? k - 1 : k; /* its parent, or itself at the start of a run */
+    double *p = w->mass[k], *q = w->mass[previous];
+    const double f = 1.0 / p[k], value = b[k];
     double g = 0.0, next = 0.0;
     positive = positive && p[k] > 0.0;
     p[k] = f;
-    if (below < k) {
-      const double factor = p[below] * f;
-      for (int32_t last = below; last > 0; last = T->parent[T->run[last]])
+    if (previous < k) {
+      const double factor = p[previous] * f;
+      for (int32_t last = previous; last > 0; last = T->parent[T->run[last]])
         subtract(q, p, factor, p, 0.0, T->run[last], last);
-      p[below] = factor;
-      b[below] -= factor * own;
-      positive = positive && q[below] > 0.0;
-      q[below] = g = 1.0 / q[below];
-      next = b[below];
+      p[previous] = factor;
+      b[previous] -= factor * value;
+      positive = positive && q[previous] > 0.0;
+      q[previous] = g = 1.0 / q[previous];
+      next = b[previous];
     }
-    for (int32_t i = T->parent[below]; i > 0; i = T->parent[i]) {
+    for (int32_t i = T->parent[previous]; i > 0; i = T->parent[i]) {
       const double of_p = p[i] * f, of_q = q[i] * g;
       for (int32_t last = i; last > 0; last = T->parent[T->run[last]])
         subtract(w->mass[i], p, of_p, q, of_q, T->run[last], last);
-      b[i] -= of_p * own + of_q * next;
+      b[i] -= of_p * value + of_q * next;
       p[i] = of_p;
-      if (below < k) q[i] = of_q;
+      if (previous < k) q[i] = of_q;
     }
-    k = below - 1;
+    k = previous - 1;
   }
   return positive;
 }
 
-/* x = L^-1 D^-1 b after the factors. */
+/* b becomes L^-1 D^-1 b by the factors. */
 void ali3_tree_solve(const ali3_tree *T, const ali3_tree_work *w, double *b) {
   for (int32_t k = 1; k <= T->n; k++) {
     const double *row = w->mass[k];

@@ -1,5 +1,5 @@
-/* Loops of a tree: rows of its cut joints, and the second transformation, to independent rates. Of the rows as many are
- * chosen as are independent, and as many joints depend on the others through them:
+/* Loops of a tree: rows of its cut joints, and the second transformation, to independent rates. As many rows are chosen
+ * as are independent; as many joints depend on the others by them:
  *     J_d x_d + J_i x_i = -b,     x_d = g - G x_i,     R' M R x_i = R' (load - M (g, 0)),     R = (-G, 1). */
 #include <math.h>
 
@@ -7,7 +7,7 @@
 #include "../system.h"
 #include "tree.h"
 
-static const double RANK = 1e-7; /* a pivot below this part of the largest is of a redundant row */
+static const double RANK = 1e-7; /* of the largest pivot: a smaller one belongs to a redundant row */
 
 typedef struct {
   int32_t first, second, points, axes;
@@ -33,10 +33,10 @@ static cut cut_of(const ali3_system *S, const ali3_tree_work *w, int32_t c) {
   return k;
 }
 
-/* Derivatives of the rows from `row` on by the joints on the path of a body: of a point of it, and of turning about
- * `arm`. */
-static void path(const ali3_tree *T, ali3_tree_work *w, const cut *k, int32_t body, const double *point, double sign,
-                 const double (*arm)[3], int32_t row) {
+/* Adds the derivatives of the rows from `row` on by the joints on the path of a body: of its point, and of rotation
+ * about `arm`. */
+static void add_path_derivatives(const ali3_tree *T, ali3_tree_work *w, const cut *k, int32_t body, const double *point,
+                                 double sign, const double (*arm)[3], int32_t row) {
   for (int32_t j = body; j > 0; j = T->parent[j]) {
     const double t[3] = {w->turn[0][j], w->turn[1][j], w->turn[2][j]};
     double v[3];
@@ -46,7 +46,7 @@ static void path(const ali3_tree *T, ali3_tree_work *w, const cut *k, int32_t bo
   }
 }
 
-/* w->Phi at the frames placed and, with the motions of the joints, its gradients. */
+/* Computes w->Phi at the present frames and, with `gradients`, its derivatives by the joints. */
 void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
   const ali3_tree *T = S->tree;
   int32_t row = 0;
@@ -61,14 +61,14 @@ void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
         ALI3_SHORT
         for (int32_t j = 1; j <= T->n; j++) w->row[i][j] = 0.0;
       }
-      path(T, w, &k, k.first, k.p, 1.0, (const double (*)[3])arm, row);
-      path(T, w, &k, k.second, k.r, -1.0, (const double (*)[3])arm, row);
+      add_path_derivatives(T, w, &k, k.first, k.p, 1.0, (const double (*)[3])arm, row);
+      add_path_derivatives(T, w, &k, k.second, k.r, -1.0, (const double (*)[3])arm, row);
     }
     row += k.points + k.axes;
   }
 }
 
-/* Acceleration of a point of body b without those of the joints. */
+/* Acceleration of a point of body b without joint accelerations. */
 static void point_bias(const ali3_tree_work *w, int32_t b, const double r[3], double out[3]) {
   const double o[3] = {w->spin[0][b], w->spin[1][b], w->spin[2][b]};
   const double a[3] = {w->spin_rate[0][b], w->spin_rate[1][b], w->spin_rate[2][b]};
@@ -80,20 +80,21 @@ static void point_bias(const ali3_tree_work *w, int32_t b, const double r[3], do
   for (int i = 0; i < 3; i++) out[i] += w->drift_rate[i][b] + turned[i];
 }
 
-/* w->gamma: second rates of the rows without joint accelerations; the rise of the ground is common to both bodies. */
+/* Computes w->gamma, the second rates of the rows without joint accelerations; the acceleration of the ground cancels
+ * between both bodies. */
 void ali3_loops_bias(const ali3_system *S, ali3_tree_work *w) {
   int32_t row = 0;
   for (int32_t c = 0; c < S->tree->n_cut; c++) {
     const cut k = cut_of(S, w, c);
-    double first[3], second[3], o[2][3], turn[3], bend[3];
+    double first[3], second[3], o[2][3], spin_difference[3], spin_rate_difference[3];
     point_bias(w, k.first, k.p, first);
     point_bias(w, k.second, k.r, second);
     for (int i = 0; i < k.points; i++) w->gamma[row + i] = first[i] - second[i];
     for (int i = 0; i < 3; i++) {
       o[0][i] = w->spin[i][k.first];
       o[1][i] = w->spin[i][k.second];
-      turn[i] = o[0][i] - o[1][i];
-      bend[i] = w->spin_rate[i][k.first] - w->spin_rate[i][k.second];
+      spin_difference[i] = o[0][i] - o[1][i];
+      spin_rate_difference[i] = w->spin_rate[i][k.first] - w->spin_rate[i][k.second];
     }
     for (int i = 0; i < k.axes; i++) { /* rate of (o1 - o2) . (n x z) */
       double arm[3], nd[3], zd[3], part[3], other[3];
@@ -103,13 +104,13 @@ void ali3_loops_bias(const ali3_system *S, ali3_tree_work *w) {
       ali3_cross(nd, k.z, part);
       ali3_cross(k.n[i], zd, other);
       for (int m = 0; m < 3; m++) part[m] += other[m];
-      w->gamma[row + k.points + i] = ali3_dot(bend, arm) + ali3_dot(turn, part);
+      w->gamma[row + k.points + i] = ali3_dot(spin_rate_difference, arm) + ali3_dot(spin_difference, part);
     }
     row += k.points + k.axes;
   }
 }
 
-/* Rows and dependent joints by complete pivoting at the rows in the work space. */
+/* Chooses independent rows and dependent joints by complete pivoting of the present rows. */
 void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t m = T->n_row, n = T->n;
   double largest = 0.0;
@@ -144,8 +145,8 @@ void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* The chosen rows in the order chosen: L U of J_d, inverse pivots on the diagonal, then G in the columns of the
- * others. */
+/* Factorises the chosen rows in their order: L U of J_d with inverse pivots on the diagonal, then G in the columns of
+ * the other joints. */
 void ali3_loops_factorise(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t r = w->rank, n = T->n;
   for (int32_t i = 0; i < r; i++) {
@@ -172,7 +173,7 @@ void ali3_loops_factorise(const ali3_tree *T, ali3_tree_work *w) {
 }
 
 /* y = J_d^-1 of the chosen rows of b. */
-static void dependent(const ali3_tree_work *w, const double *b, double *y) {
+static void solve_dependent(const ali3_tree_work *w, const double *b, double *y) {
   const int32_t r = w->rank;
   for (int32_t i = 0; i < r; i++) {
     y[i] = b[w->row_order[i]];
@@ -210,14 +211,14 @@ static void solve_dense(const ali3_tree_work *w, int32_t f, double *z) {
 }
 
 /* w->product = (M R)', w->dense = R' M R factorised. */
-static bool reduce(const ali3_tree *T, ali3_tree_work *w) {
+static bool reduce_mass(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t r = w->rank, n = T->n, f = n - r;
   for (int32_t j = 1; j <= n; j++)
     for (int32_t i = T->parent[j]; i > 0; i = T->parent[i]) w->mass[i][j] = w->mass[j][i];
   for (int32_t c = 0; c < f; c++) {
     double *product = w->product[c];
-    const double *own = w->mass[w->column_order[r + c]];
-    for (int32_t j = 1; j <= n; j++) product[j] = own[j];
+    const double *column = w->mass[w->column_order[r + c]];
+    for (int32_t j = 1; j <= n; j++) product[j] = column[j];
     for (int32_t d = 0; d < r; d++) {
       const double *row = w->mass[w->column_order[d]], factor = w->upper[d][r + c];
       ALI3_SHORT
@@ -236,8 +237,8 @@ static bool reduce(const ali3_tree *T, ali3_tree_work *w) {
 bool ali3_loops_solve(const ali3_tree *T, ali3_tree_work *w, double *qdd) {
   const int32_t r = w->rank, n = T->n, f = n - r;
   double g[ALI3_MOST_CUT_ROWS], z[ALI3_LANES];
-  const bool good = reduce(T, w);
-  dependent(w, w->gamma, g);
+  const bool positive = reduce_mass(T, w);
+  solve_dependent(w, w->gamma, g);
   for (int32_t d = 0; d < r; d++) {
     const double *row = w->mass[w->column_order[d]];
     ALI3_SHORT
@@ -254,14 +255,14 @@ bool ali3_loops_solve(const ali3_tree *T, ali3_tree_work *w, double *qdd) {
     for (int32_t c = 0; c < f; c++) sum -= w->upper[d][r + c] * z[c];
     qdd[w->column_order[d] - 1] = sum;
   }
-  return good;
+  return positive;
 }
 
-/* x (n) less the shortest change, in the metric of the mass, that takes the violation out of the chosen rows. */
+/* Subtracts from x (n) the smallest change, in the metric of mass, that removes the violation of the chosen rows. */
 void ali3_loops_correct(const ali3_tree *T, ali3_tree_work *w, const double *violation, double *x) {
   const int32_t r = w->rank, n = T->n, f = n - r;
   double y[ALI3_MOST_CUT_ROWS], z[ALI3_LANES];
-  dependent(w, violation, y);
+  solve_dependent(w, violation, y);
   for (int32_t c = 0; c < f; c++) {
     z[c] = 0.0;
     for (int32_t d = 0; d < r; d++) z[c] += w->product[c][w->column_order[d]] * y[d];

@@ -1,4 +1,4 @@
-/* Between the relative coordinates of a tree and the natural coordinates of its System. */
+/* Conversion between the relative coordinates of a tree and the natural coordinates of its System. */
 #include "../algebra/elementary.h"
 #include "../algebra/small_vectors.h"
 #include "../elements/signal.h"
@@ -9,23 +9,23 @@ typedef struct {
   double origin[3], axis[3][3], velocity[3], spin[3];
 } frame;
 
-/* Frame of body b, 0 for the ground; the angular velocity is half the sum of axes times their rates. */
-static frame frame_of(const ali3_system *S, int32_t b, const double *q, const double *qd) {
+/* Frame of body b, 0: the ground; the angular velocity is half the sum of the products of axes and their rates. */
+static frame evaluate_frame(const ali3_system *S, int32_t b, const double *q, const double *qd) {
   frame f = {{0.0}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {0.0}, {0.0}};
   if (b == 0) return f;
-  const int32_t *number = S->tree_frame + 12 * (int64_t)(b - 1);
+  const int32_t *signal = S->tree_frame + 12 * (int64_t)(b - 1);
   for (int i = 0; i < 3; i++) {
-    f.origin[i] = ali3_signal_at(S, number[i], q, false);
-    f.velocity[i] = ali3_signal_at(S, number[i], qd, true);
+    f.origin[i] = ali3_signal_at(S, signal[i], q, false);
+    f.velocity[i] = ali3_signal_at(S, signal[i], qd, true);
   }
   for (int k = 0; k < 3; k++) {
-    double rate[3], part[3];
+    double rate[3], product[3];
     for (int i = 0; i < 3; i++) {
-      f.axis[k][i] = ali3_signal_at(S, number[3 + 3 * k + i], q, false);
-      rate[i] = ali3_signal_at(S, number[3 + 3 * k + i], qd, true);
+      f.axis[k][i] = ali3_signal_at(S, signal[3 + 3 * k + i], q, false);
+      rate[i] = ali3_signal_at(S, signal[3 + 3 * k + i], qd, true);
     }
-    ali3_cross(f.axis[k], rate, part);
-    for (int i = 0; i < 3; i++) f.spin[i] += 0.5 * part[i];
+    ali3_cross(f.axis[k], rate, product);
+    for (int i = 0; i < 3; i++) f.spin[i] += 0.5 * product[i];
   }
   return f;
 }
@@ -34,8 +34,8 @@ void ali3_tree_read(ali3_instance *in, const double *q, const double *qd, double
   const ali3_system *S = in->system;
   const ali3_tree *T = S->tree;
   for (int32_t b = 1; b <= T->n; b++) {
-    const frame parent = frame_of(S, T->parent[b], q, qd), own = frame_of(S, b, q, qd);
-    double base[3][3], arm[3], moved[3], gap[3];
+    const frame parent = evaluate_frame(S, T->parent[b], q, qd), body = evaluate_frame(S, b, q, qd);
+    double base[3][3], arm[3], relative[3], gap[3];
     for (int i = 0; i < 3; i++) {
       arm[i] = 0.0;
       for (int k = 0; k < 3; k++) {
@@ -43,23 +43,23 @@ void ali3_tree_read(ali3_instance *in, const double *q, const double *qd, double
         base[k][i] = 0.0;
         for (int m = 0; m < 3; m++) base[k][i] += parent.axis[m][i] * T->base[m][k][b];
       }
-      gap[i] = own.origin[i] - (parent.origin[i] + arm[i]);
+      gap[i] = body.origin[i] - (parent.origin[i] + arm[i]);
     }
     if (T->slide[b] != 0.0) {
       for (int i = 0; i < 3; i++) arm[i] += gap[i];
-      ali3_cross(parent.spin, arm, moved);
+      ali3_cross(parent.spin, arm, relative);
       x[b - 1] = ali3_dot(base[2], gap);
-      for (int i = 0; i < 3; i++) moved[i] = own.velocity[i] - parent.velocity[i] - moved[i];
-      x[T->n + b - 1] = ali3_dot(base[2], moved);
+      for (int i = 0; i < 3; i++) relative[i] = body.velocity[i] - parent.velocity[i] - relative[i];
+      x[T->n + b - 1] = ali3_dot(base[2], relative);
     } else {
-      x[b - 1] = ali3_atan2(ali3_dot(base[1], own.axis[0]), ali3_dot(base[0], own.axis[0]));
-      for (int i = 0; i < 3; i++) moved[i] = own.spin[i] - parent.spin[i];
-      x[T->n + b - 1] = ali3_dot(base[2], moved);
+      x[b - 1] = ali3_atan2(ali3_dot(base[1], body.axis[0]), ali3_dot(base[0], body.axis[0]));
+      for (int i = 0; i < 3; i++) relative[i] = body.spin[i] - parent.spin[i];
+      x[T->n + b - 1] = ali3_dot(base[2], relative);
     }
   }
 }
 
-/* At the motion in the work space; qd and qdd may be NULL. */
+/* Writes the natural coordinates at the motion in the work space; qd and qdd may be NULL. */
 void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd) {
   const ali3_system *S = in->system;
   const ali3_tree_work *w = in->tree;
@@ -67,7 +67,7 @@ void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd
   for (int64_t n = 0; n < S->n_tree_out_body; n++) {
     const int32_t b = S->tree_out_body[n], *column = S->tree_out_col + 3 * n;
     const double *local = S->tree_out_local + 4 * n, o = local[0];
-    double r[3], spin[3], rate[3], v[3], turned[3], vd[3], bent[3];
+    double r[3], spin[3], rate[3], v[3], turned[3], vd[3], acceleration[3];
     for (int i = 0; i < 3; i++) {
       r[i] = o * w->origin[i][b] +
              (w->frame[b][i][0] * local[1] + w->frame[b][i][1] * local[2] + w->frame[b][i][2] * local[3]);
@@ -79,16 +79,16 @@ void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd
     ali3_cross(rate, r, vd);
     ali3_cross(spin, v, turned);
     for (int i = 0; i < 3; i++) {
-      bent[i] = o * w->drift_rate[i][b] + vd[i] + turned[i];
+      acceleration[i] = o * w->drift_rate[i][b] + vd[i] + turned[i];
       if (column[i] < 0) continue;
       q[column[i]] = r[i];
       if (qd != NULL) qd[column[i]] = v[i];
-      if (qdd != NULL) qdd[column[i]] = bent[i];
+      if (qdd != NULL) qdd[column[i]] = acceleration[i];
     }
   }
 }
 
-/* Takes generalised forces of the natural coordinates off the inertia forces of the bodies. */
+/* Subtracts generalised forces of the natural coordinates from the inertia forces of the bodies. */
 void ali3_tree_load(const ali3_instance *in, const double *Q) {
   const ali3_system *S = in->system;
   ali3_tree_work *w = in->tree;

@@ -1,10 +1,10 @@
-/* Payloads on the bodies of a tree, on top of what ali3_tree_forces has made of the bodies. */
+/* Adds payloads to the inertia and inertia forces of the bodies of a tree, after ali3_tree_forces. */
 #include "../algebra/small_vectors.h"
 #include "tree.h"
 
-/* Inertia about the origin of the earth and the force of its acceleration, of a mass at a point of body b. */
-static void add(ali3_tree_work *w, int32_t b, double mass, const double *place) {
-  double c[3], spin[3], rate[3], v[3], turned[3], bent[3], force[3], torque[3];
+/* Adds the inertia about the origin of the earth and the inertia force of a mass at a point of body b. */
+static void add_payload(ali3_tree_work *w, int32_t b, double mass, const double *place) {
+  double c[3], spin[3], rate[3], v[3], turned[3], relative_acceleration[3], force[3], torque[3];
   for (int i = 0; i < 3; i++) {
     c[i] =
         w->origin[i][b] + (w->frame[b][i][0] * place[0] + w->frame[b][i][1] * place[1] + w->frame[b][i][2] * place[2]);
@@ -14,8 +14,8 @@ static void add(ali3_tree_work *w, int32_t b, double mass, const double *place) 
   ali3_cross(spin, c, v);
   for (int i = 0; i < 3; i++) v[i] += w->drift[i][b];
   ali3_cross(spin, v, turned);
-  ali3_cross(rate, c, bent);
-  for (int i = 0; i < 3; i++) force[i] = mass * (w->drift_rate[i][b] + bent[i] + turned[i]);
+  ali3_cross(rate, c, relative_acceleration);
+  for (int i = 0; i < 3; i++) force[i] = mass * (w->drift_rate[i][b] + relative_acceleration[i] + turned[i]);
   ali3_cross(c, force, torque);
   const double square = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
   for (int i = 0; i < 3; i++) {
@@ -31,5 +31,5 @@ void ali3_tree_payloads(const ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int64_t k = 0; k < S->n_tree_payload_body; k++)
     if (in->parameters.payload_mass[k] > 0.0)
-      add(in->tree, S->tree_payload_body[k], in->parameters.payload_mass[k], S->tree_payload_place + 3 * k);
+      add_payload(in->tree, S->tree_payload_body[k], in->parameters.payload_mass[k], S->tree_payload_place + 3 * k);
 }
