@@ -54,11 +54,11 @@ static double distance2_at(const profile *p, double s) {
 
 static surface_point evaluate_at(const profile *p, double s) {
   surface_point n = {.s = s};
-  position_at(p, s, n.place);
-  const ali3_surface f = ali3_grid_near(p->grid, p->cell, n.place[0], n.place[1]);
+  position_at(p, s, n.position);
+  const ali3_surface f = ali3_grid_near(p->grid, p->cell, n.position[0], n.position[1]);
   const double w = distance_up(p, f.height);
   const double slope = -ali3_dot(f.normal, p->ahead) / ali3_dot(f.normal, p->up);
-  n.place[2] = f.height;
+  n.position[2] = f.height;
   for (int i = 0; i < 3; i++) n.normal[i] = f.normal[i];
   n.friction = f.friction;
   n.distance2 = s * s + w * w;
@@ -156,7 +156,7 @@ static int blend_contacts(ali3_contact out[2]) {
 static int search_profile(const profile *p, const double axis[3], double radius, ali3_contact out[2]) {
   const int parts = (int)ali3_clamp(2.0 * radius / spacing_along(p->grid, p->ahead), MIN_PARTS, MAX_PARTS);
   surface_point deepest[2];
-  if (!(evaluate_at(p, 0.0).place[2] < p->centre[2])) return 0;
+  if (!(evaluate_at(p, 0.0).position[2] < p->centre[2])) return 0;
   double last[2] = {distance2_at(p, radius * (-parts - 1) / parts), distance2_at(p, radius * -parts / parts)};
   int count = 0;
   for (int k = -parts + 1; k <= parts + 1; k++) {
@@ -176,7 +176,7 @@ static int search_profile(const profile *p, const double axis[3], double radius,
     last[0] = last[1], last[1] = next;
   }
   for (int k = 0; k < count; k++) {
-    ali3_half_space(p->centre, axis, radius, deepest[k].place, deepest[k].normal, &out[k]);
+    ali3_half_space(p->centre, axis, radius, deepest[k].position, deepest[k].normal, &out[k]);
     out[k].friction = deepest[k].friction;
     out[k].yielded = out[k].switching = 0.0;
   }

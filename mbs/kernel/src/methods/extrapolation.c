@@ -55,7 +55,7 @@ ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, i
                   (in, n, h, controlled))
 
 /* Weighted sum of n vectors of a length. */
-ALI3_INLINED void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight,
+ALI3_INLINED void sum_weighted_vectors(real *restrict to, const real *restrict from, int64_t length, const real *weight,
                                int32_t n) {
   const real w = weight[0];
   ALI3_EACH(0, length, ALI3_AT(to) = w * ALI3_AT(from))
@@ -68,8 +68,8 @@ ALI3_INLINED void extrapolate(const ali3_instance *in, double time_ahead, int32_
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   real weight[ALI3_PAST];
   ali3_lagrange(v->history + ALI3_HISTORY_TIME, n, ali3_same(time_ahead), weight);
-  weighted_sum(a, v->past_a, nq, weight, n);
-  weighted_sum(lam, v->past_lam, nc, weight, n);
+  sum_weighted_vectors(a, v->past_a, nq, weight, n);
+  sum_weighted_vectors(lam, v->past_lam, nc, weight, n);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, extrapolate,
