@@ -10,10 +10,10 @@ from SALib.sample import sobol
 from scipy.stats import qmc
 
 from hosts.study.points import grid
-from hosts.study.random_points import Places, latin_hypercube, saltelli, sobol_sequence
+from hosts.study.random_points import UnitPoints, latin_hypercube, saltelli, sobol_sequence
 
 
-def in_blocks(places: Places, count: int, size: int) -> np.ndarray:
+def in_blocks(places: UnitPoints, count: int, size: int) -> np.ndarray:
     return np.vstack([places(k, min(size, count - k)) for k in range(0, count, size)])
 
 
@@ -35,7 +35,7 @@ def test_points_for_sobol_indices_are_those_of_salib(monkeypatch: pytest.MonkeyP
         (lambda: grid((3, 4, 2)), 24),
     ],
 )
-def test_blocks_are_pieces_of_the_whole(make: Callable[[], Places], count: int) -> None:
+def test_blocks_are_pieces_of_the_whole(make: Callable[[], UnitPoints], count: int) -> None:
     whole = make()(0, count)
     assert len(whole) == count
     assert np.array_equal(in_blocks(make(), count, 4), whole)
