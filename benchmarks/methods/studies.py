@@ -159,7 +159,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         connected(address) as client,
         ResultStore[StudyRow](folder, StudyRow, "measures a study") as store,
     ):
-        store.into(OutcomeTable(folder, plan.record))
+        store.attach_table(OutcomeTable(folder, plan.record))
         runner = cluster_runner(client, plan, trial, plan.runs)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
         results = experiment_of(plan.work, plan.fmu).results(

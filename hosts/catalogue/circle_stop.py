@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hosts.driving.result import Result
 from hosts.measures.braking import locked
-from hosts.measures.disturbed_turn import circle_through, off_circle, yaw_rate_on_circle
+from hosts.measures.disturbed_turn import circle_through, distance_from_circle, yaw_rate_on_circle
 from hosts.measures.wheels import at_wheels
 
 STEADY = 1.0  # s before the onset, over which the circle is taken
@@ -116,7 +116,7 @@ class Stop:
             "yaw_acceleration.largest": float(side * change[np.argmax(np.abs(change))]),
             "sideslip.change": side * (self.at("sideslip", 1.0) - self.before("sideslip")),
             "ay.ratio": ay * self.signed_radius / speed**2,
-            "path.deviation": float(off_circle(x, y, self.circle)[0]),
+            "path.deviation": float(distance_from_circle(x, y, self.circle)[0]),
         }
 
     @property

@@ -108,7 +108,7 @@ class TestTables(_Typed):
     def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
         """See `StandardTest.why_not`."""
         scope = self.scope(car, settings)
-        return next((scope.words(r.text) for r in self.refusals if scope.evaluate(r.when)), None)
+        return next((scope.formatted(r.text) for r in self.refusals if scope.evaluate(r.when)), None)
 
 
 class Sheet:
@@ -157,10 +157,10 @@ class Sheet:
         for name, line in table.measures.items():
             for extra in _mappings(scope, line.each):
                 inner = scope.inner(extra)
-                self.measures.append(_measure(inner.words(name), line, inner))
+                self.measures.append(_measure(inner.formatted(name), line, inner))
         for n in table.notes:
             results = [scope.inner(extra) for extra in _mappings(scope, n.each)]
-            self.notes += [each.words(n.text) for each in results if _true(each, each.words(n.when))]
+            self.notes += [each.formatted(n.text) for each in results if _true(each, each.formatted(n.when))]
         self._plots += [plot for line in table.plots if (plot := _plot(line, scope)).lines]
 
     def value(self, expression: str, **names: Any) -> Any:
@@ -192,22 +192,22 @@ def _number(scope: Scope, expression: str, side: str = "") -> tuple[float, str]:
 
 def _measure(name: str, line: _MeasureLine, scope: Scope) -> Measure:
     why, exists = scope["why_none"], scope["should_be"]
-    unit = scope.words(line.unit if not line.unit_of_input or scope["is_angle"] else line.unit_of_input)
-    text = scope.words(line.text)
+    unit = scope.formatted(line.unit if not line.unit_of_input or scope["is_angle"] else line.unit_of_input)
+    text = scope.formatted(line.text)
     if line.sides:
         (left, lost), (right, _) = (_number(scope, line.value, side) for side in ("left", "right"))
         if line.sides == "difference":
             return asymmetry(name, left, right, text, lost or why)
-        missing = lost or why or scope.words(line.missing)
+        missing = lost or why or scope.formatted(line.missing)
         return mean_of_sides(
             name, left, right, unit, text, missing, exists and (bool(lost) or bool(scope.evaluate(line.exists)))
         )
     value, lost = _number(scope, line.value)
     limit = None if line.limit is None else _limit(line.limit, scope)
     if math.isfinite(value):
-        return Measure(name, value, unit, text, limit, scope.words(line.note))
+        return Measure(name, value, unit, text, limit, scope.formatted(line.note))
     present = exists and (bool(lost) or bool(scope.evaluate(line.exists)))
-    note = lost or why or scope.words(line.missing or line.note) or NOT_SHOWN
+    note = lost or why or scope.formatted(line.missing or line.note) or NOT_SHOWN
     return Measure(name, math.nan, unit, text, limit, note, present)
 
 
@@ -215,7 +215,7 @@ def _limit(line: _LimitLine, scope: Scope) -> Limit | None:
     if not _true(scope, line.when):
         return None
     low, high = (float(scope.evaluate(x)) if isinstance(x, str) else x for x in (line.lowest, line.highest))
-    return Limit(scope.words(line.source), low, high)
+    return Limit(scope.formatted(line.source), low, high)
 
 
 def _plot(line: _PlotLine, scope: Scope) -> Plot:
@@ -225,9 +225,9 @@ def _plot(line: _PlotLine, scope: Scope) -> Plot:
             for names in _mappings(scope, line.each):
                 inner = scope.inner(names)
                 x, values = (np.asarray(inner.evaluate(text), float) for text in (line.x[1], y))
-                curve = Line(inner.words(label), x, values)
+                curve = Line(inner.formatted(label), x, values)
                 lines += [curve] if curve.y.ndim and np.isfinite(curve.y).any() else []
-    return Plot(scope.words(line.title), line.x[0], line.y, lines, line.log_x, line.log_y, line.equal)
+    return Plot(scope.formatted(line.title), line.x[0], line.y, lines, line.log_x, line.log_y, line.equal)
 
 
 def _mappings(scope: Scope, each: str | Mapping[str, Sequence[Any]]) -> Sequence[Mapping[str, Any]]:

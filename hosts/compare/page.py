@@ -14,7 +14,7 @@ from ali3.chart_style import BLUE, COLOURS, RED, STYLE
 from ali3.charts import MANY_POINTS
 from hosts.common.display_units import number_in, shown_in, titled
 from hosts.compare.comparison import Comparison
-from hosts.experiment.line_simplification import thinned
+from hosts.experiment.line_simplification import thinned_indices
 from hosts.measures.signal import Signal
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
@@ -40,7 +40,7 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         shared_axis = None
         for k, name in enumerate(names):
             s = before.signals[name]
-            indices = thinned(s.measured.time, s.measured.values, _MOST_POINTS)
+            indices = thinned_indices(s.measured.time, s.measured.values, _MOST_POINTS)
             unit, factor = shown_in(s.measured.unit, name)
             t, y = s.measured.time[indices], factor * s.measured.values[indices]
             signal_axes = figure.add_subplot(grid[k, 0], sharex=shared_axis)

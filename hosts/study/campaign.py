@@ -206,7 +206,7 @@ def _make_missing_runs(
         check_same(folder, record, plan.record)
         record = update_limits(folder, record, plan.record["limits"], content)
     table = OutcomeTable(folder, record, done)
-    store.into(table)
+    store.attach_table(table)
     if again:
         failed = table.remove_rows(lambda part: part["status"].to_numpy() == FAILED)
         print(f"{failed} failed runs are repeated")
@@ -316,13 +316,13 @@ def missing_runs(plan: Plan, done: NDArray[np.bool_]) -> Generator[Run]:
 
 def cluster_runner(client: Any, plan: Plan, trial: Trial, runs: int) -> ClusterRuns[Run, Outcome]:
     """The runner of a cluster, after sending the study to its workers. `runs`: number of runs."""
-    from hosts.experiment.cluster import bring
+    from hosts.experiment.cluster import send_experiment
     from hosts.experiment.cluster_runs import ChunkSize, ClusterRuns
     from hosts.experiment.cluster_worker import UnpackedFmu
 
     work = plan.work
     unpacked_fmu = UnpackedFmu(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
-    bring(client, unpacked_fmu, plan.fmu)
+    send_experiment(client, unpacked_fmu, plan.fmu)
     bytes_a_run = max(8 * job.samples * len(work.signals) for job in work.jobs) + 1
     size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
     return ClusterRuns(client, unpacked_fmu, runs, size)

@@ -162,7 +162,7 @@ def share_rows(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[tu
 def _limit_text(s: Share) -> str:
     unit, factor = shown_in(s.unit, s.measure)
     limit = Limit("", factor * s.lowest, factor * s.highest)
-    return "" if s.measure == ALL else limit.words(typeset(unit))
+    return "" if s.measure == ALL else limit.range_text(typeset(unit))
 
 
 def share_notes(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[str]:

@@ -156,7 +156,7 @@ def _row(name: str, measures: Sequence[Measure | None]) -> list[Content]:
             cells.append(_value_cell(measure, measures[0] if k else None, first, "" if shared else measure.note))
     limit = first.limit
     cells.append(
-        "" if limit is None else element("td", limit.words(typeset(first.unit)), element("small", limit.source))
+        "" if limit is None else element("td", limit.range_text(typeset(first.unit)), element("small", limit.source))
     )
     return cells
 
@@ -169,7 +169,7 @@ def _value_cell(measure: Measure, first: Measure | None, known: Measure, note: s
         if measure.is_kept is not None:
             content += [" ", kept_shown(measure.is_kept)]
         if limit != known.limit:
-            content.append(element("small", f"here {limit.words(typeset(measure.unit))}"))
+            content.append(element("small", f"here {limit.range_text(typeset(measure.unit))}"))
     if first is not None:
         if first.unit == measure.unit:
             text = difference(measure.value, first.value)

@@ -15,7 +15,7 @@ from ali3.charts import Drawing, drawing
 from hosts.catalogue.record import Line, Plot
 from hosts.catalogue.report.numbers import shown
 from hosts.common.display_units import axis_shown
-from hosts.experiment.line_simplification import thinned
+from hosts.experiment.line_simplification import thinned_indices
 
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
 _WIDTHS = (1.5, 1.9, 2.2, 1.7, 1.3, 1.7)
@@ -146,7 +146,7 @@ def _name(label: str, line: Line, plot: Plot, many: bool) -> str:
 def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
     """`style` is shown by colour and dashes, which differ in grey too; `mark` by markers."""
     x, y = (np.atleast_1d(np.asarray(v, np.float64)) for v in (line.x, line.y))
-    indices = thinned(x, y)
+    indices = thinned_indices(x, y)
     x, y = x[indices], y[indices]
     marker = _MARKERS[mark % len(_MARKERS)] or ("." if 0 < len(x) <= _FEW else "")
     axes.plot(

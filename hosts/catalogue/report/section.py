@@ -123,7 +123,7 @@ def _measures(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement
             state = element(
                 "td",
                 kept_shown(m.is_kept),
-                element("small", f"{m.limit.words(typeset(m.unit))}; {m.limit.source}"),
+                element("small", f"{m.limit.range_text(typeset(m.unit))}; {m.limit.source}"),
             )
         value = NONE if m.value != m.value else f"{m.value:.7g}"
         rows.append(

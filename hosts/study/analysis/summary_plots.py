@@ -77,13 +77,13 @@ def plot_indices(axes: Axes, indices: Indices) -> None:
         if np.isfinite(values).any():
             value, half = values[order], np.nan_to_num(conf[order])
             may_be_zero = (value - half <= 0.0) & (half > 0.0)
-            for selected, fill, message in (
+            for rows, fill, message in (
                 (~may_be_zero, colour, label),
                 (may_be_zero, "white", f"{label}, may be 0"),
             ):
-                if selected.any():
+                if rows.any():
                     axes.errorbar(
-                        value[selected], at[selected] + shift, xerr=half[selected], fmt="o", color=colour, markerfacecolor=fill,
+                        value[rows], at[rows] + shift, xerr=half[rows], fmt="o", color=colour, markerfacecolor=fill,
                         markersize=6, capsize=3, linewidth=1.2, label=message,
                     )  # fmt: skip
     axes.set_yticks(at, [indices.names[k] for k in order])

@@ -225,8 +225,8 @@ def test_numbers_for_people():
     assert difference(0.9, 1.0) == "−0.1 (−10 %)"
     assert difference(1.0, 0.0) == "+1"
     assert difference(1.0, float("nan")) == ""
-    assert Limit("", highest=0.35).words() == "at most 0.35"
-    assert Limit("", 1.0, 2.0).words("m") == "1 to 2 m"
+    assert Limit("", highest=0.35).range_text() == "at most 0.35"
+    assert Limit("", 1.0, 2.0).range_text("m") == "1 to 2 m"
 
 
 def test_a_car_whose_file_is_gone_and_characters_that_cannot_be_there(fmu, tmp_path):
