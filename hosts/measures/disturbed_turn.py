@@ -24,5 +24,5 @@ def distance_from_circle(
 
 
 def yaw_rate_on_circle(speed: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
-    """Yaw rate of a car on a circle, rad/s, shape (n,). `speed`: in m/s, shape (n,); `radius`: in m; negative: right."""
+    """Yaw rate of a car on a circle, rad/s, shape (n,). `speed`: m/s, shape (n,); `radius`: m; negative: right turn."""
     return np.asarray(speed / radius)

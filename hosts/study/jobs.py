@@ -10,7 +10,7 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from ali3.reading import is_folder
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.execution import lacking, perform, settings_of_test
+from hosts.catalogue.execution import perform, settings_of_test, unmet_needs
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
@@ -72,7 +72,7 @@ def checked_test(
         settings = settings_of_test(test, set_values)
     except HostError as error:
         raise HostError(f"{where}: {error}") from None
-    for need in lacking(test, {*fmu.variables, *fmu.constants()}):
+    for need in unmet_needs(test, {*fmu.variables, *fmu.constants()}):
         raise HostError(
             f"{where}: the test {test.name} needs {need.replace(' | ', ' or ')}, which the FMU does not have."
         )
