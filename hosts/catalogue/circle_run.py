@@ -113,20 +113,16 @@ def drive_circle(
     """
     method, radius = settings["method"], settings["radius"]
     steering = SteeringInput.of(car.facts)
-    is_constant_speed = method == CONSTANT_SPEED
-    first_speed = settings["speed"] / 3.6 if is_constant_speed else math.sqrt(_FIRST_ACCELERATION * radius)
-    rate = math.radians(settings["steering_rate"]) if is_constant_speed else settings["speed_rise"]
+    by_steering = method == CONSTANT_SPEED
+    first_speed = settings["speed"] / 3.6 if by_steering else math.sqrt(_FIRST_ACCELERATION * radius)
+    rate = math.radians(settings["steering_rate"]) if by_steering else settings["speed_rise"]
     monitor = _RunMonitor(side, method, first_speed, rate, settings["tolerance"])
     pilot = _pilot(car, side, method, radius, ratio, steering, monitor)
     ramp_time = (
-        steering.largest / rate
-        if is_constant_speed
-        else (math.sqrt(_LARGEST_ACCELERATION * radius) - first_speed) / rate
+        steering.largest / rate if by_steering else (math.sqrt(_LARGEST_ACCELERATION * radius) - first_speed) / rate
     )
     stop = _APPROACH_TIME + (min(ramp_time, 300.0) if math.isfinite(ramp_time) else 300.0)
-    expected_increase = (
-        0.2 * ramp_time * rate if is_constant_speed else math.sqrt(_EXPECTED_ACCELERATION * radius) - first_speed
-    )
+    expected = 0.2 * ramp_time * rate if by_steering else math.sqrt(_EXPECTED_ACCELERATION * radius) - first_speed
     name = f"circle to the {'left' if side > 0.0 else 'right'}"
     reported_time = 0.0
 
@@ -134,7 +130,7 @@ def drive_circle(
         nonlocal reported_time
         if time - reported_time > 1.0:
             reported_time = time
-            progress(min(monitor.increase(time) / expected_increase, 1.0))
+            progress(min(monitor.increase(time) / expected, 1.0))
         return monitor.ends(time, observation)
 
     result = car.drive(

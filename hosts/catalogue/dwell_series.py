@@ -101,11 +101,9 @@ def drive_series(
         name = f"{math.degrees(amplitude):.0f} deg {'left' if side > 0.0 else 'right'}"
         run = filtered_run(steer(car, name, speed, *sine_with_dwell_table(side * amplitude), Pedals.COAST))
         progress((k + 1) / len(amplitudes))
-        is_long_enough = len(run.time) >= 20
+        is_long = len(run.time) >= 20
         slip = None if np.isnan(run.sideslip).any() else run.sideslip
-        measures = (
-            sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if is_long_enough else NOTHING
-        )
+        measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if is_long else NOTHING
         runs.append(DwellRun(amplitude, run, measures))
         if runs[-1].is_lost:
             break

@@ -22,15 +22,13 @@ def _test_lines(test: StandardTest) -> list[str]:
 
 
 def _standard_text(standard: Standard) -> str:
-    checked_count = sum(clause.checked for clause in standard.clauses)
-    if not standard.clauses or not checked_count:
+    checked = sum(clause.checked for clause in standard.clauses)
+    if not standard.clauses or not checked:
         source = "from public summaries"
-    elif checked_count == len(standard.clauses):
+    elif checked == len(standard.clauses):
         source = "checked against its text"
     else:
-        source = (
-            f"{checked_count} of {len(standard.clauses)} clauses checked against its text, the others from summaries"
-        )
+        source = f"{checked} of {len(standard.clauses)} clauses checked against its text, the others from summaries"
     return f"{standard.name}, {standard.title} ({source})"
 
 

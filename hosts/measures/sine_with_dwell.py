@@ -60,10 +60,8 @@ def sine_with_dwell(
     peak = _peak(time, -side * yaw_rate, reversal)
 
     def yaw_rate_ratio(delay: float) -> float:
-        time_after = completion + delay
-        return (
-            -side * float(np.interp(time_after, time, yaw_rate)) / peak if time_after <= time[-1] + 1e-9 else math.nan
-        )
+        t = completion + delay
+        return -side * float(np.interp(t, time, yaw_rate)) / peak if t <= time[-1] + 1e-9 else math.nan
 
     largest = math.nan
     if sideslip is not None:

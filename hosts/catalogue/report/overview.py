@@ -126,20 +126,16 @@ def _outcome_cell(record: TestRecord | str | None) -> HtmlElement:
         return element("td", "not asked for")
     if isinstance(record, str):
         return element("td", "not done", element("small", record))
-    limited_measures = [m for m in record.measures if m.is_kept is not None]
+    limited = [m for m in record.measures if m.is_kept is not None]
     notes = f"{len(record.notes)} note{'s' if len(record.notes) > 1 else ''}" if record.notes else ""
     remarks: list[Content] = [element("small", notes)] if notes else []
-    if not limited_measures:
+    if not limited:
         return element("td", "done", *remarks)
-    kept_count = sum(m.is_kept is True for m in limited_measures)
-    if kept_count == len(limited_measures):
+    kept_count = sum(m.is_kept is True for m in limited)
+    if kept_count == len(limited):
         text = "limit kept" if kept_count == 1 else f"{kept_count} limits kept"
         return element("td", limit_element(True, text), *remarks)
-    text = (
-        "limit not kept"
-        if len(limited_measures) == 1
-        else f"{len(limited_measures) - kept_count} of {len(limited_measures)} limits not kept"
-    )
+    text = "limit not kept" if len(limited) == 1 else f"{len(limited) - kept_count} of {len(limited)} limits not kept"
     return element("td", limit_element(False, text), *remarks)
 
 
