@@ -41,10 +41,8 @@ def drive(sheet: Sheet) -> None:
             "or look at the unit of the steering wheel's angle."
         )
     sides: dict[str, list[DwellRun]] = {}
-    for side, sign, progress_begin in (("left", 1.0, 0.2), ("right", -1.0, 0.6)):
-        sides[side] = drive_series(
-            car, speed, sign, amplitudes, lambda done, b=progress_begin: sheet.progress(b + 0.4 * done)
-        )  # type: ignore[misc]
+    for side, sign, begin in (("left", 1.0, 0.2), ("right", -1.0, 0.6)):
+        sides[side] = drive_series(car, speed, sign, amplitudes, lambda done, b=begin: sheet.progress(b + 0.4 * done))  # type: ignore[misc]
         sheet.runs |= {f"{side}_{math.degrees(r.amplitude):.0f}_deg": r.run.thinned() for r in sides[side]}
     # Only of the largest amplitude, the first one that slow steering does not reach.
     shortfalls = [s for s in (r.run.shortfall(r.amplitude) for side in sides.values() for r in side[-1:]) if s][:1]
