@@ -65,9 +65,8 @@ class RunUp:
 
     def is_over(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the speed is held."""
-        return time >= _LEAST_RUN_UP - 1e-9 and abs(observation["speed"] - self._speed) <= max(
-            0.005 * self._speed, 0.05
-        )
+        tolerance = max(0.005 * self._speed, 0.05)
+        return time >= _LEAST_RUN_UP - 1e-9 and abs(observation["speed"] - self._speed) <= tolerance
 
 
 def early_end_notes(run: str, result: Result) -> tuple[str, ...]:

@@ -45,13 +45,7 @@ def start_values_of_log(
         Sentences on the start.
     """
     if run_start is not None:
-        initial = {
-            n: v
-            for n, v in run_start.items()
-            if n.startswith("initial.") and n in fmu.variables and n not in set_values
-        }
-        message = ", ".join(f"{n} = {v}" for n, v in initial.items()) or "as drawn"
-        return initial, [f"The log is a result of ali3 run, and the start is that of its record: {message}."]
+        return _start_values_of_run(fmu, run_start, set_values)
     start: dict[str, Value] = {}
     notes, overridden = [], []
     speed = next((value_at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
@@ -82,21 +76,39 @@ def start_values_of_log(
         )
     if overridden:
         notes.append(f"The start is not as measured but as given: {', '.join(overridden)}.")
-    if speed is not None and abs(speed) > _LEAST_SPEED and "initial.speed" not in (start | dict(set_values)):
+    return start, notes + _notes_on_missing_values(fmu, speed, rate, all_values)
+
+
+def _start_values_of_run(
+    fmu: NamedFmu, run_start: Mapping[str, Value], set_values: Mapping[str, Value]
+) -> tuple[dict[str, Value], list[str]]:
+    """Start values of the run whose result the log is, and a note."""
+    names = [n for n in run_start if n.startswith("initial.") and n in fmu.variables and n not in set_values]
+    message = ", ".join(f"{n} = {run_start[n]}" for n in names) or "as drawn"
+    note = f"The log is a result of ali3 run, and the start is that of its record: {message}."
+    return {n: run_start[n] for n in names}, [note]
+
+
+def _notes_on_missing_values(
+    fmu: NamedFmu, speed: float | None, rate: float | None, values: Mapping[str, Value]
+) -> list[str]:
+    """Notes on a measured speed, m/s, or yaw rate, rad/s, that is no start value, and on a missing speed."""
+    notes = []
+    if speed is not None and abs(speed) > _LEAST_SPEED and "initial.speed" not in values:
         notes.append(
             f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, and starts at its own "
             "speed. Let the log begin at rest (--from), or do not compare the first seconds (--skip)."
         )
-    if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in set_values:
+    if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in values:
         notes.append(
             "The log has no 'speed': the car starts at rest; if it moved, set it by --set initial.speed=VALUE."
         )
-    if rate is not None and abs(rate) > _LEAST_YAW_RATE and "initial.yaw_rate" not in (start | dict(set_values)):
+    if rate is not None and abs(rate) > _LEAST_YAW_RATE and "initial.yaw_rate" not in values:
         notes.append(
             f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and "
             "starts straight: the first seconds differ (--from begins elsewhere, --skip leaves them out)."
         )
-    return start, notes
+    return notes
 
 
 def reference_point(fmu: FmuSource, start: Mapping[str, Value]) -> tuple[float, float]:

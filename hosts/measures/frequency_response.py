@@ -87,11 +87,8 @@ def frequency_response(
         return np.asarray(csd(x, y, fs=1.0 / interval, window="boxcar", nperseg=len(x), nfft=padded, detrend=False)[1])
 
     lines = np.fft.rfftfreq(padded, interval)
-    cross_power, input_power, output_power = (
-        spectrum(excitation, response_signal),
-        spectrum(excitation, excitation),
-        spectrum(response_signal, response_signal),
-    )
+    cross_power = spectrum(excitation, response_signal)
+    input_power, output_power = spectrum(excitation, excitation), spectrum(response_signal, response_signal)
     tiny = np.finfo(float).tiny
     response, coherence = np.empty(len(frequency), complex), np.empty(len(frequency))
     for k, f in enumerate(frequency):

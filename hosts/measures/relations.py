@@ -159,8 +159,7 @@ def _rate_values(signals: Signals, key: str, state: Signal, rate: str, least: fl
     summed_rate = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(r.time) * (r.values[1:] + r.values[:-1]))])
 
     def change(at: Array, of: Array, delay: float = 0.0) -> Array:
-        ends = (np.interp(starts + delay + offset, at, of) for offset in (0.0, WINDOW))
-        first, last = ends
+        first, last = (np.interp(starts + delay + offset, at, of) for offset in (0.0, WINDOW))
         return np.asarray((last - first) / WINDOW)
 
     names = (*PATH, rate) if key == "course" else (state.name, rate)
@@ -211,10 +210,8 @@ def _path_values(signals: Signals, speed_name: str) -> Iterator[Value]:
     x = signals["chassis.x"]
     y, speed = interpolated(signals["chassis.y"], x.time), np.abs(interpolated(signals[speed_name], x.time))
     is_moving = 0.5 * (speed[1:] + speed[:-1]) > LEAST["move"]
-    travelled, distance = (
-        np.hypot(np.diff(x.values), np.diff(y))[is_moving].sum(),
-        (0.5 * np.diff(x.time) * (speed[1:] + speed[:-1]))[is_moving].sum(),
-    )
+    travelled = np.hypot(np.diff(x.values), np.diff(y))[is_moving].sum()
+    distance = (0.5 * np.diff(x.time) * (speed[1:] + speed[:-1]))[is_moving].sum()
     if is_moving.sum() > 10 and distance > 0.0:
         keys = keys_of(signals, "chassis.x", "chassis.y", speed_name) | {"time": "the times of the log"}
         yield Value(QUANTITIES["way"], float(travelled / distance), keys)

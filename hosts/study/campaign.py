@@ -105,11 +105,9 @@ def run_study(
         plan = _with_limits(with_columns(plan, trial.columns), study)
         plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
         _print_plan(plan, trial, folder, scheduler, workers)
-        return (
-            None
-            if store is None
-            else _make_missing_runs(plan, trial, folder, content, scheduler, workers, again, store, done)
-        )
+        if store is None:
+            return None
+        return _make_missing_runs(plan, trial, folder, content, scheduler, workers, again, store, done)
 
 
 def _earlier_record(folder: Path) -> dict[str, Any] | None:

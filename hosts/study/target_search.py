@@ -202,8 +202,7 @@ class _Search:
 
     def _brackets(self) -> list[tuple[float, float]]:
         """Positions of neighbouring runs on different sides of the target."""
-        runs = sorted(self._runs.items())
-        pairs = itertools.pairwise(runs)
+        pairs = itertools.pairwise(sorted(self._runs.items()))
         return [(a, b) for (a, one), (b, other) in pairs if (one.y - self._target) * (other.y - self._target) < 0.0]
 
     def _best(self) -> Run | None:
@@ -216,10 +215,8 @@ class _Search:
         finite = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
         changes = [b.y - a.y for a, b in itertools.pairwise(finite)]
         largest = max((abs(run.y) for run in finite), default=0.0)
-        threshold, best = (
-            min(self._tolerance, TOLERANCE * largest),
-            self._best(),
-        )  # the target may be far from all measures
+        threshold = min(self._tolerance, TOLERANCE * largest)  # the target may be far from all measures
+        best = self._best()
         x, y = [run.x for run in slope_runs], [run.y for run in slope_runs]
         return SearchResult(
             tuple(self._runs.values()),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -75,8 +76,7 @@ def command_of_test(command: Sequence[str], test: str) -> list[str]:
 
 def _standard_element(standard: Standard) -> HtmlElement:
     if not standard.clauses:
-        message = f" ({FROM_SUMMARIES})"
-        return element("p", element("strong", standard.name), f", {standard.title}{message}")
+        return element("p", element("strong", standard.name), f", {standard.title} ({FROM_SUMMARIES})")
     clauses = [
         element(
             "li",
@@ -124,7 +124,7 @@ def _measures_element(label: str, test: str, measures: Sequence[Measure]) -> Htm
                 limit_element(m.is_kept),
                 element("small", f"{m.limit.range_text(typeset(m.unit))}; {m.limit.source}"),
             )
-        value = NONE if m.value != m.value else f"{m.value:.7g}"
+        value = NONE if math.isnan(m.value) else f"{m.value:.7g}"
         rows.append(
             [element("code", m.name), element("td", value, class_="value"), typeset(m.unit), state, m.text, m.note]
         )

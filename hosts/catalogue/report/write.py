@@ -45,10 +45,8 @@ def write_report(
         The file cannot be written.
     """
     labels = [car.label for car in cars]
-    plots, sections = (
-        Plots(file.parent / "plots"),
-        [Section("Overview", overview_tables(tests, labels, records), "overview")],
-    )
+    plots = Plots(file.parent / "plots")
+    sections = [Section("Overview", overview_tables(tests, labels, records), "overview")]
     for test in tests:
         results = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
         pictures = drawings_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})

@@ -96,12 +96,8 @@ def find_limit(
         else:
             failed = passage
     if passed is None:
-        failure = failed.failure
-        return (
-            None,
-            failed,
-            (f"{layout.name}: already at {speed:g} km/h {failure}; take a lower lowest, if slower helps.",),
-        )
+        note = f"{layout.name}: already at {speed:g} km/h {failed.failure}; take a lower lowest, if slower helps."
+        return None, failed, (note,)
     while failed.target_speed - passed.target_speed > settings["resolution"] * (1.0 + 1e-9):
         passage = try_drivers(car, layout, 0.5 * (passed.target_speed + failed.target_speed), passed)
         attempts += 1
@@ -110,11 +106,8 @@ def find_limit(
             passed = passage
         else:
             failed = passage
-    return (
-        passed,
-        failed,
-        (f"{layout.name}: at {failed.target_speed:g} km/h {failed.failure} (driver: {failed.driver}).",),
-    )
+    note = f"{layout.name}: at {failed.target_speed:g} km/h {failed.failure} (driver: {failed.driver})."
+    return passed, failed, (note,)
 
 
 def try_drivers(car: TestedCar, layout: _CourseSettings, speed: float, passed: Passage | None) -> Passage:

@@ -18,10 +18,8 @@ def drive(sheet: Sheet) -> None:
     """Drive a slow ramp, then one period that begins to each side."""
     ramp = drive_ramp(sheet, sheet.settings["lateral_acceleration"])
     sheet.progress(0.4)
-    amplitude, period = (
-        ramp.required_angle_at(sheet.settings["lateral_acceleration"]),
-        1.0 / sheet.settings["frequency"],
-    )
+    amplitude = ramp.required_angle_at(sheet.settings["lateral_acceleration"])
+    period = 1.0 / sheet.settings["frequency"]
     t = np.linspace(0.0, period, _POINTS + 1)
     time, sine = np.append(t, period + _AFTER), np.append(np.sin(2.0 * math.pi * t / period), 0.0)
     sides: dict[str, SteeredRun] = {}

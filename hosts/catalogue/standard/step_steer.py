@@ -52,10 +52,8 @@ def _find_left_step(sheet: Sheet, speed: float, acceleration: float, angle: floa
         if not reached > 0.0 or abs(reached - acceleration) <= _TOLERANCE * acceleration or not slope > 0.0:
             break
         # At most 1.5 times the angle: near the limit the slope is unreliable.
-        last_point, angle = (
-            (angle, reached),
-            min(angle + min((acceleration - reached) / slope, 0.5 * angle), largest_angle),
-        )
+        last_point = angle, reached
+        angle = min(angle + min((acceleration - reached) / slope, 0.5 * angle), largest_angle)
     return step
 
 

@@ -71,10 +71,9 @@ def drive_stop(
     conditions = StopConditions(stands=0.02)
 
     def is_over(time: float, outputs: Mapping[str, float]) -> bool:
-        has_braked = not math.isnan(pilot.onset)
-        return (conditions(outputs) and (has_braked or conditions.reason != "stands")) or (
-            not has_braked and time > run_up.longest
-        )
+        if math.isnan(pilot.onset):
+            return (conditions(outputs) and conditions.reason != "stands") or time > run_up.longest
+        return conditions(outputs)
 
     result = car.drive(
         constant_inputs(car, "straight_braking", stop_time, {}, {**run_up.start, **(start or {})}), pilot, is_over

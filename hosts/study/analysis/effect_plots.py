@@ -72,10 +72,8 @@ def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffe
     figure, axes = parameter_panels(data.parameters, response.title)
     selected = random_subset(len(response.rows), MOST_POINTS)
     # Markers of few runs are large; those of many are small and transparent.
-    size, alpha = (
-        float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0)),
-        float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9)),
-    )
+    size = float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0))
+    alpha = float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9))
     failed = data.failed_of(response)
     failed = failed[random_subset(len(failed), MOST_POINTS)]
     for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
