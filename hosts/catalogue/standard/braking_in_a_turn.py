@@ -28,7 +28,7 @@ def drive(sheet: Sheet) -> None:
         stops.append(braked)
         sheet.add_run(f"pedal_{braked.pedal:.3g}", braked.result)
         if math.isnan(braked.onset):
-            sheet.add("not_there", last=braked)
+            sheet.add("off_circle", last=braked)
             break
         sheet.progress(k / levels)
     add_stops(sheet, stops)
@@ -43,7 +43,7 @@ def add_stops(sheet: Sheet, stops: Sequence[Stop]) -> None:
     )
     first = braked[0] if braked else HostError("the car did not get onto the circle")
     sheet.add("circle", first=first)
-    present = {"braked": braked, "known": stop_values} if braked else {"braked": first, "known": first}
+    present = {"braked": braked, "rows": stop_values} if braked else {"braked": first, "rows": first}
     sheet.add("stops", compared=COMPARED, **present)
 
 

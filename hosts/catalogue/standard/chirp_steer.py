@@ -42,7 +42,7 @@ def drive(sheet: Sheet) -> None:
     for name, (signal, word, unit, zeros) in _QUANTITIES.items():
         response = _response(run, getattr(run, signal), low, high)
         missing = "" if len(response.frequency) else f"The run does not show the {word}."
-        names = {"name": name, "word": word, "unit": unit, "response": response, "found": bandwidth(response)}
+        names = {"name": name, "word": word, "unit": unit, "response": response, "band": bandwidth(response)}
         reason = missing or "Not within the range of frequencies."
         sheet.add("quantity", why_none=reason, should_be=bool(missing), frequency=response.frequency, **names)
         responses += [] if missing else [{**names, "zeros": zeros}]
@@ -53,7 +53,7 @@ def drive(sheet: Sheet) -> None:
     fitted_names = " and ".join(q["word"] for q in fitted_responses)
     reason = "The fit does not converge." if fitted_responses else "There is no response."
     sheet.add("mode", why_none=reason, fit=fits[0], misfit=max(f.misfit for f in fits), words=fitted_names or "nothing")
-    sheet.add("pictures", run=run, found=responses)
+    sheet.add("pictures", run=run, responses=responses)
 
 
 def _table(

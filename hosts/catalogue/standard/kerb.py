@@ -22,7 +22,7 @@ def drive(sheet: Sheet) -> None:
     missing = [n for n in up if n not in car.facts.parameters]
     if missing:
         del directions["up"]
-    sheet.add("ways", missing=missing)
+    sheet.add("directions", missing=missing)
     # In neutral, without creep torque, the car rolls.
     inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "selector": 0.0}
     stop_time = ahead / settings["speed"] * 3.6 + AFTER
@@ -32,4 +32,4 @@ def drive(sheet: Sheet) -> None:
         gauges = [n for n in run.names if n.startswith("stress.") and n != "stress.computed"]
         if "stress.computed" in run and not (run["stress.computed"] == 1.0).all():
             gauges = []
-        sheet.add("passage", way=direction, rise=rise, run=run, gauges=gauges)
+        sheet.add("passage", direction=direction, rise=rise, run=run, gauges=gauges)

@@ -19,7 +19,7 @@ def drive(sheet: Sheet) -> None:
         release = drive_stop(car, settings | {"lateral_acceleration": requested, "rise_time": 0.0}, 0.0, AFTER + STEADY)
         sheet.add_run(f"{requested:.6g}_m_s2", release.result)
         if math.isnan(release.onset):
-            sheet.add("not_there", last=release, asked=requested)
+            sheet.add("off_circle", last=release, requested=requested)
             break
         released.append((requested, release))
         sheet.progress(k / levels)
@@ -33,5 +33,5 @@ def add_releases(sheet: Sheet, released: Sequence[tuple[float, Stop]]) -> None:
         for _, r in released
         if (values := r.values())
     ]
-    rows = [{"asked": requested, "r": r} for requested, r in released]
-    sheet.add("releases", compared=COMPARED, released=rows, known=sorted(release_values, key=lambda v: v["ay"]))
+    rows = [{"requested": requested, "r": r} for requested, r in released]
+    sheet.add("releases", compared=COMPARED, released=rows, rows=sorted(release_values, key=lambda v: v["ay"]))

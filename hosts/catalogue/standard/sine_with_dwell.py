@@ -49,9 +49,9 @@ def drive(sheet: Sheet) -> None:
     sheet.add("law")
     for side, runs in sides.items():
         if runs and runs[-1].is_lost:
-            sheet.add("lost", a=a, wanted=amplitudes, side=side, last=runs[-1])
+            sheet.add("lost", a=a, amplitudes=amplitudes, side=side, last=runs[-1])
     sheet.notes += shortfalls
-    sheet.add("series", a=a, found=angles, wanted=amplitudes, sides=sides, given=steering, ramps=ramps)
+    sheet.add("series", a=a, angles=angles, amplitudes=amplitudes, sides=sides, steering=steering, ramps=ramps)
 
 
 def _rounded(angle: float) -> float:

@@ -30,11 +30,11 @@ def drive(sheet: Sheet) -> None:
             sides: dict[str, Any] = dict.fromkeys(("left", "right"), error)
         else:
             left = _find_left_step(sheet, ramp.speed, acceleration, angle, 0.2 + 0.8 * k / len(levels))
-            sides = {"left": left, "right": _drive_step(sheet, ramp.speed, acceleration, -left["given"])}
+            sides = {"left": left, "right": _drive_step(sheet, ramp.speed, acceleration, -left["demand"])}
             sheet.runs |= {f"{level}_{side}": step["run"].thinned() for side, step in sides.items()}
-            driven.append({"wanted": acceleration, "run": left["run"]})
+            driven.append({"target": acceleration, "run": left["run"]})
         sheet.progress(0.2 + 0.8 * (k + 1) / len(levels))
-        sheet.add("level", level=level, wanted=acceleration, **sides)
+        sheet.add("level", level=level, target=acceleration, **sides)
     sheet.add("pictures", driven=driven)
 
 
@@ -67,4 +67,4 @@ def _drive_step(sheet: Sheet, speed: float, acceleration: float, angle: float) -
         sheet.car, f"{acceleration:g} m/s2 {'left' if angle > 0.0 else 'right'}", speed, time, table, Pedals.FIXED
     )
     signals = {n: getattr(run, n) for n in ("yaw_rate", "acceleration", "roll", "sideslip")}
-    return {"given": angle, "run": run, **step_of_steering(run.time, run.steering, signals, _BEFORE_STEP, steady)}
+    return {"demand": angle, "run": run, **step_of_steering(run.time, run.steering, signals, _BEFORE_STEP, steady)}

@@ -100,8 +100,8 @@ def test_a_series_that_one_side_has_lost_has_no_displacement() -> None:
     kept = []
     for left, right in (both, one):
         sheet = sheet_of("sine_with_dwell")
-        results = {"a": a, "found": [a, a], "sides": {"left": left, "right": right}, "wanted": [2.0 * a, 5.0 * a]}
-        sheet.add("series", given=SteeringInput.of(car.facts), ramps={}, **results)
+        results = {"a": a, "angles": [a, a], "sides": {"left": left, "right": right}, "amplitudes": [2.0 * a, 5.0 * a]}
+        sheet.add("series", steering=SteeringInput.of(car.facts), ramps={}, **results)
         kept += [m for m in sheet.measures if m.name == "displacement"]
     # of the car that is measured 1 m is enough
     assert [m.value > 1.0 for m in kept] == [True, False]
