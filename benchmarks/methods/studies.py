@@ -22,12 +22,12 @@ from ali3.errors import UserError
 from ali3.processes import module_command
 from benchmarks.shared.command import watched
 from fmu_src.build.build import build_fmu
-from hosts.study.campaign import missing, on_cluster
+from hosts.study.campaign import cluster_runner, missing_runs
 from hosts.study.folder import begin_study
 from hosts.study.plan import make_plan
 from hosts.study.study_file import read_study_file
 from hosts.study.study_runs import Bench, experiment_of, outcome_of
-from hosts.study.trial_runs import try_out
+from hosts.study.trial_runs import make_trial_runs
 from hosts.study.worker_data import Outcome
 
 Row = dict[str, Any]
@@ -150,7 +150,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     from hosts.study.store import read_study
 
     plan = plan_of(case, fmu, runs, stop_time, folder)
-    trial = try_out(plan)
+    trial = make_trial_runs(plan)
     plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
     begin_study(folder, plan.record, b"", plan.fmu)
     me, memory = psutil.Process(), [0.0]
@@ -159,11 +159,11 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         connected(address) as client,
         ResultStore[StudyRow](folder, StudyRow, "measures a study") as store,
     ):
-        store.into(OutcomeTable(folder, plan.record))
-        runner = on_cluster(client, plan, trial, plan.runs)
+        store.attach_table(OutcomeTable(folder, plan.record))
+        runner = cluster_runner(client, plan, trial, plan.runs)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
         results = experiment_of(plan.work, plan.fmu).results(
-            missing(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs
+            missing_runs(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs
         )
         for _, run, result in results:
             store.add(str(run.index), "", (run, outcome_of(plan.work, result)))

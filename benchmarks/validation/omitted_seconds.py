@@ -20,7 +20,7 @@ from benchmarks.validation.drive import LENGTH, Array, Drive, Spans
 from benchmarks.validation.fitting import SCALES, Windows, begins, fit
 from benchmarks.validation.multibody import LATERAL, YAW, task_of
 from benchmarks.validation.refit import sought_in
-from hosts.compare.cross_validation import Parts, left_out
+from hosts.compare.cross_validation import Parts, left_out_residuals
 from hosts.compare.fitted_parameters import fitted_parameters
 from hosts.compare.replay import Replay
 from hosts.compare.residuals import Residuals
@@ -86,7 +86,7 @@ def without_kinds(jacobian: Array, residual: Array, rows: Kinds, families: Mappi
     for name, family in families.items():
         number = family.number[rows]
         parts = Parts(np.tile(number, 2), np.arange(len(family.names) + 1.0), 1.0)
-        turning = left_out(jacobian, residual, parts)[: len(rows)] * SCALES[0]
+        turning = left_out_residuals(jacobian, residual, parts)[: len(rows)] * SCALES[0]
         sizes = [float(np.sqrt(np.mean(turning[number == k] ** 2))) for k in range(len(family.names))]
         row |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
         worst.append((max(sizes), family.names[int(np.argmax(sizes))]))
@@ -123,7 +123,7 @@ def of_car(
 
         residuals = Residuals(outputs, unknowns, dict(zip(outputs, SCALES, strict=True)), simulate, steps)
         p = np.array([u.start for u in unknowns])
-        residual, jacobian = residuals(p), residuals.one_sided(p)
+        residual, jacobian = residuals(p), residuals.one_sided_jacobian(p)
     place = outputs[YAW].time
     window = np.floor((place + 0.5 * GAP) / (LENGTH + GAP)).astype(np.intp)
     first = begins(drive, _all(drive), LENGTH)

@@ -1,4 +1,4 @@
-"""A car that is tested: an FMU, our names for its variables, and what is set in it."""
+"""A car under test: an FMU, our names for its variables, and start values."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -26,15 +26,15 @@ class CarFacts:
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     parameters: tuple[str, ...]
-    """`inputs`, `outputs`, `parameters`: by our names, in the order of the FMU; real and whole ones."""
+    """`inputs`, `outputs`, `parameters`: real and integer variables by our names, in the order of the FMU."""
     units: Mapping[str, str]
-    """Of all variables by our names."""
+    """Units of all variables by our names."""
     constants: Mapping[str, float]
-    """Of the FMU and of the alias file, which wins; by our names."""
+    """Constants of the alias file, else of the FMU, by our names."""
     step: float
     """Communication step, s."""
     token: str = ""
-    """That tells another build of the FMU."""
+    """Identifier of the build of the FMU."""
 
 
 @dataclass(frozen=True)
@@ -64,22 +64,22 @@ class TestedCar:
         manoeuvre : Manoeuvre
             Inputs over time, start values, stop time; by our names, in our units.
         pilot : Pilot, optional
-            Overrules the inputs it acts on.
+            Replaces the inputs that it sets.
         until : callable, optional
-            Of the time and the outputs; the run ends with the first step after which it is true.
+            Function of the time and the outputs; the run ends with the first step after which it is true.
         record_step : float, optional
             Time from one row of the record to the next, s, rounded to whole steps; by default every step.
 
         Returns
         -------
         Result
-            Under our names. `failed_steps` is 1 where the FMU refused a step; the record ends before it.
+            By our names. `failed_steps` is 1 where the FMU refused a step; the record ends before it.
 
         Raises
         ------
         HostError
-            If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range;
-            or an output is not a number.
+            If the FMU cannot be loaded or started, a name is unknown, a value is out of its range, or an output is not
+            finite.
         """
         with self.fmu.opened() as fmu:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
@@ -94,7 +94,7 @@ class TestedCar:
 
     @cached_property
     def facts(self) -> CarFacts:
-        """What the FMU reports of its car; it is loaded once."""
+        """What the FMU reports of its car; read once."""
         with self.fmu.opened() as fmu:
             return CarFacts(
                 tuple(fmu.names("input")),

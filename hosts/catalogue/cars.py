@@ -16,7 +16,7 @@ AS_IS = "as-is"
 """In place of a parameter set: the FMU as it is."""
 NO_ALIASES = "none"
 """In place of an alias file: the FMU has our names."""
-_OF_THE_TESTS = (
+_SET_BY_TESTS = (
     *("initial.speed", "initial.lateral_speed", "initial.yaw_rate", "initial.settling"),
     *("initial.x", "initial.y", "initial.z", "initial.yaw"),
 )
@@ -29,17 +29,17 @@ def cars_of(
     values: Sequence[tuple[str, str]],
     step: float | None = None,
 ) -> list[TestedCar]:
-    """Every FMU with every parameter set; each was loaded and asked what it has.
+    """Every FMU with every parameter set, after checking that it can be loaded.
 
     Parameters
     ----------
     alias_files : sequence of Path
-        None, one for all FMUs, or one for each; or names of those that come with the package, such as ``chrono``;
+        None, one for all FMUs, or one for each; names of alias files of the package, such as ``chrono``, are allowed;
         `NO_ALIASES` is none.
     sets : sequence of Path
-        SSV files; `AS_IS` is none. None at all: the FMUs as they are.
+        SSV files; `AS_IS` is none. Without any, the FMUs as they are.
     values : sequence of (str, str)
-        Set in all cars, in the FMU's names and units.
+        Values that are set in all cars, in the names and units of the FMU.
     step : float, optional
         Communication step of all cars, s.
 
@@ -58,32 +58,32 @@ def cars_of(
     cars = []
     for k, fmu in enumerate(fmus):
         file = None if not alias_files else alias_files[0 if len(alias_files) == 1 else k]
-        cars += _cars_of_one(fmu, file, sets or [Path(AS_IS)], values, step)
-    return _distinguished(cars)
+        cars += _cars_of_fmu(fmu, file, sets or [Path(AS_IS)], values, step)
+    return _with_unique_labels(cars)
 
 
-def _cars_of_one(
+def _cars_of_fmu(
     path: Path, alias_file: Path | None, sets: Sequence[Path], values: Sequence[tuple[str, str]], step: float | None
 ) -> list[TestedCar]:
     cars = []
     with Fmu(path) as fmu:
         file = None if alias_file is None or str(alias_file) == NO_ALIASES else alias_file
         source = FmuSource.named(path, fmu.table, file)
-        for one in sets:
-            fmu_options = FmuOptions([] if str(one) == AS_IS else [one], list(values))
+        for set_file in sets:
+            fmu_options = FmuOptions([] if str(set_file) == AS_IS else [set_file], list(values))
             start = settings_of(fmu.table, fmu_options).start
-            label = path.stem if str(one) == AS_IS else f"{path.stem}, {one.stem}"
-            cars.append(TestedCar(label, source, _ours(start, source), step))
+            label = path.stem if str(set_file) == AS_IS else f"{path.stem}, {set_file.stem}"
+            cars.append(TestedCar(label, source, _our_start_values(start, source), step))
     for car in cars:
         assert car.facts
     return cars
 
 
-def _ours(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
+def _our_start_values(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
     """Start values under our names, in our units."""
     our_start = source.ours(start)
     for ours in our_start:
-        if ours in _OF_THE_TESTS:
+        if ours in _SET_BY_TESTS:
             raise HostError(
                 f"'{ours}' of {source.path.name} cannot be given: the tests themselves say where a car starts and how "
                 "fast; --test-setting sets what may be changed (--list shows it)."
@@ -91,8 +91,8 @@ def _ours(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
     return our_start
 
 
-def _distinguished(cars: Sequence[TestedCar]) -> list[TestedCar]:
-    """The cars with labels of which none stands twice."""
+def _with_unique_labels(cars: Sequence[TestedCar]) -> list[TestedCar]:
+    """The cars, with numbers added to equal labels."""
     counts: dict[str, int] = {}
     labelled = []
     for car in cars:

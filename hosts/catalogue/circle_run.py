@@ -9,7 +9,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.preparation import start_at
+from hosts.catalogue.preparation import start_at_speed
 from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
 from hosts.catalogue.stop_conditions import ROLLED
@@ -23,23 +23,23 @@ from hosts.driving.result import Result
 CONSTANT_RADIUS = 1.0
 CONSTANT_ANGLE = 2.0
 CONSTANT_SPEED = 3.0
-_FIRST = 0.5  # m/s2 of lateral acceleration to begin with
-_USUAL = 10.0  # m/s2, by which the progress is told
-_FASTEST = 20.0  # m/s2 at which a run ends at the latest
+_FIRST_ACCELERATION = 0.5  # m/s2, at the first speed
+_EXPECTED_ACCELERATION = 10.0  # m/s2, of complete progress
+_LARGEST_ACCELERATION = 20.0  # m/s2, of the longest run
 _SETTLE = 3.0  # s at the first speed
-_LAG = 1.5  # m/s that the speed may stay behind
-_FALL = 1.0  # m/s2 below the largest lateral acceleration where a run ends
+_LAG = 1.5  # m/s, of the speed behind its target at which a run ends
+_DECREASE = 1.0  # m/s2, of the lateral acceleration below its largest value at which a run ends
 _SPUN = math.radians(45.0)
-_RECORD = 0.02
-_APPROACH = 60.0
+_RECORD_STEP = 0.02  # s
+_APPROACH_TIME = 60.0  # s, until the first speed is reached
 
 
 @dataclass(frozen=True)
 class CircleRun:
-    """What a run yields, from where the car runs steadily to its largest lateral acceleration."""
+    """Signals of a run from steady driving at the first speed to the largest lateral acceleration."""
 
     result: Result
-    """All of the run, at longer intervals than it was driven."""
+    """The whole run, at intervals of 20 ms."""
     time: NDArray[np.float64]
     acceleration: NDArray[np.float64]
     steering: NDArray[np.float64]
@@ -47,34 +47,34 @@ class CircleRun:
     roll: NDArray[np.float64]
     torque: NDArray[np.float64]
     speed: NDArray[np.float64]
-    """`time`, `acceleration`, `steering`, `sideslip`, `roll`, `torque`, `speed`: SI units, positive to the left; NaN
-    where the car has no such output. The acceleration is level. Shape (n,) each."""
+    """`time`, `acceleration`, `steering`, `sideslip`, `roll`, `torque`, `speed`: SI units, positive to the left, shape
+    (n,) each; NaN where the car has no such output. The acceleration is lateral and horizontal."""
     largest: float
-    """Lateral acceleration to the side of the run, mean over 1 s, m/s²."""
+    """Largest lateral acceleration to the side of the run, mean over 1 s, m/s²."""
     end: str
-    """What else than the grip of the tyres has ended the run, with "the" before; else empty."""
+    """Cause of the end of the run other than the grip of the tyres, as a clause; else empty."""
     steering_note: str
-    """What is not known of the steering wheel; else empty."""
+    """A sentence on unknown angles of the steering wheel; else empty."""
 
 
-class _Watch:
-    """Sees when the car runs steadily, from which time speed or steering rise, and when the run is over."""
+class _RunMonitor:
+    """Determines the begin of the increase of speed or steering, after steady driving, and the end of the run."""
 
     def __init__(self, side: float, method: float, first: float, rate: float, tolerance: float) -> None:
         self.side, self.method, self.first, self.rate, self.tolerance = side, method, first, rate, tolerance
         self.begin = math.nan
         self.end = ""
         self.off_circle: Callable[[Mapping[str, float]], float] = lambda observation: 0.0
-        self._off_since = 0.0
-        self._smooth = 0.0
+        self._last_off_speed = 0.0
+        self._smoothed = 0.0
         self._largest = 0.0
         self._time = 0.0
 
     def speed(self, time: float) -> float:
-        """Wanted, m/s."""
-        return self.first + (0.0 if self.method == CONSTANT_SPEED else self.risen(time))
+        """Target speed, m/s."""
+        return self.first + (0.0 if self.method == CONSTANT_SPEED else self.increase(time))
 
-    def risen(self, time: float) -> float:
+    def increase(self, time: float) -> float:
         """Increase of the quantity that is raised during the run."""
         return self.rate * max(time - self.begin, 0.0) if math.isfinite(self.begin) else 0.0
 
@@ -84,42 +84,45 @@ class _Watch:
         step, self._time = time - self._time, time
         if not math.isfinite(self.begin):
             if abs(lag) > 0.3:
-                self._off_since = time
-            if time - self._off_since >= _SETTLE:
+                self._last_off_speed = time
+            if time - self._last_off_speed >= _SETTLE:
                 self.begin = time
-            if time > _APPROACH:
-                self.end = f"the car did not reach {3.6 * self.first:.3g} km/h within {_APPROACH:g} s."
-            return time > _APPROACH
+            if time > _APPROACH_TIME:
+                self.end = f"the car did not reach {3.6 * self.first:.3g} km/h within {_APPROACH_TIME:g} s."
+            return time > _APPROACH_TIME
         if abs(observation.get("sideslip", 0.0)) > _SPUN or abs(observation.get("chassis.roll", 0.0)) > ROLLED:
             return True
-        self._smooth += step / 0.5 * (self.side * observation["chassis.ay"] - self._smooth)
-        self._largest = max(self._largest, self._smooth)
+        self._smoothed += step / 0.5 * (self.side * observation["chassis.ay"] - self._smoothed)
+        self._largest = max(self._largest, self._smoothed)
         if lag > _LAG:
             self.end = (
-                f"the drive ended the run: at {3.6 * observation['speed']:.3g} km/h and {self._smooth:.3g} m/s² the "
+                f"the drive ended the run: at {3.6 * observation['speed']:.3g} km/h and {self._smoothed:.3g} m/s² the "
                 "speed does not rise further."
             )
             return True
-        return abs(self.off_circle(observation)) > self.tolerance or self._smooth < self._largest - _FALL
+        return abs(self.off_circle(observation)) > self.tolerance or self._smoothed < self._largest - _DECREASE
 
 
 def drive_circle(
     car: TestedCar, side: float, settings: Mapping[str, float], ratio: float, progress: Callable[[float], None]
 ) -> CircleRun:
-    """Drive to one side until the car cannot go faster on the circle.
+    """Drive a circle to one side up to the largest lateral acceleration.
 
-    `side`: 1 to the left, -1 to the right; `progress`: called with the part that is done.
+    `side`: 1: left, -1: right; `settings`: of the test; `ratio`: steering ratio; `progress`: called with the share that
+    is done, 0 to 1.
     """
     method, radius = settings["method"], settings["radius"]
     steering = SteeringInput.of(car.facts)
-    steady = method == CONSTANT_SPEED
-    first = settings["speed"] / 3.6 if steady else math.sqrt(_FIRST * radius)
-    rate = math.radians(settings["steering_rate"]) if steady else settings["speed_rise"]
-    watch = _Watch(side, method, first, rate, settings["tolerance"])
-    pilot = _pilot(car, side, method, radius, ratio, steering, watch)
-    ramp_time = steering.largest / rate if steady else (math.sqrt(_FASTEST * radius) - first) / rate
-    stop = _APPROACH + (min(ramp_time, 300.0) if math.isfinite(ramp_time) else 300.0)
-    expected = 0.2 * ramp_time * rate if steady else math.sqrt(_USUAL * radius) - first
+    by_steering = method == CONSTANT_SPEED
+    first_speed = settings["speed"] / 3.6 if by_steering else math.sqrt(_FIRST_ACCELERATION * radius)
+    rate = math.radians(settings["steering_rate"]) if by_steering else settings["speed_rise"]
+    monitor = _RunMonitor(side, method, first_speed, rate, settings["tolerance"])
+    pilot = _pilot(car, side, method, radius, ratio, steering, monitor)
+    ramp_time = (
+        steering.largest / rate if by_steering else (math.sqrt(_LARGEST_ACCELERATION * radius) - first_speed) / rate
+    )
+    stop = _APPROACH_TIME + (min(ramp_time, 300.0) if math.isfinite(ramp_time) else 300.0)
+    expected = 0.2 * ramp_time * rate if by_steering else math.sqrt(_EXPECTED_ACCELERATION * radius) - first_speed
     name = f"circle to the {'left' if side > 0.0 else 'right'}"
     reported_time = 0.0
 
@@ -127,39 +130,47 @@ def drive_circle(
         nonlocal reported_time
         if time - reported_time > 1.0:
             reported_time = time
-            progress(min(watch.risen(time) / expected, 1.0))
-        return watch.ends(time, observation)
+            progress(min(monitor.increase(time) / expected, 1.0))
+        return monitor.ends(time, observation)
 
-    result = car.drive(Manoeuvre(name, np.zeros(0), {}, stop, start_at(car, first)), pilot, ends, record_step=_RECORD)
+    result = car.drive(
+        Manoeuvre(name, np.zeros(0), {}, stop, start_at_speed(car, first_speed)), pilot, ends, record_step=_RECORD_STEP
+    )
     if result.refusal:
-        watch.end = f"{result.refusal}."
-    return _signals(result, watch, steering, car.facts.step)
+        monitor.end = f"{result.refusal}."
+    return _circle_run(result, monitor, steering, car.facts.step)
 
 
 def _pilot(
-    car: TestedCar, side: float, method: float, radius: float, ratio: float, steering: SteeringInput, watch: _Watch
+    car: TestedCar,
+    side: float,
+    method: float,
+    radius: float,
+    ratio: float,
+    steering: SteeringInput,
+    monitor: _RunMonitor,
 ) -> Pilot:
     brakes = "brake" in car.facts.inputs
     wheelbase = car.facts.constants["vehicle.wheelbase"]
     if method == CONSTANT_RADIUS:
-        full = steering.largest if math.isfinite(steering.largest) else 2.0 * math.pi
-        limit = full * steering.per_radian
+        full_lock = steering.largest if math.isfinite(steering.largest) else 2.0 * math.pi
+        limit = full_lock * steering.per_radian
         follower = CircleFollower(
-            side * radius, watch.speed, wheelbase, 1.0 / (ratio * steering.per_radian), steering.name, limit
+            side * radius, monitor.speed, wheelbase, 1.0 / (ratio * steering.per_radian), steering.name, limit
         )
-        watch.off_circle = follower.offset
+        monitor.off_circle = follower.offset
         return follower
     if method == CONSTANT_ANGLE:
         angle = side * ratio * math.atan(wheelbase / radius)
-        return CombinedPilot(SpeedHolder(watch.speed, brakes=brakes), _Wheel(steering, lambda time: angle))
+        return CombinedPilot(SpeedHolder(monitor.speed, brakes=brakes), _SteeringOverTime(steering, lambda time: angle))
     return CombinedPilot(
-        SpeedHolder(watch.speed, brakes=brakes),
-        _Wheel(steering, lambda time: side * min(watch.risen(time), steering.largest)),
+        SpeedHolder(monitor.speed, brakes=brakes),
+        _SteeringOverTime(steering, lambda time: side * min(monitor.increase(time), steering.largest)),
     )
 
 
-class _Wheel:
-    """Turns the steering wheel to an angle that is a function of the time."""
+class _SteeringOverTime:
+    """A pilot that steers by an angle of the steering wheel over time, rad."""
 
     def __init__(self, steering: SteeringInput, angle: Callable[[float], float]) -> None:
         self.steering, self.angle = steering, angle
@@ -168,32 +179,32 @@ class _Wheel:
         return {self.steering.name: self.steering.per_radian * self.angle(time)}
 
 
-def _signals(result: Result, watch: _Watch, steering: SteeringInput, step: float) -> CircleRun:
-    steady = np.flatnonzero(result.time >= (watch.begin if math.isfinite(watch.begin) else math.inf))
+def _circle_run(result: Result, monitor: _RunMonitor, steering: SteeringInput, step: float) -> CircleRun:
+    steady = np.flatnonzero(result.time >= (monitor.begin if math.isfinite(monitor.begin) else math.inf))
     largest = math.nan
     if len(steady):
         width = min(max(1, round(1.0 / _interval(result.time))), len(steady))
-        mean = sliding_window_view(watch.side * level_acceleration(result)[steady], width).mean(axis=1)
-        largest = float(mean.max())
-        steady = steady[: int(np.argmax(mean)) + width // 2 + 1]  # behind it the car slides off
+        means = sliding_window_view(monitor.side * level_acceleration(result)[steady], width).mean(axis=1)
+        largest = float(means.max())
+        steady = steady[: int(np.argmax(means)) + width // 2 + 1]  # later the car slides
 
-    def of(name: str) -> NDArray[np.float64]:
+    def signal(name: str) -> NDArray[np.float64]:
         return result.continuous(name)[steady] if name in result else np.full(len(steady), math.nan)
 
     return CircleRun(
         result,
         result.time[steady],
         level_acceleration(result)[steady],
-        steering.measured(result, step)[steady],
-        of("sideslip"),
-        of("chassis.roll"),
-        of("steering_wheel_torque"),
-        of("speed"),
+        steering.measured_angle(result, step)[steady],
+        signal("sideslip"),
+        signal("chassis.roll"),
+        signal("steering_wheel_torque"),
+        signal("speed"),
         largest,
-        watch.end,
+        monitor.end,
         steering.note,
     )
 
 
 def _interval(time: NDArray[np.float64]) -> float:
-    return float(time[1] - time[0]) if len(time) > 1 else _RECORD
+    return float(time[1] - time[0]) if len(time) > 1 else _RECORD_STEP

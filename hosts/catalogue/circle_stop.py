@@ -1,4 +1,4 @@
-"""A braking stop from a steady circle: its signals and measures."""
+"""A stop from a steady circle: its signals and measures."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from hosts.driving.result import Result
 from hosts.measures.braking import locked
-from hosts.measures.disturbed_turn import circle_through, off_circle, yaw_rate_on_circle
+from hosts.measures.disturbed_turn import circle_through, distance_from_circle, yaw_rate_on_circle
 from hosts.measures.wheels import at_wheels
 
-STEADY = 1.0  # s before the onset, over which the circle is taken
-SLOWEST = 2.0  # m/s; slower, angles of travel mean little
+STEADY = 1.0  # s before the onset, in which the circle is undisturbed
+SLOWEST = 2.0  # m/s, below which the sideslip is not evaluated
 
 COMPARED: Sequence[Mapping[str, Any]] = [
     {"name": name, "unit": unit, "neutral": neutral, "text": text}
@@ -42,7 +42,7 @@ COMPARED: Sequence[Mapping[str, Any]] = [
         (("path.deviation", "m", 0.0), "distance from the circle 1 s after the onset, positive outside"),
     )
 ]
-"""`Stop.values` for the files of tests: name, unit, value of a car that stays on the circle, and what it is."""
+"""The values of `Stop.values` for the files of tests: name, unit, value on the circle, and description."""
 
 
 @dataclass(frozen=True)
@@ -52,18 +52,18 @@ class Stop:
     pedal: float
     result: Result
     onset: float
-    """First movement of the pedal, s; NaN if the car did not get there."""
+    """Time of the first pedal motion, s; NaN if the car did not get onto the circle."""
     reason: str
-    """Why the run ended."""
+    """Reason of the end of the run, see `StopConditions`."""
 
     @property
     def steady(self) -> NDArray[np.bool_]:
-        """Samples of the undisturbed circle, of shape (n,)."""
+        """Whether a sample is of the undisturbed circle, shape (n,)."""
         t = self.result.time
         return np.asarray((t >= self.onset - STEADY - 1e-9) & (t <= self.onset + 1e-9))
 
     def at(self, name: str, after: float) -> float:
-        """Value of an output a time after the onset; NaN if the run does not last so long."""
+        """Value of an output at a time after the onset, s; NaN if the run ends before."""
         t, when = self.result.time, self.onset + after
         return float(np.interp(when, t, self.result.continuous(name))) if t[-1] >= when else math.nan
 
@@ -78,27 +78,27 @@ class Stop:
 
     @property
     def signed_radius(self) -> float:
-        """m; negative: to the right."""
+        """Radius of the undisturbed circle, m; negative: to the right."""
         return math.copysign(self.circle[2], self.before("chassis.wz"))
 
     @property
     def lateral_acceleration_on_circle(self) -> float:
-        """Of the undisturbed circle: speed squared over radius, m/s2."""
+        """Lateral acceleration on the undisturbed circle: speed squared over radius, m/s2."""
         return self.before("speed") ** 2 / self.circle[2]
 
     @property
     def deceleration(self) -> float:
-        """Mean over the first second, m/s2."""
+        """Mean deceleration in the first second, m/s2."""
         return self.before("speed") - self.at("speed", 1.0)
 
     @property
     def lateral_acceleration(self) -> NDArray[np.float64]:
-        """Towards the left, m/s2; speed times yaw rate where the car does not provide it."""
+        """Lateral acceleration to the left, m/s2, shape (n,); speed times yaw rate if the car has no such output."""
         r = self.result
         return r["chassis.ay"] if "chassis.ay" in r else r["speed"] * r["chassis.wz"]
 
     def values(self) -> dict[str, float]:
-        """What has changed 1 s after the onset; NaN where the car stands or the run is over before."""
+        """The values of `COMPARED` 1 s after the onset; empty where the car is slow or the run has ended by then."""
         speed = self.at("speed", 1.0)
         if math.isnan(speed) or speed < SLOWEST:
             return {}
@@ -109,23 +109,23 @@ class Stop:
         side = math.copysign(1.0, self.signed_radius)
         ay = float(np.interp(self.onset + 1.0, t, self.lateral_acceleration))
         x, y = (np.array([self.at(n, 1.0)]) for n in ("chassis.x", "chassis.y"))
-        # towards the inside of the turn positive, so that left and right turns read alike
+        # Positive to the inside of the turn, so that left and right turns are comparable.
         return {
             "yaw_rate.ratio": yaw_rate / reference,
             "yaw_rate.change": side * (yaw_rate - reference),
             "yaw_acceleration.largest": float(side * change[np.argmax(np.abs(change))]),
             "sideslip.change": side * (self.at("sideslip", 1.0) - self.before("sideslip")),
             "ay.ratio": ay * self.signed_radius / speed**2,
-            "path.deviation": float(off_circle(x, y, self.circle)[0]),
+            "path.deviation": float(distance_from_circle(x, y, self.circle)[0]),
         }
 
     @property
     def shown(self) -> NDArray[np.bool_]:
-        """Samples that are drawn, from `STEADY` before the onset, of shape (n,)."""
+        """Whether a sample is drawn, from `STEADY` before the onset on, shape (n,)."""
         return np.asarray(self.result.time >= self.onset - STEADY)
 
     def over_time(self, name: str) -> NDArray[np.float64]:
-        """An output where it is drawn; a sideslip while the car is fast enough for it."""
+        """An output at the samples that are drawn; NaN of a sideslip below the speed `SLOWEST`."""
         values = self.result[name][self.shown]
         return np.where(self.result["speed"][self.shown] > SLOWEST, values, math.nan) if name == "sideslip" else values
 

@@ -78,11 +78,12 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     options = parser.parse_args(arguments)
     words = list(sys.argv[1:] if arguments is None else arguments)
     return run_command(
-        lambda: _list() if options.list else _catalogue(options, [*prog.split(), *words]), is_confined=options.confined
+        lambda: _print_list() if options.list else _catalogue(options, [*prog.split(), *words]),
+        is_confined=options.confined,
     )
 
 
-def _list() -> int:
+def _print_list() -> int:
     from hosts.catalogue.listing import print_tests
 
     print_tests()
@@ -115,21 +116,21 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     cars = cars_of(fmus, options.aliases, options.variant, options.set, options.step)
 
     with ResultStore[TestRecord](options.out, TestRecord, "does tests", options.again) as store:
-        return _do(options, command, tests, cars, settings, limits, store)
+        return _run_tests(options, command, tests, cars, settings, limits, store)
 
 
-def _do(
+def _run_tests(
     options: argparse.Namespace,
     command: Sequence[str],
     tests: Sequence[StandardTest],
     cars: Sequence[TestedCar],
     settings: Mapping[str, Mapping[str, float]],
     limits: GivenLimits,
-    kept: ResultStore[TestRecord],
+    store: ResultStore[TestRecord],
 ) -> int:
-    """Do the tests that are not kept, and write what is there after each."""
-    from hosts.catalogue.execution import missing_for
-    from hosts.catalogue.finished_tests import find
+    """Run the tests without a stored record, and write all results after each. Returns the exit code."""
+    from hosts.catalogue.execution import reason_against
+    from hosts.catalogue.finished_tests import find_record
     from hosts.catalogue.output import print_measures, write_measures
     from hosts.catalogue.report import write_report
     from hosts.catalogue.task import Task
@@ -139,25 +140,25 @@ def _do(
     tasks = []
     for test in tests:
         for car in cars:
-            reason = missing_for(test, car, settings[test.name])
+            reason = reason_against(test, car, settings[test.name])
             if reason is not None:
                 outcomes[test.name][car.label] = reason
             else:
                 folder = None if options.no_runs else options.out.absolute()
                 task = Task(test.name, car, settings[test.name], folder)
-                before = find(kept, task)
-                outcomes[test.name][car.label] = _PENDING if before is None else before
-                tasks += [task] if before is None else []
-    present = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
-    report_resumed(present, len(tests) * len(cars), "tests")
-    # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
-    files = write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
+                record = find_record(store, task)
+                outcomes[test.name][car.label] = _PENDING if record is None else record
+                tasks += [task] if record is None else []
+    found_count = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
+    report_resumed(found_count, len(tests) * len(cars), "tests")
+    # Written before the first run, so that results of an earlier command are replaced.
+    files = write_measures(options.out, tests, cars, limits.apply_to(outcomes)[0], settings)
     try:
-        with closing(_done(tasks, options.jobs or available_cores(), outcomes, kept)) as finished:
+        with closing(_finished_tasks(tasks, options.jobs or available_cores(), outcomes, store)) as finished:
             for _ in finished:
-                write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
-    finally:  # after Ctrl-C too, of what is there
-        judged, faults = limits.judged(outcomes)
+                write_measures(options.out, tests, cars, limits.apply_to(outcomes)[0], settings)
+    finally:  # also after Ctrl-C
+        judged, faults = limits.apply_to(outcomes)
         print_measures(tests, cars, judged)
         write_report(options.out / "report.html", tests, cars, judged, settings, command)
         files.append(options.out / "report.html")
@@ -167,7 +168,7 @@ def _do(
         if pending:
             subject = "1 test is" if pending == 1 else f"{pending} tests are"
             print(f"{subject} not done yet; the same command resumes here.", flush=True)
-    return _verdict(judged, faults)
+    return _exit_code(judged, faults)
 
 
 def _test_settings(assignments: Sequence[tuple[str, float]], names: Sequence[str]) -> dict[str, dict[str, float]]:
@@ -185,47 +186,47 @@ def _test_settings(assignments: Sequence[tuple[str, float]], names: Sequence[str
     return settings
 
 
-def _done(
-    tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], kept: ResultStore[TestRecord]
+def _finished_tasks(
+    tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], store: ResultStore[TestRecord]
 ) -> Generator[None]:
-    """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
+    """Run all tasks with a progress bar; after each, its outcome is in `outcomes` and its record in the store."""
     from ali3.isolated_processes import Lost
     from hosts.catalogue.execution import Reason
-    from hosts.catalogue.finished_tests import keep
+    from hosts.catalogue.finished_tests import store_record
     from hosts.catalogue.record import TestRecord
-    from hosts.catalogue.task import do, write_runs
+    from hosts.catalogue.task import perform_task, write_runs
     from hosts.experiment.experiment import Experiment
     from hosts.fmu.own_process import files_of_drives
 
     experiment: Experiment[Task, Outcome] = Experiment(
         "catalogue",
-        do,
+        perform_task,
         TestRecord | Reason,
         lambda task: f"{task.test}, {task.car.label}",
         [file for task in tasks for file in files_of_drives(task.car.path, [task.car.start])],
     )
     with closing(experiment.results(tasks, experiment.pool(jobs))) as results:
         for _, task, outcome in results:
-            message = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
-            outcomes[task.test][task.car.label] = message
-            if not isinstance(message, str):
-                write_runs(task, message)
-                keep(kept, task, message)
+            outcome_or_message = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
+            outcomes[task.test][task.car.label] = outcome_or_message
+            if not isinstance(outcome_or_message, str):
+                write_runs(task, outcome_or_message)
+                store_record(store, task, outcome_or_message)
             yield
 
 
-def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str]) -> int:
-    """Print what is not good, faults of limits too; the exit code."""
+def _exit_code(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str]) -> int:
+    """Print failed tests, violated limits and faults of limits. Returns the exit code."""
     results = [outcome for by_car in outcomes.values() for outcome in by_car.values()]
-    undone = sum(isinstance(outcome, str) for outcome in results)
-    broken = [m for o in results if not isinstance(o, str) for m in o.measures if m.is_kept is False]
-    if undone:
-        print(f"{undone} of {len(results)} tests could not be done, for the reasons above.")
-    if broken:
+    failed_count = sum(isinstance(outcome, str) for outcome in results)
+    violated = [m for o in results if not isinstance(o, str) for m in o.measures if m.is_kept is False]
+    if failed_count:
+        print(f"{failed_count} of {len(results)} tests could not be done, for the reasons above.")
+    if violated:
         message = "1 measure does not keep its limit; it is"
-        if len(broken) > 1:
-            message = f"{len(broken)} measures do not keep their limits; they are"
+        if len(violated) > 1:
+            message = f"{len(violated)} measures do not keep their limits; they are"
         print(f"{message} marked (!).")
     for fault in faults:
         print(fault)
-    return 1 if undone or broken or faults else 0
+    return 1 if failed_count or violated or faults else 0

@@ -1,4 +1,4 @@
-"""Reads the definition of a standard test: ``standard/NAME.toml``, with what ``shared.toml`` has for several tests."""
+"""Reads the definition of a standard test: ``standard/NAME.toml``, with shared entries of ``shared.toml``."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -18,12 +18,12 @@ _FOLDER = Path(__file__).parent / "standard"
 
 @cache
 def _shared() -> dict[str, Any]:
-    """Plots, needs and titles that the files of several tests name."""
+    """Signals, needs and titles of standards that the files of several tests name."""
     return read_toml(_FOLDER / "shared.toml", HostError)
 
 
-def _plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
-    """A plot, or a plot over time for each of the signals that it names."""
+def _expanded_plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
+    """The plot, or a plot over time for each of its signals."""
     if "signals" not in plot:
         return [plot]
     options = {name: value for name, value in plot.items() if name not in ("signals", "run", "line")}
@@ -36,7 +36,7 @@ def _plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 class TestFile(TestTables):
-    """The content of the file of a test, with what it names of ``shared.toml``."""
+    """The content of the file of a test, with the entries of ``shared.toml`` that it names."""
 
     title: str
     needs: tuple[str, ...]
@@ -44,30 +44,35 @@ class TestFile(TestTables):
 
     @model_validator(mode="before")
     @classmethod
-    def _named(cls, content: dict[str, Any]) -> dict[str, Any]:
+    def _with_shared_entries(cls, content: dict[str, Any]) -> dict[str, Any]:
         settings = [{"name": name, **setting} for name, setting in content.get("settings", {}).items()]
         needs = [name for need in content["needs"] for name in _shared()["needs"].get(need, [need])]
         titles = _shared()["standards"]
         standards = [{"title": titles.get(s["name"], ""), **s} for s in content.get("standards", ())]
         parts = {
-            name: {**part, "plots": [each for plot in part.get("plots", ()) for each in _plots(plot)]}
+            name: {
+                **part,
+                "plots": [plot_line for plot in part.get("plots", ()) for plot_line in _expanded_plots(plot)],
+            }
             for name, part in content.get("parts", {}).items()
         }
         return {**content, "settings": settings, "needs": needs, "standards": standards, "parts": parts}
 
 
-def file_of_test(name: str) -> TestFile:
+def read_test_file(name: str) -> TestFile:
     """Read ``standard/NAME.toml``."""
     return TestFile.model_validate(read_toml(_FOLDER / f"{name}.toml", HostError))
 
 
-def standard_of(name: str, drive: Callable[[Sheet], None]) -> StandardTest:
-    """The test that ``standard/NAME.toml`` describes, and whose runs `drive` makes and adds to a sheet."""
-    about = file_of_test(name)
+def make_standard_test(name: str, drive: Callable[[Sheet], None]) -> StandardTest:
+    """The test of ``standard/NAME.toml``. `drive`: makes its runs and adds the results to a sheet."""
+    definition = read_test_file(name)
 
     def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        sheet = Sheet(about, car, settings, progress)
+        sheet = Sheet(definition, car, settings, progress)
         drive(sheet)
         return sheet.record()
 
-    return StandardTest(name, about.title, perform, about.standards, about.settings, about.needs, about.why_not)
+    return StandardTest(
+        name, definition.title, perform, definition.standards, definition.settings, definition.needs, definition.why_not
+    )

@@ -1,4 +1,4 @@
-"""A series of runs with sine with dwell steering of growing amplitude, to one side."""
+"""A series of runs to one side with sine with dwell steering of increasing amplitude."""
 
 import math
 from collections.abc import Callable
@@ -13,11 +13,11 @@ from hosts.catalogue.stop_conditions import SPUN
 from hosts.measures.filters import phaseless_low_pass
 from hosts.measures.sine_with_dwell import NOTHING, SineWithDwell, sine_with_dwell
 
-FREQUENCY = 0.7
-DWELL = 0.5
-AFTER = 2.0
-_LEAST_LAST = math.radians(270.0)
-_MOST = math.radians(300.0)
+FREQUENCY = 0.7  # Hz
+DWELL = 0.5  # s
+AFTER = 2.0  # s, straight ahead
+_LEAST_LAST_AMPLITUDE = math.radians(270.0)
+_LARGEST_AMPLITUDE = math.radians(300.0)
 
 
 @dataclass(frozen=True)
@@ -25,32 +25,31 @@ class DwellRun:
     """A run of the series: its amplitude, signals and measures."""
 
     amplitude: float
-    """Asked for, rad."""
+    """Requested amplitude, rad."""
     run: SteeredRun
-    """Its signals are filtered and zeroed."""
+    """The run with filtered signals, less their means before the steering."""
     measures: SineWithDwell
 
     @property
     def is_lost(self) -> bool:
-        """Whether the car spun by more than a quarter turn, rolled over, or the FMU refused a step."""
+        """Whether the sideslip exceeded 90°, the car rolled over, or the FMU refused a step."""
         return not self.run.whole or self.measures.sideslip > SPUN
 
 
-def amplitudes(a: float, first: float, increment: float, full_lock: float) -> list[float]:
-    """Amplitudes of a series.
+def series_amplitudes(a: float, first: float, increment: float, full_lock: float) -> list[float]:
+    """Increasing amplitudes of a series, rad.
 
-    `a`: angle at 0.3 g, rad; `first`, `increment`: in units of it; `full_lock`: largest angle the car can be steered
-    by, rad. Result: in rad, rising; the last is the greater of 6.5 A and 270°, 300° where 6.5 A is above it, or full
-    lock.
+    `a`: angle A at 0.3 g, rad; `first`, `increment`: over A; `full_lock`: largest angle of the steering wheel, rad. The
+    last amplitude is the greater of 6.5 A and 270°, but at most 300° and full lock.
     """
-    last = min(_MOST if 6.5 * a > _MOST else max(6.5 * a, _LEAST_LAST), full_lock)
-    rising = a * (first + increment * np.arange(math.ceil(max(last / a - first, 0.0) / increment)))
-    # an amplitude within 1 % of the last one would be driven twice
-    return [float(x) for x in rising if x < 0.99 * last] + [last]
+    last = min(_LARGEST_AMPLITUDE if 6.5 * a > _LARGEST_AMPLITUDE else max(6.5 * a, _LEAST_LAST_AMPLITUDE), full_lock)
+    multiples = a * (first + increment * np.arange(math.ceil(max(last / a - first, 0.0) / increment)))
+    # An amplitude within 1 % of the last one is left out.
+    return [float(x) for x in multiples if x < 0.99 * last] + [last]
 
 
-def table(amplitude: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Times and angles of a sine of 0.7 Hz that rests at its second peak for 0.5 s; then straight on."""
+def sine_with_dwell_table(amplitude: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Times, s, and angles of a sine of 0.7 Hz with a dwell of 0.5 s at its second peak, then straight ahead."""
     period = 1.0 / FREQUENCY
     first = np.linspace(0.0, 0.75 * period, 301)
     second = np.linspace(0.75 * period, period, 101)
@@ -59,17 +58,17 @@ def table(amplitude: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return time, amplitude * angle
 
 
-def processed(run: SteeredRun) -> SteeredRun:
-    """Signals filtered without phase (steering wheel 10 Hz, others 6 Hz, 12 poles) and zero before the steering."""
+def filtered_run(run: SteeredRun) -> SteeredRun:
+    """The run with phaseless low-pass filters (steering wheel 10 Hz, others 6 Hz, 12 poles), less means before it."""
     if len(run.time) < 20:
         return run
-    before = (run.time < -0.1) if (run.time < -0.1).any() else run.time <= 0.0
+    is_before = (run.time < -0.1) if (run.time < -0.1).any() else run.time <= 0.0
 
     def low_passed(values: NDArray[np.float64], frequency: float) -> NDArray[np.float64]:
         if np.isnan(values).any():
             return values
         filtered = phaseless_low_pass(values, run.interval, min(frequency, 0.4 / run.interval))
-        return np.asarray(filtered - filtered[before].mean())
+        return np.asarray(filtered - filtered[is_before].mean())
 
     return SteeredRun(
         run.result,
@@ -85,26 +84,26 @@ def processed(run: SteeredRun) -> SteeredRun:
     )
 
 
-def series(
+def drive_series(
     car: TestedCar,
     speed: float,
     side: float,
     amplitudes: list[float],
     progress: Callable[[float], None],
 ) -> list[DwellRun]:
-    """Runs with rising amplitudes, until the car is lost.
+    """Drive runs with increasing amplitudes until the car is lost.
 
-    `speed`: at the beginning of the steering, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
-    `amplitudes`: amplitudes, rad.
+    `speed`: at the begin of steer, coasting, m/s; `side`: 1: first to the left, -1: first to the right; `amplitudes`:
+    in rad.
     """
     runs: list[DwellRun] = []
     for k, amplitude in enumerate(amplitudes):
         name = f"{math.degrees(amplitude):.0f} deg {'left' if side > 0.0 else 'right'}"
-        run = processed(steer(car, name, speed, *table(side * amplitude), Pedals.COAST))
+        run = filtered_run(steer(car, name, speed, *sine_with_dwell_table(side * amplitude), Pedals.COAST))
         progress((k + 1) / len(amplitudes))
-        count = len(run.time) >= 20
+        is_long = len(run.time) >= 20
         slip = None if np.isnan(run.sideslip).any() else run.sideslip
-        measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if count else NOTHING
+        measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if is_long else NOTHING
         runs.append(DwellRun(amplitude, run, measures))
         if runs[-1].is_lost:
             break

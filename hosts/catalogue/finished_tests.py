@@ -1,4 +1,4 @@
-"""Keeps the records of finished tests in the folder of results, so that the same command resumes with the others."""
+"""Stores the records of finished tests in the folder of results, so that the same command resumes with the others."""
 
 from dataclasses import replace
 
@@ -13,25 +13,25 @@ from hosts.fmu.own_process import files_of
 
 
 def digest(task: Task) -> str:
-    """A hash of all that the outcome of a task depends on."""
+    """A hash of everything on which the outcome of a task depends."""
     car = task.car
     content = task.test, car.fmu.digest, sorted(car.start.items()), car.step, sorted(task.settings.items())
     return run_key(car.path, *content, files=files_of(car.start))
 
 
-def find(kept: ResultStore[TestRecord], task: Task) -> TestRecord | None:
-    """The record of the same task from before; None: it was not done, has changed, or tables of its runs are gone."""
-    record = kept.find(_name(task), digest(task))
+def find_record(store: ResultStore[TestRecord], task: Task) -> TestRecord | None:
+    """The stored record of a task; None: it was not done, its task has changed, or tables of its runs are missing."""
+    record = store.find(_record_name(task), digest(task))
     return record if record is not None and _has_tables(task, list(record.runs)) else None
 
 
-def keep(kept: ResultStore[TestRecord], task: Task, record: TestRecord) -> None:
-    """Keep the record of a task, without the tables of its runs, which have files of their own."""
-    nothing = Result([], {}, np.zeros(0), np.zeros((0, 0)), 0.0, 0.0, 0, [])
-    kept.add(_name(task), digest(task), replace(record, runs=dict.fromkeys(record.runs, nothing)))
+def store_record(store: ResultStore[TestRecord], task: Task, record: TestRecord) -> None:
+    """Store the record of a task without the results of its runs, which have their own files."""
+    empty_result = Result([], {}, np.zeros(0), np.zeros((0, 0)), 0.0, 0.0, 0, [])
+    store.add(_record_name(task), digest(task), replace(record, runs=dict.fromkeys(record.runs, empty_result)))
 
 
-def _name(task: Task) -> str:
+def _record_name(task: Task) -> str:
     return f"{task.test}/{task.car.label}"
 
 

@@ -1,4 +1,4 @@
-"""Limits of measures that the user gives, beside those of standards."""
+"""Limits of the user for measures, in addition to those of standards."""
 
 from __future__ import annotations
 
@@ -21,64 +21,72 @@ class GivenLimits:
     """The table ``[limits]`` of a file."""
 
     file: Path = Path()
-    """The file, for messages and for the source of a limit."""
+    """Path of the file, for messages and sources of limits."""
     entries: Mapping[str, LimitEntry] = field(default_factory=dict)
-    """By ``TEST.MEASURE``, or the measure alone where one test has it."""
+    """Limits by ``TEST.MEASURE``, or by the measure if it is unique."""
 
     def of_tests(self, names: list[str]) -> GivenLimits:
-        """Those that are not of other tests of the catalogue."""
+        """The limits without those of other tests of the catalogue."""
         other_tests = set(TESTS) - set(names)
         return replace(self, entries={n: e for n, e in self.entries.items() if n.partition(".")[0] not in other_tests})
 
-    def judged(self, outcomes: Mapping[str, Mapping[str, Outcome]]) -> tuple[dict[str, dict[str, Outcome]], list[str]]:
-        """The outcomes with these limits, and what is wrong with others of them, each in a sentence.
+    def apply_to(
+        self, outcomes: Mapping[str, Mapping[str, Outcome]]
+    ) -> tuple[dict[str, dict[str, Outcome]], list[str]]:
+        """The outcomes with these limits, and a sentence on each limit that cannot be applied.
 
         `outcomes`: by name of the test and label of the car.
 
         Notes
         -----
-        A measure that has a limit of its standard must keep both.
+        A measure with a limit of its standard must keep both limits.
         """
         units: dict[str, str] = {}
         for test, by_car in outcomes.items():
             for outcome in by_car.values():
-                units |= {f"{test}.{m.name}": m.unit for m in _measures(outcome)}
-        good: dict[str, LimitEntry] = {}
+                units |= {f"{test}.{measure.name}": measure.unit for measure in _measures(outcome)}
+        valid_entries: dict[str, LimitEntry] = {}
         limits: dict[str, Limit] = {}
         faults = []
         for name, entry in self.entries.items():
             try:
-                limits = limits_of({**good, name: entry}, units, self.file)
+                limits = limits_of({**valid_entries, name: entry}, units, self.file)
             except HostError as error:
                 faults.append(str(error))
             else:
-                good[name] = entry
+                valid_entries[name] = entry
 
-        def limited(test: str, m: Measure) -> Measure:
-            column = f"{test}.{m.name}"
+        def limited(test: str, measure: Measure) -> Measure:
+            column = f"{test}.{measure.name}"
             if column not in limits:
-                return m
-            factor = conversion(units[column], m.unit, f"{self.file}: limits.'{column}'")
+                return measure
+            factor = conversion(units[column], measure.unit, f"{self.file}: limits.'{column}'")
             converted_limit = replace(
                 limits[column], lowest=factor * limits[column].lowest, highest=factor * limits[column].highest
             )
-            return replace(m, limit=_both(m.limit, converted_limit))
+            return replace(measure, limit=_intersection(measure.limit, converted_limit))
 
-        judged_outcomes = {
+        limited_outcomes = {
             test: {
-                label: replace(o, measures=[limited(test, m) for m in o.measures]) if isinstance(o, TestRecord) else o
+                label: replace(o, measures=[limited(test, measure) for measure in o.measures])
+                if isinstance(o, TestRecord)
+                else o
                 for label, o in by_car.items()
             }
             for test, by_car in outcomes.items()
         }
-        return judged_outcomes, faults
+        return limited_outcomes, faults
 
 
 def _measures(outcome: Outcome) -> list[Measure]:
     return list(outcome.measures) if isinstance(outcome, TestRecord) else []
 
 
-def _both(one: Limit | None, other: Limit) -> Limit:
-    if one is None:
-        return other
-    return Limit(f"{one.source}; {other.source}", max(one.lowest, other.lowest), min(one.highest, other.highest))
+def _intersection(standard_limit: Limit | None, user_limit: Limit) -> Limit:
+    if standard_limit is None:
+        return user_limit
+    return Limit(
+        f"{standard_limit.source}; {user_limit.source}",
+        max(standard_limit.lowest, user_limit.lowest),
+        min(standard_limit.highest, user_limit.highest),
+    )

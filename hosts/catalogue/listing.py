@@ -1,4 +1,4 @@
-"""Lists the standard tests for a terminal (``ali3 catalogue --list``)."""
+"""Prints a list of the standard tests (``ali3 catalogue --list``)."""
 
 import math
 
@@ -10,18 +10,18 @@ from hosts.catalogue.registry import TESTS, standard_test
 def print_tests() -> None:
     """Print all tests with their standards, needs and settings."""
     for name in TESTS:
-        print("\n".join(_lines(standard_test(name))))
+        print("\n".join(_test_lines(standard_test(name))))
 
 
-def _lines(test: StandardTest) -> list[str]:
+def _test_lines(test: StandardTest) -> list[str]:
     lines = [f"{test.name}: {test.title}"]
-    lines += [f"  after {_standard(standard)}" for standard in test.standards]
+    lines += [f"  after {_standard_text(standard)}" for standard in test.standards]
     lines.append(f"  needs {', '.join(need.replace(' | ', ' or ') for need in test.needs) or 'nothing'}")
-    lines += [f"  --test-setting {test.name}.{_setting(setting)}" for setting in test.settings]
+    lines += [f"  --test-setting {test.name}.{_setting_text(setting)}" for setting in test.settings]
     return lines
 
 
-def _standard(standard: Standard) -> str:
+def _standard_text(standard: Standard) -> str:
     checked = sum(clause.checked for clause in standard.clauses)
     if not standard.clauses or not checked:
         source = "from public summaries"
@@ -32,9 +32,9 @@ def _standard(standard: Standard) -> str:
     return f"{standard.name}, {standard.title} ({source})"
 
 
-def _setting(setting: Setting) -> str:
+def _setting_text(setting: Setting) -> str:
     unit = f" {typeset(setting.unit)}".rstrip()
     limits = [f"from {setting.lowest:g}"] if math.isfinite(setting.lowest) else []
     limits += [f"to {setting.highest:g}"] if math.isfinite(setting.highest) else []
-    message = f" ({' '.join(limits)})" if limits else ""
-    return f"{setting.name}={setting.value:g}{unit}{message}: {setting.text}"
+    range_text = f" ({' '.join(limits)})" if limits else ""
+    return f"{setting.name}={setting.value:g}{unit}{range_text}: {setting.text}"

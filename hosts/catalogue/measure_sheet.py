@@ -1,4 +1,4 @@
-"""The result of a test while it runs: measures, notes and plots that its file describes."""
+"""The results of a running test: measures, notes and plots by the expressions of its file."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.preparation import early_end, with_step_up_to
+from hosts.catalogue.preparation import early_end_notes, with_step_up_to
 from hosts.catalogue.record import Line, Plot, Setting, TestRecord
 from hosts.catalogue.side_measures import NOT_SHOWN, asymmetry, mean_of_sides
 from hosts.catalogue.steering import SteeringInput
@@ -20,7 +20,7 @@ from hosts.measures.scope import Scope
 
 _FUNCTIONS: Mapping[str, Callable[..., Any]] = {"steering_input": lambda car: SteeringInput.of(car.facts)}
 _NAMES = {"is_angle": "steering_input(car).is_angle"}
-"""Expressions by names that all files have: whether angles of the steering wheel are known."""
+"""Expressions by name for all files: whether angles of the steering wheel are known."""
 
 
 class _Typed(BaseModel):
@@ -28,7 +28,7 @@ class _Typed(BaseModel):
 
 
 class Sentence(_Typed):
-    """A text with ``{expressions}`` that is said where an expression is true."""
+    """A text with ``{expressions}`` that is reported if the expression `when` is true."""
 
     when: str
     text: str
@@ -54,28 +54,29 @@ class _MeasureLine(_Typed):
     unit: str
     text: str
     unit_of_input: str = ""
-    """Where angles of the steering wheel are not known."""
+    """Unit if angles of the steering wheel are unknown."""
     sides: Literal["", "mean", "difference"] = ""
-    """Whether it is taken of the scopes `left` and `right`, as their mean or by how much they differ."""
+    """Whether the measure is the mean or the relative difference of the scopes `left` and `right`."""
     each: dict[str, tuple[Any, ...]] | str = "[{}]"
-    """Names with their values one after the other, as many measures; or an expression of mappings of names."""
+    """Names with a value for each of several measures; or an expression that yields mappings of names to values."""
     note: str = ""
     missing: str = ""
-    """Said in place of `note` where there is no number."""
+    """Note if there is no number; empty: `note`."""
     exists: str = "True"
-    """Whether there should be a number where there is none."""
+    """Expression: whether a missing number exists."""
     limit: _LimitLine | None = None
 
 
 class _PlotLine(_Typed):
     title: str
     x: tuple[str, str]
-    """What stands at the axis, and an expression."""
+    """Label of the axis, and an expression."""
     y: str
+    """Label of the axis."""
     lines: dict[str, str]
-    """Expressions by labels; a line that has no finite point, or reads a signal that is not there, is left out."""
+    """Expressions by labels; a line without a finite point, or of a missing signal, is left out."""
     each: str = "[{}]"
-    """Expression of mappings of names: of each come the lines."""
+    """Expression that yields mappings of names to values; each adds the lines."""
     log_x: bool = False
     log_y: bool = False
     equal: bool = False
@@ -95,20 +96,20 @@ class TestTables(_Typed):
     __test__ = False  # no test of pytest's
 
     names: dict[str, str] = {}
-    """Expressions by the names by which others read them."""
+    """Expressions by name, for other expressions."""
     refusals: tuple[Sentence, ...] = ()
-    """Why the test cannot be done with settings and a car."""
+    """Reasons why the test cannot be done with settings and a car."""
     parts: dict[str, Part] = {}
     settings: tuple[Setting, ...] = ()
 
     def scope(self, car: TestedCar, settings: Mapping[str, float]) -> Scope:
-        """Names of settings, and `car`."""
+        """The scope of the settings and `car`."""
         return Scope({**settings, "car": car}, {**_NAMES, **self.names}, _FUNCTIONS)
 
     def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
         """See `StandardTest.why_not`."""
         scope = self.scope(car, settings)
-        return next((scope.words(r.text) for r in self.refusals if scope.evaluate(r.when)), None)
+        return next((scope.formatted(r.text) for r in self.refusals if scope.evaluate(r.when)), None)
 
 
 class Sheet:
@@ -127,40 +128,44 @@ class Sheet:
         self._plots: list[Plot] = []
         self._tables = tables
 
-    def words_of(self, setting: str) -> str:
+    def setting_text(self, setting: str) -> str:
         """The description of a setting up to its first semicolon."""
         return next(s.text for s in self._tables.settings if s.name == setting).partition(";")[0]
 
-    def with_step_up_to(self, longest: float, why: str) -> TestedCar:
-        """The car with a communication step that resolves what is measured; see `preparation.with_step_up_to`."""
-        car, notes = with_step_up_to(self.car, longest, why)
+    def with_step_up_to(self, longest: float, quantity: str) -> TestedCar:
+        """The car with a communication step up to `longest`, s; see `preparation.with_step_up_to`."""
+        car, notes = with_step_up_to(self.car, longest, quantity)
         self.notes += notes
         return car
 
-    def keep(self, name: str, run: Result) -> Result:
-        """A run that belongs to the record, and a note where it ended early."""
+    def add_run(self, name: str, run: Result) -> Result:
+        """Add a run to the record, and a note if it ended early. Returns the run."""
         self.runs[name] = run
-        self.notes += early_end(name.replace("_", " "), run)
+        self.notes += early_end_notes(name.replace("_", " "), run)
         return run
 
     def add(self, part: str, /, **names: Any) -> None:
         """Evaluate a part of the file.
 
-        `names`: that its expressions read beside settings and `car`. Among them `why_none` and `should_be`, of all its
-        measures that have no number; mappings as `left` and `right`, of measures of both sides. A `HostError` in place
-        of a value says why measures that read it have none.
+        `names`: values for its expressions, in addition to settings and `car`. `why_none` and `should_be` are the note
+        and the existence of its measures without a number; mappings `left` and `right` are the scopes of measures of
+        both sides. A `HostError` in place of a value is the reason why measures that read it have no number.
         """
         scope = self._scope(names)
         sides = {side: scope.inner(x) for side in ("left", "right") if isinstance(x := names.get(side), Mapping)}
         scope = scope.inner(sides)
         table = self._tables.parts[part]
         for name, line in table.measures.items():
-            for extra in _mappings(scope, line.each):
-                inner = scope.inner(extra)
-                self.measures.append(_measure(inner.words(name), line, inner))
-        for n in table.notes:
-            results = [scope.inner(extra) for extra in _mappings(scope, n.each)]
-            self.notes += [each.words(n.text) for each in results if _true(each, each.words(n.when))]
+            for extra in _expansions(scope, line.each):
+                line_scope = scope.inner(extra)
+                self.measures.append(_measure(line_scope.formatted(name), line, line_scope))
+        for note_line in table.notes:
+            results = [scope.inner(extra) for extra in _expansions(scope, note_line.each)]
+            self.notes += [
+                note_scope.formatted(note_line.text)
+                for note_scope in results
+                if _is_true(note_scope, note_scope.formatted(note_line.when))
+            ]
         self._plots += [plot for line in table.plots if (plot := _plot(line, scope)).lines]
 
     def value(self, expression: str, **names: Any) -> Any:
@@ -175,15 +180,15 @@ class Sheet:
         return TestRecord(self.measures, self._plots, self.runs, self.notes)
 
 
-def _true(scope: Scope, expression: str) -> bool:
+def _is_true(scope: Scope, expression: str) -> bool:
     try:
         return bool(scope.evaluate(expression))
-    except HostError:  # a signal is not there, of which nothing is to be said
+    except HostError:  # a signal is missing
         return False
 
 
-def _number(scope: Scope, expression: str, side: str = "") -> tuple[float, str]:
-    """A number, of the scope of that name within another, and why there is none."""
+def _number_or_error(scope: Scope, expression: str, side: str = "") -> tuple[float, str]:
+    """The number of an expression, or NaN with the reason. `side`: name of a scope within `scope`."""
     try:
         return float((scope[side] if side else scope).evaluate(expression)), ""
     except HostError as error:
@@ -191,46 +196,46 @@ def _number(scope: Scope, expression: str, side: str = "") -> tuple[float, str]:
 
 
 def _measure(name: str, line: _MeasureLine, scope: Scope) -> Measure:
-    why, exists = scope["why_none"], scope["should_be"]
-    unit = scope.words(line.unit if not line.unit_of_input or scope["is_angle"] else line.unit_of_input)
-    text = scope.words(line.text)
+    reason, exists = scope["why_none"], scope["should_be"]
+    unit = scope.formatted(line.unit if not line.unit_of_input or scope["is_angle"] else line.unit_of_input)
+    text = scope.formatted(line.text)
     if line.sides:
-        (left, lost), (right, _) = (_number(scope, line.value, side) for side in ("left", "right"))
+        (left, error), (right, _) = (_number_or_error(scope, line.value, side) for side in ("left", "right"))
         if line.sides == "difference":
-            return asymmetry(name, left, right, text, lost or why)
-        missing = lost or why or scope.words(line.missing)
+            return asymmetry(name, left, right, text, error or reason)
+        missing = error or reason or scope.formatted(line.missing)
         return mean_of_sides(
-            name, left, right, unit, text, missing, exists and (bool(lost) or bool(scope.evaluate(line.exists)))
+            name, left, right, unit, text, missing, exists and (bool(error) or bool(scope.evaluate(line.exists)))
         )
-    value, lost = _number(scope, line.value)
+    value, error = _number_or_error(scope, line.value)
     limit = None if line.limit is None else _limit(line.limit, scope)
     if math.isfinite(value):
-        return Measure(name, value, unit, text, limit, scope.words(line.note))
-    present = exists and (bool(lost) or bool(scope.evaluate(line.exists)))
-    note = lost or why or scope.words(line.missing or line.note) or NOT_SHOWN
-    return Measure(name, math.nan, unit, text, limit, note, present)
+        return Measure(name, value, unit, text, limit, scope.formatted(line.note))
+    is_expected = exists and (bool(error) or bool(scope.evaluate(line.exists)))
+    note = error or reason or scope.formatted(line.missing or line.note) or NOT_SHOWN
+    return Measure(name, math.nan, unit, text, limit, note, is_expected)
 
 
 def _limit(line: _LimitLine, scope: Scope) -> Limit | None:
-    if not _true(scope, line.when):
+    if not _is_true(scope, line.when):
         return None
     low, high = (float(scope.evaluate(x)) if isinstance(x, str) else x for x in (line.lowest, line.highest))
-    return Limit(scope.words(line.source), low, high)
+    return Limit(scope.formatted(line.source), low, high)
 
 
 def _plot(line: _PlotLine, scope: Scope) -> Plot:
     lines: list[Line] = []
     for label, y in line.lines.items():
-        with suppress(HostError):  # a signal is not there: nor is the line
-            for names in _mappings(scope, line.each):
-                inner = scope.inner(names)
-                x, values = (np.asarray(inner.evaluate(text), float) for text in (line.x[1], y))
-                curve = Line(inner.words(label), x, values)
+        with suppress(HostError):  # a signal is missing
+            for names in _expansions(scope, line.each):
+                line_scope = scope.inner(names)
+                x, values = (np.asarray(line_scope.evaluate(text), float) for text in (line.x[1], y))
+                curve = Line(line_scope.formatted(label), x, values)
                 lines += [curve] if curve.y.ndim and np.isfinite(curve.y).any() else []
-    return Plot(scope.words(line.title), line.x[0], line.y, lines, line.log_x, line.log_y, line.equal)
+    return Plot(scope.formatted(line.title), line.x[0], line.y, lines, line.log_x, line.log_y, line.equal)
 
 
-def _mappings(scope: Scope, each: str | Mapping[str, Sequence[Any]]) -> Sequence[Mapping[str, Any]]:
+def _expansions(scope: Scope, each: str | Mapping[str, Sequence[Any]]) -> Sequence[Mapping[str, Any]]:
     if not isinstance(each, str):
         return [dict(zip(each, values, strict=True)) for values in zip(*each.values(), strict=True)]
     result: Sequence[Mapping[str, Any]] = scope.evaluate(each)

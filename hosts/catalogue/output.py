@@ -20,7 +20,7 @@ _COLUMNS = ("test", "car", "measure", "value", "unit", "lowest", "highest", "kep
 
 
 def measures_csv(tests: Sequence[StandardTest], outcomes: Mapping[str, Mapping[str, Outcome]]) -> str:
-    """A row for each measure, and for each test that was not done one without a measure, whose note says why.
+    """CSV with a row for each measure, and a row with the reason for each test that was not done.
 
     `outcomes`: by name of the test and label of the car.
     """
@@ -34,9 +34,9 @@ def measures_csv(tests: Sequence[StandardTest], outcomes: Mapping[str, Mapping[s
                 continue
             for m in outcome.measures:
                 low, high, source = (m.limit.lowest, m.limit.highest, m.limit.source) if m.limit else ("", "", "")
-                passed = "" if m.is_kept is None else str(m.is_kept).lower()
-                number = repr(float(m.value))
-                writer.writerow([test.name, label, m.name, number, m.unit, low, high, passed, source, m.note, m.text])
+                is_kept = "" if m.is_kept is None else str(m.is_kept).lower()
+                value = repr(float(m.value))
+                writer.writerow([test.name, label, m.name, value, m.unit, low, high, is_kept, source, m.note, m.text])
     return stream.getvalue()
 
 
@@ -46,7 +46,7 @@ def measures_record(
     outcomes: Mapping[str, Mapping[str, Outcome]],
     settings: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
-    """All that was measured and how, for JSON; numbers that there are not are null."""
+    """Cars, settings, measures and notes of all tests for JSON; missing numbers are null."""
     return {
         "cars": [
             {
@@ -63,25 +63,27 @@ def measures_record(
                 "title": test.title,
                 "standards": [s.name for s in test.standards],
                 "settings": dict(settings[test.name]),
-                "cars": {label: _of_car(test.name, label, o) for label, o in outcomes.get(test.name, {}).items()},
+                "cars": {
+                    label: _outcome_record(test.name, label, o) for label, o in outcomes.get(test.name, {}).items()
+                },
             }
             for test in tests
         ],
     }
 
 
-def _of_car(test: str, label: str, outcome: Outcome) -> dict[str, Any]:
+def _outcome_record(test: str, label: str, outcome: Outcome) -> dict[str, Any]:
     if isinstance(outcome, str):
         return {"done": False, "reason": outcome}
     return {
         "done": True,
-        "measures": {m.name: _of_measure(m) for m in outcome.measures},
+        "measures": {m.name: _measure_record(m) for m in outcome.measures},
         "runs": {name: run_file(test, label, name).as_posix() for name in outcome.runs},
         "notes": list(outcome.notes),
     }
 
 
-def _of_measure(m: Measure) -> dict[str, Any]:
+def _measure_record(m: Measure) -> dict[str, Any]:
     record: dict[str, Any] = {"value": or_null(m.value), "unit": m.unit, "text": m.text}
     if m.limit is not None:
         limit = {"lowest": or_null(m.limit.lowest), "highest": or_null(m.limit.highest), "source": m.limit.source}
@@ -96,7 +98,7 @@ def write_measures(
     outcomes: Mapping[str, Mapping[str, Outcome]],
     settings: Mapping[str, Mapping[str, float]],
 ) -> list[Path]:
-    """Write ``measures.csv`` and ``measures.json`` into a folder."""
+    """Write ``measures.csv`` and ``measures.json`` into a folder. Returns their paths."""
     table, record = out / "measures.csv", out / "measures.json"
     write_text(table, measures_csv(tests, outcomes))
     write_json(record, measures_record(tests, cars, outcomes, settings))
@@ -109,22 +111,22 @@ def print_measures(
     """Print a table for each test: measures in rows, cars in columns."""
     labels = [car.label for car in cars]
     for test in tests:
-        result = outcomes.get(test.name, {})
+        by_label = outcomes.get(test.name, {})
         print(f"\n{test.title} ({test.name}; {', '.join(s.name for s in test.standards) or 'no standard'})")
-        records = {label: o for label, o in result.items() if isinstance(o, TestRecord)}
+        records = {label: o for label, o in by_label.items() if isinstance(o, TestRecord)}
         rows = [["measure", "unit", *labels]] if records else []
         for name in dict.fromkeys(m.name for o in records.values() for m in o.measures):
             by_car = {label: m.displayed() for label, o in records.items() for m in o.measures if m.name == name}
             unit = next(iter(by_car.values())).unit
             rows.append([name, typeset(unit), *(_cell(by_car.get(label)) for label in labels)])
         _print_rows(rows)
-        for label, outcome in result.items():
+        for label, outcome in by_label.items():
             for sentence in (outcome,) if isinstance(outcome, str) else _sentences(outcome):
                 print(f"  {label}: {sentence}" if len(labels) > 1 else f"  {sentence}")
 
 
 def _sentences(record: TestRecord) -> list[str]:
-    """The notes of a test, and why measures are not there, those of one reason together."""
+    """The notes of a test, and the reasons of missing measures with their names."""
     missing: dict[str, list[str]] = {}
     for m in record.measures:
         if m.note and not math.isfinite(m.value):

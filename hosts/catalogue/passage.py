@@ -17,26 +17,26 @@ from hosts.measures.clearance import clearance, outline
 class Passage:
     """One drive through a course."""
 
-    wanted: float
-    """Speed of the driver, km/h."""
+    target_speed: float
+    """Target speed of the driver, km/h."""
     result: Result
     driver: str
     course: Course
-    """In axes of its own."""
+    """In its own axes."""
     size: tuple[float, float]
     """Length and width of the car's outline, m."""
     pose: tuple[float, float, float]
-    """x, y, yaw of these axes, earth, m and rad."""
+    """x, y, yaw of the axes of the course in earth axes, m and rad."""
     after: NDArray[np.bool_]
-    """Shape (n,): where the course has begun."""
+    """Shape (n,): whether the course has begun."""
     reason: str
-    """Why the run ended early; empty: it did not."""
+    """Reason of an early end of the run, see `StopConditions`; empty: none."""
     release: float
-    """Where the pedals are released, m into the first lane; infinite: nowhere."""
+    """Position at which the pedals are released, m into the first lane; infinite: never."""
 
     @cached_property
-    def place(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """x, y and yaw in the axes of the course since it has begun, of shape (m,)."""
+    def positions(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """x, y and yaw in the axes of the course after its begin, m and rad, shape (m,)."""
         x0, y0, yaw0 = self.pose
         dx, dy = self.result["chassis.x"][self.after] - x0, self.result["chassis.y"][self.after] - y0
         yaw = angle_difference(self.result["chassis.yaw"][self.after], yaw0)
@@ -48,24 +48,24 @@ class Passage:
 
     @cached_property
     def least_clearance(self) -> float:
-        """Least distance of the outline from cones, m; negative: hit; NaN: the course has not begun."""
+        """Least distance of the outline from cones, m; negative: a cone is hit; NaN: the course has not begun."""
         if not self.after.any():
             return math.nan
-        return float(clearance(self.course, *self.place, *self.size).min())
+        return float(clearance(self.course, *self.positions, *self.size).min())
 
     @cached_property
     def not_driven(self) -> str:
-        """What of the lanes the car has not driven; empty: it has driven all."""
-        return self.course.not_driven(self.place[0], self.size[0])
+        """The lanes that the car has not driven, as a clause; empty: none."""
+        return self.course.not_driven(self.positions[0], self.size[0])
 
     @property
-    def clean(self) -> bool:
-        """Whether the car is through without a cone."""
+    def is_clean(self) -> bool:
+        """Whether the car has driven the whole course without hitting a cone."""
         return not self.not_driven and self.least_clearance > 0.0 and not self.reason
 
     @property
-    def why(self) -> str:
-        """Why it is not clean, as the end of a sentence; empty: it is."""
+    def failure(self) -> str:
+        """Why the passage is not clean, as a clause; empty: it is clean."""
         if not self.after.any():
             return f"the speed was not reached: it is {3.6 * self.result['speed'][-1]:.4g} km/h"
         if self.reason in ("spun", "rolled"):
@@ -77,8 +77,8 @@ class Passage:
         return self.not_driven and f"the car does not come through: {self.not_driven}"
 
     def at(self, quantity: str, x: float) -> float:
-        """Value of an output when the car's front is at a place of the course; NaN if it is not there."""
-        front = self.place[0] + 0.5 * self.size[0]
+        """Value of an output when the car's front reaches a position x of the course, m; NaN if it does not."""
+        front = self.positions[0] + 0.5 * self.size[0]
         indices = np.flatnonzero(front >= x)
         return float(self.result[quantity][self.after][indices[0]]) if len(indices) else math.nan
 
@@ -93,8 +93,8 @@ class Passage:
 
     @cached_property
     def outlines(self) -> NDArray[np.float64]:
-        """The car every three metres, shape (2, n)."""
-        x, y, yaw = self.place
+        """Outlines of the car every three metres with gaps between them, shape (2, n)."""
+        x, y, yaw = self.positions
         distance = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
         picked = np.unique(np.searchsorted(distance, np.arange(0.0, distance[-1], 3.0)))
         corners = outline(x[picked], y[picked], yaw[picked], *self.size)

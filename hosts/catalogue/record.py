@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Clause:
-    """A part of a standard that a test follows."""
+    """A clause of a standard that a test follows."""
 
     number: str
-    """Such as ``8.2``; empty where only a summary is known."""
+    """Such as ``8.2``; empty if only a summary is known."""
     text: str
-    """What it demands, in our words."""
+    """Its requirement, in our words."""
     checked: bool = False
-    """Whether it was read in the text of the standard; else it is from public summaries."""
+    """Whether it was checked against the text of the standard; else it is from public summaries."""
 
 
 @dataclass(frozen=True)
@@ -43,17 +43,17 @@ class Setting:
 
     name: str
     value: float
-    """By default, in `unit`."""
+    """Default, in `unit`."""
     unit: str
     text: str
     lowest: float = -np.inf
     highest: float = np.inf
-    """`lowest`, `highest`: of what makes sense."""
+    """`lowest`, `highest`: allowed range."""
 
 
 @dataclass(frozen=True)
 class Line:
-    """Points that are joined in a plot; of length n both, NaN where there is none."""
+    """A line of a plot; `x`, `y`: shape (n,), NaN in gaps."""
 
     label: str
     x: NDArray[np.float64]
@@ -65,7 +65,7 @@ class Plot:
     """A plot of a test; lines of several cars are drawn into the same."""
 
     title: str
-    """By which plots of several cars are matched."""
+    """Title, by which plots of several cars are matched."""
     x: str
     y: str
     """`x`, `y`: quantity and unit, such as ``lateral acceleration, m/s²``."""
@@ -86,17 +86,17 @@ class TestRecord:
     measures: Sequence[Measure]
     plots: Sequence[Plot]
     runs: Mapping[str, Result]
-    """Every run of the FMU by a short name, under our names of variables, in SI units."""
+    """Results of all runs by a short name, with our names of variables, in SI units."""
     notes: Sequence[str] = field(default_factory=tuple)
-    """Sentences: what was not as asked, with a number and a remedy."""
+    """Sentences on deviations from the request, each with a number and a remedy."""
 
 
 Perform: TypeAlias = "Callable[[TestedCar, Mapping[str, float], Callable[[float], None]], TestRecord]"
 WhyNot: TypeAlias = "Callable[[TestedCar, Mapping[str, float]], str | None]"
 
 
-def always(car: TestedCar, settings: Mapping[str, float]) -> None:
-    """No reason against a test: it fits every car."""
+def no_reason(car: TestedCar, settings: Mapping[str, float]) -> None:
+    """The reason of a test that can be done with every car: None."""
 
 
 @dataclass(frozen=True)
@@ -106,14 +106,14 @@ class StandardTest:
     __test__ = False  # no test of pytest's
 
     name: str
-    """Of the command, such as ``step_steer``."""
+    """Name for the command, such as ``step_steer``."""
     title: str
     perform: Perform
-    """``perform(car, settings, progress)`` does the test with all of `settings`; `progress` is called with the part
-    that is done, 0 to 1. It raises `HostError` if the car cannot do it, with what is missing."""
+    """``perform(car, settings, progress)`` runs the test with values of all `settings`; `progress` is called with the
+    share that is done, 0 to 1. Raises `HostError` with the reason if the test cannot be done with the car."""
     standards: tuple[Standard, ...] = ()
     settings: tuple[Setting, ...] = ()
     needs: tuple[str, ...] = ()
     """Variables by our names without which the test cannot be done."""
-    why_not: WhyNot = always
-    """``why_not(car, settings)`` gives a sentence where the settings do not fit each other or the car, else None."""
+    why_not: WhyNot = no_reason
+    """``why_not(car, settings)`` returns a sentence if the settings do not fit each other or the car, else None."""

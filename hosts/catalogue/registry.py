@@ -5,7 +5,7 @@ import importlib.util
 from functools import cache
 
 from ali3.near_names import did_you_mean
-from hosts.catalogue.definition import standard_of
+from hosts.catalogue.definition import make_standard_test
 from hosts.catalogue.record import StandardTest
 from hosts.common.errors import HostError
 
@@ -31,8 +31,8 @@ TESTS: tuple[str, ...] = tuple(name for name in _ALL if importlib.util.find_spec
 
 @cache
 def standard_test(name: str) -> StandardTest:
-    """A test by its name. Raises `HostError` if there is none of it, with the names that there are."""
+    """A test by its name. Raises `HostError` with the known names if there is no such test."""
     if name not in TESTS:
         hint = did_you_mean(name, TESTS, f"they are: {', '.join(TESTS)}")
         raise HostError(f"There is no test '{name}' in the catalogue{hint}")
-    return standard_of(name, importlib.import_module(f"{_FOLDER}.{name}").drive)
+    return make_standard_test(name, importlib.import_module(f"{_FOLDER}.{name}").drive)

@@ -1,4 +1,4 @@
-"""Steering wheel angle over steady lateral acceleration, from a slow ramp of the steering at constant speed."""
+"""Steering-wheel angle over steady lateral acceleration, from a slow ramp of the steering at constant speed."""
 
 import math
 from dataclasses import dataclass, replace
@@ -17,15 +17,15 @@ from hosts.measures.log_plausibility import relations_plausibility
 from hosts.measures.measure import Measure
 from hosts.measures.signal import Signal
 
-_SLOW = math.radians(2.0)
-_FAST = math.radians(13.5)
+_SLOW_RATE = math.radians(2.0)
+_FAST_RATE = math.radians(13.5)
 _SLOW_UNTIL = math.radians(60.0)
-_LARGEST = math.radians(540.0)
-_RATE_OF_INPUT = 0.005
-_LINE = (0.3, 1.2)
-_LATEST = 1.0
-FEWEST = 20  # smallest number of samples
-ENOUGH = 0.5  # smallest range, m/s2
+_LARGEST_ANGLE = math.radians(540.0)
+_INPUT_RATE = 0.005  # 1/s
+_FIT_RANGE = (0.3, 1.2)  # m/s2
+_LONGEST_LAG = 1.0  # s
+FEWEST_SAMPLES = 20
+LEAST_ACCELERATION = 0.5  # m/s2
 
 
 @dataclass(frozen=True)
@@ -36,23 +36,23 @@ class SteadyMap:
     """m/s."""
     angle: NDArray[np.float64]
     acceleration: NDArray[np.float64]
-    """`angle`, `acceleration`, shape (n,): sizes, rad and m/s²; filtered, up to the largest acceleration."""
+    """`angle`, `acceleration`, shape (n,): rad and m/s²; filtered, up to the largest acceleration."""
     run: SteeredRun
     notes: tuple[str, ...] = ()
 
     @property
     def largest(self) -> float:
-        """Lateral acceleration that was reached, m/s²."""
+        """Largest lateral acceleration, m/s²."""
         return float(self.acceleration.max()) if len(self.acceleration) else 0.0
 
     def angle_at(self, acceleration: float) -> float:
-        """Angle for a lateral acceleration, rad; NaN if it was not reached."""
+        """Angle at a lateral acceleration, m/s², in rad; NaN if it was not reached."""
         if self.largest < acceleration:
             return math.nan
         return float(np.interp(acceleration, np.maximum.accumulate(self.acceleration), self.angle))
 
-    def need_angle_at(self, acceleration: float, setting: str = "lateral_acceleration") -> float:
-        """The same of a setting. Raises `HostError` if it was not reached."""
+    def required_angle_at(self, acceleration: float, setting: str = "lateral_acceleration") -> float:
+        """Angle at the lateral acceleration of a setting, rad. Raises `HostError` if it was not reached."""
         angle = self.angle_at(acceleration)
         if math.isnan(angle):
             raise HostError(
@@ -63,55 +63,59 @@ class SteadyMap:
 
 
 def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
-    """Drive the ramp to the left; the map is empty if the car does not come to the speed.
+    """Drive a ramp to the left; the map is empty if the car does not reach the speed.
 
-    `speed`: in m/s; `acceleration`: up to which the map is wanted, m/s².
+    `speed`: in m/s; `acceleration`: upper end of the map, m/s².
 
     Notes
     -----
-    The steering wheel turns by 2 °/s up to 60°, then by 13.5 °/s. The car is late by some tenths of a second, so the
-    angles are too large by what it turns in this time. That angle is where a straight line through the first part of
-    the ramp, 0.3 to 1.2 m/s², meets zero; it is taken off as long as the wheel turns slowly.
+    The steering wheel turns by 2 °/s up to 60°, then by 13.5 °/s. The car lags by some tenths of a second, so that the
+    angles are too large. The error is the intercept of a regression line through the first part of the ramp, 0.3 to 1.2
+    m/s², and is subtracted.
     """
     steering = SteeringInput.of(car.facts)
     if steering.is_angle:
-        largest = min(_LARGEST, steering.largest)
-        slow = min(_SLOW_UNTIL, largest)
-        time = np.array([0.0, slow / _SLOW, slow / _SLOW + (largest - slow) / _FAST])
-        angle = np.array([0.0, slow, largest])
+        largest = min(_LARGEST_ANGLE, steering.largest)
+        slow_angle = min(_SLOW_UNTIL, largest)
+        time = np.array([0.0, slow_angle / _SLOW_RATE, slow_angle / _SLOW_RATE + (largest - slow_angle) / _FAST_RATE])
+        angle = np.array([0.0, slow_angle, largest])
     else:
-        time, angle = np.array([0.0, steering.largest / _RATE_OF_INPUT]), np.array([0.0, steering.largest])
+        time, angle = np.array([0.0, steering.largest / _INPUT_RATE]), np.array([0.0, steering.largest])
     run = steer(car, "ramp left", speed, time, angle, Pedals.HOLD_SPEED, 1.1 * acceleration)
     if len(run.time) < 20:
         return SteadyMap(speed, np.zeros(0), np.zeros(0), run)
-    # one filter for both, so that neither is late against the other
+    # One filter for both, so that they have no relative delay.
     frequency = min(6.0, 0.2 / run.interval)
     turned, lateral = (phaseless_low_pass(x, run.interval, frequency) for x in (run.steering, run.acceleration))
-    zero = run.time < 0.0
-    if zero.any():
-        turned, lateral = turned - turned[zero].mean(), lateral - lateral[zero].mean()
+    before = run.time < 0.0
+    if before.any():
+        turned, lateral = turned - turned[before].mean(), lateral - lateral[before].mean()
     after_start = run.time >= 0.0
     turned, lateral = turned[after_start], lateral[after_start]
-    turned = turned - _late(turned, lateral, float(angle[1] / time[1]))
+    turned = turned - _lag_angle(turned, lateral, float(angle[1] / time[1]))
     top = int(np.argmax(lateral)) + 1
     return SteadyMap(speed, turned[:top], lateral[:top], run)
 
 
-def _late(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
-    """By how much angles of a ramp run ahead of the answer, rad, up to each."""
-    first = (acceleration >= _LINE[0]) & (acceleration <= _LINE[1]) & (np.arange(len(angle)) < np.argmax(acceleration))
-    if first.sum() < 5:
+def _lag_angle(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
+    """Angles by which a ramp leads the response, rad, shape (n,). `rate`: of the ramp, rad/s."""
+    fitted = (
+        (acceleration >= _FIT_RANGE[0])
+        & (acceleration <= _FIT_RANGE[1])
+        & (np.arange(len(angle)) < np.argmax(acceleration))
+    )
+    if fitted.sum() < 5:
         return np.zeros(len(angle))
-    slope, offset = np.polyfit(angle[first], acceleration[first], 1)
-    late = min(max(-offset / slope, 0.0), rate * _LATEST) if slope > 0.0 else 0.0
-    return np.asarray(np.minimum(late, angle))
+    slope, offset = np.polyfit(angle[fitted], acceleration[fitted], 1)
+    lag = min(max(-offset / slope, 0.0), rate * _LONGEST_LAG) if slope > 0.0 else 0.0
+    return np.asarray(np.minimum(lag, angle))
 
 
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
     """The map at a speed or, for a car that does not reach it, at a lower one.
 
-    `speed`, `lower`: in m/s; `acceleration`: up to which the map is wanted, m/s². Raises `HostError` if the car reaches
-    neither, its FMU refuses a step, or signs or units of its signals do not fit.
+    `speed`, `lower`: in m/s; `acceleration`: upper end of the map, m/s². Raises `HostError`: the car reaches neither
+    speed, its FMU refuses a step, or signs or units of its signals are implausible.
     """
     result = steady_map(car, speed, acceleration)
     if not len(result.angle) and lower < speed:
@@ -119,26 +123,26 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
         result = replace(steady_map(car, lower, acceleration), notes=(note,))
     if not len(result.angle):
         raise HostError(why_not_reached(result.run.result, result.speed))
-    refuse_odd(result.run)
+    refuse_implausible(result.run)
     return result
 
 
-def driven_ramp(sheet: Sheet, acceleration: float) -> SteadyMap:
-    """`map_at_reachable_speed` of the setting `speed` or of 80 km/h; speed, run and notes are on the sheet."""
+def drive_ramp(sheet: Sheet, acceleration: float) -> SteadyMap:
+    """Drive a ramp at the setting `speed`, or at 80 km/h for a slower car, and add its results to the sheet."""
     speed = sheet.settings["speed"] / 3.6
     ramp = map_at_reachable_speed(sheet.car, speed, min(speed, 80.0 / 3.6), acceleration)
     sheet.runs["ramp_left"] = ramp.run.thinned()
-    sheet.measures.append(Measure("speed", ramp.speed, "m/s", f"speed {sheet.words_of('speed')}"))
+    sheet.measures.append(Measure("speed", ramp.speed, "m/s", f"speed {sheet.setting_text('speed')}"))
     sheet.notes += [*ramp.notes, *filter(None, [SteeringInput.of(sheet.car.facts).note])]
     return ramp
 
 
-def refuse_odd(run: SteeredRun) -> None:
-    """Refuse a slow turn whose steering, speed, yaw rate and lateral acceleration do not belong together.
+def refuse_implausible(run: SteeredRun) -> None:
+    """Raise `HostError` if steering, speed, yaw rate and lateral acceleration of a slow turn are not consistent.
 
-    Raises `HostError` with what would explain it, as a sign or unit of an alias file.
+    The message names a sign or unit of the alias file that would explain it.
     """
-    if len(run.time) < FEWEST or not np.abs(run.acceleration).max() >= ENOUGH:
+    if len(run.time) < FEWEST_SAMPLES or not np.abs(run.acceleration).max() >= LEAST_ACCELERATION:
         return
     columns = (
         ("steering_wheel_angle", "rad", run.steering),
@@ -152,7 +156,7 @@ def refuse_odd(run: SteeredRun) -> None:
 
 
 def why_not_reached(result: Result, speed: float) -> str:
-    """Why the steering did not begin at a speed, m/s, in a run: a sentence."""
+    """A sentence on why a run did not reach its speed, m/s."""
     end = float(result.time[-1])
     if result.refusal:
         return f"Before the steering began {result.refusal}."

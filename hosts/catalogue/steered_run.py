@@ -1,4 +1,4 @@
-"""A run in which the car is brought to its speed, and then steered by a table."""
+"""A run in which the car approaches a speed, and is then steered by a table."""
 
 import math
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.preparation import start_at
+from hosts.catalogue.preparation import start_at_speed
 from hosts.catalogue.steering import SteeringInput
 from hosts.catalogue.stop_conditions import ROLLED
 from hosts.driving.manoeuvre import Manoeuvre
@@ -17,15 +17,15 @@ from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
 from hosts.measures.filters import resample
 
-_CLOSE = 0.1
-_NEAR = 0.5
-_COAST_FROM = 0.7
-_INTERVAL = 0.005
-_REACHED = 0.97
+_SPEED_TOLERANCE = 0.1  # m/s
+_LATE_SPEED_TOLERANCE = 0.5  # m/s, after 60 % of the time of the approach
+_COAST_FROM = 0.7  # m/s above the speed of the steering
+_INTERVAL = 0.005  # s
+_LEAST_SHARE = 0.97  # of a requested angle
 
 
 class Pedals(Enum):
-    """Pedals after the steering begins."""
+    """Pedals from the begin of the steering on."""
 
     HOLD_SPEED = "speed is held"
     FIXED = "pedals are held"
@@ -33,11 +33,11 @@ class Pedals(Enum):
 
 
 class SteeredPilot:
-    """Holds the speed until the car runs steadily, then steers by a table.
+    """A pilot that holds the speed until the car runs steadily, then steers by a table.
 
-    `speed`: when the steering begins, m/s; `time`, `angle`: s from the beginning, and angle of the steering wheel, rad;
-    linear in between, shape (n,); `longest`: time the car has to come to its speed, s. `begin`: when the steering
-    began, s; NaN while it has not; `gave_up`: whether the car did not come to its speed.
+    `speed`: at the begin of the steering, m/s; `time`, `angle`: table of the steering-wheel angle, s from the begin and
+    rad, shape (n,), linear in between; `longest`: longest time of the approach, s. `begin`: of the steering, s; NaN
+    before; `gave_up`: whether the approach took too long.
     """
 
     def __init__(
@@ -54,68 +54,68 @@ class SteeredPilot:
         self.time, self.values = time, angle * self.input.per_radian
         self.begin = math.nan
         self.gave_up = False
-        approach = speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0)
-        self._holder = SpeedHolder(approach, brakes="brake" in car.facts.inputs)
-        self._approach = approach
+        approach_speed = speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0)
+        self._holder = SpeedHolder(approach_speed, brakes="brake" in car.facts.inputs)
+        self._approach_speed = approach_speed
         self._steady_since = 0.0
         self._coasting = False
-        self._acts: dict[str, float] = {}
+        self._pedal_inputs: dict[str, float] = {}
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         if not math.isfinite(self.begin):
-            self._approaching(time, observation["speed"])
+            self._update_approach(time, observation["speed"])
         if not self._coasting and (not math.isfinite(self.begin) or self.pedals is Pedals.HOLD_SPEED):
-            self._acts = self._holder.act(time, observation)
+            self._pedal_inputs = self._holder.act(time, observation)
         angle = float(np.interp(time - self.begin, self.time, self.values)) if math.isfinite(self.begin) else 0.0
-        return self._acts | {self.input.name: angle}
+        return self._pedal_inputs | {self.input.name: angle}
 
-    def _approaching(self, time: float, speed: float) -> None:
+    def _update_approach(self, time: float, speed: float) -> None:
         if self._coasting:
             if speed <= self.speed:
                 self.begin = time
         else:
-            # a car whose gearbox hunts is good enough after a while: standards allow 2 km/h
-            close = _CLOSE if time < 0.6 * self.longest else _NEAR
-            if abs(speed - self._approach) > close:
+            # For a car with frequent gear changes the tolerance is larger after a while; standards allow 2 km/h.
+            tolerance = _SPEED_TOLERANCE if time < 0.6 * self.longest else _LATE_SPEED_TOLERANCE
+            if abs(speed - self._approach_speed) > tolerance:
                 self._steady_since = time
             if time - self._steady_since >= 1.0:
                 if self.pedals is Pedals.COAST:
                     self._coasting = True
-                    self._acts = dict.fromkeys(self._acts, 0.0)
+                    self._pedal_inputs = dict.fromkeys(self._pedal_inputs, 0.0)
                 else:
                     self.begin = time
         self.gave_up = not math.isfinite(self.begin) and time > self.longest
 
     def ends(self, time: float, observation: Mapping[str, float]) -> bool:
-        """Whether the run is over: the table is at its end, the car gave up or lies on its side."""
+        """Whether the run is over: the table has ended, the approach took too long, or the car has rolled over."""
         return self.gave_up or time >= self.begin + self.time[-1] or abs(observation.get("chassis.roll", 0.0)) > ROLLED
 
 
 @dataclass(frozen=True)
 class SteeredRun:
-    """Signals of a steered run at equally spaced times; 0 is the begin of the steering."""
+    """Signals of a steered run at equally spaced times; time 0 is the begin of the steering."""
 
     result: Result
-    """As recorded, with rows at least 5 ms apart or each step."""
+    """The record, with intervals of at least 5 ms."""
     begin: float
-    """Of the steering in its time, s; NaN if the car did not come to its speed."""
+    """Begin of the steering in the time of `result`, s; NaN if the car did not reach its speed."""
     time: NDArray[np.float64]
-    """Shape (n,), s; from 1 s before the beginning or later. Empty if there was none."""
+    """Shape (n,), s; from at most 1 s before the begin on. Empty if the steering did not begin."""
     steering: NDArray[np.float64]
     yaw_rate: NDArray[np.float64]
     acceleration: NDArray[np.float64]
     sideslip: NDArray[np.float64]
     roll: NDArray[np.float64]
     speed: NDArray[np.float64]
-    """`steering`, `yaw_rate`, `acceleration`, `sideslip`, `roll`, `speed`: in rad, rad/s, m/s², rad, rad, m/s; NaN
-    where the car has no such output. The acceleration is lateral and level. Shape (n,) each."""
+    """`steering`, `yaw_rate`, `acceleration`, `sideslip`, `roll`, `speed`: in rad, rad/s, m/s², rad, rad, m/s, shape
+    (n,) each; NaN where the car has no such output. The acceleration is lateral and horizontal."""
     whole: bool
     """Whether the table was driven to its end."""
 
     def shortfall(self, amplitude: float) -> str:
-        """A sentence where the steering wheel did not come to an angle, rad, that was asked for; else empty."""
+        """A sentence if the steering wheel did not reach a requested angle, rad; else empty."""
         reached = float(np.abs(self.steering).max()) if len(self.steering) else math.nan
-        if not reached < _REACHED * amplitude:
+        if not reached < _LEAST_SHARE * amplitude:
             return ""
         return (
             f"The steering wheel came to {math.degrees(reached):.3g}° where {math.degrees(amplitude):.3g}° were asked "
@@ -124,11 +124,11 @@ class SteeredRun:
 
     @property
     def interval(self) -> float:
-        """Between samples, s."""
+        """Interval of the samples, s."""
         return float(self.time[1] - self.time[0])
 
     def thinned(self, interval: float = 0.02) -> Result:
-        """The record from 1 s before the steering begins, with rows no closer than an interval, s."""
+        """The record from 1 s before the begin of the steering on, with rows at least an interval, s, apart."""
         r = self.result
         step = float(r.time[1] - r.time[0]) if len(r.time) > 1 else interval
         first = int(np.searchsorted(r.time, self.begin - 1.0 - 1e-9)) if math.isfinite(self.begin) else 0
@@ -145,19 +145,19 @@ def steer(
     pedals: Pedals,
     lateral_limit: float = math.inf,
 ) -> SteeredRun:
-    """Bring the car to its speed on a straight line and steer it.
+    """Drive the car straight up to a speed, then steer it by a table.
 
-    `speed`: in m/s; `time`, `angle`: in s from the beginning, rad, shape (n,); `lateral_limit`: lateral acceleration at
-    which the run ends, m/s².
+    `speed`: in m/s; `time`, `angle`: table, s from the begin of the steering and rad, shape (n,); `lateral_limit`:
+    lateral acceleration at which the run ends, m/s².
     """
-    start = start_at(car, speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0))
-    longest = 30.0 if start else 90.0
-    pilot = SteeredPilot(car, speed, time, angle, pedals, longest)
+    start = start_at_speed(car, speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0))
+    longest_approach = 30.0 if start else 90.0
+    pilot = SteeredPilot(car, speed, time, angle, pedals, longest_approach)
     manoeuvre = Manoeuvre(
         name,
         np.zeros(1),
         dict.fromkeys([pilot.input.name, "throttle"], np.zeros(1)),
-        longest + float(time[-1]) + 2.0 * car.facts.step,
+        longest_approach + float(time[-1]) + 2.0 * car.facts.step,
         start,
     )
 
@@ -165,11 +165,11 @@ def steer(
         return pilot.ends(t, observation) or abs(observation["chassis.ay"]) > lateral_limit
 
     result = car.drive(manoeuvre, pilot, ends, _INTERVAL)
-    return _signals(result, pilot, car.facts.step)
+    return _steered_run(result, pilot, car.facts.step)
 
 
 def level_acceleration(result: Result) -> NDArray[np.float64]:
-    """Lateral acceleration in the plane of the road, m/s²: that along the vehicle's y axis, less the body's roll."""
+    """Horizontal lateral acceleration, m/s², shape (n,), from those along the y and z axes of the rolled body."""
     ay = result["chassis.ay"]
     if "chassis.roll" not in result or "chassis.az" not in result:
         return ay
@@ -177,34 +177,34 @@ def level_acceleration(result: Result) -> NDArray[np.float64]:
     return np.asarray(ay * np.cos(roll) - result["chassis.az"] * np.sin(roll))
 
 
-def _signals(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
-    none = np.zeros(0)
+def _steered_run(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
+    empty = np.zeros(0)
     if not math.isfinite(pilot.begin) or len(result.time) < 3 or result.time[-1] <= pilot.begin:
-        return SteeredRun(result, math.nan, none, none, none, none, none, none, none, False)
-    row = float(result.time[1] - result.time[0])
-    interval = max(_INTERVAL, row)
-    # the grid has a sample where the steering begins
+        return SteeredRun(result, math.nan, empty, empty, empty, empty, empty, empty, empty, False)
+    row_interval = float(result.time[1] - result.time[0])
+    interval = max(_INTERVAL, row_interval)
+    # The grid has a sample at the begin of the steering.
     first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
-    selected = result.time > first - 1.5 * row
-    time, blank = result.time[selected], np.full(len(result.time), math.nan)
+    selected = result.time > first - 1.5 * row_interval
+    time, missing = result.time[selected], np.full(len(result.time), math.nan)
     grid = resample(time, time, interval, first)[0]
 
-    def even(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def resampled(values: NDArray[np.float64]) -> NDArray[np.float64]:
         if not np.isfinite(values[selected]).all():
             return np.full(len(grid), math.nan)
         return resample(time, values[selected], interval, first)[1]
 
     names = ("chassis.wz", "sideslip", "chassis.roll", "speed")
-    yaw_rate, sideslip, roll, speed = (even(result.continuous(n) if n in result else blank) for n in names)
+    yaw_rate, sideslip, roll, speed = (resampled(result.continuous(n) if n in result else missing) for n in names)
     return SteeredRun(
         result,
         pilot.begin,
         grid - pilot.begin,
-        even(pilot.input.measured(result, step)),
+        resampled(pilot.input.measured_angle(result, step)),
         yaw_rate,
-        even(level_acceleration(result)),
+        resampled(level_acceleration(result)),
         sideslip,
         roll,
         speed,
-        not result.failed_steps and bool(result.time[-1] >= pilot.begin + pilot.time[-1] - 1.5 * row),
+        not result.failed_steps and bool(result.time[-1] >= pilot.begin + pilot.time[-1] - 1.5 * row_interval),
     )

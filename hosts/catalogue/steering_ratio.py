@@ -1,4 +1,4 @@
-"""The steering ratio of a car about straight ahead, measured in a slow drive."""
+"""The steering ratio of a car near straight ahead, measured in a slow drive."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy as np
 from scipy import stats
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.preparation import start_at
+from hosts.catalogue.preparation import start_at_speed
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.combined_pilot import CombinedPilot
@@ -20,10 +20,10 @@ _ANGLE = math.radians(30.0)
 
 
 def steering_ratio(car: TestedCar) -> float:
-    """Angle of the steering wheel over the mean angle of the front wheels.
+    """Ratio of the angle of the steering wheel and the mean angle of the front wheels; NaN if unknown.
 
-    Where the car reports the angles of its wheels, the slope of a regression while the steering wheel is turned to 30°
-    to both sides at 3 m/s; else the constant of the car; NaN where it has none.
+    If the car reports the angles of its wheels, by a regression while the steering wheel turns to 30° to both sides at
+    3 m/s; else the constant of the car.
     """
     if any(name not in car.facts.outputs for name in WHEELS):
         return car.facts.constants.get(RATIO, math.nan)
@@ -36,10 +36,10 @@ def steering_ratio(car: TestedCar) -> float:
         SpeedHolder(_SPEED, brakes="brake" in car.facts.inputs), SteeringTable(times, table, steering.name)
     )
     result = car.drive(
-        Manoeuvre("steering ratio", np.zeros(0), {}, 7.0, start_at(car, _SPEED)), pilot, record_step=0.02
+        Manoeuvre("steering ratio", np.zeros(0), {}, 7.0, start_at_speed(car, _SPEED)), pilot, record_step=0.02
     )
     wheels = 0.5 * (result[WHEELS[0]] + result[WHEELS[1]])
     rows = result.time > 1.0
     if rows.sum() < 10 or not np.ptp(wheels[rows]) > 1e-3:
         return car.facts.constants.get(RATIO, math.nan)
-    return 1.0 / float(stats.linregress(steering.measured(result, car.facts.step)[rows], wheels[rows]).slope)
+    return 1.0 / float(stats.linregress(steering.measured_angle(result, car.facts.step)[rows], wheels[rows]).slope)

@@ -8,10 +8,10 @@ ROLLED = math.radians(60.0)
 
 
 class StopConditions:
-    """Ends a run, and says why.
+    """Conditions of the end of a run, as a function of its outputs.
 
-    `stands`: a car slower than this stands, m/s; 0: it does not end the run. `reason`: ``stands``, ``spun`` or
-    ``rolled``; empty while the run goes on; that of the last call.
+    `stands`: speed below which the car stands, m/s; 0: standing does not end the run. `reason`: ``stands``, ``spun`` or
+    ``rolled`` by the last call; empty: the run continues.
     """
 
     def __init__(self, stands: float) -> None:
@@ -19,7 +19,7 @@ class StopConditions:
         self.reason = ""
 
     def __call__(self, outputs: Mapping[str, float]) -> bool:
-        """Whether the run is over; outputs that the car does not have are not looked at."""
+        """Whether the run is over; missing outputs are ignored."""
         self.reason = ""
         if abs(outputs.get("chassis.roll", 0.0)) > ROLLED:
             self.reason = "rolled"

@@ -1,4 +1,4 @@
-"""The task of one test with one car for a worker process: plain data in, a record out."""
+"""One test of one car as the task of a worker process."""
 
 import json
 import re
@@ -18,8 +18,8 @@ from hosts.catalogue.registry import standard_test
 from hosts.run.result_files import write_csv
 
 Outcome: TypeAlias = "TestRecord | Reason"
-"""What a test has yielded, or why it was not done."""
-_BETWEEN = 0.1  # s between two words on the progress
+"""The record of a test, or the reason why it was not done."""
+_REPORT_INTERVAL = 0.1  # s between reports of the progress
 
 
 @dataclass(frozen=True)
@@ -30,25 +30,25 @@ class Task:
     car: TestedCar
     settings: Mapping[str, float]
     folder: Path | None = None
-    """Where a table of each run is written; none without it."""
+    """Folder of the tables of runs; None: none are written."""
 
 
-def do(task: Task, progress: Callable[[float], None]) -> Outcome:
-    """Do a task; whatever goes wrong in it is its outcome.
+def perform_task(task: Task, progress: Callable[[float], None]) -> Outcome:
+    """Run the test of a task; an error becomes its outcome.
 
-    `progress`: called with the part that is done, 0 to 1, a few times a second.
+    `progress`: called with the share that is done, 0 to 1, at most ten times a second.
     """
     last = -1.0
 
-    def seldom(done: float) -> None:
+    def report(done: float) -> None:
         nonlocal last
         now = time.monotonic()
-        if now - last >= _BETWEEN:
+        if now - last >= _REPORT_INTERVAL:
             last = now
             progress(done)
 
     try:
-        return perform(standard_test(task.test), task.car, task.settings, seldom)
+        return perform(standard_test(task.test), task.car, task.settings, report)
     except UserError as error:
         return str(error)
     except MemoryError:
@@ -59,7 +59,7 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
 
 
 def write_runs(task: Task, record: TestRecord) -> None:
-    """A table of each run, and beside it what `ali3 view` needs to draw it; nothing where it has no folder."""
+    """Write a table of each run, and a file for `ali3 view` beside it, if the task has a folder."""
     if task.folder is None:
         return
     for name, result in record.runs.items():
@@ -77,9 +77,9 @@ def write_runs(task: Task, record: TestRecord) -> None:
 
 
 def run_file(test: str, label: str, run: str) -> Path:
-    """The table of a run, relative to the folder of the results."""
-    return Path("runs", test, f"{_plain(label)}_{_plain(run)}.csv")
+    """Path of the table of a run, relative to the folder of the results."""
+    return Path("runs", test, f"{_file_stem(label)}_{_file_stem(run)}.csv")
 
 
-def _plain(name: str) -> str:
+def _file_stem(name: str) -> str:
     return re.sub(r"[^\w.+-]+", "_", name).strip("_")

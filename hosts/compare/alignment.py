@@ -14,7 +14,7 @@ from scipy import signal as sp
 from scipy.optimize import least_squares
 
 from hosts.compare.correlated_residuals import covariance
-from hosts.compare.cross_validation import FEWEST, Parts, jackknife, parts_of
+from hosts.compare.cross_validation import FEWEST_PARTS, Parts, jackknife, parts_of
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
 from hosts.compare.noise import measured_noise
@@ -24,10 +24,9 @@ _LEAST_CORRELATION = 0.5
 _AMBIGUOUS = 0.01
 _MOST_POINTS = 20_000
 _LARGEST_DRIFT = 0.05
-# A clock moves all that a log holds; a drift that explains less of what is left is one of the model, and not told.
-_LEAST_EXPLAINED = 0.25
-_SCATTER = 1.2  # of the square of a noise that is estimated
-_ALIKE = 2.0  # of what is left and no noise: how much more of the model's difference may look like a delay
+_LEAST_EXPLAINED = 0.25  # share of the squared residuals; a drift that explains less is an error of the model
+_NOISE_FACTOR = 1.2  # on the squared noise, which is an estimate
+_MODEL_FACTOR = 2.0  # on the residual of the model, of which another share may look like a delay
 
 
 @dataclass(frozen=True)
@@ -36,54 +35,55 @@ class Alignment:
 
     delay: float
     delay_error: float
-    """`delay`, `delay_error`: s, and half of its 95 % interval; what happens at t in the simulation happens at delay +
-    (1 + drift) t in the log. NaN where it cannot be found."""
+    """`delay`, `delay_error`: s, and half of its 95 % interval; time t of the simulation is time delay + (1 + drift) t
+    of the log. NaN where it cannot be determined."""
     drift: float
     drift_error: float
-    """`drift`, `drift_error`: by how much the log's clock of this signal runs fast."""
+    """`drift`, `drift_error`: relative rate error of the log's clock of this signal, and half of its 95 % interval;
+    positive: the clock runs fast."""
     correlation: float
     note: str = ""
     explained: float = 0.0
-    """Part of the squared residuals without a drift that the drift takes away."""
+    """Share of the squared residuals without a drift that the drift explains."""
 
     @property
     def has_drift(self) -> bool:
-        """Whether the drift is beyond two of its errors and explains a quarter of what is left without it; one at which
-        the search ends is none.
-        """
+        """Whether the drift exceeds twice its error, explains enough and is below the limit of the search."""
         certain = 2.0 * self.drift_error < abs(self.drift) < 0.99 * _LARGEST_DRIFT
         return certain and self.explained >= _LEAST_EXPLAINED
 
 
 def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
-    """The delay and drift that signals have in common; of one signal, its own.
+    """The common delay and drift of signals.
 
-    `pairs`: measured and simulated; `longest`: largest delay that is looked for, s.
+    `pairs`: measured and simulated signals; `longest`: largest delay of the search, s; `drift`: whether a drift is
+    estimated.
     """
     pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
     if not pairs:
         return Alignment(*5 * (math.nan,), "no signal moves in both")
-    coarse, peak, rival, level = _coarse(pairs, longest)
+    first_delay, peak, other_delay, is_flat = _coarse_delay(pairs, longest)
     if peak < _LEAST_CORRELATION:
         return Alignment(*4 * (math.nan,), peak, f"the best correlation is {peak:.2f}: no delay can be determined")
-    if level:
+    if is_flat:
         message = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
         return Alignment(*4 * (math.nan,), peak, message)
-    fine = _fine(pairs, coarse, drift)
-    if drift and not fine.has_drift:  # which has taken a part of the delay
-        alone = _fine(pairs, coarse, False)
-        fine = replace(fine, delay=alone.delay, delay_error=alone.delay_error, correlation=alone.correlation)
-    note = f"a delay of {rival:.3g} s fits nearly as well" if rival is not None else ""
+    fine = _least_squares_alignment(pairs, first_delay, drift)
+    if drift and not fine.has_drift:  # a drift that is not significant biases the delay
+        constant = _least_squares_alignment(pairs, first_delay, False)
+        fine = replace(fine, delay=constant.delay, delay_error=constant.delay_error, correlation=constant.correlation)
+    note = f"a delay of {other_delay:.3g} s fits nearly as well" if other_delay is not None else ""
     if abs(fine.delay) > longest:
         message = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
         return Alignment(*4 * (math.nan,), fine.correlation, message)
     return replace(fine, note=note)
 
 
-def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[float, float, float | None, bool]:
-    """Delay at whole samples, mean correlation there, another delay that is nearly as good, and whether all are.
+def _coarse_delay(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[float, float, float | None, bool]:
+    """Delay by the largest correlation at whole samples.
 
-    The last is judged where the log is too short for all delays that were to be looked for.
+    Returns the delay, s, its mean correlation, another delay that correlates nearly as well, and whether all delays of
+    a log that is shorter than the range of the search do so.
     """
     begin, end = min(s.time[0] for s, _ in pairs), max(s.time[-1] for s, _ in pairs)
     interval = max(min(s.interval for s, _ in pairs), (end - begin) / _MOST_POINTS)
@@ -92,44 +92,46 @@ def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[floa
     for measured, curve in pairs:
         grid = np.arange(measured.time[0], measured.time[-1], interval)
         y, x = np.interp(grid, measured.time, measured.values), curve(grid)
-        lags, result = _correlations(y, x, min(int(longest / interval), len(grid) // 2))
+        lags, result = _cross_correlation(y, x, min(int(longest / interval), len(grid) // 2))
         if len(total) not in (0, len(result)):
-            few = min(len(total), len(result)) // 2
-            total, result = (a[len(a) // 2 - few : len(a) // 2 + few + 1] for a in (total, result))
-            lags = lags[len(lags) // 2 - few : len(lags) // 2 + few + 1]
+            half = min(len(total), len(result)) // 2
+            total, result = (a[len(a) // 2 - half : len(a) // 2 + half + 1] for a in (total, result))
+            lags = lags[len(lags) // 2 - half : len(lags) // 2 + half + 1]
         total = result if not len(total) else total + result
     total = total / len(pairs)
-    # Among equals the smallest delay: of a periodic signal a period more fits as well.
+    # Of equal correlations the smallest delay: a periodic signal correlates as well one period later.
     best = int(np.argmax(total - 1e-6 * np.abs(lags)))
     peaks, _ = sp.find_peaks(total)
-    rivals = [k for k in peaks if abs(lags[k] - lags[best]) > 2 and total[k] > total[best] - _AMBIGUOUS]
-    rival = float(interval * lags[min(rivals, key=lambda k: abs(lags[k]))]) if rivals else None
-    level = bool(lags[-1] < int(longest / interval) and total.min() > total[best] - _AMBIGUOUS)
-    return float(interval * lags[best]), float(total[best]), rival, level
+    other_peaks = [k for k in peaks if abs(lags[k] - lags[best]) > 2 and total[k] > total[best] - _AMBIGUOUS]
+    other_delay = float(interval * lags[min(other_peaks, key=lambda k: abs(lags[k]))]) if other_peaks else None
+    is_flat = bool(lags[-1] < int(longest / interval) and total.min() > total[best] - _AMBIGUOUS)
+    return float(interval * lags[best]), float(total[best]), other_delay, is_flat
 
 
-def _correlations(
-    y: NDArray[np.float64], x: NDArray[np.float64], most: int
+def _cross_correlation(
+    y: NDArray[np.float64], x: NDArray[np.float64], largest_lag: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Pearson's coefficient of y[k + lag] and x[k] over what overlaps, for lags of -most to most."""
+    """Pearson's coefficient of y[k + lag] and x[k] over their overlap, for lags from -largest_lag to largest_lag."""
     y, x, ones = y - y.mean(), x - x.mean(), np.ones(len(y))
     lags = sp.correlation_lags(len(y), len(x))
-    chosen = np.abs(lags) <= most
+    selected = np.abs(lags) <= largest_lag
 
     def sums(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(sp.correlate(a, b, method="fft"))[chosen]
+        return np.asarray(sp.correlate(a, b, method="fft"))[selected]
 
     count = np.maximum(np.round(sums(ones, ones)), 1.0)
     y1, x1 = sums(y, ones) / count, sums(ones, x) / count
     variance = (sums(y * y, ones) / count - y1**2) * (sums(ones, x * x) / count - x1**2)
-    least = 1e-6 * float(np.var(y) * np.var(x))  # of an overlap in which nothing happens
-    result = np.where(variance > least, (sums(y, x) / count - y1 * x1) / np.sqrt(np.maximum(variance, least)), 0.0)
-    return lags[chosen].astype(float), result
+    least_variance = 1e-6 * float(np.var(y) * np.var(x))  # below it the overlap is constant
+    result = np.where(
+        variance > least_variance, (sums(y, x) / count - y1 * x1) / np.sqrt(np.maximum(variance, least_variance)), 0.0
+    )
+    return lags[selected].astype(float), result
 
 
-def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> Alignment:
-    # What is measured before the simulation begins, or after its end, has nothing to be held against.
-    pairs = [(_overlap(s, c, delay), c) for s, c in pairs]
+def _least_squares_alignment(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> Alignment:
+    """Delay, and drift where it is estimated, by least squares from a first delay, s."""
+    pairs = [(_overlapping_samples(s, c, delay), c) for s, c in pairs]
     spreads = [float(np.std(s.values)) for s, _ in pairs]
 
     def residual(p: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -147,52 +149,56 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
     start = [delay, 0.0][: 1 + drift]
     limit = _LARGEST_DRIFT
     bounds = ([-np.inf, -limit][: 1 + drift], [np.inf, limit][: 1 + drift])
-    solution = least_squares(residual, start, x_scale=size, bounds=bounds, jac=_central(residual, size))
+    solution = least_squares(residual, start, x_scale=size, bounds=bounds, jac=_central_differences(residual, size))
     rows, first = [], 0
     for s, _ in pairs:
         rows.append(slice(first, first + len(s.time)))
         first += len(s.time)
     jacobian = np.asarray(solution.jac)
     errors = 1.96 * np.sqrt(np.diag(covariance(jacobian, solution.fun, rows, [s.time for s, _ in pairs])[0]))
-    for parts in _parts([s for s, _ in pairs]):
+    for parts in _omitted_parts([s for s, _ in pairs]):
         errors = np.maximum(errors, jackknife(jacobian, solution.fun, parts))
-    # What is left and no noise may be a difference of the model, and another part of it as large look like a delay.
-    white = [
+    # Residuals beyond the noise are an error of the model, of which another share of that size may look like a delay.
+    noise_sums = [
         len(s.time) * (measured_noise(s.values) / d) ** 2 for s, d in zip((s for s, _ in pairs), spreads, strict=True)
     ]
-    sums = [float(solution.fun[r] @ solution.fun[r]) - _SCATTER * w for r, w in zip(rows, white, strict=True)]
-    alone = np.sqrt(np.diag(np.linalg.pinv(jacobian.T @ jacobian)))
-    errors = np.maximum(errors, _ALIKE * math.sqrt(sum(max(x, 0.0) for x in sums)) * alone)
+    model_sums = [
+        float(solution.fun[r] @ solution.fun[r]) - _NOISE_FACTOR * w for r, w in zip(rows, noise_sums, strict=True)
+    ]
+    standard_errors = np.sqrt(np.diag(np.linalg.pinv(jacobian.T @ jacobian)))
+    errors = np.maximum(errors, _MODEL_FACTOR * math.sqrt(sum(max(x, 0.0) for x in model_sums)) * standard_errors)
     unexplained = float(np.mean(solution.fun**2))
     correlation = math.sqrt(max(0.0, 1.0 - unexplained))
     if not drift:
         return Alignment(float(solution.x[0]), float(errors[0]), 0.0, 0.0, correlation)
-    # To first order: the delay takes the best part of the drift's place when the drift is left out.
-    late, fast = jacobian.T
-    by_drift = float(solution.x[1] ** 2 * (fast @ fast - (late @ fast) ** 2 / (late @ late)))
+    # To first order the delay compensates a drift that is left out as far as both columns are parallel.
+    by_delay, by_drift_rate = jacobian.T
+    by_drift = float(
+        solution.x[1] ** 2 * (by_drift_rate @ by_drift_rate - (by_delay @ by_drift_rate) ** 2 / (by_delay @ by_delay))
+    )
     explained = by_drift / (by_drift + float(solution.fun @ solution.fun)) if by_drift > 0.0 else 0.0
     drifts = float(solution.x[1]), float(errors[1])
     return Alignment(float(solution.x[0]), float(errors[0]), *drifts, correlation, explained=explained)
 
 
-def _parts(signals: Sequence[Signal]) -> list[Parts]:
-    """What is left out in turn: tenths of the log, and each signal where there are enough of them."""
+def _omitted_parts(signals: Sequence[Signal]) -> list[Parts]:
+    """Parts that are left out in turn: tenths of the log, and each signal where there are enough of them."""
     results = [parts_of({str(k): s for k, s in enumerate(signals)}, ())]
-    if len(signals) >= FEWEST:
+    if len(signals) >= FEWEST_PARTS:
         number = np.repeat(np.arange(len(signals)), [len(s.time) for s in signals])
         results.append(Parts(number, np.arange(len(signals), dtype=float), 1.0))
     return results
 
 
-def _overlap(signal: Signal, curve: Curve, delay: float) -> Signal:
+def _overlapping_samples(signal: Signal, curve: Curve, delay: float) -> Signal:
     margin = 2.0 * signal.interval
     return signal.between(delay + margin, delay + curve.end - margin)
 
 
-def _central(
+def _central_differences(
     residual: Callable[[NDArray[np.float64]], NDArray[np.float64]], size: Sequence[float]
 ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-    """Central differences with steps of a thousandth of a sample; the spline is exact to rounding errors."""
+    """The Jacobian by central differences with steps of a thousandth of `size`."""
 
     def jacobian(p: NDArray[np.float64]) -> NDArray[np.float64]:
         steps = 1e-3 * np.diag(size)

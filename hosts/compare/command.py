@@ -1,4 +1,4 @@
-"""Holds an FMU against the log of a test drive: ali3 compare FMU|CAR LOG [--fit NAME[=LOW:HIGH]].
+"""Compares an FMU with the log of a test drive: ali3 compare FMU|CAR LOG [--fit NAME[=LOW:HIGH]].
 
 The measured inputs are replayed, the outputs compared: errors, a rating like ISO/TS 18571, delay and drift. With --fit
 parameters are sought with which the FMU comes nearest to the log, and how well the log determines them.

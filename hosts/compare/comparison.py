@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from hosts.compare.alignment import Alignment, align
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import Deviations, deviations
-from hosts.compare.rating import Rating, on_equal_steps, rating
+from hosts.compare.rating import Rating, rating, resampled_evenly
 from hosts.measures.measure import Measure
 from hosts.measures.signal import Signal
 
@@ -19,7 +19,7 @@ class ComparedSignal:
     measured: Signal
     simulated: Curve
     deviations: Deviations
-    """At the samples of the log, as they are: no delay is taken out."""
+    """At the samples of the log, without correction of a delay."""
     rating: Rating
     alignment: Alignment
 
@@ -30,7 +30,7 @@ class Comparison:
 
     signals: dict[str, ComparedSignal]
     common: Alignment
-    """Of all signals together that tell a delay alone; of all where none does."""
+    """Common delay and drift of the signals that determine a delay each; of all signals where none does."""
 
 
 def compare(
@@ -38,23 +38,23 @@ def compare(
 ) -> Comparison:
     """Compare measured signals with simulated ones.
 
-    `longest_delay`: the one that is looked for, s; `skip`: seconds at the beginning that are not compared.
+    `longest_delay`: largest delay of the search, s; `skip`: time at the beginning that is not compared, s.
     """
-    pairs = {n: (curves[n].in_its_turns(s.between(skip, curves[n].end)), curves[n]) for n, s in outputs.items()}
-    signals = {n: _compared(s, c, longest_delay) for n, (s, c) in pairs.items()}
-    telling = [pairs[n] for n, s in signals.items() if math.isfinite(s.alignment.delay)]
-    return Comparison(signals, align(telling or list(pairs.values()), longest_delay))
+    pairs = {n: (curves[n].with_nearest_turns(s.between(skip, curves[n].end)), curves[n]) for n, s in outputs.items()}
+    signals = {n: _compare_signal(s, c, longest_delay) for n, (s, c) in pairs.items()}
+    determined = [pairs[n] for n, s in signals.items() if math.isfinite(s.alignment.delay)]
+    return Comparison(signals, align(determined or list(pairs.values()), longest_delay))
 
 
-def _compared(measured: Signal, curve: Curve, longest_delay: float) -> ComparedSignal:
+def _compare_signal(measured: Signal, curve: Curve, longest_delay: float) -> ComparedSignal:
     t, y, x = measured.time, measured.values, curve(measured.time)
-    _, (y_even, x_even) = on_equal_steps(t, y, x)
+    _, (y_even, x_even) = resampled_evenly(t, y, x)
     alignment = align([(measured, curve)], longest_delay, drift=False)
     return ComparedSignal(measured, curve, deviations(t, y, x), rating(y_even, x_even), alignment)
 
 
 def measures(comparison: Comparison) -> list[Measure]:
-    """All numbers by name, such as ``chassis.wz.rms``."""
+    """All numbers of a comparison as measures with names such as ``chassis.wz.rms``."""
     results = []
     for name, s in comparison.signals.items():
         unit, d, r, a = s.measured.unit, s.deviations, s.rating, s.alignment
@@ -71,7 +71,7 @@ def measures(comparison: Comparison) -> list[Measure]:
             ("rating.slope", r.slope, "1", "score of the slope", ""),
             ("delay", a.delay, "s", "of the log after the simulation", a.note),
         )
-        results += [Measure(f"{name}.{what}", value, u, text, None, note) for what, value, u, text, note in rows]
+        results += [Measure(f"{name}.{suffix}", value, u, text, None, note) for suffix, value, u, text, note in rows]
     c = comparison.common
     results.append(Measure("delay", c.delay, "s", "of the log after the simulation, of all signals", None, c.note))
     results.append(Measure("drift", c.drift, "1", "by how much the clock of the outputs runs fast", None, c.note))

@@ -1,6 +1,6 @@
 """Variances of least-squares parameters when the residuals are correlated in time.
 
-White noise would give s² (J'J)⁻¹, which is too small when neighbouring residuals are alike. Here (J'J)⁻¹ (J'ΩJ) (J'J)⁻¹
+White noise would give s² (J'J)⁻¹, which is too small if neighbouring residuals correlate. Here (J'J)⁻¹ (J'ΩJ) (J'J)⁻¹
 is used, where Ω is the covariance of an autoregressive process fitted to the residuals of each signal (Yule and Walker;
 order by Akaike's criterion); see Ljung, System Identification, 2nd ed., 9.
 """
@@ -32,7 +32,7 @@ def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
     for order in range(highest_order + 1):
         trial = solve_toeplitz(sample[:order], sample[1 : order + 1]) if order else np.zeros(0)
         innovation = sample[0] - float(trial @ sample[1 : order + 1])
-        # Rounding errors of a smooth residual leave nothing, or less.
+        # Of a smooth residual rounding errors may leave a variance of zero or less.
         criterion = n * math.log(max(innovation, 1e-14 * sample[0])) + 2.0 * order
         if criterion < best:
             best, a = criterion, trial
@@ -44,7 +44,7 @@ def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def effective_samples(residual: NDArray[np.float64]) -> float:
-    """Number of uncorrelated samples that determine a mean as well as these; between 1 and their number."""
+    """Number of uncorrelated samples that determine a mean as well as `residual`, between 1 and n."""
     n = len(residual)
     c = autocovariance(residual - residual.mean())
     if c[0] <= 0.0:
@@ -53,25 +53,26 @@ def effective_samples(residual: NDArray[np.float64]) -> float:
     return float(np.clip(n / max(inflation, 1e-12), 1.0, n))
 
 
-def likeness(times: Sequence[NDArray[np.float64]], parts: Sequence[NDArray[np.float64]]) -> float:
-    """By how much signals that differ alike raise the variance of a parameter; 1 of independent ones.
+def variance_inflation(times: Sequence[NDArray[np.float64]], influences: Sequence[NDArray[np.float64]]) -> float:
+    """Factor by which residuals that correlate between signals raise the variance of a parameter; 1 if independent.
 
-    `times`: of each signal, equally spaced, s, shape (n,); `parts`: what each residual of the signal moves the
-    parameter by, shape (n,).
+    `times`: of each signal, equally spaced, s, shape (n,); `influences`: change of the parameter by each residual of
+    the signal, shape (n,).
 
     Notes
     -----
-    Square of the sum of all signals over the sum of their squares, summed over time: 1 on average where they are
-    independent, their number where they are equal, of either sign.
+    Square of the sum of all signals over the sum of their squares, each summed over time: 1 on average for independent
+    signals, the number of signals for equal ones.
     """
     interval = max(float(np.median(np.diff(t))) for t in times)
     begin = min(t[0] for t in times) - 0.5 * interval
     count = 1 + max(int((t[-1] - begin) / interval) for t in times)
     sums = [
-        np.bincount(((t - begin) / interval).astype(int), part, count) for t, part in zip(times, parts, strict=True)
+        np.bincount(((t - begin) / interval).astype(int), influence, count)
+        for t, influence in zip(times, influences, strict=True)
     ]
-    alone = float(np.sum(np.square(sums)))
-    return max(1.0, float(np.sum(np.sum(sums, axis=0) ** 2)) / alone) if alone > 0.0 else 1.0
+    separate = float(np.sum(np.square(sums)))
+    return max(1.0, float(np.sum(np.sum(sums, axis=0) ** 2)) / separate) if separate > 0.0 else 1.0
 
 
 def covariance(
@@ -80,12 +81,12 @@ def covariance(
     blocks: Sequence[slice],
     times: Sequence[NDArray[np.float64]],
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Covariance of parameters; that of independent signals, each parameter's raised by its `likeness`.
+    """Covariance of parameters: that of independent signals, times the `variance_inflation` of each parameter.
 
     Parameters
     ----------
     jacobian : ndarray of shape (n, p)
-        Of the residuals at the solution.
+        Derivatives of the residuals at the solution.
     residual : ndarray of shape (n,)
     blocks : sequence of slice
         The rows of each signal, equally spaced in time.
@@ -97,24 +98,24 @@ def covariance(
     covariance : ndarray of shape (p, p)
         Infinite on the diagonal of parameters that are not determined.
     lost : ndarray of bool, shape (p,)
-        Which these are.
+        Parameters that are not determined.
     """
     n, p = jacobian.shape
     size = np.linalg.norm(jacobian, axis=0)
     scale = np.where(size > 0.0, size, 1.0)
     u, s, vt = np.linalg.svd(jacobian / scale, full_matrices=False)
     determined = s > max(s[0], 1e-300) * 1e-7
-    lost = (np.abs(vt[~determined]) > 0.1).any(axis=0) | (size == 0.0)
+    undetermined = (np.abs(vt[~determined]) > 0.1).any(axis=0) | (size == 0.0)
     inverse = vt[determined].T / s[determined]  # of shape (p, determined)
-    middle = np.zeros((determined.sum(), determined.sum()))
+    meat = np.zeros((determined.sum(), determined.sum()))
     for rows in blocks:
-        r, vectors = residual[rows], u[rows][:, determined]
-        c = autocovariance(r) * (n / max(n - p, 1))
-        middle += vectors.T @ matmul_toeplitz(c, vectors)
-    result = inverse @ middle @ inverse.T / np.outer(scale, scale)
-    moved = inverse @ u[:, determined].T * residual
-    likenesses = np.sqrt([likeness(times, [vectors[rows] for rows in blocks]) for vectors in moved])
-    result *= np.outer(likenesses, likenesses)
-    result[lost, :], result[:, lost] = 0.0, 0.0
-    result[lost, lost] = math.inf
-    return result, lost
+        block_residual, vectors = residual[rows], u[rows][:, determined]
+        c = autocovariance(block_residual) * (n / max(n - p, 1))
+        meat += vectors.T @ matmul_toeplitz(c, vectors)
+    result = inverse @ meat @ inverse.T / np.outer(scale, scale)
+    influences = inverse @ u[:, determined].T * residual
+    inflations = np.sqrt([variance_inflation(times, [vectors[rows] for rows in blocks]) for vectors in influences])
+    result *= np.outer(inflations, inflations)
+    result[undetermined, :], result[:, undetermined] = 0.0, 0.0
+    result[undetermined, undetermined] = math.inf
+    return result, undetermined

@@ -13,9 +13,9 @@ from hosts.measures.signal import Signal
 
 
 class Curve:
-    """A simulated signal between its points, and its slope there; a cubic spline, at the ends it stays as it is.
+    """A simulated signal as a cubic spline of each run, constant beyond the ends of a run.
 
-    `end`: in s; it begins at 0. Runs that were put one after the other have a spline each.
+    `end`: last time, s; the first is 0.
     """
 
     def __init__(self, result: Result, name: str) -> None:
@@ -23,67 +23,67 @@ class Curve:
         self._angle = result.units.get(name) == "rad"
         self.end = float(result.time[-1])
         slices = [slice(a, b) for a, b in pairwise([*result.starts, len(values)])]
-        self._parts = [_Part(result.time[part], values[part]) for part in slices]
-        # Between two runs the earlier one holds up to the middle.
-        self._edges = np.array([0.5 * (a.end + b.begin) for a, b in pairwise(self._parts)])
+        self._runs = [_RunCurve(result.time[rows], values[rows]) for rows in slices]
+        # The gap between two runs is divided in its middle.
+        self._edges = np.array([0.5 * (a.end + b.begin) for a, b in pairwise(self._runs)])
 
     def __call__(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Values at times in s."""
-        return self._of(t, 0)
+        return self._evaluate(t, 0)
 
     def slope(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Derivative by the time at times in s."""
-        return self._of(t, 1)
+        return self._evaluate(t, 1)
 
     def misfit(self, signal: Signal) -> NDArray[np.float64]:
-        """Simulated minus measured at the samples of a signal; of angles as `angle_difference` says, in each run."""
+        """Simulated minus measured at the samples of a signal, shape (n,); of angles by `angle_difference`."""
         simulated = self(signal.time)
         if not self._angle:
             return np.asarray(simulated - signal.values)
-        results, number = np.empty(len(simulated)), self._run_of(signal.time)
+        results, number = np.empty(len(simulated)), self._run_numbers(signal.time)
         for k in np.unique(number):
             results[number == k] = angle_difference(simulated[number == k], signal.values[number == k])
         return results
 
-    def in_its_turns(self, signal: Signal) -> Signal:
-        """A measured signal, of an angle that which is whole turns away and nearest to the simulated one."""
+    def with_nearest_turns(self, signal: Signal) -> Signal:
+        """The measured signal, an angle shifted by whole turns to be nearest to the simulated one."""
         if not self._angle:
             return signal
         return replace(signal, values=self(signal.time) - self.misfit(signal))
 
-    def _run_of(self, t: NDArray[np.float64]) -> NDArray[np.int64]:
+    def _run_numbers(self, t: NDArray[np.float64]) -> NDArray[np.int64]:
         return np.searchsorted(self._edges, t)
 
-    def _of(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
-        if len(self._parts) == 1:
-            return self._parts[0](t, order)
-        results, number = np.empty(len(t)), self._run_of(t)
+    def _evaluate(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+        if len(self._runs) == 1:
+            return self._runs[0](t, order)
+        results, number = np.empty(len(t)), self._run_numbers(t)
         for k in np.unique(number).tolist():
-            results[number == k] = self._parts[k](t[number == k], order)
+            results[number == k] = self._runs[k](t[number == k], order)
         return results
 
 
-class _Part:
-    """A run between its points."""
+class _RunCurve:
+    """A signal of one run as a cubic spline, linear where it has fewer than four points."""
 
     def __init__(self, time: NDArray[np.float64], values: NDArray[np.float64]) -> None:
         self.begin, self.end = float(time[0]), float(time[-1])
-        # Four points are the fewest of a spline whose ends have no condition.
+        # Without conditions at its ends a spline needs four points.
         self._spline = CubicSpline(time, values) if len(values) > 3 else None
-        self._few = (time, values)
+        self._samples = (time, values)
 
     def __call__(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
         if self._spline is None:
-            return np.zeros(len(t)) if order else np.interp(t, *self._few)
+            return np.zeros(len(t)) if order else np.interp(t, *self._samples)
         inside = (t >= self.begin) & (t <= self.end)
         result = self._spline(np.clip(t, self.begin, self.end), order)
         return np.asarray(np.where(inside, result, 0.0) if order else result)
 
 
 class SensedCurve(Curve):
-    """A simulated signal as a sensor gives it: bias + gain * simulated((t - delay) / (1 + drift)).
+    """A simulated signal as a sensor yields it: bias + gain * simulated((t - delay) / (1 + drift)).
 
-    `delay`, `drift`, `bias`, `gain`: s; the unit of the signal.
+    `delay`: in s; `bias`: in the unit of the signal.
     """
 
     def __init__(
@@ -101,5 +101,5 @@ class SensedCurve(Curve):
         """Derivative by the time at times in s."""
         return np.asarray(self._gain / self._stretch * self._curve.slope((t - self._delay) / self._stretch))
 
-    def _run_of(self, t: NDArray[np.float64]) -> NDArray[np.int64]:
-        return self._curve._run_of((t - self._delay) / self._stretch)
+    def _run_numbers(self, t: NDArray[np.float64]) -> NDArray[np.int64]:
+        return self._curve._run_numbers((t - self._delay) / self._stretch)

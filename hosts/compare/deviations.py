@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-_ROUNDING = 1e-9  # of the unit of a signal: less than any sensor tells
+_ROUNDING = 1e-9  # in the unit of a signal: below the resolution of any sensor
 
 
 @dataclass(frozen=True)
@@ -16,17 +16,17 @@ class Deviations:
     rms: float
     """Root of the mean square."""
     normalised: float
-    """`rms` over the standard deviation of the measured signal: 0 equal, 1 no better than its mean. NaN where the
-    measured signal is constant."""
+    """`rms` over the standard deviation of the measured signal: 0 if equal, 1 for the mean of the measured signal. NaN
+    where the measured signal is constant."""
     mean: float
     largest: float
     time_of_largest: float
-    """`mean`, `largest`, `time_of_largest`: `largest` with its sign, in the unit of the signal; s."""
+    """`mean`, `largest`, `time_of_largest`: in the unit of the signal, `largest` with its sign; time in s."""
     correlation: float
     """Pearson's coefficient; NaN where one of both is constant."""
     samples: int
     note: str = ""
-    """Why something is NaN, else empty."""
+    """Why a number is NaN, else empty."""
 
 
 def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> Deviations:
@@ -34,11 +34,11 @@ def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> De
     t, y, x = (np.asarray(a, float) for a in (time, measured, simulated))
     error = x - y
     k = int(np.argmax(np.abs(error)))
-    flat = [what for what, a in (("measured", y), ("simulated", x)) if is_constant(a)]
-    correlation = math.nan if flat else float(np.corrcoef(x, y)[0, 1])
+    constant = [label for label, a in (("measured", y), ("simulated", x)) if is_constant(a)]
+    correlation = math.nan if constant else float(np.corrcoef(x, y)[0, 1])
     size = rms(error)
-    normalised = math.nan if "measured" in flat else size / float(np.std(y))
-    note = f"the {' and the '.join(flat)} signal is constant: no correlation" if flat else ""
+    normalised = math.nan if "measured" in constant else size / float(np.std(y))
+    note = f"the {' and the '.join(constant)} signal is constant: no correlation" if constant else ""
     return Deviations(size, normalised, float(np.mean(error)), float(error[k]), float(t[k]), correlation, len(y), note)
 
 
@@ -48,8 +48,10 @@ def rms(values: NDArray[np.float64]) -> float:
 
 
 def is_constant(values: NDArray[np.float64]) -> bool:
-    """Whether a signal moves by no more than rounding errors, of its size or of the motion from which it comes.
+    """Whether a signal varies by no more than rounding errors.
 
-    A car that goes straight has lateral accelerations of 1e-11 m/s2, which differ in any two runs.
+    Notes
+    -----
+    A car on a straight line has lateral accelerations of 1e-11 m/s2, which differ between runs.
     """
     return bool(np.ptp(values) <= max(1e-12 * float(np.max(np.abs(values))), _ROUNDING))

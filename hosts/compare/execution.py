@@ -1,4 +1,4 @@
-"""Runs a comparison: the FMU is driven by the log, compared with it, fitted if asked, and results are written."""
+"""Runs a comparison: drives the FMU with the log, compares both, fits on request and writes the results."""
 
 import argparse
 import math
@@ -8,73 +8,75 @@ from ali3.cores import available_cores
 from ali3.message_text import sentence_of
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.compare.comparison import Comparison, compare
-from hosts.compare.comparison_text import common_text, table
+from hosts.compare.comparison_text import common_notes, table
 from hosts.compare.curve import Curve
 from hosts.compare.fit_text import fit_notes, fit_problems, fit_table
-from hosts.compare.input_mistakes import misread_speed, turned_input, turned_signals
+from hosts.compare.input_mistakes import inverted_input, inverted_signals, misread_speed
 from hosts.compare.log_times import FEWEST_SAMPLES
-from hosts.compare.plausibility import odd_scale
+from hosts.compare.plausibility import scale_mistake
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
-from hosts.compare.windows import held_text, window_text, windows
+from hosts.compare.windows import held_speed_text, window_text, windows
 from hosts.measures.log_plausibility import consistent
 
-_WORTH_PROCESSES = 60.0  # s of all windows: less is driven sooner than other processes start
+_LEAST_FOR_PROCESSES = 60.0  # s of all windows: shorter drives end before other processes have started
 
 
 def perform(options: argparse.Namespace) -> int:
-    """Compare as the options of the command say; gives the exit code."""
+    """Compare as the options of the command say. Returns the exit code."""
     paths = paths_of(options)
     task = prepare(options)
-    _check(options, task)
+    _check_options(options, task)
     request = None
     if options.fit:
         from hosts.compare import fitting
 
-        request = fitting.wanted(options, task)
+        request = fitting.fit_request(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    long = sum(s.end for s in task.segments) > _WORTH_PROCESSES
-    jobs = (available_cores() if long else 1) if options.jobs is None else options.jobs
+    is_long = sum(s.length for s in task.segments) > _LEAST_FOR_PROCESSES
+    jobs = (available_cores() if is_long else 1) if options.jobs is None else options.jobs
     with Replay(task.fmu, task.segments, task.step, jobs) as replay:
-        before, problems = _first(options, task, replay)
+        before, problems = _compare_unfitted(options, task, replay)
         print(table(before))
         if task.windowed:
             print(window_text(windows(before, task.segments)))
-        for line in [*common_text(before), *problems]:
+        for line in [*common_notes(before), *problems]:
             print(line, flush=True)
-        results, after = None, None
-        for message in replay.said:
-            print(f"FMU: {message}")
+        fit, after = None, None
+        for text in replay.messages:
+            print(f"FMU: {text}")
         if request is not None:
-            _refuse_odd(problems, options)
+            _refuse_implausible(problems, options)
             try:
-                results, after = fitting.fitted(options, task, replay, before, request)
+                fit, after = fitting.fit_and_compare(options, task, replay, before, request)
             except KeyboardInterrupt:
                 problems = [*problems, f"The fit was stopped after {replay.runs} runs; nothing is fitted."]
-                _write(options, task, Outcome(before, None, None, task.notes, problems), paths)
+                _write_files(options, task, Outcome(before, None, None, task.notes, problems), paths)
                 raise
-    notes = task.notes + [f"In {n} of {replay.runs} runs the FMU reported: {what}" for what, n in replay.said.items()]
-    if request is not None and results is not None and after is not None:
+    notes = task.notes + [
+        f"In {n} of {replay.runs} runs the FMU reported: {text}" for text, n in replay.messages.items()
+    ]
+    if request is not None and fit is not None and after is not None:
         print("with the fitted parameters" + (" and sensors:" if request.nuisances else ":"))
         print(table(after))
         if task.windowed:
             print(window_text(windows(after, task.segments)))
-        print(fit_table(results))
-        problems, remarks = problems + fit_problems(results), fit_notes(results)
-        notes += remarks
-        for line in [*fit_problems(results), *(f"note: {note}" for note in remarks)]:
+        print(fit_table(fit))
+        problems, new_notes = problems + fit_problems(fit), fit_notes(fit)
+        notes += new_notes
+        for line in [*fit_problems(fit), *(f"note: {note}" for note in new_notes)]:
             print(line)
-    _write(options, task, Outcome(before, after, results, notes, problems), paths)
+    _write_files(options, task, Outcome(before, after, fit, notes, problems), paths)
     return 1 if problems else 0
 
 
-def _write(options: argparse.Namespace, task: Task, outcome: Outcome, paths: dict[str, Path]) -> None:
+def _write_files(options: argparse.Namespace, task: Task, outcome: Outcome, paths: dict[str, Path]) -> None:
     print(f"written: {', '.join(map(str, write_outcome(options, task, outcome, paths)))}", flush=True)
 
 
-def _check(options: argparse.Namespace, task: Task) -> None:
+def _check_options(options: argparse.Namespace, task: Task) -> None:
     """Refuse options that cannot be combined."""
     if options.nuisance and not options.fit:
         raise HostError("--nuisance needs --fit; delays and drift are estimated without both.")
@@ -85,36 +87,37 @@ def _check(options: argparse.Namespace, task: Task) -> None:
         raise HostError("--fit initial.* cannot be combined with --windows: each window begins in its measured state.")
 
 
-def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:
+def _compare_unfitted(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:
+    """The comparison with the given parameters, and problems, a sentence each; notes are added to the task."""
     result = replay.run()
-    problems, noted = [], len(task.notes)
+    problems, first = [], len(task.notes)
     if result.refusal:
-        end = task.segments[0].end
+        end = task.segments[0].length
         problems.append(f"{sentence_of(result.refusal)} Of {end:.4g} s only what lies before is compared.")
-    if wrong := result.not_finite():
-        problems.append(wrong)
+    if message := result.not_finite():
+        problems.append(message)
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}
-    enough = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= FEWEST_SAMPLES}
-    if not enough:
+    outputs = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= FEWEST_SAMPLES}
+    if not outputs:
         if problems:
             raise FailedFmuError(f"{' '.join(problems)} There is nothing to compare.")
         raise HostError("No output of the FMU has enough samples in the log; there is nothing to compare.")
     for name in task.outputs:
-        if name not in enough:
+        if name not in outputs:
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")
-    task.notes.extend(held_text(result, task.segments))
-    for note in task.notes[noted:]:
+    task.notes.extend(held_speed_text(result, task.segments))
+    for note in task.notes[first:]:
         print(f"note: {note}", flush=True)
-    compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
-    opposite = turned_signals(compared)
-    cause = turned_input(task, compared, opposite)
-    named_signals = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
-    right = consistent(task.plausibility)  # a factor in one of these would break what holds among them
-    too_fast = misread_speed(task, compared, right)
-    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in named_signals.items() if n not in right]
-    return compared, problems + [line for line in (*task.plausibility.warnings(), too_fast, *odd, cause) if line]
+    compared = compare(outputs, {n: Curve(result, n) for n in outputs}, options.longest_delay, options.skip)
+    inverted = inverted_signals(compared)
+    cause = inverted_input(task, compared, inverted)
+    checked = {n: s for n, s in compared.signals.items() if not (cause and len(inverted) > 1 and n in inverted)}
+    plausible = consistent(task.plausibility)  # a wrong factor would contradict the relations between them
+    speed = misread_speed(task, compared, plausible)
+    odd = [scale_mistake(s.measured, s.simulated, s.alignment.delay) for n, s in checked.items() if n not in plausible]
+    return compared, problems + [line for line in (*task.plausibility.warnings(), speed, *odd, cause) if line]
 
 
-def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:
+def _refuse_implausible(problems: list[str], options: argparse.Namespace) -> None:
     if problems and not options.anyway:
         raise HostError(f"Nothing was fitted: {problems[0]} (--anyway fits all the same; --signals leaves signals out)")

@@ -8,26 +8,23 @@ from ali3.units import typeset
 from hosts.common.display_units import number_in, shown_number
 from hosts.compare.fit_result import Fit, FittedUnknown
 
-_WIDE = 0.5  # of the range, of half an interval that says little
-_TOGETHER = 0.95
-_ALIKE = 1.01  # residuals of two searches
-_BETTER = 0.98  # of the residuals before
+_WIDE = 0.5  # half width over range of a parameter that is not identified
+_CORRELATED = 0.95
+_EQUAL_RESIDUALS = 1.01  # ratio of the residuals of two searches
+_BETTER = 0.98  # ratio of the residuals after and before
 _CHANCE = 0.05
-_MISFIT = 3.0  # times the noise
-
+_MODEL_ERROR = 3.0  # ratio of residual and noise
 
 FIT_COLUMNS = ("fitted", "start", "value", "95 %", "unit", "without it", "without a fold")
 
 
 def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
-    """Of all that was sought: name, start, value, half of the 95 % interval, unit, what is left without it, and its
-    least and largest value where a fold of the log is not fitted.
-    """
+    """Rows of the table of a fit, in the order of `FIT_COLUMNS`."""
     return [
         (
             f.unknown.name,
             f"{f.unknown.start:.6g}",
-            *_value(f),
+            *_value_cells(f),
             typeset(f.unknown.unit),
             f"{100.0 * (f.without - 1.0):+.1f} %" if math.isfinite(f.without) else "-",
             f"{min(f.folds):.4g} to {max(f.folds):.4g}" if f.folds else "-",
@@ -36,7 +33,7 @@ def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
     ]
 
 
-def _value(fitted: FittedUnknown) -> tuple[str, str]:
+def _value_cells(fitted: FittedUnknown) -> tuple[str, str]:
     if not math.isfinite(fitted.half_width):
         return f"{fitted.value:.4g}", "not determined"
     digits = 2 if fitted.half_width <= 0.0 else 1 - math.floor(math.log10(fitted.half_width))
@@ -55,16 +52,16 @@ def result_text(fit: Fit) -> list[str]:
         f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
         f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}"
     )
-    return [residuals, *_omitted_text(fit), *_start_text(fit)]
+    return [residuals, *_left_out_text(fit), *_start_text(fit)]
 
 
-def _omitted_text(fit: Fit) -> list[str]:
-    """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
+def _left_out_text(fit: Fit) -> list[str]:
+    """A sentence on the residuals of parts that were left out of the fit; none where the log is too short."""
     residuals = [
-        f"{name} {shown_number(left, fit.units[name], name)} "
+        f"{name} {shown_number(residual, fit.units[name], name)} "
         f"({shown_number(fit.misfit[name], fit.units[name], name)} in the fit)"
-        for name, left in fit.left_out.items()
-        if math.isfinite(left)
+        for name, residual in fit.left_out.items()
+        if math.isfinite(residual)
     ]
     return (
         [f"left of parts of the log that are left out in turn, to first order: {', '.join(residuals)}"]
@@ -74,7 +71,7 @@ def _omitted_text(fit: Fit) -> list[str]:
 
 
 def _start_text(fit: Fit) -> list[str]:
-    """Where each of several searches began and led, a line each."""
+    """Start, end and residual of each of several searches, a line each."""
     if len(fit.starts) < 2:
         return []
     names = [f.unknown.name for f in fit.found]
@@ -99,11 +96,11 @@ def fit_problems(fit: Fit) -> list[str]:
             f"The fit is hardly better: noise alone would make it so with a probability of {100.0 * fit.chance:.0f} %."
         )
     for f in fit.found:
-        problems += _of(f)
+        problems += _unknown_problems(f)
     return problems
 
 
-def _of(fitted: FittedUnknown) -> list[str]:
+def _unknown_problems(fitted: FittedUnknown) -> list[str]:
     u, lines = fitted.unknown, []
     if fitted.bound:
         limit = u.low if fitted.bound == "lower" else u.high
@@ -124,7 +121,7 @@ def _of(fitted: FittedUnknown) -> list[str]:
 def fit_notes(fit: Fit) -> list[str]:
     """Notes on a fit, each a sentence."""
     notes = []
-    for i, j in _pairs(fit):
+    for i, j in _correlated_pairs(fit):
         a, b = fit.found[i].unknown.name, fit.found[j].unknown.name
         notes.append(
             f"{a} and {b} can only be determined together: their errors correlate ({fit.correlation[i, j]:.2f})."
@@ -137,21 +134,21 @@ def fit_notes(fit: Fit) -> list[str]:
         )
     notes += [f"Another start (--starts) is left out. {message}" for message in fit.refused]
     residuals = [start.residual for start in fit.starts]
-    if max(residuals) > _ALIKE * min(residuals):
+    if max(residuals) > _EQUAL_RESIDUALS * min(residuals):
         notes.append(
             f"The searches led to residuals from {min(residuals):.4g} to {max(residuals):.4g}: the best was taken; "
             "there may be a better one (--starts)."
         )
-    for name, remaining in fit.misfit.items():
-        if fit.noise[name] > 0.0 and remaining > _MISFIT * fit.noise[name]:
+    for name, residual in fit.misfit.items():
+        if fit.noise[name] > 0.0 and residual > _MODEL_ERROR * fit.noise[name]:
             notes.append(
-                f"{name}: what remains is {remaining / fit.noise[name]:.3g} times the noise of the signal: the model "
+                f"{name}: what remains is {residual / fit.noise[name]:.3g} times the noise of the signal: the model "
                 "misses something there, which the intervals treat as slow noise."
             )
     return notes
 
 
-def _pairs(fit: Fit) -> Sequence[tuple[int, int]]:
+def _correlated_pairs(fit: Fit) -> Sequence[tuple[int, int]]:
     count = len(fit.found)
     pairs = [(i, j) for i in range(count) for j in range(i + 1, count)]
-    return [(i, j) for i, j in pairs if abs(fit.correlation[i, j]) > _TOGETHER]
+    return [(i, j) for i, j in pairs if abs(fit.correlation[i, j]) > _CORRELATED]

@@ -21,9 +21,9 @@ class Unknown:
     low: float
     high: float
     scale: float
-    """By how much it typically changes."""
+    """Typical size of a change."""
     signal: str = ""
-    """Whose it is; empty: of the FMU, or of all signals."""
+    """Signal of a sensor; empty: of the FMU, or of all signals."""
     kind: str = "parameter"
     """``parameter``, or one of delay, drift, bias, gain."""
 
@@ -33,7 +33,8 @@ def nuisances(
 ) -> list[Unknown]:
     """The unknowns of sensors and clocks.
 
-    `kinds`: of `NUISANCES`; `delays`: first guesses, s; "" for that in common; `longest`: largest delay, s.
+    `kinds`: of `NUISANCES`; `delays`: first guesses by signal, s; that of all signals under ""; `longest`: largest
+    delay, s. Raises `HostError`: a kind is unknown, or two of them exclude each other.
     """
     for name in kinds:
         if name not in NUISANCES:
@@ -45,8 +46,8 @@ def nuisances(
     results = []
     names = ("",) if "delay" in kinds else tuple(outputs) if "delays" in kinds else ()
     for n in names:
-        guess, reach = delays.get(n, 0.0), longest + abs(delays.get(n, 0.0))
-        results.append(Unknown(f"{n}.delay".lstrip("."), "s", guess, -reach, reach, interval, n, "delay"))
+        guess, limit = delays.get(n, 0.0), longest + abs(delays.get(n, 0.0))
+        results.append(Unknown(f"{n}.delay".lstrip("."), "s", guess, -limit, limit, interval, n, "delay"))
     if "drift" in kinds:
         results.append(Unknown("drift", "1", 0.0, -0.05, 0.05, interval / length, "", "drift"))
     for n, s in outputs.items():

@@ -19,7 +19,7 @@ def fitted_parameters(
 ) -> list[Unknown]:
     """Parameters to be fitted.
 
-    `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `set_values`: values that the user sets: there the search begins. Raises
+    `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `set_values`: values that the user sets, at which the search begins. Raises
     `HostError`: a name, kind or range is wrong.
     """
     results: list[Unknown] = []
@@ -34,7 +34,7 @@ def fitted_parameters(
         if variable.kind != "Real" or variable.start is None:
             raise HostError(f"--fit: '{name}' is of the kind {variable.kind}; only real numbers can be fitted.")
         start = float(set_values.get(name, variable.start))
-        low, high = _range(variable, limits) if equals else _usual_range(variable, start)
+        low, high = _range(variable, limits) if equals else _default_range(variable, start)
         if not low <= start <= high:
             raise HostError(
                 f"--fit: '{name}' begins at {variable.with_unit(start)}, which is not between {low:g} and {high:g}; "
@@ -64,21 +64,19 @@ def _range(variable: Variable, text: str) -> tuple[float, float]:
     try:
         if not colon:
             raise ValueError(f"{text!r} is not of the form LOW:HIGH")
-        results = parse_number(low), parse_number(high)
+        limits = parse_number(low), parse_number(high)
     except ValueError as error:
         raise HostError(f"--fit: '{variable.name}': {error}.") from None
-    if not results[0] < results[1]:
+    if not limits[0] < limits[1]:
+        raise HostError(f"--fit: '{variable.name}' from {limits[0]:g} to {limits[1]:g}; the first must be the smaller.")
+    if limits[0] < variable.low or limits[1] > variable.high:
         raise HostError(
-            f"--fit: '{variable.name}' from {results[0]:g} to {results[1]:g}; the first must be the smaller."
+            f"--fit: '{variable.name}' from {limits[0]:g} to {limits[1]:g}; the range of the FMU is {variable.range}."
         )
-    if results[0] < variable.low or results[1] > variable.high:
-        raise HostError(
-            f"--fit: '{variable.name}' from {results[0]:g} to {results[1]:g}; the range of the FMU is {variable.range}."
-        )
-    return results
+    return limits
 
 
-def _usual_range(variable: Variable, start: float) -> tuple[float, float]:
+def _default_range(variable: Variable, start: float) -> tuple[float, float]:
     if start == 0.0:
         raise HostError(
             f"--fit: '{variable.name}' is 0 in the FMU, so that there is no default range; write "

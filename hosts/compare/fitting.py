@@ -29,34 +29,34 @@ class FitRequest:
     parameters: list[Unknown]
     nuisances: list[str]
     coarse: dict[str, Value]
-    """The inner step of the FMU while it is fitted, where one is asked for."""
+    """The inner step of the FMU during the fit, if one is requested."""
 
 
-def wanted(options: argparse.Namespace, task: Task) -> FitRequest:
-    """What the options name; a note where an initial speed is not sought."""
-    nuisances(options.nuisance, task.outputs, {}, options.longest_delay)  # their names
-    begin = task.segments[0].manoeuvre.start  # as set, or as measured
-    sought = [t.partition("=")[0].strip() for t in options.fit]
-    if not task.windowed and "initial.speed" in begin and "initial.speed" not in (*task.set_values, *sought):
+def fit_request(options: argparse.Namespace, task: Task) -> FitRequest:
+    """The checked request of the options; adds a note where an initial speed is measured and not fitted."""
+    nuisances(options.nuisance, task.outputs, {}, options.longest_delay)  # checks the names
+    start = task.segments[0].manoeuvre.start  # as set, or as measured
+    names = [t.partition("=")[0].strip() for t in options.fit]
+    if not task.windowed and "initial.speed" in start and "initial.speed" not in (*task.set_values, *names):
         task.notes.append(
             "initial.speed is as measured in the first tenth of a second; its error goes into what is fitted: "
             "--fit initial.speed=LOW:HIGH finds it too."
         )
-    parameters = fitted_parameters(options.fit, task.parameters, begin)
+    parameters = fitted_parameters(options.fit, task.parameters, start)
     return FitRequest(parameters, options.nuisance, fit_step(options.fit_step, task.parameters))
 
 
-def fitted(
+def fit_and_compare(
     options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, request: FitRequest
 ) -> tuple[Fit, Comparison]:
     """The best fit, and the comparison with it."""
     if not replay.check_reset():
         print("note: the FMU does not repeat itself to the last bit.")
     outputs = {n: task.outputs[n] for n in before.signals}
-    guesses = _delays(before, request.nuisances)
+    guesses = _initial_delays(before, request.nuisances)
     outputs = overlapping(outputs, task.end, options.skip, guesses)
     unknowns = [*request.parameters, *nuisances(request.nuisances, outputs, guesses, options.longest_delay)]
-    with replay.searching("fit"):
+    with replay.one_progress_bar("fit"):
 
         def simulate(values: Mapping[str, float]) -> Result | str:
             try:
@@ -65,8 +65,8 @@ def fitted(
                 return str(error)
             if result.refusal:
                 return sentence_of(result.refusal)
-            unknown = [n for n in outputs if not math.isfinite(float(result[n].sum()))]
-            return f"{unknown[0]} is not finite with them." if unknown else result
+            not_finite = [n for n in outputs if not math.isfinite(float(result[n].sum()))]
+            return f"{not_finite[0]} is not finite with them." if not_finite else result
 
         fit_result = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
         best = replay.run(dict(fit_result.parameters))
@@ -82,8 +82,8 @@ def fitted(
     return fit_result, compare(outputs, curves, options.longest_delay, options.skip)
 
 
-def _delays(before: Comparison, kinds: list[str]) -> dict[str, float]:
-    """First guesses of the delays that are sought; that of all signals under the empty name and under each."""
+def _initial_delays(before: Comparison, kinds: list[str]) -> dict[str, float]:
+    """First guesses of the fitted delays, s, by signal; a common one also under the empty name."""
     assert set(kinds) <= set(NUISANCES)
     common = before.common.delay if math.isfinite(before.common.delay) else 0.0
     if "delay" in kinds:

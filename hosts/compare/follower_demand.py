@@ -9,7 +9,7 @@ from scipy.interpolate import PchipInterpolator
 from hosts.measures.signal import Signal
 
 
-def demanded(signal: Signal, frequency: float, time: NDArray[np.float64]) -> NDArray[np.float64]:
+def follower_demand(signal: Signal, frequency: float, time: NDArray[np.float64]) -> NDArray[np.float64]:
     """The demand of a critically damped follower that moves as measured.
 
     `frequency`: of the follower, Hz; `time`: in s, shape (n,). Returns an array of shape (n,): x + 2 x' / w + x'' / w^2

@@ -1,4 +1,4 @@
-"""The alias file of a log: how its table is written, its clock, and our names for its columns."""
+"""The alias file of a log: the dialect of its table, its clock, and our names for its columns."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class Column(_Scaled):
 
     name: str = Field(title="the name of a column")
     unit: str | None = Field(default=None, title="a unit as text")
-    """Without it that of the table's heading, else that of the FMU."""
+    """None: the unit of the table's heading, else that of the FMU."""
     time: str | None = Field(default=None, title="the name of a column")
-    """Column with the times of this one, where it is not that of the table."""
+    """Column of times of this column; None: that of the table."""
 
     @model_validator(mode="before")
     @classmethod
@@ -64,21 +64,21 @@ class Clock(_Scaled):
 
 
 class Dialect(_Table):
-    """How a CSV file is written; what is None is found out from its first lines."""
+    """The dialect of a CSV file; None: detected from its first lines."""
 
     delimiter: str | None = Field(default=None, min_length=1, max_length=1, title="one character")
     decimal: str | None = Field(default=None, min_length=1, max_length=1, title="one character")
     encoding: str | None = Field(default=None, title="a name such as utf-8 or latin-1")
     heading: int | None = Field(default=None, ge=1, title="the number of a line")
-    """Line of the names, the first is 1."""
+    """Number of the line of names, from 1."""
     units: int | None = Field(default=None, ge=0, title="the number of a line")
-    """Line of the units; 0: there is none."""
+    """Number of the line of units, from 1; 0: there is none."""
 
     @model_validator(mode="after")
     def _differ(self) -> Dialect:
-        for key, other in (("delimiter", "decimal"), ("heading", "units")):
-            if (value := getattr(self, key)) is not None and value == getattr(self, other):
-                raise ValueError(f"{key} and {other} are both {value!r}; they must differ")
+        for key, other_key in (("delimiter", "decimal"), ("heading", "units")):
+            if (value := getattr(self, key)) is not None and value == getattr(self, other_key):
+                raise ValueError(f"{key} and {other_key} are both {value!r}; they must differ")
         return self
 
 
@@ -113,10 +113,7 @@ def read_log_aliases(file: Path) -> LogAliases:
 
 
 def refuse_log_aliases(file: Path) -> None:
-    """Refuse the alias file of a log where that of an FMU is asked for.
-
-    Raises `HostError`: it has only tables of a log's file.
-    """
+    """Raise `HostError` where the alias file of a log is given as that of an FMU."""
     tables = {field.alias for field in LogAliases.model_fields.values()}
     if is_file(file) and (content := read_toml(file)) and set(content) <= tables:
         raise HostError(f"{file} is the alias file of a log; --log-aliases takes it, --aliases that of the FMU.")

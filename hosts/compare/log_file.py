@@ -19,7 +19,7 @@ from ali3.unpacked_size import Unpacked
 from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
 from hosts.common.parquet import opened_parquet
-from hosts.compare.csv_dialect import find_dialect, unit_behind
+from hosts.compare.csv_dialect import detect_dialect, unit_message
 from hosts.compare.log_aliases import Dialect
 from hosts.driving.run_record import RunRecord, rows_before_jumps
 
@@ -35,40 +35,40 @@ class RawLog:
     table: pd.DataFrame
     """Columns by name."""
     units: dict[str, str]
-    """Where the file gives them."""
+    """Units by name, where the file gives them."""
     first_row: int
-    """Lines of the file before the first row."""
+    """Number of lines of the file before the first row."""
     added: int = 0
-    """Rows that the file does not have, from the record of the run that wrote it."""
+    """Number of rows that were added from the record of the run that wrote the file."""
 
     def with_jumps(self, record: RunRecord) -> RawLog:
-        """With a row before each jump of an input that the record of a run knows; `HostError` if it is of another."""
+        """With a row before each jump of an input of the record of a run. Raises `HostError` if the run is another."""
         if not record.jumps:
             return self
         names = [str(name) for name in self.table.columns]
         last = names.index(record.outputs_from) if record.outputs_from in names else 0
         blocks, end = [], len(self.table)
-        for k, before in rows_before_jumps(record, self.path, self.numbers(names[0]).tolist(), last - 1):
+        for k, values in rows_before_jumps(record, self.path, self.numbers(names[0]).tolist(), last - 1):
             row = self.table.iloc[[k]].copy()
-            row.iloc[0, 1:last] = before
+            row.iloc[0, 1:last] = values
             blocks += [self.table.iloc[k:end], row]
             end = k
         table = pd.concat([self.table.iloc[:end], *reversed(blocks)])  # the index is that of the rows of the file
         return replace(self, table=table, added=len(record.jumps))
 
     def numbers(self, name: str) -> NDArray[np.float64]:
-        """Values of a column of shape (n,), NaN where there is none.
+        """Values of a column, shape (n,), NaN where a cell is empty.
 
-        Raises `HostError`: a cell is not a number; with its row.
+        Raises `HostError`: a cell is not a number; with its line.
         """
         column = self.table[name]
         numbers = pd.to_numeric(column, errors="coerce")
-        wrong = numbers.isna() & column.notna()
-        if wrong.any():
-            row = int(np.argmax(wrong.to_numpy()))
+        is_wrong = numbers.isna() & column.notna()
+        if is_wrong.any():
+            row = int(np.argmax(is_wrong.to_numpy()))
             cell = str(column.iloc[row])
             raise self.error(
-                row, name, unit_behind(cell) or f"{brief(cell)} is not a number; a cell without one is empty."
+                row, name, unit_message(cell) or f"{brief(cell)} is not a number; a cell without one is empty."
             )
         values = np.array(numbers, dtype=np.float64)
         values[~np.isfinite(values)] = np.nan
@@ -79,16 +79,16 @@ class RawLog:
             raise self.error(row, name, message)
         return values
 
-    def error(self, row: int, name: str, words: str) -> HostError:
-        """What is wrong with a cell, with its line; of a row that is the heading once more, that."""
+    def error(self, row: int, name: str, message: str) -> HostError:
+        """The error of a cell, with its line; of a row that repeats the heading an error that says so."""
         cells = self.table.iloc[row].astype(str).str.strip()
         if all(str(cell).startswith(str(column)) for cell, column in zip(cells, self.table.columns, strict=True)):
-            words = "the heading stands there again; cut the log there, each drive is compared by itself."
-            return HostError(f"The log {self.path}, line {self.line(row)}: {words}")
-        return HostError(f"The log {self.path}, line {self.line(row)}, column '{name}': {words}")
+            message = "the heading stands there again; cut the log there, each drive is compared by itself."
+            return HostError(f"The log {self.path}, line {self.line(row)}: {message}")
+        return HostError(f"The log {self.path}, line {self.line(row)}, column '{name}': {message}")
 
     def line(self, row: int) -> int:
-        """Number of the line of a row in the file; empty lines are none of a table."""
+        """Number of the line of a row in the file, from 1; empty lines are not rows."""
         index = int(self.table.index[row])
         if self.path.suffix.lower() in _PARQUET:
             return index + 1
@@ -100,7 +100,7 @@ class RawLog:
 def read_log(path: Path, dialect: Dialect) -> RawLog:
     """Read a log.
 
-    `path`: a file that ends in ``.parquet``, or CSV; `dialect`: what is known of a CSV file. Raises `HostError`: it
+    `path`: a Parquet file by its suffix, else CSV; `dialect`: stated dialect of a CSV file. Raises `HostError`: it
     cannot be read.
     """
     check_file(path, LARGEST, HostError, f"The log {path}")
@@ -111,30 +111,30 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
         )
     if path.suffix.lower() in _PARQUET:
         return _read_parquet(path)
-    result = find_dialect(path, dialect)
+    detected = detect_dialect(path, dialect)
     try:
         table = pd.read_csv(
-            Unpacked(path, LARGEST, HostError, f"The log {path}", result.delimiter.encode()),
-            sep=result.delimiter,
-            decimal=result.decimal,
-            encoding=result.encoding,
-            skiprows=result.first_row,
+            Unpacked(path, LARGEST, HostError, f"The log {path}", detected.delimiter.encode()),
+            sep=detected.delimiter,
+            decimal=detected.decimal,
+            encoding=detected.encoding,
+            skiprows=detected.first_row,
             header=None,
             na_values=["-", "--", "nan", "NaN", "n/a", ""],
             skip_blank_lines=True,
             skipinitialspace=True,
-            names=[name or f"unnamed {k}" for k, name in enumerate(result.names)],
+            names=[name or f"unnamed {k}" for k, name in enumerate(detected.names)],
             index_col=False,
             low_memory=False,
         )
     except UnicodeDecodeError as error:
-        raise HostError(f"The log {path} is not written in {result.encoding}: {error}.") from None
+        raise HostError(f"The log {path} is not written in {detected.encoding}: {error}.") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, ValueError) as error:
         if cells := re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error)):
             width, line, count = cells.groups()
             raise HostError(f"The log {path}, line {line}: {count} cells; the heading has {width}.") from None
         raise HostError(f"The log {path} is not a table: {one_line(str(error).strip()).rstrip('.')}.") from None
-    return RawLog(path, table, result.units, result.first_row)
+    return RawLog(path, table, detected.units, detected.first_row)
 
 
 def _read_parquet(path: Path) -> RawLog:
@@ -143,7 +143,7 @@ def _read_parquet(path: Path) -> RawLog:
     try:
         with opened_parquet(path, f"The log {path}") as file:
             content = file.read()
-        # What pandas has written beside the columns adds nothing: an index is a column too. It may be damaged.
+        # The metadata of pandas may be damaged, and is not needed: an index is a column too.
         table = content.replace_schema_metadata(None).to_pandas()
         table = table[[name for name in table if not name.startswith("__index_level_")]]
     except (ArrowException, OSError, ValueError, KeyError) as error:

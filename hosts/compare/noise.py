@@ -8,37 +8,37 @@ from hosts.compare.residuals import Residuals
 
 _POINTS = 5
 _ORDER = 4
-_NARROW = 1e-7  # of a range: the residuals are straight over it but for noise
+_NARROW = 1e-7  # of a range, over which residuals are linear except for noise
 _PROBE = 0.01
 _FINEST = 1e-5
 _WIDEST = 0.02
 
 
 def measured_noise(values: NDArray[np.float64]) -> float:
-    """Standard deviation of the white noise of a signal that is slow against its samples.
+    """Standard deviation of the white noise of a signal that is smooth at its sampling rate.
 
     `values`: shape (n,).
 
     Notes
     -----
-    From the median of third differences, which leave out what is smooth: their variance is 20 times that of the noise.
+    From the median of third differences, which remove the smooth part; their variance is 20 times that of the noise.
     """
     third = np.diff(values, 3)
     return float(np.median(np.abs(third)) / 0.6744897501960817 / np.sqrt(20.0))
 
 
 def computed_noise(residuals: Residuals, p: NDArray[np.float64]) -> float:
-    """Root mean square of the noise of the residuals that comes from the FMU's own iterations and rounding.
+    """Root mean square of the noise of the residuals by iterations and rounding of the FMU.
 
     `p`: shape (p,).
 
     Notes
     -----
-    From the table of differences over points that are very near each other (Moré and Wild: Estimating computational
-    noise, SIAM J. Sci. Comput. 33, 2011); the variance of fourth differences is 70 times that of the noise.
+    From the table of differences over closely spaced points (Moré and Wild: Estimating computational noise, SIAM J.
+    Sci. Comput. 33, 2011); the variance of fourth differences is 70 times that of the noise.
     """
     direction = np.array([u.high - u.low if u.kind == "parameter" else 0.0 for u in residuals.unknowns])
-    # Away from bounds on which the start may lie.
+    # The points lead away from the nearer bound.
     middle = np.array([0.5 * (u.low + u.high) if u.kind == "parameter" else 0.0 for u in residuals.unknowns])
     direction *= np.where(p > middle, -1.0, 1.0)
     table = np.array([residuals(p + k * _NARROW * direction) for k in range(_POINTS)])
@@ -48,20 +48,20 @@ def computed_noise(residuals: Residuals, p: NDArray[np.float64]) -> float:
 def difference_steps(
     residuals: Residuals, p: NDArray[np.float64], noise: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Steps of central differences for which the errors by noise and by curvature are about equal.
+    """Steps of central differences with about equal errors by noise and by truncation.
 
     `p`: shape (p,); `noise`: of `computed_noise`.
 
     Returns
     -------
-    steps : ndarray of shape (parameters of the FMU,)
+    steps : ndarray of shape (k,), k parameters of the FMU
     sensitivities : ndarray of the same shape
         Root mean square change of the residuals for a change over the whole range.
 
     Notes
     -----
-    The error by noise is noise / h, that by curvature h² f''' / 6, where f''' is taken as the sensitivity over the
-    range: h = range (3 noise / sensitivity)^(1/3), between 1e-5 and 0.02 of the range.
+    The error by noise is noise / h, that by truncation h² f''' / 6, where f''' is estimated by the sensitivity over the
+    cube of the range: h = range (3 noise / sensitivity)^(1/3), between 1e-5 and 0.02 of the range.
     """
     base = residuals(p)
     steps, sensitivities = [], []

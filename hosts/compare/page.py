@@ -1,4 +1,4 @@
-"""Pictures of a comparison: signals over each other, residuals and inputs."""
+"""The figure of a comparison: measured and simulated signals, residuals and inputs."""
 
 import math
 from collections.abc import Mapping
@@ -14,21 +14,21 @@ from ali3.chart_style import BLUE, COLOURS, RED, STYLE
 from ali3.charts import MANY_POINTS
 from hosts.common.display_units import number_in, shown_in, titled
 from hosts.compare.comparison import Comparison
-from hosts.experiment.line_simplification import thinned
+from hosts.experiment.line_simplification import thinned_indices
 from hosts.measures.signal import Signal
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
 _MEASURED = "#8a8a8a"
-_MOST = 12  # signals of a page
-_POINTS = 4000
+_MOST_SIGNALS = 12  # signals of a page
+_MOST_POINTS = 4000
 
 
 def comparison_figure(before: Comparison, after: Comparison | None, title: str, inputs: Mapping[str, Signal]) -> Figure:
-    """A page: a row of two plots for each signal, and the inputs below.
+    """The figure of a comparison: a row of two plots for each signal, and the inputs below.
 
     `before`: with the parameters of the FMU; `after`: with fitted ones.
     """
-    names = list(before.signals)[:_MOST]
+    names = list(before.signals)[:_MOST_SIGNALS]
     rows = len(names) + bool(inputs)
     height = 0.5 + 2.1 * rows
     with plt.rc_context(_STYLE):
@@ -37,15 +37,15 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         engine.set(rect=(0.0, 0.0, 1.0, 1.0 - 0.35 / height))
         figure.suptitle(title, x=0.01, y=1.0 - 0.08 / height, ha="left", va="top", fontsize=12, fontweight="bold")
         grid = figure.add_gridspec(rows, 2, width_ratios=(1.7, 1.0))
-        first = None
+        shared_axis = None
         for k, name in enumerate(names):
             s = before.signals[name]
-            indices = thinned(s.measured.time, s.measured.values, _POINTS)
+            indices = thinned_indices(s.measured.time, s.measured.values, _MOST_POINTS)
             unit, factor = shown_in(s.measured.unit, name)
             t, y = s.measured.time[indices], factor * s.measured.values[indices]
-            signal_axes = figure.add_subplot(grid[k, 0], sharex=first)
-            first = first or signal_axes
-            residual_axes = figure.add_subplot(grid[k, 1], sharex=first)
+            signal_axes = figure.add_subplot(grid[k, 0], sharex=shared_axis)
+            shared_axis = shared_axis or signal_axes
+            residual_axes = figure.add_subplot(grid[k, 1], sharex=shared_axis)
             signal_axes.plot(
                 t, y, ".", color=_MEASURED, markersize=2.5, label="measured", rasterized=len(t) > MANY_POINTS
             )
@@ -59,8 +59,8 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
             last = runs[-1][0]
             signal_axes.set_title(titled(name, unit))
             rms = f"rms {number_in(factor * last.deviations.rms, unit, '.3g')}"
-            rated = f"; rating {last.rating.overall:.2f}" if math.isfinite(last.rating.overall) else ""
-            residual_axes.set_title(f"simulated − measured: {rms}{rated}")
+            rating = f"; rating {last.rating.overall:.2f}" if math.isfinite(last.rating.overall) else ""
+            residual_axes.set_title(f"simulated − measured: {rms}{rating}")
             residual_axes.axhline(0.0, color="#444444", linewidth=0.8)
             signal_axes.margins(x=0)
             if k == 0:
@@ -69,12 +69,12 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
                 signal_axes.set_xlabel("time, s")
                 residual_axes.set_xlabel("time, s")
         if inputs:
-            _inputs(figure, grid, rows - 1, inputs, first)
+            _plot_inputs(figure, grid, rows - 1, inputs, shared_axis)
     return figure
 
 
-def _inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], first: Any) -> None:
-    axes = figure.add_subplot(grid[row, :1], sharex=first)
+def _plot_inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], shared_axis: Any) -> None:
+    axes = figure.add_subplot(grid[row, :1], sharex=shared_axis)
     for k, (name, s) in enumerate(inputs.items()):
         unit, factor = shown_in(s.unit, name)
         axes.plot(s.time, factor * s.values, color=COLOURS[k % len(COLOURS)], label=titled(name, unit))

@@ -3,29 +3,29 @@
 import numpy as np
 from numpy.typing import NDArray
 
-_FEWEST = 6  # changes, of which something can be said
-_LEAST = 3  # rows of a value
-_OFF = 0.2  # of these, by which a logger writes a value sooner or later
-_MOST = 0.95  # of the changes
-_EQUAL = 0.01  # of the size of a change
+_FEWEST_CHANGES = 6
+_FEWEST_ROWS = 3
+_JITTER = 0.2  # of the rows of a value
+_REGULAR_SHARE = 0.95  # of the changes
+_EQUAL = 0.01  # relative difference of changes of equal size
 
 
 def rows_of_a_value(values: NDArray[np.float64]) -> int:
-    """In how many rows each value stands; 1 where they are measured row by row.
+    """Number of rows in which each value is repeated; 1 where each row is measured.
 
-    `values`: of a signal that moves at will, shape (n,).
+    `values`: shape (n,).
 
     Notes
     -----
-    Changes come in equal steps of rows, a few of them left out where two values are equal. A ramp of a coarse signal
-    does so too, but by equal amounts: half of the changes and more have then one size.
+    Repeated values change in equal steps of rows, or a multiple where two values are equal. So does a ramp of a
+    coarsely quantized signal, but at least half of its changes are of equal size.
     """
     changes = np.flatnonzero(np.diff(values)) + 1
-    if len(changes) < _FEWEST:
+    if len(changes) < _FEWEST_CHANGES:
         return 1
     spacings, sizes = np.diff(changes), np.abs(np.diff(values))[changes - 1]
     rows = int(np.median(spacings))
-    off = np.abs(spacings - rows * np.maximum(np.round(spacings / rows), 1.0)) <= _OFF * rows
-    usual = float(np.median(sizes))
-    equal = np.abs(sizes - usual) < _EQUAL * usual
-    return rows if rows >= _LEAST and off.mean() >= _MOST and equal.mean() < 0.5 else 1
+    off = np.abs(spacings - rows * np.maximum(np.round(spacings / rows), 1.0)) <= _JITTER * rows
+    median = float(np.median(sizes))
+    equal = np.abs(sizes - median) < _EQUAL * median
+    return rows if rows >= _FEWEST_ROWS and off.mean() >= _REGULAR_SHARE and equal.mean() < 0.5 else 1

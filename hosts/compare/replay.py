@@ -1,4 +1,4 @@
-"""Replays a log as inputs of an FMU, as often as parameters are tried."""
+"""Replays a log as inputs of an FMU, once for each set of parameters."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
@@ -11,7 +11,7 @@ from ali3.isolated_processes import Lost
 from hosts.common.closable import Closable
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
-from hosts.compare.follower_demand import demanded
+from hosts.compare.follower_demand import follower_demand
 from hosts.compare.segment_fmu import SegmentFmu, Task
 from hosts.compare.segments import Segment, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
@@ -23,87 +23,94 @@ from hosts.fmu.own_process import files_of_drives
 from hosts.measures.signal import Signal
 
 
-def inputs_of(
+def replay_manoeuvre(
     name: str,
     inputs: Mapping[str, Signal],
     start: Mapping[str, Value],
     end: float,
     step: float,
-    held: bool = False,
-    whole: Collection[str] = (),
-    followed: Mapping[str, float] | None = None,
-    kept: Collection[str] = (),
+    hold_inputs: bool = False,
+    integers: Collection[str] = (),
+    follower_frequencies: Mapping[str, float] | None = None,
+    held: Collection[str] = (),
 ) -> Manoeuvre:
-    """The manoeuvre that gives an FMU the measured inputs, with a row a step and two where an input jumps.
+    """The manoeuvre with the measured inputs of an FMU: a row for each step, and two at each jump of an input.
 
     Parameters
     ----------
     end : float
-        s.
+        Stop time, s.
     step : float
         Communication step, s.
-    held : bool
+    hold_inputs : bool
         Whether the FMU holds its inputs during a step. Each then has the measured value of the middle of the step, so
-        that on the whole nothing is late; else that of the beginning.
-    whole : collection of str
-        Inputs that are whole numbers, which keep the value of a sample up to the next.
-    followed : mapping of str to float, optional
-        Inputs that the car follows, by the frequency of its follower in Hz: the measured signal is what follows.
-    kept : collection of str
+        that there is no mean delay; else that of the beginning.
+    integers : collection of str
+        Integer inputs, which keep the value of a sample up to the next.
+    follower_frequencies : mapping of str to float, optional
+        Frequency of the follower, Hz, of each input whose follower moves as measured.
+    held : collection of str
         Inputs and tunable parameters that keep the value of a sample up to the next.
     """
     steps = max(1, round(end / step))
     points = step * np.arange(steps + 1, dtype=np.float64)
-    inputs = {n: replace(s, time=_on_points(s.time, step)) for n, s in inputs.items()}
+    inputs = {n: replace(s, time=_snapped_to_points(s.time, step)) for n, s in inputs.items()}
     jumps = np.unique(np.concatenate([np.zeros(0), *(s.jumps for s in inputs.values())]))
     time = np.sort(np.concatenate((np.setdiff1d(points, jumps), jumps, jumps)))
-    before = np.append(np.diff(time) == 0.0, False)
-    at = np.where(held & np.isin(time, points) & ~before, time + 0.5 * step, time)
+    is_before_jump = np.append(np.diff(time) == 0.0, False)
+    input_times = np.where(hold_inputs & np.isin(time, points) & ~is_before_jump, time + 0.5 * step, time)
     columns = {
-        n: _kept(s, time, before, n in whole) if n in whole or n in kept else _straight(s, at, before)
+        n: _held_values(s, time, is_before_jump, n in integers)
+        if n in integers or n in held
+        else _interpolated(s, input_times, is_before_jump)
         for n, s in inputs.items()
     }
-    for n, frequency in (followed or {}).items():
-        columns[n] = demanded(inputs[n], frequency, at)
-    return Manoeuvre(name, time, columns, steps * step, dict(start), held=frozenset(kept))
+    for n, frequency in (follower_frequencies or {}).items():
+        columns[n] = follower_demand(inputs[n], frequency, input_times)
+    return Manoeuvre(name, time, columns, steps * step, dict(start), held=frozenset(held))
 
 
-def _on_points(time: NDArray[np.float64], step: float) -> NDArray[np.float64]:
-    """Times with those that are meant to be communication points there to the last digit."""
-    point = step * np.round(time / step)
-    return np.where(np.abs(time - point) < ON_TIME, point, time)
+def _snapped_to_points(time: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    """Times, with those at communication points set to them exactly."""
+    points = step * np.round(time / step)
+    return np.where(np.abs(time - points) < ON_TIME, points, time)
 
 
-def _straight(signal: Signal, time: NDArray[np.float64], before: NDArray[np.bool_]) -> NDArray[np.float64]:
-    behind = np.interp(time, signal.time, signal.values)
-    # Backwards in time the value before a jump is the one behind it.
-    return np.where(before, np.interp(-time, -signal.time[::-1], signal.values[::-1]), behind)
+def _interpolated(signal: Signal, time: NDArray[np.float64], is_before_jump: NDArray[np.bool_]) -> NDArray[np.float64]:
+    after = np.interp(time, signal.time, signal.values)
+    # Interpolated backwards in time, a jump has its earlier value.
+    return np.where(is_before_jump, np.interp(-time, -signal.time[::-1], signal.values[::-1]), after)
 
 
-def _kept(signal: Signal, time: NDArray[np.float64], before: NDArray[np.bool_], whole: bool) -> NDArray[np.float64]:
-    rows = np.where(before, np.searchsorted(signal.time, time), np.searchsorted(signal.time, time, side="right")) - 1
+def _held_values(
+    signal: Signal, time: NDArray[np.float64], is_before_jump: NDArray[np.bool_], is_integer: bool
+) -> NDArray[np.float64]:
+    rows = (
+        np.where(is_before_jump, np.searchsorted(signal.time, time), np.searchsorted(signal.time, time, side="right"))
+        - 1
+    )
     values = signal.values[np.maximum(rows, 0)]
-    return np.asarray(np.round(values) if whole else values)
+    return np.asarray(np.round(values) if is_integer else values)
 
 
 class Replay(Closable):
-    """An FMU that is driven again and again through the same inputs.
+    """An FMU that is driven repeatedly with the same inputs.
 
     Parameters
     ----------
     step : float
         Communication step, s.
     segments : sequence of Segment
-        Windows that are driven one after the other, each from its start.
+        Segments of the log, each with its own start values.
     jobs : int
-        Processes that share the segments; what they give does not depend on their number.
+        Number of processes that share the segments; results do not depend on it.
 
     Attributes
     ----------
     runs : int
-        That were made.
-    said : dict of str to int
-        What the FMU logged at warning or above, and in how many runs.
+        Number of runs so far.
+    messages : dict of str to int
+        Number of runs by the messages that the FMU logged at warning or above.
     """
 
     def __init__(
@@ -115,15 +122,20 @@ class Replay(Closable):
     ) -> None:
         self.segments, self.step = list(segments), step
         reads = files_of_drives(fmu.path, (segment.manoeuvre.start for segment in segments))
-        work = SegmentFmu(fmu, step, segments)
-        self._does = "compare"
+        segment_fmu = SegmentFmu(fmu, step, segments)
+        self._bar_text = "compare"
         self._experiment: Experiment[Task, Result | str] = Experiment(
-            self._does, work, Result | str, lambda task: self._does, reads, lambda task: 1.0 / len(self.segments)
+            self._bar_text,
+            segment_fmu,
+            Result | str,
+            lambda task: self._bar_text,
+            reads,
+            lambda task: 1.0 / len(self.segments),
         )
         self._pool = self._experiment.pool(min(jobs, len(segments)))
-        self._shown: Progress[Task, Result | str] | None = None
+        self._progress: Progress[Task, Result | str] | None = None
         self._can_reset: bool | None = None
-        self.said: dict[str, int] = {}
+        self.messages: dict[str, int] = {}
         self.runs = 0
 
     def close(self) -> None:
@@ -131,31 +143,32 @@ class Replay(Closable):
         self._pool.close()
 
     @contextmanager
-    def searching(self, does: str) -> Iterator[None]:
-        """Runs of the block stand under one bar, which counts them. `does`: what they are for, on the bar."""
-        self._does = does
-        with Progress(self._experiment) as self._shown:
+    def one_progress_bar(self, text: str) -> Iterator[None]:
+        """Show one progress bar, which counts, for all runs of the block. `text`: their purpose, on the bar."""
+        self._bar_text = text
+        with Progress(self._experiment) as self._progress:
             yield
-        self._shown = None
+        self._progress = None
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive all segments with other start values than those of their manoeuvres. `values`: by our names.
+        """Drive all segments. `values`: start values by our names, in place of those of the manoeuvres.
 
-        Result: under our names; several segments as `joined` puts them. Raises `FailedFmuError`: a process has ended.
+        Returns the result under our names; several segments are `joined`. Raises `FailedFmuError`: a process has ended;
+        `StartRefusedError`: the FMU refuses the start values.
         """
         tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.segments))]
-        with Progress(self._experiment, 1.0) if self._shown is None else nullcontext(self._shown) as progress:
+        with Progress(self._experiment, 1.0) if self._progress is None else nullcontext(self._progress) as progress:
             by_task = {k: result for k, _, result in progress.results(tasks, self._pool)}
         results = [self._result(k, by_task[k]) for k in range(len(tasks))]
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):
-            self.said[message] = self.said.get(message, 0) + 1
+            self.messages[message] = self.messages.get(message, 0) + 1
         return results[0] if len(results) == 1 else joined(results, self.segments)
 
     def check_reset(self) -> bool:
-        """Drive the first segment twice; an FMU that does not repeat itself is loaded again for each drive from now on.
+        """Check by two drives of the first segment whether a reset reproduces a run; else each drive loads the FMU.
 
-        Returns whether it repeats itself to the last bit, after a reset or loaded again.
+        Returns whether the FMU is reproducible to the last bit, by a reset or by loading it again.
         """
         for self._can_reset in (True, False):
             task: Task = (0, {}, self._can_reset)
@@ -169,6 +182,6 @@ class Replay(Closable):
             raise StartRefusedError(result)
         if not isinstance(result, Lost):
             return result
-        fewer = " --jobs 1 takes less memory." if len(self._pool) > 1 else ""
+        hint = " --jobs 1 takes less memory." if len(self._pool) > 1 else ""
         begin = self.segments[number].begin
-        raise FailedFmuError(f"The process that drove the window from {begin:g} s {result.how}.{fewer}")
+        raise FailedFmuError(f"The process that drove the window from {begin:g} s {result.how}.{hint}")

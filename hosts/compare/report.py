@@ -1,4 +1,4 @@
-"""The report of a comparison: one page of HTML with its picture inside."""
+"""The report of a comparison: one page of HTML with its figure."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ali3.message_text import sentence_of
 from ali3.units import typeset
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
-from hosts.compare.comparison_text import common_sentence, signal_rows
+from hosts.compare.comparison_text import delay_sentence, signal_rows
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_text import FIT_COLUMNS, fit_rows, result_text
 from hosts.compare.windows import Bin
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
             "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
 _BIN_COLUMNS = ("signal", "unit", "where", "from, to", "samples", "rms", "mean")
-_FOOT = (
+_FOOTER = (
     "Deviations are simulated minus measured, at the samples of the log, with no delay taken out. Normalised: rms over "
     "the standard deviation of the measured signal. The rating is like ISO/TS 18571, by public descriptions of it, at "
     "no more than 1000 points; above 0.94 excellent, 0.80 good, 0.58 fair. Intervals are of 95 %; they take into "
@@ -45,15 +45,15 @@ def write_report(
     paths: Mapping[str, Path],
     figure: Drawing,
 ) -> None:
-    """Write the page into ``.html`` of the paths, and what is drawn into ``.svg``.
+    """Write the page to the path ``.html``, and its figure to the path ``.svg``.
 
     `bins`: deviations by measured speed and lateral acceleration.
     """
-    late = common_sentence(before)
-    content: list[HtmlElement] = [_table_of(before)] + ([paragraph(late)] if late else [])
+    delay = delay_sentence(before)
+    content: list[HtmlElement] = [_deviations_table(before)] + ([paragraph(delay)] if delay else [])
     sections = [Section("Deviations" if after is None else "Deviations before the fit", content)]
     if after is not None and fit is not None:
-        sections.append(Section("Deviations with the fitted parameters and sensors", [_table_of(after)]))
+        sections.append(Section("Deviations with the fitted parameters and sensors", [_deviations_table(after)]))
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
         content = [table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
@@ -66,7 +66,7 @@ def write_report(
     figure.write(paths[".svg"])
     sections.append(Section("Signals", [picture(figure), *(paragraph(line, NOTE) for line in notes)]))
     facts = [paragraph(line, PROBLEM) for line in problems]
-    write_text(paths[".html"], page(title, facts, sections, _FOOT))
+    write_text(paths[".html"], page(title, facts, sections, _FOOTER))
 
 
 def bin_rows(bins: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]:
@@ -82,6 +82,6 @@ def bin_rows(bins: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]
     return rows
 
 
-def _table_of(comparison: Comparison) -> HtmlElement:
+def _deviations_table(comparison: Comparison) -> HtmlElement:
     rows = [[row[name] for name in _COLUMNS] for row in signal_rows(comparison, "–")]
     return table("", _COLUMNS, rows, "numbers")

@@ -24,23 +24,23 @@ from hosts.fmu.variables import Variables
 
 @dataclass(frozen=True)
 class Outcome:
-    """A comparison that was done."""
+    """The outcome of a comparison: results before and after a fit, notes and problems."""
 
     before: Comparison
     after: Comparison | None
-    """`before`, `after`: with the parameters of the FMU and with fitted ones."""
+    """`before`, `after`: with the parameters of the FMU, and with fitted ones if there are any."""
     fit: Fit | None
     notes: list[str]
     problems: list[str]
 
     @property
     def best(self) -> Comparison:
-        """With fitted parameters where there are some."""
+        """The comparison with fitted parameters if there are any, else that before."""
         return self.before if self.after is None else self.after
 
 
 def paths_of(options: argparse.Namespace) -> dict[str, Path]:
-    """The files to be written by suffix; `FileError` at once, before the work, if they cannot be."""
+    """Paths of the files that are written, by suffix. Raises `FileError` if one cannot be written."""
     kinds = [".html", ".svg", ".csv", *([".ssv"] if options.fit else [])]
     paths = {kind: options.out / f"{options.log.stem}{kind}" for kind in kinds}
     if options.json is not None:
@@ -55,7 +55,7 @@ def paths_of(options: argparse.Namespace) -> dict[str, Path]:
 def write_outcome(
     options: argparse.Namespace, task: Task, outcome: Outcome, paths: Mapping[str, Path]
 ) -> Sequence[Path]:
-    """Write all files of a comparison; gives those that were written."""
+    """Write all files of a comparison. Returns their paths."""
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
     error_bins = bins(outcome.best, task.scales)

@@ -1,4 +1,4 @@
-"""The segments of a log that are driven, each from its measured start, and put one after the other."""
+"""The segments of a log that are driven, each from its measured start, and their concatenation."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -11,8 +11,8 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
-PEDALS = ("throttle", "brake")  # by which a driver holds a measured speed
-GAP = 1.0  # s between two segments where they stand one after the other
+PEDALS = ("throttle", "brake")  # inputs by which a driver holds a measured speed
+GAP = 1.0  # s between two concatenated segments
 Spans = tuple[tuple[float, float], ...]
 
 
@@ -21,26 +21,26 @@ class Segment:
     """A part of a log that is driven."""
 
     manoeuvre: Manoeuvre
-    """Of the measured inputs."""
+    """Measured inputs and start values."""
     speed: Signal | None = None
-    """Measured, from time 0 on, where a driver holds it in place of the measured pedals."""
+    """Measured speed, from time 0 on, if a driver holds it in place of the measured pedals."""
     pedal: float = 0.0
-    """With which that driver starts; negative: of the brake."""
+    """Initial pedal of that driver; negative: brake."""
     begin: float = 0.0
-    """In the log, s."""
-    place: float = 0.0
-    """Where it begins in what is compared, s."""
+    """Begin in the log, s."""
+    offset: float = 0.0
+    """Begin on the time axis of the comparison, s."""
 
     @property
-    def end(self) -> float:
-        """Its length, s."""
+    def length(self) -> float:
+        """Duration, s."""
         return self.manoeuvre.stop_time
 
 
-def spans(text: str | None) -> Spans | None:
-    """Spans of time that a user has written as ``A:B,C:D``, s; None for all.
+def parse_spans(text: str | None) -> Spans | None:
+    """Read spans of time from a text of the form ``A:B,C:D``, s; None for all times.
 
-    Raises `HostError`: they are not of that form, or not in the order of time.
+    Raises `HostError`: the text is not of that form, or the times do not increase.
     """
     if text is None:
         return None
@@ -54,51 +54,51 @@ def spans(text: str | None) -> Spans | None:
     return result
 
 
-def begins(spans: Spans, length: float, every: float) -> list[float]:
-    """Where windows begin that lie in spans of time, s."""
-    return [float(t) for a, b in spans for t in np.arange(a, b - length + 1e-9 * length, every)]
+def window_begins(spans: Spans, length: float, interval: float) -> list[float]:
+    """Begins of the windows within spans of time, s. `length`, `interval`: of a window and between begins, s."""
+    return [float(t) for a, b in spans for t in np.arange(a, b - length + 1e-9 * length, interval)]
 
 
-def in_spans(signal: Signal, spans: Spans | None) -> Signal:
-    """The samples in spans of time."""
+def within_spans(signal: Signal, spans: Spans | None) -> Signal:
+    """The samples within spans of time."""
     if spans is None:
         return signal
     inside = np.any([(signal.time >= a - 1e-9) & (signal.time <= b + 1e-9) for a, b in spans], axis=0)
     return replace(signal, time=signal.time[inside], values=signal.values[inside])
 
 
-def one_after_the_other(signals: Mapping[str, Signal], segments: Sequence[Segment]) -> dict[str, Signal]:
-    """Signals of a log at the places of its segments."""
+def concatenated_signals(signals: Mapping[str, Signal], segments: Sequence[Segment]) -> dict[str, Signal]:
+    """Signals of a log in its segments, on the time axis of the comparison."""
     results = {}
     for name, signal in signals.items():
-        pieces = [signal.between(s.begin, s.begin + s.end) for s in segments]
-        times = [p.time - s.begin + s.place for p, s in zip(pieces, segments, strict=True)]
-        results[name] = replace(signal, time=np.concatenate(times), values=np.concatenate([p.values for p in pieces]))
+        sections = [signal.between(s.begin, s.begin + s.length) for s in segments]
+        times = [p.time - s.begin + s.offset for p, s in zip(sections, segments, strict=True)]
+        results[name] = replace(signal, time=np.concatenate(times), values=np.concatenate([p.values for p in sections]))
     return results
 
 
 def joined(results: Sequence[Result], segments: Sequence[Segment]) -> Result:
-    """Runs of segments as one; one that was refused keeps its last outputs to its end.
+    """Results of segments as one result; a segment with a refused step keeps its last outputs to its end.
 
-    Result: without refused steps; `starts` are the rows at which the segments begin.
+    Returns a result without refused steps, whose `starts` are the first rows of the segments.
     """
-    times, values, starts, rows = [], [], [], 0
+    times, values, starts, first_row = [], [], [], 0
     for result, segment in zip(results, segments, strict=True):
         time, value = result.time, result.values
         if result.failed_steps:
-            time, value = np.append(time, segment.end), np.vstack([value, value[-1:]])
-        times.append(time + segment.place)
+            time, value = np.append(time, segment.length), np.vstack([value, value[-1:]])
+        times.append(time + segment.offset)
         values.append(value)
-        starts.append(rows)
-        rows += len(time)
+        starts.append(first_row)
+        first_row += len(time)
     messages = [m for r in results for m in r.messages]
-    last = segments[-1].place + segments[-1].end
+    end = segments[-1].offset + segments[-1].length
     return replace(
         results[0],
         time=np.concatenate(times),
         values=np.vstack(values),
         wall=sum(r.wall for r in results),
-        simulated=last,
+        simulated=end,
         failed_steps=0,
         messages=messages,
         jumps={},

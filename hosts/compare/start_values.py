@@ -10,22 +10,21 @@ from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.signal import Signal
 
-_AVERAGED = 0.1  # s at the beginning of a log
-_WHERE = " (where the reference point is to be)"
-_MOVES = 0.5  # m/s
-_TURNS = 0.02  # rad/s
-# s: roll of a car on soft springs and dampers has settled to 1 %
+_AVERAGED = 0.1  # s at the begin of a log
+_AT_REFERENCE = " (where the reference point is to be)"
+_LEAST_SPEED = 0.5  # m/s
+_LEAST_YAW_RATE = 0.02  # rad/s
 _SETTLING = "initial.settling"
-_SETTLED = 2.0
+_SETTLED = 2.0  # s, after which the roll of a car on soft springs and dampers has settled to 1 %
 
 
-def measured_start(
+def start_values_of_log(
     fmu: NamedFmu,
     signals: Mapping[str, Signal],
     set_values: Mapping[str, Value],
-    begun: Mapping[str, Value] | None = None,
+    run_start: Mapping[str, Value] | None = None,
 ) -> tuple[dict[str, Value], list[str]]:
-    """Start values of speeds and pose as they are measured, where the FMU has such parameters.
+    """Start values of speeds and pose as measured, as far as the FMU has such parameters.
 
     Parameters
     ----------
@@ -34,74 +33,88 @@ def measured_start(
     signals : mapping of str to Signal
         Of the log, which begins at time 0.
     set_values : mapping of str to float, int, bool or str
-        What the user sets, which wins.
-    begun : mapping of str to float, int, bool or str, optional
-        Start values of the run whose result the log is: then the start is as there, and not as measured.
+        Start values of the user, which take precedence.
+    run_start : mapping of str to float, int, bool or str, optional
+        Start values of the run whose result the log is; they take the place of measured ones.
 
     Returns
     -------
     start : dict
-        What is set in addition to `set_values`.
+        Start values in addition to `set_values`.
     notes : list of str
-        What the start is, in sentences.
+        Sentences on the start.
     """
-    if begun is not None:
-        same = {
-            n: v for n, v in begun.items() if n.startswith("initial.") and n in fmu.variables and n not in set_values
-        }
-        message = ", ".join(f"{n} = {v}" for n, v in same.items()) or "as drawn"
-        return same, [f"The log is a result of ali3 run, and the start is that of its record: {message}."]
+    if run_start is not None:
+        return _start_values_of_run(fmu, run_start, set_values)
     start: dict[str, Value] = {}
-    notes, unchanged = [], []
-    speed = next((at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
-    across, rate = (_of(signals, f"chassis.{n}") for n in ("vy", "wz"))
+    notes, overridden = [], []
+    speed = next((value_at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
+    lateral_speed, rate = (_value_at_start(signals, f"chassis.{n}") for n in ("vy", "wz"))
     for name, value in (
         ("initial.speed", speed),
-        ("initial.yaw", _of(signals, "chassis.yaw")),
-        ("initial.lateral_speed", across),
+        ("initial.yaw", _value_at_start(signals, "chassis.yaw")),
+        ("initial.lateral_speed", lateral_speed),
         ("initial.yaw_rate", rate),
-        *((f"initial.{axis}", _of(signals, f"chassis.{axis}")) for axis in "xy"),
+        *((f"initial.{axis}", _value_at_start(signals, f"chassis.{axis}")) for axis in "xy"),
     ):
         if value is None or name not in fmu.variables:
             continue
         if name in set_values:
-            unchanged.append(f"{name} = {float(set_values[name]):.4g} ({value:.4g} in the log)")
+            overridden.append(f"{name} = {float(set_values[name]):.4g} ({value:.4g} in the log)")
         else:
             start[name] = value
     if start:
         message = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
-        notes.append(f"The start is as measured: {message}{_WHERE if 'initial.x' in start else ''}.")
+        notes.append(f"The start is as measured: {message}{_AT_REFERENCE if 'initial.x' in start else ''}.")
     all_values = {**start, **set_values}
-    moves = abs(float(all_values.get("initial.speed", 0.0))) > _MOVES and "initial.yaw_rate" in all_values
-    if moves and _SETTLING in fmu.variables and _SETTLING not in set_values:
+    is_moving = abs(float(all_values.get("initial.speed", 0.0))) > _LEAST_SPEED and "initial.yaw_rate" in all_values
+    if is_moving and _SETTLING in fmu.variables and _SETTLING not in set_values:
         start[_SETTLING] = _SETTLED
         notes.append(
             f"Before it the car is held in this motion for {_SETTLED:g} s ({_SETTLING}), so that roll, pitch, tyres "
             "and steering, which were not measured, have settled."
         )
-    if unchanged:
-        notes.append(f"The start is not as measured but as given: {', '.join(unchanged)}.")
-    if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(set_values)):
+    if overridden:
+        notes.append(f"The start is not as measured but as given: {', '.join(overridden)}.")
+    return start, notes + _notes_on_missing_values(fmu, speed, rate, all_values)
+
+
+def _start_values_of_run(
+    fmu: NamedFmu, run_start: Mapping[str, Value], set_values: Mapping[str, Value]
+) -> tuple[dict[str, Value], list[str]]:
+    """Start values of the run whose result the log is, and a note."""
+    names = [n for n in run_start if n.startswith("initial.") and n in fmu.variables and n not in set_values]
+    message = ", ".join(f"{n} = {run_start[n]}" for n in names) or "as drawn"
+    note = f"The log is a result of ali3 run, and the start is that of its record: {message}."
+    return {n: run_start[n] for n in names}, [note]
+
+
+def _notes_on_missing_values(
+    fmu: NamedFmu, speed: float | None, rate: float | None, values: Mapping[str, Value]
+) -> list[str]:
+    """Notes on a measured speed, m/s, or yaw rate, rad/s, that is no start value, and on a missing speed."""
+    notes = []
+    if speed is not None and abs(speed) > _LEAST_SPEED and "initial.speed" not in values:
         notes.append(
             f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, and starts at its own "
             "speed. Let the log begin at rest (--from), or do not compare the first seconds (--skip)."
         )
-    if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in set_values:
+    if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in values:
         notes.append(
             "The log has no 'speed': the car starts at rest; if it moved, set it by --set initial.speed=VALUE."
         )
-    if rate is not None and abs(rate) > _TURNS and "initial.yaw_rate" not in (start | dict(set_values)):
+    if rate is not None and abs(rate) > _LEAST_YAW_RATE and "initial.yaw_rate" not in values:
         notes.append(
             f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and "
             "starts straight: the first seconds differ (--from begins elsewhere, --skip leaves them out)."
         )
-    return start, notes
+    return notes
 
 
 def reference_point(fmu: FmuSource, start: Mapping[str, Value]) -> tuple[float, float]:
-    """Where the reference point of the car at rest lies from the origin of its drawing, forward and to the left, m.
+    """Position of the reference point of the car at rest from the origin of its drawing, forward and to the left, m.
 
-    `start`: start values; those of pose and speed are not used. Result: zero where the FMU does not provide its place.
+    `start`: start values; those of pose and speed are not used. Zero where the FMU does not provide the position.
     """
     return fmu.done_apart(_reference_point, dict(start), tuple[float, float], start)
 
@@ -119,33 +132,35 @@ def _reference_point(task: tuple[FmuSource, dict[str, Value]], tell: Callable[[f
     return x, y
 
 
-def of_origin(start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]) -> dict[str, Value]:
-    """Start values of the origin of the car's drawing, from those that were measured of its reference point.
+def start_values_of_origin(
+    start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]
+) -> dict[str, Value]:
+    """Start values of the origin of the car's drawing, from those of its reference point.
 
-    `point`: of `reference_point`.
+    `measured`: names of values of the reference point; `point`: of `reference_point`.
     """
     of_drawing = dict(start)
     yaw, rate = (float(start.get(f"initial.{n}", 0.0)) for n in ("yaw", "yaw_rate"))
     c, s = math.cos(yaw), math.sin(yaw)
-    moved = {
+    offsets = {
         "initial.x": c * point[0] - s * point[1],
         "initial.y": s * point[0] + c * point[1],
         "initial.speed": -rate * point[1],
         "initial.lateral_speed": rate * point[0],
     }
-    for name, by in moved.items():
+    for name, offset in offsets.items():
         if name in measured:
-            of_drawing[name] = float(start[name]) - by
+            of_drawing[name] = float(start[name]) - offset
     return of_drawing
 
 
-def at_start(signal: Signal) -> float:
-    """Value at time 0: of a line through the first samples, which noise moves little."""
-    few = signal.time <= max(_AVERAGED, signal.time[0] + 4.5 * signal.interval)
-    slope, value = np.polyfit(signal.time[few], signal.values[few], 1)
+def value_at_start(signal: Signal) -> float:
+    """Value at time 0 of a regression line through the first samples."""
+    first = signal.time <= max(_AVERAGED, signal.time[0] + 4.5 * signal.interval)
+    slope, value = np.polyfit(signal.time[first], signal.values[first], 1)
     value = value if math.isfinite(slope) else signal.values[0]
     return 0.0 if abs(value) < 1e-9 else float(value)  # rounding errors of the line
 
 
-def _of(signals: Mapping[str, Signal], name: str) -> float | None:
-    return at_start(signals[name]) if name in signals else None
+def _value_at_start(signals: Mapping[str, Signal], name: str) -> float | None:
+    return value_at_start(signals[name]) if name in signals else None

@@ -11,50 +11,50 @@ from hosts.compare.segments import Segment
 from hosts.fmu.fmu_source import FmuSource
 from hosts.measures.signal import Signal
 
-_AHEAD = 0.5  # s, until when the speed is met
-_CLOSE = 0.005  # of the pedal
+_DURATION = 0.5  # s from the start, after which the speed is met
+_TOLERANCE = 0.005  # of the pedal
 
 
 def starting_pedals(fmu: FmuSource, segments: Sequence[Segment], step: float) -> list[Segment]:
     """The segments with the constant pedals at which the FMU has the measured speed half a second after the start.
 
-    `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
-    is not enough.
+    `step`: communication step, s. A positive pedal is that of the throttle, a negative one that of the brake; 1 or -1
+    where the measured speed is not reached.
     """
-    pedals = fmu.done_apart(_pedals_of, (list(segments), step), list[float | None], {})
-    return [s if pedal is None else _started(s, pedal) for s, pedal in zip(segments, pedals, strict=True)]
+    pedals = fmu.done_apart(_solve_pedals, (list(segments), step), list[float | None], {})
+    return [s if pedal is None else _with_pedal(s, pedal) for s, pedal in zip(segments, pedals, strict=True)]
 
 
-def _pedals_of(
+def _solve_pedals(
     task: tuple[FmuSource, tuple[list[Segment], float]], tell: Callable[[float], None]
 ) -> list[float | None]:
     source, (segments, step) = task
     fmu = SegmentFmu(source, step)
     try:
-        return [None if s.speed is None else _pedal(fmu, step, s, s.speed) for s in segments]
+        return [None if s.speed is None else _solve_pedal(fmu, step, s, s.speed) for s in segments]
     finally:
         fmu.close()
 
 
-def _started(segment: Segment, pedal: float) -> Segment:
-    start = {**segment.manoeuvre.start, **_pedals(pedal)}
+def _with_pedal(segment: Segment, pedal: float) -> Segment:
+    start = {**segment.manoeuvre.start, **_pedal_inputs(pedal)}
     return replace(segment, pedal=pedal, manoeuvre=replace(segment.manoeuvre, start=start))
 
 
-def _pedals(pedal: float) -> dict[str, float]:
+def _pedal_inputs(pedal: float) -> dict[str, float]:
     return {"throttle": max(pedal, 0.0), "brake": max(-pedal, 0.0)}
 
 
-def _pedal(fmu: SegmentFmu, step: float, segment: Segment, speed: Signal) -> float:
-    manoeuvre = replace(segment.manoeuvre, stop_time=max(step, min(_AHEAD, segment.end)))
+def _solve_pedal(fmu: SegmentFmu, step: float, segment: Segment, speed: Signal) -> float:
+    manoeuvre = replace(segment.manoeuvre, stop_time=max(step, min(_DURATION, segment.length)))
     short = Segment(manoeuvre)
 
     def excess(pedal: float) -> float:
-        result = fmu.drive(short, _pedals(pedal))
+        result = fmu.drive(short, _pedal_inputs(pedal))
         return float(result["speed"][-1] - np.interp(result.time[-1], speed.time, speed.values))
 
-    rolling = excess(0.0)
-    end = -1.0 if rolling > 0.0 else 1.0
-    if rolling == 0.0 or not rolling * excess(end) < 0.0:
-        return 0.0 if rolling == 0.0 else end
-    return float(brentq(excess, min(0.0, end), max(0.0, end), xtol=_CLOSE))
+    coasting = excess(0.0)
+    limit = -1.0 if coasting > 0.0 else 1.0
+    if coasting == 0.0 or not coasting * excess(limit) < 0.0:
+        return 0.0 if coasting == 0.0 else limit
+    return float(brentq(excess, min(0.0, limit), max(0.0, limit), xtol=_TOLERANCE))

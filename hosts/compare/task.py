@@ -18,10 +18,19 @@ from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_a
 from hosts.compare.log_file import read_log
 from hosts.compare.log_times import FEWEST_SAMPLES
 from hosts.compare.plausibility import check_inputs, note_gaps
-from hosts.compare.replay import inputs_of
-from hosts.compare.road_wheels import ANGLES, mean_angle, steering_for
-from hosts.compare.segments import GAP, PEDALS, Segment, Spans, begins, in_spans, one_after_the_other, spans
-from hosts.compare.start_values import measured_start, of_origin, reference_point
+from hosts.compare.replay import replay_manoeuvre
+from hosts.compare.road_wheels import ANGLES, mean_angle, steering_at_angle
+from hosts.compare.segments import (
+    GAP,
+    PEDALS,
+    Segment,
+    Spans,
+    concatenated_signals,
+    parse_spans,
+    window_begins,
+    within_spans,
+)
+from hosts.compare.start_values import reference_point, start_values_of_log, start_values_of_origin
 from hosts.compare.starting_pedal import starting_pedals
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
@@ -51,33 +60,33 @@ class Task:
     fmu: FmuSource
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
-    """`inputs`, `outputs`: from time 0 on; outputs of windows one window after the other."""
+    """`inputs`, `outputs`: from time 0 on; outputs of windows on the time axis of the comparison."""
     segments: list[Segment]
     step: float
-    """s."""
+    """Communication step, s."""
     slopes: bool
     """Whether inputs change during a step."""
     parameters: dict[str, Variable]
-    """Of the FMU, by our names."""
+    """Parameters of the FMU, by our names."""
     set_values: dict[str, Value]
     notes: list[str]
     windowed: bool = False
     """Whether the segments are windows, each from its measured state."""
     plausibility: Plausibility = field(default_factory=lambda: Plausibility("", []))
-    """What was understood of the log."""
+    """Plausibility of the log."""
     scales: dict[str, Signal] = field(default_factory=dict)
-    """Measured speed and lateral acceleration at the places of the outputs."""
-    turnable: list[str] = field(default_factory=list)
-    """Inputs that the FMU would take with the other sign, too."""
+    """Measured speed and lateral acceleration on the time axis of the outputs."""
+    invertible: list[str] = field(default_factory=list)
+    """Inputs whose values are within the ranges of the FMU with the opposite sign, too."""
 
     @property
     def end(self) -> float:
         """End of the compared time, s."""
-        return self.segments[-1].place + self.segments[-1].end
+        return self.segments[-1].offset + self.segments[-1].length
 
 
 def prepare(options: argparse.Namespace) -> Task:
-    """Read log and FMU, and check them. Raises `HostError`: one sentence."""
+    """Read log and FMU, and check them. Raises `HostError` with a sentence on the first mistake."""
     log_aliases = LogAliases() if options.log_aliases is None else read_log_aliases(options.log_aliases)
     if options.aliases is not None:
         refuse_log_aliases(options.aliases)
@@ -87,77 +96,81 @@ def prepare(options: argparse.Namespace) -> Task:
         fmu = source.around(opened)
         set_values = settings_of(opened.table, options_with_road(options, options.out)).start
         our_values = source.ours(set_values)
-        sought = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
-        # Those that may drive the car, and the speed for its start, are used whatever is compared.
+        fitted_names = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
+        # Steering angles, which may drive the car, and the initial speed are used with any selection of signals.
         used_names = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
-        log = log_for(fmu, raw, log_aliases, {*our_values, *sought}, used_names)
+        log = log_for(fmu, raw, log_aliases, {*our_values, *fitted_names}, used_names)
         notes = log.notes
-        inputs, outputs = _chosen(log, fmu, options)
-        followed = _add_steering(fmu, log, inputs, outputs, notes, our_values, sought)
-        pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
-        if not inputs and pedals is None:
+        inputs, outputs = _selected_signals(log, fmu, options)
+        frequencies = _add_steering_input(fmu, log, inputs, outputs, notes, our_values, fitted_names)
+        measured_speed = _speed_to_hold(fmu, log, inputs, notes) if options.hold_speed else None
+        if not inputs and measured_speed is None:
             raise HostError(
                 f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
                 f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--log-aliases) "
                 "names their columns."
             )
-        unlogged = [n for n in fmu.names("input") if n not in inputs and not (pedals and n in PEDALS)]
-        if unlogged:
-            notes.append(f"Not in the log, and held at their start values: {', '.join(unlogged)}.")
-        inputs, outputs, end = _window(inputs, outputs, options)
-        speed = None if pedals is None else _shifted({"speed": pedals}, options)["speed"]
+        missing_inputs = [n for n in fmu.names("input") if n not in inputs and not (measured_speed and n in PEDALS)]
+        if missing_inputs:
+            notes.append(f"Not in the log, and held at their start values: {', '.join(missing_inputs)}.")
+        inputs, outputs, end = _cut_inputs_and_outputs(inputs, outputs, options)
+        held_speed = None if measured_speed is None else _cut_to_options({"speed": measured_speed}, options)["speed"]
         check_inputs(fmu, inputs, options.longest_gap, notes)
         note_gaps(outputs, notes)
-        requested = spans(options.seconds)
-        stretches = _parts(options, requested, end)
-        step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, stretches[0][1]), _step(fmu, inputs, options))
+        requested_spans = parse_spans(options.seconds)
+        windows = _driven_windows(options, requested_spans, end)
+        step = communication_step(
+            fmu, Manoeuvre("", np.zeros(0), {}, windows[0][1]), _preferred_step(fmu, inputs, options)
+        )
         integers = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
-        everything = outputs | log_at(log, options)
+        all_outputs = outputs | outputs_from_begin(log, options)
         point = reference_point(source, our_values)
         segments: list[Segment] = []
-        missed: list[str] = []
-        for begin, length in stretches:
-            begun = None if begin or options.begin else log.begun
-            start, message = measured_start(fmu, cut(everything, begin, begin + length), our_values, begun)
-            notes += message if not segments else []
-            manoeuvre = inputs_of(
+        missed_notes: list[str] = []
+        for begin, length in windows:
+            run_start = None if begin or options.begin else log.run_start
+            start, start_notes = start_values_of_log(
+                fmu, cut(all_outputs, begin, begin + length), our_values, run_start
+            )
+            notes += start_notes if not segments else []
+            manoeuvre = replay_manoeuvre(
                 options.log.stem,
                 cut(inputs, begin, begin + length),
-                of_origin(start | our_values, start if begun is None else (), point),
+                start_values_of_origin(start | our_values, start if run_start is None else (), point),
                 length,
                 step,
                 not slopes,
                 integers,
-                followed,
+                frequencies,
                 log.held & inputs.keys(),
             )
-            for name in followed:
+            for name in frequencies:
                 variable = fmu.table[name]
                 np.clip(manoeuvre.inputs[name], variable.low, variable.high, out=manoeuvre.inputs[name])
             check_columns(fmu, manoeuvre)
-            missed += _missed(manoeuvre, step, slopes, integers, (options.begin or 0.0) + begin)
-            held_speed = None if speed is None else cut({"": speed}, begin, begin + length)[""]
-            segments.append(Segment(manoeuvre, held_speed, 0.0, begin, len(segments) * (length + GAP)))
-        notes += missed[:1]
-        turnable = [n for n in inputs if all(_can_turn(s.manoeuvre.inputs[n], fmu.table[n]) for s in segments)]
-        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in unlogged}
-    if speed is not None:
+            missed_notes += _missed_input_notes(manoeuvre, step, slopes, integers, (options.begin or 0.0) + begin)
+            segment_speed = None if held_speed is None else cut({"": held_speed}, begin, begin + length)[""]
+            segments.append(Segment(manoeuvre, segment_speed, 0.0, begin, len(segments) * (length + GAP)))
+        notes += missed_notes[:1]
+        invertible = [n for n in inputs if all(_is_invertible(s.manoeuvre.inputs[n], fmu.table[n]) for s in segments)]
+        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in missing_inputs}
+    if held_speed is not None:
         segments = starting_pedals(source, segments, step)
         pedal = segments[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
-    scales = scales_of(everything)
+    scales = scales_of(all_outputs)
     if options.windows is not None:
         notes.append(
             f"Each of the {len(segments)} windows starts in its measured state; the one above is that of the first."
         )
-        outputs, scales = (one_after_the_other(signals, segments) for signals in (outputs, scales))
-    elif requested is not None:
+        outputs, scales = (concatenated_signals(signals, segments) for signals in (outputs, scales))
+    elif requested_spans is not None:
         begin = options.begin or 0.0
-        moved = tuple((a - begin, b - begin) for a, b in requested)
-        outputs = {n: in_spans(s, moved) for n, s in outputs.items()}
+        shifted_spans = tuple((a - begin, b - begin) for a, b in requested_spans)
+        outputs = {n: within_spans(s, shifted_spans) for n, s in outputs.items()}
     windowed = options.windows is not None
-    plausibility = log_plausibility(options.log.name, everything)
+    plausibility = log_plausibility(options.log.name, all_outputs)
     return Task(
         source,
         inputs,
@@ -171,12 +184,14 @@ def prepare(options: argparse.Namespace) -> Task:
         windowed,
         plausibility,
         scales,
-        turnable,
+        invertible,
     )
 
 
-def _parts(options: argparse.Namespace, requested: Spans | None, end: float) -> list[tuple[float, float]]:
-    """Begin and length of what is driven, s after --from."""
+def _driven_windows(
+    options: argparse.Namespace, requested_spans: Spans | None, end: float
+) -> list[tuple[float, float]]:
+    """Begin and length of each window that is driven, s after --from; one window without --windows."""
     begin = options.begin or 0.0
     if options.windows is None:
         if options.window_every is not None:
@@ -189,32 +204,34 @@ def _parts(options: argparse.Namespace, requested: Spans | None, end: float) -> 
         )
     if options.skip:
         raise HostError("--skip cannot be combined with --windows: each begins in its measured state.")
-    last = begin + end + 1e-9
-    results = [t for t in begins(requested or ((begin, last),), options.windows, interval) if t >= begin]
-    results = [t - begin for t in results if t + options.windows <= last]
-    if not results:
+    log_end = begin + end + 1e-9
+    window_starts = [
+        t for t in window_begins(requested_spans or ((begin, log_end),), options.windows, interval) if t >= begin
+    ]
+    window_starts = [t - begin for t in window_starts if t + options.windows <= log_end]
+    if not window_starts:
         raise HostError(f"No window of {options.windows:g} s lies in --seconds {options.seconds} and in the log.")
-    return [(t, options.windows) for t in results]
+    return [(t, options.windows) for t in window_starts]
 
 
-def _can_turn(values: NDArray[np.float64], variable: Variable) -> bool:
+def _is_invertible(values: NDArray[np.float64], variable: Variable) -> bool:
     return bool((values != 0.0).any()) and not beyond_range(variable, -values)
 
 
-def _missed(manoeuvre: Manoeuvre, step: float, slopes: bool, whole: Set[str], begin: float) -> list[str]:
-    """A sentence where an input has a corner or jumps inside a communication step."""
-    missed = missed_inputs(manoeuvre, step, manoeuvre.inputs if slopes else (), whole)
+def _missed_input_notes(manoeuvre: Manoeuvre, step: float, slopes: bool, integers: Set[str], begin: float) -> list[str]:
+    """A sentence if an input has a corner or a jump inside a communication step; else none."""
+    missed = missed_inputs(manoeuvre, step, manoeuvre.inputs if slopes else (), integers)
     origin = f" after {begin:g} s of the log" if begin else ""
     return [] if missed is None else [f"{missed[0]}{origin}: {missed[1]}."]
 
 
-def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
-    """All outputs of the log from time 0 on: the start needs also those that are not compared."""
-    return {n: s for n, s in _shifted(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
+def outputs_from_begin(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
+    """All outputs of the log from time 0 on, also those that are not compared, for start values."""
+    return {n: s for n, s in _cut_to_options(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
 
 
-def _held_speed(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: list[str]) -> Signal:
-    """The measured speed that a driver is to hold; the pedals of the log are left out."""
+def _speed_to_hold(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: list[str]) -> Signal:
+    """The measured speed that a driver is to hold; the pedals of the log are removed from `inputs`."""
     name = next((n for n in ("speed", "chassis.vx") if n in log.outputs), None)
     if name is None:
         raise HostError("--hold-speed needs the speed in the log: an alias for 'speed'.")
@@ -227,8 +244,8 @@ def _held_speed(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: list[
     return log.outputs[name]
 
 
-def _step(fmu: NamedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
-    """The step that was asked for; else that of the FMU, or of the log where that is longer, up to 10 ms."""
+def _preferred_step(fmu: NamedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
+    """The requested communication step, s; else a multiple of that of the FMU, up to the log's interval or 10 ms."""
     if options.step is not None:
         return float(options.step)
     fmu_step = default_step(fmu.description)
@@ -236,7 +253,9 @@ def _step(fmu: NamedFmu, inputs: Mapping[str, Signal], options: argparse.Namespa
     return fmu_step * max(1, math.floor(min(finest, 0.01) / fmu_step + 1e-6))
 
 
-def _chosen(log: Log, fmu: NamedFmu, options: argparse.Namespace) -> tuple[dict[str, Signal], dict[str, Signal]]:
+def _selected_signals(
+    log: Log, fmu: NamedFmu, options: argparse.Namespace
+) -> tuple[dict[str, Signal], dict[str, Signal]]:
     outputs, inputs = dict(log.outputs), dict(log.inputs)
     if options.signals is not None:
         for name in options.signals:
@@ -257,48 +276,50 @@ def _chosen(log: Log, fmu: NamedFmu, options: argparse.Namespace) -> tuple[dict[
     return inputs, outputs
 
 
-def _add_steering(
+def _add_steering_input(
     fmu: NamedFmu,
     log: Log,
     inputs: dict[str, Signal],
     outputs: dict[str, Signal],
     notes: list[str],
     set_values: Mapping[str, Value],
-    sought: Set[str],
+    fitted_names: Set[str],
 ) -> dict[str, float]:
-    """A car that is steered by a normalised input, and a log with the angle of the steering wheel or of road wheels.
+    """Add a steering input to `inputs` from the angle of the steering wheel or of the front wheels in the log.
 
-    Where another ratio of the steering is set or sought, full lock is at another angle than the constant of the drawing
-    says: then the angle itself is the input. Returns the input that the car follows, with the frequency of its
-    follower, Hz; empty where there is none.
+    The normalised input is the angle over that at full lock. Where a steering ratio is set or fitted, that constant
+    does not hold, and the angle itself is the input. Returns the input with a follower, with its frequency, Hz; empty
+    where there is none.
     """
-    largest, frequency = fmu.constants().get(_ANGLE_MAX), fmu.constants().get(_FREQUENCY)
+    full_lock, frequency = fmu.constants().get(_ANGLE_MAX), fmu.constants().get(_FREQUENCY)
     if _STEERING not in fmu.names("input") or _STEERING in inputs:
         return {}
-    road = mean_angle(log.outputs)
-    if _ANGLE in log.outputs and largest:
+    wheel_angle = mean_angle(log.outputs)
+    if _ANGLE in log.outputs and full_lock:
         if any(n.startswith("steering_wheel_angle") for n in inputs):
             return {}
         angle = log.outputs[_ANGLE]
-        outputs.pop(_ANGLE, None)  # what drives is not compared
-        ratio = next((name for name in RATIOS if name in {*set_values, *sought}), "")
+        outputs.pop(_ANGLE, None)  # an input is not compared
+        ratio = next((name for name in RATIOS if name in {*set_values, *fitted_names}), "")
         if ratio and _DEMAND in fmu.names("input"):
             inputs[_DEMAND] = replace(angle, name=_DEMAND)
             notes.append(f"'{_DEMAND}' is the measured {_ANGLE}, whatever {ratio} is.")
-            return _followed(_DEMAND, frequency, notes)
-        inputs[_STEERING] = replace(angle, name=_STEERING, unit="1", values=angle.values / largest)
-        notes.append(f"'{_STEERING}' is the measured {_ANGLE} over {_ANGLE_MAX} = {largest:.4g} rad.")
-    elif road is not None:
+            return _followed_input(_DEMAND, frequency, notes)
+        inputs[_STEERING] = replace(angle, name=_STEERING, unit="1", values=angle.values / full_lock)
+        notes.append(f"'{_STEERING}' is the measured {_ANGLE} over {_ANGLE_MAX} = {full_lock:.4g} rad.")
+    elif wheel_angle is not None:
         for name in ANGLES:
             outputs.pop(name, None)
-        inputs[_STEERING] = steering_for(FmuSource.of(fmu), set_values, road)
-        notes.append(f"'{_STEERING}' is that at which the standing car turns its wheels as measured ({road.source}).")
+        inputs[_STEERING] = steering_at_angle(FmuSource.of(fmu), set_values, wheel_angle)
+        notes.append(
+            f"'{_STEERING}' is that at which the standing car turns its wheels as measured ({wheel_angle.source})."
+        )
     else:
         return {}
-    return _followed(_STEERING, frequency, notes)
+    return _followed_input(_STEERING, frequency, notes)
 
 
-def _followed(name: str, frequency: float | None, notes: list[str]) -> dict[str, float]:
+def _followed_input(name: str, frequency: float | None, notes: list[str]) -> dict[str, float]:
     if not frequency:
         return {}
     notes.append(
@@ -307,27 +328,27 @@ def _followed(name: str, frequency: float | None, notes: list[str]) -> dict[str,
     return {name: frequency}
 
 
-def _shifted(signals: Mapping[str, Signal], options: argparse.Namespace) -> dict[str, Signal]:
+def _cut_to_options(signals: Mapping[str, Signal], options: argparse.Namespace) -> dict[str, Signal]:
     begin = options.begin or 0.0
     end = math.inf if options.end is None else options.end
     return cut(signals, begin, end)
 
 
 def cut(signals: Mapping[str, Signal], begin: float, end: float) -> dict[str, Signal]:
-    """Signals between two times, from time 0 on."""
-    sections = {n: s.between(begin, end) for n, s in signals.items()}
-    return {n: replace(s, time=s.time - begin) for n, s in sections.items()}
+    """Signals between two times, shifted to begin at 0."""
+    cut_signals = {n: s.between(begin, end) for n, s in signals.items()}
+    return {n: replace(s, time=s.time - begin) for n, s in cut_signals.items()}
 
 
-def _window(
+def _cut_inputs_and_outputs(
     inputs: dict[str, Signal], outputs: dict[str, Signal], options: argparse.Namespace
 ) -> tuple[dict[str, Signal], dict[str, Signal], float]:
-    """Signals between --from and --to, from time 0 on, and where the inputs end."""
+    """Inputs and outputs between --from and --to, shifted to begin at 0, and their last common time, s."""
     last = max(float(s.time[-1]) for s in (inputs or outputs).values())
     for name, value in (("--from", options.begin), ("--to", options.end)):
         if value is not None and not 0.0 <= value <= last:
             raise HostError(f"{name} is {value:g} s; the log's inputs lie between 0 and {last:.6g} s.")
-    inputs, outputs = _shifted(inputs, options), _shifted(outputs, options)
+    inputs, outputs = _cut_to_options(inputs, options), _cut_to_options(outputs, options)
     for signal in (*inputs.values(), *outputs.values()):
         if len(signal.time) < FEWEST_SAMPLES:
             raise HostError(

@@ -1,4 +1,4 @@
-"""Results of windows of a log: deviations of each, which have departed, and deviations by speed and acceleration."""
+"""Results of windows of a log: deviations of each, departed windows, and deviations by speed and acceleration."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,8 +13,8 @@ from hosts.compare.segments import PEDALS, Segment
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
-_FULL = 0.999  # of a pedal
-_LEAST = 20  # samples of a bin that is shown
+_FULL_PEDAL = 0.999
+_FEWEST_SAMPLES = 20  # of a bin
 _BINS: Mapping[str, tuple[str, float]] = {"speed": ("m/s", 10.0), "lateral acceleration": ("m/s2", 2.0)}
 
 
@@ -26,9 +26,9 @@ class Window:
     end: float
     """`begin`, `end`: in the log, s."""
     rms: dict[str, float]
-    """Of the deviation of each signal, in its unit."""
+    """Root mean square deviation of each signal, in its unit."""
     departed: str
-    """The signal whose deviation exceeds the range of what was measured in all windows; empty: none."""
+    """Signal whose deviation exceeds the range of its measured values in all windows; empty: none."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Bin:
     signal: str
     quantity: str
     unit: str
-    """`quantity`, `unit`: that the deviations are sorted by, and its unit."""
+    """`quantity`, `unit`: of the bounds `low` and `high`."""
     low: float
     high: float
     samples: int
@@ -51,29 +51,29 @@ def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]
     results = []
     ranges = {n: float(np.ptp(s.measured.values)) for n, s in comparison.signals.items()}
     for segment in segments:
-        sizes, departed = {}, ""
+        rms_by_signal, departed = {}, ""
         for name, s in comparison.signals.items():
-            measured = s.measured.between(segment.place, segment.place + segment.end)
+            measured = s.measured.between(segment.offset, segment.offset + segment.length)
             error = s.simulated(measured.time) - measured.values
-            sizes[name] = rms(error)
+            rms_by_signal[name] = rms(error)
             if not np.max(np.abs(error)) <= ranges[name]:
                 departed = departed or name
-        results.append(Window(segment.begin, segment.begin + segment.end, sizes, departed))
+        results.append(Window(segment.begin, segment.begin + segment.length, rms_by_signal, departed))
     return results
 
 
 def window_text(windows: Sequence[Window]) -> str:
-    """How many windows there are, and which have departed, in a sentence."""
+    """A sentence on the number of windows and on those that have departed."""
     departed = [w for w in windows if w.departed]
     if not departed:
         return f"{len(windows)} windows; none has departed."
-    which = ", ".join(f"{w.begin:g} s ({w.departed})" for w in departed)
+    windows_text = ", ".join(f"{w.begin:g} s ({w.departed})" for w in departed)
     count = f"{len(windows)} windows; {len(departed)} departed"
-    return f"{count}, by more than the range of what was measured: those from {which}."
+    return f"{count}, by more than the range of what was measured: those from {windows_text}."
 
 
 def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
-    """Measured speed, and size of the lateral acceleration: as measured, else yaw rate times speed."""
+    """Measured speed and absolute value of the lateral acceleration: yaw rate times speed, else as measured."""
     speed = next((signals[n] for n in ("speed", "chassis.vx") if n in signals), None)
     results = {} if speed is None else {"speed": speed}
     rate, ay = signals.get("chassis.wz"), signals.get("chassis.ay")
@@ -86,7 +86,7 @@ def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
 
 
 def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
-    """Deviations by speed and by lateral acceleration. `scales`: of `scales_of`, at the places of what is compared."""
+    """Deviations by speed and by lateral acceleration. `scales`: of `scales_of`, on the time axis of the comparison."""
     results = []
     for name, s in comparison.signals.items():
         error = s.simulated(s.measured.time) - s.measured.values
@@ -95,31 +95,29 @@ def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
             number = np.floor(np.interp(s.measured.time, scale.time, scale.values) / width)
             for k in np.unique(number):
                 e = error[number == k]
-                if len(e) >= _LEAST:
+                if len(e) >= _FEWEST_SAMPLES:
                     low = float(k * width)
                     results.append(Bin(name, quantity, unit, low, low + width, len(e), rms(e), float(np.mean(e))))
     return results
 
 
-def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
-    """How well a driver has held the speed, how much of the time he could not, and by which forces, in a sentence; none
-    where no driver did.
-    """
-    demands = [(s.place + s.speed.time, s.speed.values) for s in segments if s.speed is not None]
-    if not demands or "speed" not in result:
+def held_speed_text(result: Result, segments: Sequence[Segment]) -> list[str]:
+    """A sentence on the accuracy of a held speed, the limits of the pedals and the forces; none without a driver."""
+    references = [(s.offset + s.speed.time, s.speed.values) for s in segments if s.speed is not None]
+    if not references or "speed" not in result:
         return []
-    time, values = (np.concatenate(parts) for parts in zip(*demands, strict=True))
+    time, values = (np.concatenate(parts) for parts in zip(*references, strict=True))
     error = np.interp(time, result.time, result["speed"]) - values
     text = f"The driver held the speed within {rms(error):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
     pedals = np.max([result[n] for n in PEDALS if n in result], axis=0)
-    full = np.interp(time, result.time, pedals) > _FULL
-    if full.any() and not full.all():
-        elsewhere = f"{rms(error[~full]):.2g} m/s rms elsewhere"
-        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {elsewhere}"
-    if (slid := _sliding(result)).any():
-        eased = np.mean(np.interp(time, result.time, slid))
-        text += f", eased the throttle over a sliding axle for {100.0 * eased:.2g} % of the time"
-    forces = [_axle(result, axle) for axle in "FR"]
+    at_limit = np.interp(time, result.time, pedals) > _FULL_PEDAL
+    if at_limit.any() and not at_limit.all():
+        elsewhere = f"{rms(error[~at_limit]):.2g} m/s rms elsewhere"
+        text += f", a pedal at its end for {100.0 * np.mean(at_limit):.0f} % of the time and {elsewhere}"
+    if (sliding := _sliding(result)).any():
+        share = np.mean(np.interp(time, result.time, sliding))
+        text += f", eased the throttle over a sliding axle for {100.0 * share:.2g} % of the time"
+    forces = [_axle_force(result, axle) for axle in "FR"]
     if any(f is None for f in forces):
         return [f"{text}."]
     front, rear = (rms(f) for f in forces if f is not None)
@@ -127,7 +125,7 @@ def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
 
 
 def _sliding(result: Result) -> NDArray[np.bool_]:
-    """Where both wheels of an axle slip by more than a driver holds the speed against."""
+    """Rows in which both wheels of an axle exceed the slip at which a driver eases the throttle, shape (n,)."""
     slips = [[f"wheel_{axle}{side}.slip" for side in "LR"] for axle in "FR"]
     smaller_slips = [
         np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result
@@ -139,6 +137,6 @@ def _sliding(result: Result) -> NDArray[np.bool_]:
     )
 
 
-def _axle(result: Result, axle: str) -> NDArray[np.float64] | None:
+def _axle_force(result: Result, axle: str) -> NDArray[np.float64] | None:
     names = [f"wheel_{axle}{side}.Fx" for side in "LR"]
     return sum((result[n] for n in names), np.zeros(len(result.time))) if all(n in result for n in names) else None

@@ -13,25 +13,25 @@ from ali3.errors import UserError
 from ali3.message_text import shortened
 from ali3.reading import read_bytes
 from hosts.common.errors import HostError
-from hosts.experiment.cluster_runs import take_back
-from hosts.experiment.cluster_worker import ExperimentPlugin, UnpackedFmu, why_wrong
+from hosts.experiment.cluster_runs import remove_from_workers
+from hosts.experiment.cluster_worker import ExperimentPlugin, UnpackedFmu, worker_fault
 
 _PATIENCE = 20.0  # s for an answer
 _ENCRYPTED = ("tls://", "wss://")
 
 
 def client_of(address: str) -> Client:
-    """A client of the scheduler at an address; `HostError` where nobody answers, or certificates do not fit."""
+    """A client of the scheduler at an address. Raises `HostError`: no scheduler answers, or certificates are wrong."""
     _check_encryption(address)
     try:
         return Client(address, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
-        words = " ".join(str(error).split())
-        raise HostError(f"No scheduler of Dask answers at {address}: {words[:200]}") from None
+        message = " ".join(str(error).split())
+        raise HostError(f"No scheduler of Dask answers at {address}: {message[:200]}") from None
 
 
 def _check_encryption(address: str) -> None:
-    """Refuse an address that does not go with the certificates of Dask's configuration; say where there are none."""
+    """Raise `HostError` if an address does not fit the certificates of Dask's configuration; warn where it has none."""
     settings = Security()
     if address.startswith(_ENCRYPTED):
         try:
@@ -58,9 +58,9 @@ def _check_encryption(address: str) -> None:
 
 @contextmanager
 def connected(scheduler: str) -> Iterator[Client]:
-    """A client of a scheduler, whose certificates are those of the configuration of Dask.
+    """A client of a scheduler, with the certificates of the configuration of Dask, until the end of the block.
 
-    `scheduler`: its address. Where traffic is not secured, that is told. Raises `HostError`: nobody answers there.
+    `scheduler`: its address. Warns if the traffic is not encrypted. Raises `HostError`: no scheduler answers.
     """
     with _without_logs(), client_of(scheduler) as client:
         yield client
@@ -68,8 +68,8 @@ def connected(scheduler: str) -> Iterator[Client]:
 
 @contextmanager
 def _without_logs() -> Iterator[None]:
-    """Without the tracebacks that Dask and its event loop log where a process has gone, which a sentence reports."""
-    before = logging.root.manager.disable
+    """Suppress tracebacks that Dask and its event loop log for ended processes, which a sentence reports."""
+    disabled_level = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
     try:
         yield
@@ -77,33 +77,35 @@ def _without_logs() -> Iterator[None]:
         logging.getLogger("asyncio").disabled = True  # of tasks that end after the block
         raise
     finally:
-        logging.disable(before)
+        logging.disable(disabled_level)
 
 
-def bring(client: Client, brought: UnpackedFmu, fmu: Path) -> None:
-    """Give an experiment to all workers, also those to come, and check that they would make the same runs.
+def send_experiment(client: Client, unpacked_fmu: UnpackedFmu, fmu: Path) -> None:
+    """Send an experiment to all present and future workers, and check that they would make the same runs.
 
-    Raises `HostError`: a worker has another version of ALi3, or cannot load it.
+    Raises `HostError`: a worker has another version of ALi3, or cannot load the experiment.
     """
     try:
-        _bring(client, ExperimentPlugin(brought, read_bytes(fmu, LARGEST_ARCHIVE, HostError)), brought.key)
+        _register_and_check(
+            client, ExperimentPlugin(unpacked_fmu, read_bytes(fmu, LARGEST_ARCHIVE, HostError)), unpacked_fmu.key
+        )
     except BaseException:
-        take_back(client, brought)
+        remove_from_workers(client, unpacked_fmu)
         raise
 
 
-def _bring(client: Client, plugin: ExperimentPlugin, key: str) -> None:
+def _register_and_check(client: Client, plugin: ExperimentPlugin, key: str) -> None:
     try:
         client.register_plugin(plugin)
-        answers = client.run(why_wrong, key)
+        answers = client.run(worker_fault, key)
     except Exception as error:
-        words = f"{type(error).__name__}: {(str(error).strip().splitlines() or ['no words'])[-1]}"
+        message = f"{type(error).__name__}: {(str(error).strip().splitlines() or ['no words'])[-1]}"
         if isinstance(error, (OSError, KilledWorker)):
-            raise HostError(f"A worker has ended or was cut off before it had what is run ({words}).") from None
+            raise HostError(f"A worker has ended or was cut off before it had what is run ({message}).") from None
         if isinstance(error, UserError):
             raise HostError(f"A worker cannot take what is run: {error}") from None
         raise HostError(
-            f"A worker cannot take what is run ({words}); it needs ALi3 of this version with its extra: "
+            f"A worker cannot take what is run ({message}); it needs ALi3 of this version with its extra: "
             'python -m pip install "ali3[study]".'
         ) from None
     for address, answer in answers.items():

@@ -1,4 +1,4 @@
-"""Runs on workers of Dask, in chunks that grow to seconds of work."""
+"""Runs on workers of Dask, in chunks of about two seconds."""
 
 import queue
 import time as clock
@@ -15,98 +15,96 @@ from ali3.isolated_processes import Lost
 from hosts.common.closable import Closable
 from hosts.experiment.cluster_worker import UnpackedFmu, WrongWorkerError, run_chunk
 
-WORK = 2.0  # s of a chunk: Dask takes some milliseconds for a task
-_MOST = 5000  # runs of a chunk
+WORK = 2.0  # s of a chunk: the overhead of Dask is some milliseconds
+_MOST_RUNS = 5000  # of a chunk
 _SMOOTHING = 0.3
-_AHEAD = 2  # chunks that are sent to each worker before the first is done
-_LOOK = 0.5  # s between looks at the scheduler
-_LOST = 10.0  # s without a scheduler
+_CHUNKS_PER_WORKER = 2  # sent to each worker at a time
+_POLL_INTERVAL = 0.5  # s between checks of the scheduler
+_SCHEDULER_TIMEOUT = 10.0  # s
 
 T = TypeVar("T")
 R = TypeVar("R")
 _Chunk: TypeAlias = list[tuple[int, T]]
 """Tasks with their numbers."""
-_Tried: TypeAlias = int | None
-"""How many workers have ended with a chunk that is sent once more; None: it is sent for the first time."""
-_LOST_WITH_WORKERS = (
+_KilledWorkers: TypeAlias = int | None
+"""Number of workers that ended with a chunk that is sent again; None: it is sent for the first time."""
+_LOST_MESSAGE = (
     "was lost with its worker {} times, the last ones with no other run beside it: it may need more memory than a "
     "worker has (--memory-limit and --nthreads of dask worker); --again repeats it"
 )
 
 
 class SchedulerLostError(Exception):
-    """The scheduler has gone."""
+    """The scheduler does not answer."""
 
 
 class ChunkSize:
-    """How many runs make a chunk, from the time they take.
+    """The number of runs of a chunk, from the time of a run.
 
-    `seconds`: of a run, as far as is known; `most`: runs of a chunk, by the memory their results need.
+    `seconds`: estimated time of a run; `most`: largest number of runs, by the memory of their results.
     """
 
-    def __init__(self, seconds: float, workers: int, most: int = _MOST) -> None:
-        self._seconds, self.workers, self._most = max(seconds, 1e-6), max(1, workers), max(1, min(most, _MOST))
+    def __init__(self, seconds: float, workers: int, most: int = _MOST_RUNS) -> None:
+        self._seconds, self.workers, self._most = max(seconds, 1e-6), max(1, workers), max(1, min(most, _MOST_RUNS))
 
     def learn(self, runs: int, seconds: float) -> None:
-        """Take the time of a chunk into account."""
+        """Update the time of a run with the time of a chunk, s."""
         if runs:
             self._seconds += _SMOOTHING * (max(seconds / runs, 1e-6) - self._seconds)
 
-    def size(self, left: int) -> int:
-        """Of the next chunk where so many runs are left; smaller at the end, so that workers end together."""
-        return max(1, min(round(WORK / self._seconds), self._most, -(-left // (2 * self.workers))))
+    def size(self, runs_left: int) -> int:
+        """Runs of the next chunk; fewer when few runs are left, so that all workers end at about the same time."""
+        return max(1, min(round(WORK / self._seconds), self._most, -(-runs_left // (2 * self.workers))))
 
 
-def take_back(client: Client, brought: UnpackedFmu) -> None:
-    """Take from all workers what they were given; where the scheduler has gone, nothing."""
-    with suppress(Exception):  # of many kinds, where processes were killed
+def remove_from_workers(client: Client, unpacked_fmu: UnpackedFmu) -> None:
+    """Remove an experiment from all workers, if the scheduler answers."""
+    with suppress(Exception):  # Dask raises exceptions of many types for killed processes
         if client.status == "running":
-            client.unregister_worker_plugin(brought.name)
+            client.unregister_worker_plugin(unpacked_fmu.name)
 
 
 class ClusterRuns(Closable, Generic[T, R]):
-    """Makes runs on a cluster that was given them, see `hosts.experiment.cluster.bring`.
+    """Makes runs on a cluster whose workers have the experiment, see `hosts.experiment.cluster.send_experiment`.
 
-    `left`: runs in all; `size`: of chunks.
+    `runs`: their number; `size`: of chunks; `chunks`: number of chunks that were sent.
     """
 
-    def __init__(self, client: Client, brought: UnpackedFmu, left: int, size: ChunkSize) -> None:
-        self._client, self._brought, self._size, self._unsent = client, brought, size, left
-        self._flying: dict[Future[Any], tuple[_Chunk[T], _Tried]] = {}
-        self._arrived: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
-        self._suspects: deque[tuple[_Chunk[T], _Tried]] = deque()
+    def __init__(self, client: Client, unpacked_fmu: UnpackedFmu, runs: int, size: ChunkSize) -> None:
+        self._client, self._unpacked_fmu, self._size, self._unsent = client, unpacked_fmu, size, runs
+        self._pending: dict[Future[Any], tuple[_Chunk[T], _KilledWorkers]] = {}
+        self._completed: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
+        self._suspects: deque[tuple[_Chunk[T], _KilledWorkers]] = deque()
         self._connected = clock.monotonic()
         self.chunks = 0
-        """That were sent."""
 
     @property
     def left(self) -> int:
-        """Processes that FMUs had started: workers do not report them."""
+        """0: workers do not report the processes that FMUs had started; see `Runner.left`."""
         return 0
 
     def close(self) -> None:
-        """Take back what is in hand, and from a cluster that stays what its workers were given."""
-        for future in list(self._flying):
+        """Cancel the pending chunks, and remove the experiment from the workers."""
+        for future in list(self._pending):
             future.cancel(msg="the experiment ends")
-        self._flying.clear()
-        take_back(self._client, self._brought)
+        self._pending.clear()
+        remove_from_workers(self._client, self._unpacked_fmu)
 
     def results(
         self, tasks: Iterable[T], told: Callable[[int, Any], None] = lambda number, word: None
     ) -> Generator[tuple[int, R | Lost]]:
-        """Make runs; give each result with the number of its task when its chunk is there; see `Pool.results`.
+        """Make runs; yield each result with the number of its task when its chunk is complete; see `Pool.results`.
 
-        Raises `SchedulerLostError`: the scheduler is lost; `WrongWorkerError`: a worker that came later is of another
-        version.
+        Raises `SchedulerLostError`: the scheduler does not answer; `WrongWorkerError`: a worker has another version.
         """
         waiting = zip(count(), tasks)
-        ended = False
+        is_exhausted = False
         while True:
-            while not (ended or self._suspects) and len(self._flying) < _AHEAD * self._size.workers:
-                ended = not self._send_next(waiting)
-            if self._suspects and not self._flying:  # alone, so that no other run is to blame
+            while not (is_exhausted or self._suspects) and len(self._pending) < _CHUNKS_PER_WORKER * self._size.workers:
+                is_exhausted = not self._send_next(waiting)
+            if self._suspects and not self._pending:  # alone, so that no other run can be the cause
                 self._send(*self._suspects.popleft())
-            if not self._flying:
+            if not self._pending:
                 break
             yield from self._collect()
 
@@ -117,39 +115,39 @@ class ClusterRuns(Closable, Generic[T, R]):
             self._send(chunk, None)
         return bool(chunk)
 
-    def _send(self, chunk: _Chunk[T], tried: _Tried) -> None:
+    def _send(self, chunk: _Chunk[T], killed_workers: _KilledWorkers) -> None:
         self.chunks += 1
-        future = self._client.submit(run_chunk, self._brought.key, [task for _, task in chunk], pure=False)
-        self._flying[future] = chunk, tried
-        future.add_done_callback(self._arrived.put)
+        future = self._client.submit(run_chunk, self._unpacked_fmu.key, [task for _, task in chunk], pure=False)
+        self._pending[future] = chunk, killed_workers
+        future.add_done_callback(self._completed.put)
 
     def _collect(self) -> Generator[tuple[int, R | Lost]]:
-        """Collect results, or check whether the scheduler still answers."""
+        """Yield the results of a completed chunk, or check the scheduler if there is none."""
         try:
-            future = self._arrived.get(timeout=_LOOK)
+            future = self._completed.get(timeout=_POLL_INTERVAL)
         except queue.Empty:
-            self._look_at_scheduler()
+            self._check_scheduler()
             return
-        if future not in self._flying:
+        if future not in self._pending:
             return
-        chunk, kills = self._flying.pop(future)
+        chunk, earlier = self._pending.pop(future)
         results: list[R | Lost] = []
         try:
             seconds, results = future.result()
         except KilledWorker as error:
-            killed = (kills or 0) + error.allowed_failures + 1
-            if kills is None:
+            killed = (earlier or 0) + error.allowed_failures + 1
+            if earlier is None:
                 self._suspects.extend(([one], killed) for one in chunk)
             else:
-                results = [Lost(_LOST_WITH_WORKERS.format(killed))]
+                results = [Lost(_LOST_MESSAGE.format(killed))]
         except WrongWorkerError:
             raise
         except Exception as error:
-            # of a worker an error is the chunk's, of whatever kind
+            # Any error on a worker is one of the chunk.
             if isinstance(error, (CancelledError, OSError)) and future.status != "error":
-                self._flying[future] = chunk, kills
+                self._pending[future] = chunk, earlier
                 raise SchedulerLostError from error
-            if kills is None:
+            if earlier is None:
                 self._suspects.append((chunk, 0))
             else:
                 results = [Lost(f"has failed on its worker: {type(error).__name__}: {error}") for _ in chunk]
@@ -158,10 +156,10 @@ class ClusterRuns(Closable, Generic[T, R]):
         for (number, _), result in zip(chunk, results, strict=False):
             yield number, result
 
-    def _look_at_scheduler(self) -> None:
+    def _check_scheduler(self) -> None:
         now = clock.monotonic()
         if self._client.status == "running":
             self._connected = now
             self._size.workers = max(1, sum(self._client.nthreads().values()))
-        elif now - self._connected > _LOST:
+        elif now - self._connected > _SCHEDULER_TIMEOUT:
             raise SchedulerLostError

@@ -21,7 +21,7 @@ from hosts.experiment.pool import Pool
 
 
 class WrongWorkerError(HostError):
-    """A worker that would not make the runs as the others do."""
+    """A worker that would not make the same runs as the others."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class UnpackedFmu:
     program: str
     """Digest of the program that makes the runs."""
     experiment: Callable[[Path], Experiment[Any, Any]]
-    """Of the place of the FMU."""
+    """Function of the path of the FMU."""
 
     @property
     def name(self) -> str:
@@ -44,80 +44,80 @@ class UnpackedFmu:
 
 
 @dataclass
-class _Room:
+class _WorkerState:
     """The state of an experiment on a worker: the unpacked FMU and its processes."""
 
-    brought: UnpackedFmu
+    unpacked_fmu: UnpackedFmu
     folder: tempfile.TemporaryDirectory[str]
-    made: list[Pool[Any, Any]] = field(default_factory=list)
-    of_thread: threading.local = field(default_factory=threading.local)
+    pools: list[Pool[Any, Any]] = field(default_factory=list)
+    thread_data: threading.local = field(default_factory=threading.local)
 
     @property
     def fmu(self) -> Path:
-        return Path(self.folder.name, self.brought.fmu)
+        return Path(self.folder.name, self.unpacked_fmu.fmu)
 
     @property
     def pool(self) -> Pool[Any, Any]:
         """The process of this thread."""
-        if not hasattr(self.of_thread, "pool"):
-            self.of_thread.pool = self.brought.experiment(self.fmu).pool()
-            self.made.append(self.of_thread.pool)
-        result: Pool[Any, Any] = self.of_thread.pool
+        if not hasattr(self.thread_data, "pool"):
+            self.thread_data.pool = self.unpacked_fmu.experiment(self.fmu).pool()
+            self.pools.append(self.thread_data.pool)
+        result: Pool[Any, Any] = self.thread_data.pool
         return result
 
 
-_rooms: dict[str, _Room] = {}
+_states: dict[str, _WorkerState] = {}
 """By the key of the experiment and the address of the worker: workers can share a process."""
 
 
 class ExperimentPlugin(WorkerPlugin):
-    """Brings an experiment to each worker that there is and that comes."""
+    """Sends an experiment to each present and future worker."""
 
-    def __init__(self, brought: UnpackedFmu, fmu: bytes) -> None:
-        self.name = brought.name
-        self._brought, self._fmu = brought, fmu
+    def __init__(self, unpacked_fmu: UnpackedFmu, fmu: bytes) -> None:
+        self.name = unpacked_fmu.name
+        self._unpacked_fmu, self._fmu = unpacked_fmu, fmu
         self._confined = is_confined()
 
     def setup(self, worker: Worker) -> None:
-        """Unpack the FMU; its processes are confined as those of the program that asks."""
+        """Unpack the FMU; its processes are confined if those of the sending program are."""
         if self._confined:
             confine()
         folder = tempfile.TemporaryDirectory(prefix="runs-", dir=worker.local_directory, ignore_cleanup_errors=True)
-        room = _Room(self._brought, folder)
-        room.fmu.write_bytes(self._fmu)
-        _rooms[f"{self._brought.key} {worker.address}"] = room
+        state = _WorkerState(self._unpacked_fmu, folder)
+        state.fmu.write_bytes(self._fmu)
+        _states[f"{self._unpacked_fmu.key} {worker.address}"] = state
 
     def teardown(self, worker: Worker) -> None:
-        """Free what the worker keeps."""
-        room = _rooms.pop(f"{self._brought.key} {worker.address}", None)
-        if room is not None:
-            for pool in room.made:
+        """End the processes and remove the files of the experiment."""
+        state = _states.pop(f"{self._unpacked_fmu.key} {worker.address}", None)
+        if state is not None:
+            for pool in state.pools:
                 pool.close()
-            room.folder.cleanup()
+            state.folder.cleanup()
 
 
-def why_wrong(key: str, dask_worker: Worker) -> str:
-    """Why this worker would make other runs than the program that asks; empty: it would not."""
-    room = _rooms.get(f"{key} {dask_worker.address}")
-    if room is None:
+def worker_fault(key: str, dask_worker: Worker) -> str:
+    """Why this worker would not make the same runs as the sending program, as a clause; empty: it would."""
+    state = _states.get(f"{key} {dask_worker.address}")
+    if state is None:
         return "it has not been given what is run"
-    if program_digest() != room.brought.program:
+    if program_digest() != state.unpacked_fmu.program:
         return "it has another version of ALi3"
-    if hashlib.sha256(read_bytes(room.fmu, LARGEST_ARCHIVE, HostError)).hexdigest() != room.brought.sha256:
+    if hashlib.sha256(read_bytes(state.fmu, LARGEST_ARCHIVE, HostError)).hexdigest() != state.unpacked_fmu.sha256:
         return "its copy of the FMU is damaged"
     return ""
 
 
 def run_chunk(key: str, tasks: Sequence[Any]) -> tuple[float, list[Any]]:
-    """Make runs one after the other; how long it took, s, and their results. A task of Dask."""
+    """Make runs in sequence, as a task of Dask. Returns the elapsed time, s, and their results."""
     worker, begin = get_worker(), clock.perf_counter()
-    room_key = f"{key} {worker.address}"
-    room = _rooms.get(room_key)
-    if room is None or program_digest() != room.brought.program:
-        raise WrongWorkerError(f"The worker {worker.address} cannot be used: {why_wrong(key, worker)}.")
+    state_key = f"{key} {worker.address}"
+    state = _states.get(state_key)
+    if state is None or program_digest() != state.unpacked_fmu.program:
+        raise WrongWorkerError(f"The worker {worker.address} cannot be used: {worker_fault(key, worker)}.")
     results = []
     for task in tasks:
-        if room_key not in _rooms:  # taken back: nobody waits for the others
+        if state_key not in _states:  # the experiment was removed
             break
-        results.append(room.pool.run(task))
+        results.append(state.pool.run(task))
     return clock.perf_counter() - begin, results

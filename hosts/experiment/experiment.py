@@ -1,4 +1,4 @@
-"""Runs of an experiment, made by processes under one bar."""
+"""Runs of an experiment, made by processes and shown on one progress bar."""
 
 import math
 import sys
@@ -14,8 +14,8 @@ from hosts.common.closable import Closable
 from hosts.experiment.pool import Pool
 from hosts.fmu.own_process import PATIENCE
 
-_FORM = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
-_COUNTED = "{desc} {n:.0f} done, {elapsed} so far"
+_BAR = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
+_COUNTING_BAR = "{desc} {n:.0f} done, {elapsed} so far"
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -24,11 +24,11 @@ R_co = TypeVar("R_co", covariant=True)
 
 
 class Runner(Protocol[T_contra, R_co]):
-    """What makes runs: processes of this machine (`Pool`), or workers of Dask (`hosts.experiment.cluster`)."""
+    """The interface of what makes runs: processes of this machine (`Pool`), or workers of Dask (`ClusterRuns`)."""
 
     @property
     def left(self) -> int:
-        """Processes that those of the runs had started and that were ended with them."""
+        """Number of processes that the runs had started and that were ended with them."""
 
     def results(
         self, tasks: Iterable[T_contra], told: Callable[[int, Any], None]
@@ -44,24 +44,24 @@ class Experiment(Generic[T, R]):
     """The function that performs each task of a command, and its display."""
 
     name: str
-    """On the bar, before the first word of a run."""
+    """Text on the bar before the first report of a run."""
     work: Callable[[T, Tell], R]
     answer: Any
     """`work`, `answer`: see `Isolated`; the work reports how much of the task is done, in the unit of `size`."""
     label: Callable[[T], str]
-    """Of a task, on the bar."""
+    """Text on the bar for a task."""
     reads: Iterable[Path] = ()
     """Files that the runs read."""
     size: Callable[[T], float] = lambda task: 1.0
-    """By which a task counts among the others."""
+    """Weight of a task on the bar."""
     limit: float = PATIENCE
     in_all: bool = False
-    """`limit`, `in_all`: s after which a run is ended, see `Isolated.do`."""
+    """`limit`, `in_all`: time limit of a run, s, see `Isolated.do`."""
     finish: Callable[[T, R | None, Path], Any] = lambda task, result, store: result
     """See `Pool`."""
 
     def pool(self, jobs: int = 1) -> Pool[T, R]:
-        """So many processes of this machine that make the runs."""
+        """A pool of `jobs` processes of this machine."""
         return Pool(self.work, self.answer, jobs, self.reads, self.limit, self.finish, self.in_all)
 
     def results(
@@ -72,10 +72,10 @@ class Experiment(Generic[T, R]):
         whole: float | None = None,
         before: float = 0.0,
     ) -> Generator[tuple[int, T, R | Lost]]:
-        """Make runs under a bar; give each result with its task and the number of that, from 0, as soon as it is there.
+        """Make runs with a progress bar; yield the number of each task, from 0, the task and its result when complete.
 
         `runner`: is closed with the iteration; `told`: called with the number of a task and how much of it is done;
-        `whole`, `before`: sizes of all tasks, where `tasks` is not a sequence, and of those that are done already.
+        `whole`, `before`: total size of all tasks, needed where `tasks` is not a sequence, and of those already done.
         """
         if whole is None:
             tasks = list(tasks)
@@ -87,16 +87,16 @@ class Experiment(Generic[T, R]):
 
 
 class Progress(Closable, Generic[T, R]):
-    """The bar of an experiment, over one list of runs or over several of which each depends on results of the last.
+    """The progress bar of an experiment, for one or several sequences of runs.
 
-    `whole`: size of all tasks; None: nobody knows it, as of a search, and the bar counts; `before`: of those that are
-    done already.
+    `whole`: total size of all tasks; None: unknown, as of a search, and the bar counts; `before`: size of those already
+    done.
     """
 
     def __init__(self, experiment: Experiment[T, R], whole: float | None = None, before: float = 0.0) -> None:
         self._experiment = experiment
-        form = _COUNTED if whole is None else _FORM
-        self._bar = bar_of(total=whole, initial=before, bar_format=form, desc=experiment.name)
+        bar_format = _COUNTING_BAR if whole is None else _BAR
+        self._bar = bar_of(total=whole, initial=before, bar_format=bar_format, desc=experiment.name)
 
     def close(self) -> None:
         """End the bar."""
@@ -108,23 +108,23 @@ class Progress(Closable, Generic[T, R]):
         runner: Runner[T, R],
         told: Callable[[int, float], None] = lambda number, done: None,
     ) -> Generator[tuple[int, T, R | Lost]]:
-        """See `Experiment.results`; the runner stays."""
-        flying: dict[int, tuple[T, float]] = {}
+        """Make runs as `Experiment.results`, without closing the runner."""
+        pending: dict[int, tuple[T, float]] = {}
 
-        def sent() -> Generator[T]:
+        def numbered_tasks() -> Generator[T]:
             for number, task in enumerate(tasks):
-                flying[number] = task, 0.0
+                pending[number] = task, 0.0
                 yield task
 
-        def shown(number: int, part: float) -> float:
-            task, before = flying[number]
-            now = min(max(part, before), self._experiment.size(task))
-            flying[number] = task, now
+        def show(number: int, done: float) -> float:
+            task, shown = pending[number]
+            total = min(max(done, shown), self._experiment.size(task))
+            pending[number] = task, total
             self._bar.set_description_str(self._experiment.label(task), refresh=False)
-            increment = now - before
+            increment = total - shown
             self._bar.update(increment if self._bar.total is None else min(increment, self._bar.total - self._bar.n))
-            return now
+            return total
 
-        for number, result in runner.results(sent(), lambda number, part: told(number, shown(number, part))):
-            shown(number, math.inf)
-            yield number, flying.pop(number)[0], result
+        for number, result in runner.results(numbered_tasks(), lambda number, done: told(number, show(number, done))):
+            show(number, math.inf)
+            yield number, pending.pop(number)[0], result

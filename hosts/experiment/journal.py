@@ -1,4 +1,4 @@
-"""A journal file of results, written as each run ends, so that a kill loses only the runs in progress."""
+"""A journal file of results, written as each run ends, so that only running runs are lost by a kill."""
 
 from contextlib import suppress
 from io import BytesIO
@@ -11,16 +11,15 @@ from ali3.frames import FrameError, read_frame, write_frame
 from ali3.reading import read_bytes
 from hosts.common.closable import Closable
 
-_MOST = 8_000_000_000  # bytes
+_LARGEST_FILE = 8_000_000_000  # bytes
 
 R = TypeVar("R")
 
 
 class Journal(Closable, Generic[R]):
-    """A file of results, each with its key; of several with the same key the last counts.
+    """A file of results with keys; of several results with one key the last is valid.
 
-    `kind`: type of the results, which is one that passes between processes (`ali3.frames`). One program at a time
-    writes to a journal.
+    `kind`: type of the results, one that `ali3.frames` can write. One program at a time writes to a journal.
     """
 
     def __init__(self, file: Path, kind: Any) -> None:
@@ -34,10 +33,10 @@ class Journal(Closable, Generic[R]):
             self._stream = None
 
     def read(self) -> dict[str, R]:
-        """All results by their keys. What is cut or damaged, and what comes after it, is left out and goes."""
+        """Read all results by their keys. Results from the first damaged one on are removed from the file."""
         if not self._file.is_file():
             return {}
-        stream = BytesIO(read_bytes(self._file, _MOST))
+        stream = BytesIO(read_bytes(self._file, _LARGEST_FILE))
         results: dict[str, R] = {}
         end = count = 0
         with suppress(EOFError, FrameError):
@@ -62,6 +61,6 @@ class Journal(Closable, Generic[R]):
             raise FileError(f"{self._file} cannot be written: {reason(error)}.") from None
 
     def clear(self) -> None:
-        """Forget all results."""
+        """Remove all results."""
         self.close()
         self._file.unlink(missing_ok=True)

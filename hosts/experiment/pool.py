@@ -1,4 +1,4 @@
-"""Worker pools of this machine: processes that make runs and stay for the next ones."""
+"""Pools of worker processes of this machine."""
 
 import queue
 from collections.abc import Callable, Generator, Iterable
@@ -12,20 +12,20 @@ from ali3.isolated_processes import Isolated, Lost, Tell
 from hosts.common.closable import Closable
 from hosts.fmu.own_process import PATIENCE
 
-_LOOK = 0.5  # s after which Ctrl-C is noticed where nothing arrives
-_AHEAD = 2  # runs that are prepared for each process before the first is done
-_ONE_THREAD = {"OMP_NUM_THREADS": "1"}  # the same numbers beside any number of other processes
+_POLL_INTERVAL = 0.5  # s, after which Ctrl-C is noticed
+_RUNS_PER_PROCESS = 2  # submitted at a time
+_ONE_THREAD = {"OMP_NUM_THREADS": "1"}  # results must not depend on the load of the machine
 
 T = TypeVar("T")
 R = TypeVar("R")
 
 
 class Pool(Closable, Generic[T, R]):
-    """Processes that make runs, each one at a time; a process that ends during a run is replaced.
+    """Processes that make one run at a time each; a process that ends during a run is replaced.
 
-    `work`, `answer`, `reads`: see `Isolated`; `jobs`: number of processes; `limit`, `in_all`: time limit of a run, and
-    `finish`: see `Isolated.do`, but `finish` gets the task first. An iteration that ends early, as by Ctrl-C or an
-    error, closes the pool.
+    `work`, `answer`, `reads`: see `Isolated`; `jobs`: number of processes; `limit`, `in_all`, `finish`: see
+    `Isolated.do`; the first argument of `finish` is the task. An iteration that ends early, as by Ctrl-C or an error,
+    closes the pool.
     """
 
     def __init__(
@@ -58,49 +58,52 @@ class Pool(Closable, Generic[T, R]):
 
     def run(self, task: T) -> R | Lost:
         """Make a run; all calls use the same process."""
-        return self._done(self._workers[0], task)
+        return self._run_on(self._workers[0], task)
 
     def results(
-        self, tasks: Iterable[T], told: Callable[[int, Any], None] = lambda number, word: None
+        self, tasks: Iterable[T], told: Callable[[int, Any], None] = lambda number, message: None
     ) -> Generator[tuple[int, R | Lost]]:
-        """Make runs; give each result with the number of its task, from 0, as soon as it is there.
+        """Make runs; yield the number of each task, from 0, and its result when it is complete.
 
-        `tasks`: is read as processes become free; `told`: called with the number of a task and what its work reports.
-        Raises `UserError`: the work of a task has raised one; no further task is begun.
+        `tasks`: is read when processes become free; `told`: called with the number of a task and a report of its work.
+        Raises `UserError`: the work of a task has raised it; no further task is started.
         """
         idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()
-        arrived: queue.SimpleQueue[tuple[int, Any]] = queue.SimpleQueue()
+        messages: queue.SimpleQueue[tuple[int, Any]] = queue.SimpleQueue()
         for worker in self._workers:
             idle.put(worker)
 
-        def one(number: int, task: T) -> R | Lost:
+        def run_on_idle(number: int, task: T) -> R | Lost:
             worker = idle.get()
             try:
-                return self._done(worker, task, lambda word: arrived.put((number, word)))
+                return self._run_on(worker, task, lambda message: messages.put((number, message)))
             finally:
                 idle.put(worker)
 
-        waiting, flying = enumerate(tasks), 0
+        numbered_tasks, pending = enumerate(tasks), 0
         with ThreadPoolExecutor(len(self._workers)) as threads:
             try:
                 while True:
-                    while flying < _AHEAD * len(self._workers) and (task := next(waiting, None)) is not None:
-                        flying += 1
-                        future = threads.submit(one, *task)
-                        future.add_done_callback(lambda future, number=task[0]: arrived.put((number, future)))  # type: ignore[misc]
-                    if not flying:
+                    while (
+                        pending < _RUNS_PER_PROCESS * len(self._workers)
+                        and (task := next(numbered_tasks, None)) is not None
+                    ):
+                        pending += 1
+                        future = threads.submit(run_on_idle, *task)
+                        future.add_done_callback(lambda future, number=task[0]: messages.put((number, future)))  # type: ignore[misc]
+                    if not pending:
                         return
                     with suppress(queue.Empty):
-                        number, word = arrived.get(timeout=_LOOK)
-                        if isinstance(word, Future):
-                            flying -= 1
-                            yield number, word.result()
+                        number, message = messages.get(timeout=_POLL_INTERVAL)
+                        if isinstance(message, Future):
+                            pending -= 1
+                            yield number, message.result()
                         else:
-                            told(number, word)
+                            told(number, message)
             except BaseException:
                 threads.shutdown(wait=False, cancel_futures=True)
                 self.close()
                 raise
 
-    def _done(self, worker: Isolated[T, R], task: T, tell: Tell = lambda word: None) -> R | Lost:
+    def _run_on(self, worker: Isolated[T, R], task: T, tell: Tell = lambda word: None) -> R | Lost:
         return worker.do(task, tell, self._limit, partial(self._finish, task), self._in_all)

@@ -1,4 +1,4 @@
-"""The page of an experiment: its facts, its sections with links to them, and its plots as SVG."""
+"""The page of an experiment: a head, sections with links to them, and plots as SVG."""
 
 from __future__ import annotations
 
@@ -29,24 +29,24 @@ class Section:
     title: str
     parts: Sequence[Content]
     name: str = ""
-    """To which links lead; by default its number."""
+    """Target of links; by default the number of the section."""
 
 
 class Plots:
-    """Drawings as SVG files of a folder; they stand in the page too."""
+    """Drawings of a page, which are also written as SVG files into a folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
     def add(self, drawing: Drawing, name: str) -> HtmlElement:
-        """Write a drawing, and give its place in the page."""
+        """Write a drawing. Returns its element in the page. `name`: of the file, without suffix."""
         stem = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[:80]
         drawing.write(make_folder(self.folder) / f"{stem}.svg")
         return picture(drawing)
 
 
-def page(title: str, facts: Iterable[HtmlElement], sections: Iterable[Section], foot: str = "") -> str:
-    """The whole file, which needs no other. `facts`: what stands before the sections; `foot`: words at its end."""
+def page(title: str, facts: Iterable[HtmlElement], sections: Iterable[Section], footer: str = "") -> str:
+    """The HTML of the page, which needs no other file. `facts`: elements before the sections."""
     named_sections = [(section.name or f"section-{k}", section) for k, section in enumerate(sections, start=1)]
     links = [element("li", element("a", section.title, href=f"#{name}")) for name, section in named_sections]
     body = [element("h1", title), *facts]
@@ -55,7 +55,9 @@ def page(title: str, facts: Iterable[HtmlElement], sections: Iterable[Section], 
     for name, section in named_sections:
         heading = element("h2", section.title)
         body.append(element("section", heading, *section.parts, id=name, aria_label=section.title))
-    return document(title, [*body, element("footer", *([element("p", foot)] if foot else []), paragraph(_made_by()))])
+    return document(
+        title, [*body, element("footer", *([element("p", footer)] if footer else []), paragraph(_provenance()))]
+    )
 
 
 def paragraph(text: str, kind: str = "") -> HtmlElement:
@@ -64,11 +66,11 @@ def paragraph(text: str, kind: str = "") -> HtmlElement:
 
 
 def commands_cell(lines: Sequence[str]) -> HtmlElement:
-    """A cell with commands to be copied."""
+    """A table cell with commands, a line each."""
     return element("td", *([element("code", line) for line in lines] or ["–"]), class_="commands")
 
 
-def _made_by() -> str:
+def _provenance() -> str:
     try:
         program = version("ali3")
     except PackageNotFoundError:

@@ -14,17 +14,17 @@ from hosts.common.program import program_digest
 def run_key(fmu: Path, *settings: object, files: Iterable[Path] = ()) -> str:
     """A hash of the content of an FMU, of the settings of a run (their `repr`), and of the program.
 
-    `files`: other files that a run reads, such as roads; missing ones count by their names in `settings` alone.
+    `files`: other files that a run reads, such as roads; missing ones are ignored.
     """
-    contents = [_file_hash(file, (state := file.stat()).st_size, state.st_mtime_ns) for file in _there(fmu, files)]
+    contents = [_file_hash(file, (state := file.stat()).st_size, state.st_mtime_ns) for file in _existing(fmu, files)]
     return hashlib.sha256(f"{contents} {settings!r} {program_digest()}".encode()).hexdigest()
 
 
-def _there(fmu: Path, files: Iterable[Path]) -> list[Path]:
+def _existing(fmu: Path, files: Iterable[Path]) -> list[Path]:
     return [fmu, *(file for file in files if is_file(file))]
 
 
 @cache
-def _file_hash(path: Path, size: int, changed: int) -> str:
-    """Once for all runs of an FMU; its size and the time of its last change, ns, show another file of its name."""
+def _file_hash(path: Path, size: int, modified: int) -> str:
+    """The hash of a file, computed once. `size`, `modified`: bytes and time in ns, which identify its content."""
     return hashlib.sha256(read_bytes(path, LARGEST_ARCHIVE, HostError)).hexdigest()

@@ -1,4 +1,4 @@
-"""Numbers that are read off a frequency response: bandwidths, resonance, equivalent time."""
+"""Measures of a frequency response: bandwidths, resonance, equivalent time."""
 
 import math
 from dataclasses import dataclass
@@ -11,47 +11,47 @@ from hosts.measures.frequency_response import FrequencyResponse
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """NaN where the response does not show it in its range."""
+    """Measures of a frequency response; NaN where they are not in its range."""
 
     low_gain: float
     """Gain at the lowest frequency, in units of output over input."""
     gain_bandwidth: float
-    """Where the gain has fallen to 1/sqrt(2) of it (-3 dB), Hz."""
+    """Frequency at which the gain is `low_gain` / sqrt(2) (-3 dB), Hz."""
     phase_bandwidth: float
-    """Where the output lags by 45 degrees more than a response without delay, Hz."""
+    """Frequency at which the phase lag is 45 degrees, Hz."""
     equivalent_time: float
-    """1 / (2 pi `phase_bandwidth`), s: time constant of the lag of first order with the same."""
+    """1 / (2 pi `phase_bandwidth`), s: time constant of the first-order lag with that phase bandwidth."""
     resonance: float
-    """Where the gain is largest, Hz; NaN if that is at an end of the range."""
+    """Frequency of the largest gain, Hz; NaN if that is at an end of the range."""
     resonance_ratio: float
-    """Gain there over `low_gain`."""
+    """Gain at the resonance over `low_gain`."""
 
 
 def bandwidth(response: FrequencyResponse) -> Bandwidth:
-    """Read the numbers off a response.
+    """Measures of a frequency response.
 
-    `response`: over a range that begins where the response is still that of the steady state.
+    `response`: its lowest frequency is low enough for the steady-state response.
 
     Notes
     -----
-    A response that turns the sign, as that of the sideslip angle or the roll angle may, counts its phase from the half
-    turn. The phase at the lowest frequency is not subtracted.
+    The phase of a response with a negative steady-state gain, as of the sideslip or the roll angle, is counted from a
+    half turn. The phase at the lowest frequency is not subtracted.
     """
     if len(response.frequency) < 3:
         return Bandwidth(*6 * (math.nan,))
     gain, f = response.gain, response.frequency
-    low = float(gain[0])
+    low_gain = float(gain[0])
     phase = response.phase
-    # whole half turns at the lowest frequency are a sign of the units, no delay
+    # Half turns at the lowest frequency are a negative gain, not a delay.
     phase = phase - math.pi * np.round(phase[0] / math.pi)
-    lag = crossing(f, phase, -math.pi / 4)
-    top = int(np.argmax(gain))
-    inside = 0 < top < len(f) - 1
+    phase_bandwidth = crossing(f, phase, -math.pi / 4)
+    peak = int(np.argmax(gain))
+    inside = 0 < peak < len(f) - 1
     return Bandwidth(
-        low,
-        crossing(f, gain, low / math.sqrt(2.0)),
-        lag,
-        1.0 / (2.0 * math.pi * lag),
-        float(f[top]) if inside else math.nan,
-        float(gain[top] / low) if inside else math.nan,
+        low_gain,
+        crossing(f, gain, low_gain / math.sqrt(2.0)),
+        phase_bandwidth,
+        1.0 / (2.0 * math.pi * phase_bandwidth),
+        float(f[peak]) if inside else math.nan,
+        float(gain[peak] / low_gain) if inside else math.nan,
     )

@@ -1,4 +1,4 @@
-"""Recorded signals on an even grid of time, and the phaseless low-pass of vehicle tests."""
+"""Resampling and level crossings of signals, and the phaseless low-pass filter of vehicle tests."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,22 +9,22 @@ from ali3.low_pass import phaseless_low_pass as phaseless_low_pass
 def resample(
     time: ArrayLike, values: ArrayLike, interval: float, first: float | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A signal at even times, linear in between.
+    """A signal at equally spaced times, by linear interpolation.
 
     Parameters
     ----------
     time : array_like, shape (n,)
-        s, increasing; need not be even.
+        s, increasing; need not be equally spaced.
     values : array_like, shape (n,)
     interval : float
-        Between the new samples, s; longer than that of the old ones it needs a low-pass before.
+        Between the new samples, s; one longer than that of the old samples needs a low-pass filter before.
     first : float, optional
         Time of the first new sample, s; by default that of the first old one.
 
     Returns
     -------
     time, values : ndarray of shape (m,)
-        From `first` to the last that is reached.
+        From `first` to the last within the signal.
 
     Raises
     ------
@@ -38,20 +38,20 @@ def resample(
         raise ValueError(f"The interval is {interval:g} s; it must be positive.")
     if not np.isfinite(x).all():
         raise ValueError(f"The signal is not finite at {t[~np.isfinite(x)][0]:g} s.")
-    # half a thousandth of an interval: the last sample must not be lost for rounding
+    # Half a thousandth of an interval, so that rounding errors do not remove the last sample.
     begin = t[0] if first is None else first
-    even = begin + interval * np.arange(int((t[-1] - begin) / interval + 5e-4) + 1)
-    return np.asarray(even, float), np.asarray(np.interp(even, t, x), float)
+    even_times = begin + interval * np.arange(int((t[-1] - begin) / interval + 5e-4) + 1)
+    return np.asarray(even_times, float), np.asarray(np.interp(even_times, t, x), float)
 
 
 def crossing(time: NDArray[np.float64], values: NDArray[np.float64], level: float, after: float = -np.inf) -> float:
-    """When a signal first passes a level, by linear interpolation.
+    """First time at which a signal crosses a level, s, by linear interpolation; NaN if it does not.
 
-    `time`, `values`: shape (n,); `after`: earlier passages do not count, s. Result: in s; NaN if it never does.
+    `time`, `values`: shape (n,); `after`: earlier crossings do not count, s.
     """
-    side = np.signbit(values - level)
-    passed = np.flatnonzero((side[1:] != side[:-1]) & (time[1:] > after))
-    for k in passed:
+    is_below = np.signbit(values - level)
+    candidates = np.flatnonzero((is_below[1:] != is_below[:-1]) & (time[1:] > after))
+    for k in candidates:
         a, b = values[k] - level, values[k + 1] - level
         t = float(time[k] - a * (time[k + 1] - time[k]) / (b - a))
         if t >= after:

@@ -1,4 +1,4 @@
-"""Frequency response of one signal to another, with its coherence, by spectra that are averaged over bands."""
+"""Frequency response of one signal to another, with its coherence, by spectra averaged over bands."""
 
 from dataclasses import dataclass
 
@@ -7,19 +7,19 @@ from numpy.typing import NDArray
 from scipy.signal import csd
 
 _RELATIVE_WIDTH = 0.03
-"""Half of the width of the band over which spectra are averaged, over its frequency; at least six lines."""
+"""Half width of the band over which spectra are averaged, over its frequency."""
 
 
 @dataclass(frozen=True)
 class FrequencyResponse:
-    """Response over frequency."""
+    """A frequency response."""
 
     frequency: NDArray[np.float64]
     """Shape (n,): Hz, increasing."""
     response: NDArray[np.complex128]
     """Shape (n,): output over input."""
     coherence: NDArray[np.float64]
-    """Shape (n,): part of the output's power that follows linearly from the input, 0 to 1."""
+    """Shape (n,): share of the power of the output that is linear in the input, 0 to 1."""
 
     @property
     def gain(self) -> NDArray[np.float64]:
@@ -30,11 +30,11 @@ class FrequencyResponse:
     def phase(self) -> NDArray[np.float64]:
         """Phase without jumps, rad; negative: the output lags."""
         phase = np.unwrap(np.angle(self.response))
-        # a response of the other sign begins near a half turn, whichever side of it the lag has put it on
+        # The phase of a negative gain begins near a half turn, on either side of it.
         return np.asarray(phase + (2.0 * np.pi if len(phase) and phase[0] < -0.5 * np.pi else 0.0))
 
     def phase_at(self, frequency: float) -> float:
-        """Phase at a frequency in Hz, rad, linear in between; NaN outside."""
+        """Phase at a frequency in Hz, rad, by linear interpolation; NaN outside of the range."""
         if not len(self.frequency):
             return float("nan")
         return float(np.interp(frequency, self.frequency, self.phase, left=np.nan, right=np.nan))
@@ -42,11 +42,11 @@ class FrequencyResponse:
 
 def frequency_response(
     excitation: NDArray[np.float64],
-    answer: NDArray[np.float64],
+    response_signal: NDArray[np.float64],
     interval: float,
     frequency: NDArray[np.float64],
 ) -> FrequencyResponse:
-    """Estimate the response of `answer` to `excitation` from one record that begins and ends at rest.
+    """Estimate the response of `response_signal` to `excitation` from one record that begins and ends at rest.
 
     Parameters
     ----------
@@ -65,13 +65,13 @@ def frequency_response(
 
     Notes
     -----
-    H1 estimator: averaged cross-spectrum over averaged auto-spectrum, so that noise of the output does not bias it. The
-    spectra are those of the whole record without a window, which is exact for a linear system at rest at both ends;
-    segments with windows would cut the answer off from its cause. A coherence that is well below 1 says that the output
-    has noise, or that the system is not linear.
+    H1 estimator: averaged cross-spectrum over averaged auto-spectrum of the input, which noise of the output does not
+    bias. The spectra are those of the whole record without a window, which is exact for a linear system at rest at both
+    ends; windowed segments would separate the response from its excitation. A coherence well below 1 shows noise of the
+    output, or a nonlinear system.
     """
     duration = len(excitation) * interval
-    if len(excitation) != len(answer) or duration * frequency[0] < 3.0:
+    if len(excitation) != len(response_signal) or duration * frequency[0] < 3.0:
         raise ValueError(
             f"A response at {frequency[0]:g} Hz needs a record of {3.0 / frequency[0]:.3g} s, not {duration:.3g} s."
         )
@@ -80,21 +80,22 @@ def frequency_response(
             f"Responses at {frequency[0]:g} to {frequency[-1]:g} Hz cannot be obtained from samples each {interval:g} "
             "s."
         )
-    # zeros behind the record make its lines closer than the bands are wide
+    # Zeros after the record make the spacing of lines smaller than the bands.
     padded = 4 * len(excitation)
 
     def spectrum(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.complexfloating]:
         return np.asarray(csd(x, y, fs=1.0 / interval, window="boxcar", nperseg=len(x), nfft=padded, detrend=False)[1])
 
     lines = np.fft.rfftfreq(padded, interval)
-    cross, power, other = spectrum(excitation, answer), spectrum(excitation, excitation), spectrum(answer, answer)
+    cross_power = spectrum(excitation, response_signal)
+    input_power, output_power = spectrum(excitation, excitation), spectrum(response_signal, response_signal)
     tiny = np.finfo(float).tiny
     response, coherence = np.empty(len(frequency), complex), np.empty(len(frequency))
     for k, f in enumerate(frequency):
         width = max(_RELATIVE_WIDTH * f, 3.0 / duration)
-        near = slice(*np.searchsorted(lines, (f - width, f + width)))
-        weight = 1.0 + np.cos(np.pi * (lines[near] - f) / width)
-        sxy, sxx, syy = (complex(weight @ x[near]) for x in (cross, power, other))
+        band = slice(*np.searchsorted(lines, (f - width, f + width)))
+        weights = 1.0 + np.cos(np.pi * (lines[band] - f) / width)
+        sxy, sxx, syy = (complex(weights @ x[band]) for x in (cross_power, input_power, output_power))
         response[k] = sxy / max(sxx.real, tiny)
         coherence[k] = min(abs(sxy) ** 2 / max(sxx.real * syy.real, tiny), 1.0)
     return FrequencyResponse(np.asarray(frequency, float), response, coherence)

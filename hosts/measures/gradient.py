@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-_FEWEST = 5
-_SPAN = 0.8
+_FEWEST_POINTS = 5
+_LEAST_SPAN = 0.8
 
 
 @dataclass(frozen=True)
@@ -27,19 +27,21 @@ NONE = Gradient(math.nan, math.nan, math.nan)
 
 
 def gradient(x: NDArray[np.float64], y: NDArray[np.float64], low: float, high: float) -> Gradient:
-    """Least squares over the points whose x lies in a range, all x weighing the same however dense the points are.
+    """Regression line through the points with x in a range, with equal weight of all parts of the range.
 
-    `x`, `y`: points, shape (n,); those that are not finite do not count; `low`, `high`: range of x. Result: `NONE`
-    where the points do not span most of the range.
+    `x`, `y`: shape (n,), points that are not finite are ignored; `low`, `high`: range of x. Returns `NONE` where the
+    points do not span most of the range.
     """
-    chosen = np.isfinite(x) & np.isfinite(y) & (x >= low) & (x <= high)
-    if chosen.sum() < _FEWEST or np.ptp(x[chosen]) < _SPAN * (high - low):
+    selected = np.isfinite(x) & np.isfinite(y) & (x >= low) & (x <= high)
+    if selected.sum() < _FEWEST_POINTS or np.ptp(x[selected]) < _LEAST_SPAN * (high - low):
         return NONE
-    # Where the speed rises evenly, points are far denser at low accelerations; means of equal parts of x are not.
-    edges = np.linspace(low, high, max(_FEWEST, min(30, int(chosen.sum()) // 4)) + 1)
-    at, mean = (np.asarray(stats.binned_statistic(x[chosen], v[chosen], "mean", edges).statistic) for v in (x, y))
-    finite = np.isfinite(at)
-    if finite.sum() < _FEWEST - 2:
+    # With a constant rise of the speed, points are denser at low accelerations; means over bins of x are not.
+    edges = np.linspace(low, high, max(_FEWEST_POINTS, min(30, int(selected.sum()) // 4)) + 1)
+    bin_x, bin_y = (
+        np.asarray(stats.binned_statistic(x[selected], v[selected], "mean", edges).statistic) for v in (x, y)
+    )
+    finite = np.isfinite(bin_x)
+    if finite.sum() < _FEWEST_POINTS - 2:
         return NONE
-    line = stats.linregress(at[finite].tolist(), mean[finite].tolist())
+    line = stats.linregress(bin_x[finite].tolist(), bin_y[finite].tolist())
     return Gradient(float(line.slope), float(line.intercept), float(line.stderr))

@@ -1,4 +1,4 @@
-"""Measures of a car that falls onto its wheels: contact, peak, time to settle, weight from momentum."""
+"""Measures of a car that falls onto its wheels: contact, rebound, settling time, weight from momentum."""
 
 import math
 
@@ -11,15 +11,18 @@ from hosts.measures.wheels import LIFTED
 def weight_from_momentum(time: NDArray[np.float64], load: NDArray[np.float64]) -> float:
     """Weight of a car that rests vertically at the first and at the last sample.
 
-    `time`, `load`: in s, sum of the normal forces of a level road in N, shape (n,). Result: in N. The momentum is zero
-    at both ends, so the impulse of the road is that of gravity: the mean load is the weight, whatever happens in
-    between and whatever the gravity.
+    `time`, `load`: in s, sum of the normal forces of a level road in N, shape (n,). Returns the weight, N.
+
+    Notes
+    -----
+    The momentum is zero at both ends, so that the impulses of the road and of gravity are equal: the mean load is the
+    weight.
     """
     return float(np.trapezoid(load, time) / (time[-1] - time[0]))
 
 
 def first_contact(time: NDArray[np.float64], load: NDArray[np.float64]) -> float:
-    """Time of the first sample with a load, s; NaN if there is none. The contact lies in the step before it."""
+    """Time of the first sample with a load, s; NaN if there is none. The contact occurs in the step before it."""
     touching = np.flatnonzero(load > LIFTED)
     return float(time[touching[0]]) if len(touching) else math.nan
 
@@ -30,10 +33,9 @@ def fall_time(height: float, gravity: float) -> float:
 
 
 def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final: float, band: float) -> float:
-    """When a signal enters a band around its final value for good.
+    """Time from which a signal stays within `final` ± `band`, s; NaN if the last sample is outside.
 
-    `time`, `values`: shape (n,); `final`, `band`: the band is `final` ± `band`. Result: in s, time of the first sample
-    after the last one outside; NaN if the last sample is outside.
+    `time`, `values`: shape (n,). The time is that of the first sample after the last one outside.
     """
     outside = np.flatnonzero(np.abs(values - final) > band)
     if not len(outside):
@@ -42,11 +44,7 @@ def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final:
 
 
 def rebound(height: NDArray[np.float64]) -> tuple[int, int]:
-    """Where a body that has touched the ground is lowest first and, after that, highest. `height`: in m, shape (n,).
-
-    Returns `lowest` and `highest`: samples; the lowest is the end of the first fall, the highest is that of all that
-    follow.
-    """
+    """Samples of the end of the first fall and of the largest height after it. `height`: in m, shape (n,)."""
     rising = np.flatnonzero(np.diff(height) > 0.0)
     lowest = int(rising[0]) if len(rising) else len(height) - 1
     return lowest, lowest + int(np.argmax(height[lowest:]))

@@ -26,21 +26,21 @@ from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 
 def _wheels(result: Result, quantity: str) -> NDArray[np.float64]:
-    """A quantity of the four wheels, shape (n, 4). Raises `HostError` where a wheel lacks it."""
+    """A quantity of the four wheels, shape (n, 4). Raises `HostError` where a wheel does not have it."""
     values = at_wheels(result, quantity)
     if values is None:
         raise HostError(f"The car does not provide wheel_{WHEELS[0]}.{quantity} and the like.")
     return values
 
 
-def _of_array(numpy: Callable[[Any], Any]) -> Callable[[Any], float]:
-    """A function of one array; NaN of an empty one."""
+def _array_function(numpy: Callable[[Any], Any]) -> Callable[[Any], float]:
+    """A function of an array that is NaN for an empty array."""
     return lambda values: float(numpy(values)) if np.size(values) else math.nan
 
 
-def _of_several(python: Callable[[Any], float], numpy: Callable[[Any], Any]) -> Callable[..., float]:
-    """The same, and of several numbers as Python has it."""
-    return lambda *values: float(python(values)) if len(values) > 1 else _of_array(numpy)(*values)
+def _array_or_numbers_function(python: Callable[[Any], float], numpy: Callable[[Any], Any]) -> Callable[..., float]:
+    """A function of an array as `_array_function`, or of several numbers as in Python."""
+    return lambda *values: float(python(values)) if len(values) > 1 else _array_function(numpy)(*values)
 
 
 LIBRARY: Mapping[str, Callable[..., Any]] = {
@@ -60,11 +60,11 @@ LIBRARY: Mapping[str, Callable[..., Any]] = {
     "join": ", ".join,
     "leading": lambda flags: int(np.cumprod(flags).sum()),
     "len": len,
-    "max": _of_several(max, np.max),
+    "max": _array_or_numbers_function(max, np.max),
     "maximum": np.maximum,
-    "mean": _of_array(np.mean),
-    "min": _of_several(min, np.min),
-    "range": _of_array(np.ptp),
+    "mean": _array_function(np.mean),
+    "min": _array_or_numbers_function(min, np.min),
+    "range": _array_function(np.ptp),
     "radians": math.radians,
     "round": round,
     "row_at": lambda time, t: min(int(np.searchsorted(time, t)), len(time) - 1),
@@ -95,4 +95,4 @@ LIBRARY: Mapping[str, Callable[..., Any]] = {
     "weighted": weighted,
     "wheels": _wheels,
 }
-"""Sizes, means and ranges of arrays of length 0 are NaN."""
+"""Functions by name; ``max``, ``mean``, ``min`` and ``range`` of an empty array are NaN."""

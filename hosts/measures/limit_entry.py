@@ -1,4 +1,4 @@
-"""A limit as a TOML file has it."""
+"""The entry of a limit in a TOML file."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, model_validator
 
 
 class LimitEntry(BaseModel):
-    """What a measure must keep; a list of two numbers means its least and its largest value."""
+    """Least and largest value of a measure; a list of two numbers stands for both."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
@@ -16,7 +16,7 @@ class LimitEntry(BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _pair(cls, entry: object) -> object:
+    def _as_table(cls, entry: object) -> object:
         if isinstance(entry, list) and len(entry) != 2:
             raise ValueError(f"it is a list of {len(entry)}; a list has the least and the largest value")
         if not isinstance(entry, (list, dict)):
@@ -24,7 +24,7 @@ class LimitEntry(BaseModel):
         return dict(zip(("min", "max"), entry, strict=True)) if isinstance(entry, list) else entry
 
     @model_validator(mode="after")
-    def _fits(self) -> LimitEntry:
+    def _check_order(self) -> LimitEntry:
         if self.min is None and self.max is None:
             raise ValueError("it needs min or max, or both")
         if self.min is not None and self.max is not None and self.min > self.max:

@@ -18,7 +18,7 @@ from hosts.measures.measure import Limit
 
 
 class _LimitsFile(BaseModel):
-    """Other tables are those of a study."""
+    """A file with a table ``[limits]``; other tables, as of a study file, are ignored."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
 
@@ -26,9 +26,9 @@ class _LimitsFile(BaseModel):
 
 
 def read_limits(file: Path) -> dict[str, LimitEntry]:
-    """The table ``[limits]`` of a file, which may be a study file.
+    """Read the table ``[limits]`` of a file, which may be a study file.
 
-    Raises `HostError`: there is none, or with the key, its value, and what would be right.
+    Raises `HostError`: there is no such table, or an entry is wrong, with the key, its value and a remedy.
     """
     record = read_toml(file, HostError)
     try:
@@ -38,18 +38,18 @@ def read_limits(file: Path) -> dict[str, LimitEntry]:
 
 
 def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Limit]:
-    """Limits by the columns of measures, in the units of these.
+    """Limits by the columns of measures, in the units of the measures.
 
-    `entries`: as the file has them; a name may leave out the test before it where only one measure ends so; `columns`:
-    units of all measures. Raises `HostError`: there is no such measure, or the unit is one of another quantity.
+    `entries`: of the file; a name may omit the prefix of its test if it is unique without; `columns`: units of all
+    measures. Raises `HostError`: there is no such measure, or the unit is one of another quantity.
     """
     results: dict[str, Limit] = {}
     for name, entry in entries.items():
-        where = f"{source}: limits.'{name}'"
-        column = column_of(name, columns, where)
+        label = f"{source}: limits.'{name}'"
+        column = column_of(name, columns, label)
         if column in results:
-            raise HostError(f"{where} and another limit are both of '{column}'; give one of them.")
-        factor = 1.0 if entry.unit is None else conversion(entry.unit, columns[column], f"{where}.unit")
+            raise HostError(f"{label} and another limit are both of '{column}'; give one of them.")
+        factor = 1.0 if entry.unit is None else conversion(entry.unit, columns[column], f"{label}.unit")
         low = -math.inf if entry.min is None else factor * entry.min
         high = math.inf if entry.max is None else factor * entry.max
         results[column] = Limit(source.name, low, high)
@@ -64,12 +64,12 @@ def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str],
     }
 
 
-def column_of(name: str, columns: Mapping[str, str], where: str) -> str:
-    """The column that a user means, by its whole name or without what stands before it; `HostError` if none is."""
-    fits = [name] if name in columns else [c for c in columns if c.endswith(f".{name}")]
-    if len(fits) == 1:
-        return fits[0]
-    if fits:
-        raise HostError(f"{where}: it could be {' or '.join(fits)}; give the whole name.")
-    end = did_you_mean(name, columns, f"there are {', '.join(list(columns)[:8]) or 'none'}")
-    raise HostError(f"{where}: there is no measure '{name}'{end}")
+def column_of(name: str, columns: Mapping[str, str], label: str) -> str:
+    """The column of a name with or without its prefix. Raises `HostError`: there is none, or several."""
+    matches = [name] if name in columns else [c for c in columns if c.endswith(f".{name}")]
+    if len(matches) == 1:
+        return matches[0]
+    if matches:
+        raise HostError(f"{label}: it could be {' or '.join(matches)}; give the whole name.")
+    hint = did_you_mean(name, columns, f"there are {', '.join(list(columns)[:8]) or 'none'}")
+    raise HostError(f"{label}: there is no measure '{name}'{hint}")

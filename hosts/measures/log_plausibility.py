@@ -1,6 +1,6 @@
-"""Plausibility of a log: whether related signals agree by physics, and whether the samples are those of a drive.
+"""Plausibility of a log: whether related signals agree, and whether the samples are those of a drive.
 
-A mistake in one signal moves all relations that it is in, so that it is named only where undoing it mends them all.
+A mistake in one signal disturbs all its relations; it is reported only if its correction restores all of them.
 """
 
 from collections.abc import Callable, Collection, Iterator, Sequence
@@ -13,10 +13,10 @@ import numpy as np
 from ali3.plausibility import Mistake, Plausibility, Value, far_values
 from ali3.units import misread, typeset
 from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, STEERING, WHEELS, Signals, log_values
-from hosts.measures.samples import of_all, of_samples
+from hosts.measures.samples import joint_sample_values, sample_values
 from hosts.measures.signal import Signal
 
-LATE = 0.1  # s: of a signal
+LEAST_DELAY = 0.1  # s
 RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", STEERING)
 TIMES = (
     (2.0, "time twice as fast"),
@@ -29,19 +29,22 @@ PAIRS = (("chassis.ax", "chassis.ay"), PATH, *pairwise(WHEELS))
 
 
 def log_plausibility(what: str, signals: Signals) -> Plausibility:
-    """What was understood of a log. `what`: its file; `signals`: by our names, in SI units."""
+    """Plausibility of a log. `what`: its file; `signals`: by our names, in SI units."""
 
     def values(signals: Signals) -> list[Value]:
-        return [*log_values(signals), *of_samples(signals)]
+        return [*log_values(signals), *sample_values(signals)]
 
-    # A robot may turn the steering wheel alike again, which is no mistake of a log.
+    # A robot may repeat a steering input exactly, which is not a mistake of the log.
     return _plausibility(
-        what, signals, values, [*values(signals), *of_all([s for n, s in signals.items() if n != STEERING])]
+        what,
+        signals,
+        values,
+        [*values(signals), *joint_sample_values([s for n, s in signals.items() if n != STEERING])],
     )
 
 
 def relations_plausibility(what: str, signals: Signals) -> Plausibility:
-    """The same without what is looked for in single samples, for signals that were computed."""
+    """Plausibility of computed signals, by their relations only. `what`, `signals`: see `log_plausibility`."""
     return _plausibility(what, signals, log_values, log_values(signals))
 
 
@@ -49,27 +52,31 @@ def _plausibility(
     what: str, signals: Signals, values: Callable[[Signals], list[Value]], log_values: list[Value]
 ) -> Plausibility:
     plausibility = Plausibility(what, log_values)
-    if not plausibility.outside:  # nothing that a mistake would explain
+    if not plausibility.outside:  # there is nothing to explain
         return plausibility
-    undone = [
-        Mistake(message, frozenset(keys), partial(values, altered), guessed)
-        for message, keys, altered, guessed in _undone(signals, plausibility)
+    mistakes = [
+        Mistake(message, frozenset(keys), partial(values, corrected), is_fitted)
+        for message, keys, corrected, is_fitted in _corrected_logs(signals, plausibility)
     ]
-    return replace(plausibility, mistakes=undone)
+    return replace(plausibility, mistakes=mistakes)
 
 
 def consistent(plausibility: Plausibility) -> set[str]:
-    """Names of signals that are in a ratio, and all relations of which hold: no factor, no sign is wrong."""
+    """Names of signals with a ratio, all ratios and correlations of which are plausible: factor and sign are right."""
     ratios = [v for v in plausibility.values if v.quantity in (*_RATIOS, *_ALIKE)]
-    wrong = {name for v in ratios if not v.inside(plausibility.kind) for name in v.keys}
-    return {name for v in ratios if v.quantity in _RATIOS for name in v.keys} - wrong
+    contradicted = {name for v in ratios if not v.inside(plausibility.kind) for name in v.keys}
+    return {name for v in ratios if v.quantity in _RATIOS for name in v.keys} - contradicted
 
 
 _RATIOS, _ALIKE = ([QUANTITIES[key + part] for key in RELATIONS if key + part in QUANTITIES] for part in ("", "_alike"))
 
 
-def _undone(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str, set[str], Signals, bool]]:
-    """Words, names and the log without each common mistake, and whether its number is fitted to the relations."""
+def _corrected_logs(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str, set[str], Signals, bool]]:
+    """The log after the correction of each common mistake.
+
+    Yields the description of the mistake, the names of its signals, the corrected log, and whether the correction was
+    fitted to the relations.
+    """
     for name, signal in signals.items():
         if (outliers := far_values(signal.values)).any():
             cleaned = replace(signal, time=signal.time[~outliers], values=signal.values[~outliers])
@@ -79,31 +86,33 @@ def _undone(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str,
         if a in signals and b in signals:
             swapped = {a: replace(signals[b], name=a), b: replace(signals[a], name=b)}
             yield f"'{signals[a].source}' and '{signals[b].source}' exchanged", {a, b}, {**signals, **swapped}, False
-    times = [(message, factor, False) for factor, message in TIMES]  # a window of 1 s shows nothing of other clocks
-    for message, factor, guessed in (*times, *_factors(plausibility, ("time",), ())):
-        altered = {n: replace(s, time=factor * s.time) for n, s in signals.items()}
-        yield message if not guessed else f"{message} on the times", {"time"}, altered, guessed
+    times = [(message, factor, False) for factor, message in TIMES]  # other factors cannot be seen in windows of 1 s
+    for message, factor, is_fitted in (*times, *_correcting_factors(plausibility, ("time",), ())):
+        corrected = {n: replace(s, time=factor * s.time) for n, s in signals.items()}
+        yield message if not is_fitted else f"{message} on the times", {"time"}, corrected, is_fitted
     single = [(n,) for n in (*SPEEDS, *RATES, *WHEELS)]
     wheels = tuple(n for n in WHEELS if n in signals)
     for group in (*single, PATH, *([wheels] if len(wheels) > 1 else [])):
         if not set(group) <= signals.keys():
             continue
         s = signals[group[0]]
-        of = "the path" if group == PATH else "all wheels" if len(group) > 1 else f"'{s.source}' ({s.name})"
+        label = "the path" if group == PATH else "all wheels" if len(group) > 1 else f"'{s.source}' ({s.name})"
         factors = (*((m.factor, m.words) for m in misread(s.unit)), *RIM * (group[0] in WHEELS))
-        for message, factor, guessed in _factors(plausibility, group, factors):
-            altered = {n: replace(signals[n], values=factor * signals[n].values) for n in group}
-            yield f"{message} of {of}", set(group), {**signals, **altered}, guessed
+        for message, factor, is_fitted in _correcting_factors(plausibility, group, factors):
+            corrected = {n: replace(signals[n], values=factor * signals[n].values) for n in group}
+            yield f"{message} of {label}", set(group), {**signals, **corrected}, is_fitted
         if len(group) == 1:
-            yield from _moved(signals, s, of, plausibility)
+            yield from _shifted_logs(signals, s, label, plausibility)
     if "chassis.y" in signals:
         y = signals["chassis.y"]
         message = f"the other sign of '{y.source}' (chassis.y)"
         yield message, {"chassis.y"}, {**signals, "chassis.y": replace(y, values=-y.values)}, False
 
 
-def _exponents(plausibility: Plausibility, part: str, group: Collection[str]) -> Iterator[tuple[Value, int]]:
-    """Values of relations that a signal is in, and by which power. `part`: "" for ratios, "_late" for delays, ..."""
+def _relations_with_powers(
+    plausibility: Plausibility, part: str, group: Collection[str]
+) -> Iterator[tuple[Value, int]]:
+    """Values of the relations of a signal, with its exponent. `part`: "" for ratios, "_late" for delays, ..."""
     names = {"speed" if n in SPEEDS else n for n in group}
     for key, powers in RELATIONS.items():
         power = next((powers[n] for n in names if n in powers), 0)
@@ -112,44 +121,44 @@ def _exponents(plausibility: Plausibility, part: str, group: Collection[str]) ->
                 yield v, power
 
 
-def _factors(
+def _correcting_factors(
     plausibility: Plausibility, group: Collection[str], factors: Sequence[tuple[float, str]]
 ) -> Iterator[tuple[str, float, bool]]:
-    """Words, factor that mends all relations of a signal, and whether it has no name.
+    """Factors that restore all relations of a signal, with a description, and whether the factor is fitted.
 
-    A signal in no relation may have any known factor.
+    A signal without relations may have any of the known `factors`.
     """
-    low, high, present = 0.0, np.inf, False
-    for v, power in _exponents(plausibility, "", group):
+    low, high, has_ratio = 0.0, np.inf, False
+    for v, power in _relations_with_powers(plausibility, "", group):
         bounds = v.quantity.near or v.quantity.range(plausibility.kind)
         if bounds is None or not v.value > 0.0:
             continue
         ends = sorted((bound / v.value) ** (1.0 / power) for bound in bounds)
-        low, high, present = max(low, ends[0]), min(high, ends[1]), True
-    turned = any(v.value < 0.0 for v, _ in _exponents(plausibility, "_alike", group))
-    sign = -1.0 if turned else 1.0
-    if turned and low <= 1.0 <= high:
+        low, high, has_ratio = max(low, ends[0]), min(high, ends[1]), True
+    is_inverted = any(v.value < 0.0 for v, _ in _relations_with_powers(plausibility, "_alike", group))
+    sign = -1.0 if is_inverted else 1.0
+    if is_inverted and low <= 1.0 <= high:
         yield "the other sign", -1.0, False
-    elif not present:
+    elif not has_ratio:
         yield from ((message, factor, False) for factor, message in factors)
     elif low <= high and not low <= 1.0 <= high:
         middle = float(np.sqrt(low * high))
         inside = [(message, sign * factor, False) for factor, message in factors if low <= factor <= high]
-        yield from sorted(inside, key=lambda one: abs(np.log(abs(one[1]) / middle)))[:1]
+        yield from sorted(inside, key=lambda candidate: abs(np.log(abs(candidate[1]) / middle)))[:1]
         if not inside:
             yield f"a factor of {sign * middle:.3g} ({low:.3g} to {high:.3g})", sign * middle, True
 
 
-def _moved(
-    signals: Signals, s: Signal, of: str, plausibility: Plausibility
+def _shifted_logs(
+    signals: Signals, s: Signal, label: str, plausibility: Plausibility
 ) -> Iterator[tuple[str, set[str], Signals, bool]]:
-    """The log without a delay of a signal, where all its relations tell the same, and without an offset of a rate."""
-    late = [-power * v.value for v, power in _exponents(plausibility, "_late", (s.name,))]
-    if late and min(map(abs, late)) > LATE and np.ptp(late) <= 2.0 * LATE:
-        delay = float(np.mean(late))
-        message = f"a delay of {delay:.2f} s (within {FINE:g} s) of {of}"
+    """The log without the delay of a signal, if all its relations agree on it, and without the offset of a rate."""
+    delays = [-power * v.value for v, power in _relations_with_powers(plausibility, "_late", (s.name,))]
+    if delays and min(map(abs, delays)) > LEAST_DELAY and np.ptp(delays) <= 2.0 * LEAST_DELAY:
+        delay = float(np.mean(delays))
+        message = f"a delay of {delay:.2f} s (within {FINE:g} s) of {label}"
         yield message, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False
-    off = [v.value for v, power in _exponents(plausibility, "_off", (s.name,)) if power < 0]
-    if off:
-        message = f"an offset of {-off[-1]:.3g} {typeset(s.unit)} in {of}"
-        yield message, {s.name}, {**signals, s.name: replace(s, values=s.values + off[-1])}, False
+    offsets = [v.value for v, power in _relations_with_powers(plausibility, "_off", (s.name,)) if power < 0]
+    if offsets:
+        message = f"an offset of {-offsets[-1]:.3g} {typeset(s.unit)} in {label}"
+        yield message, {s.name}, {**signals, s.name: replace(s, values=s.values + offsets[-1])}, False

@@ -1,4 +1,4 @@
-"""A number that a test yields, with its unit, its meaning and its limit."""
+"""A measure of a test: number, unit, meaning and limit."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ class Limit:
     """Limits of a measure."""
 
     source: str
-    """Who demands it: standard and clause."""
+    """Source of the limit, such as standard and clause."""
     lowest: float = -math.inf
     highest: float = math.inf
     """`lowest`, `highest`: in the unit of the measure; infinite: not limited."""
 
     def holds(self, value: float) -> bool:
-        """Whether a value keeps it; a NaN does not."""
+        """Whether a value is within the limits; NaN is not."""
         return self.lowest <= value <= self.highest
 
-    def words(self, unit: str = "") -> str:
-        """What it allows. `unit`: as it is printed, of its numbers."""
+    def range_text(self, unit: str = "") -> str:
+        """The allowed range as text. `unit`: of the limits, as printed."""
         low, high = (f"{x:.5g}" for x in (self.lowest, self.highest))
         if math.isinf(self.lowest):
             text = "no limit" if math.isinf(self.highest) else f"at most {high}"
@@ -40,30 +40,30 @@ class Measure:
     name: str
     """Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores."""
     value: float
-    """In `unit`; NaN where the run does not yield it, and `note` says why."""
+    """In `unit`; NaN where the run does not yield it, with the reason in `note`."""
     unit: str
-    """As units of FMI are written, such as ``rad/s``; ``1`` where there is none."""
+    """In the notation of FMI, such as ``rad/s``; ``1``: none."""
     text: str
-    """What it is, in a line."""
+    """Description in one line."""
     limit: Limit | None = None
     note: str = ""
-    """A sentence where the number is not the plain one, else empty."""
+    """A sentence on the number, or empty."""
     exists: bool = True
-    """False where there is no such number, as the critical speed of a car that understeers: it is NaN, and is not
+    """Whether the number exists; the critical speed of a car that understeers does not. It is NaN then, and is not
     missing."""
 
     @property
     def is_missing(self) -> bool:
-        """Whether the run does not yield a number that there should be."""
+        """Whether the run does not yield a number that exists."""
         return self.exists and not math.isfinite(self.value)
 
     @property
     def is_kept(self) -> bool | None:
-        """Whether the limit is kept; None where there is none, or no such number."""
+        """Whether the limit is kept; None where there is no limit, or the number does not exist."""
         return self.limit.holds(self.value) if self.limit is not None and self.exists else None
 
     def displayed(self) -> Measure:
-        """The same in the unit in which reports show it, and 0 for what is rounding."""
+        """The measure in the unit of reports, with rounding errors set to 0."""
         unit, factor = shown_in(self.unit, self.name)
         limit = self.limit
         if limit is not None:

@@ -1,4 +1,4 @@
-"""Names by which the expressions of a file are evaluated, by simpleeval."""
+"""Evaluates the expressions of the files of tests, by simpleeval."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import simpleeval
 from hosts.common.errors import HostError
 from hosts.measures.library import LIBRARY
 
-# those of simpleeval look at the lengths of what they add and multiply, which arrays have too
+# Those of simpleeval check the lengths of operands, which arrays have, too.
 _OPERATORS = simpleeval.DEFAULT_OPERATORS | {
     ast.Add: operator.add,
     ast.Mult: operator.mul,
@@ -23,40 +23,40 @@ _OPERATORS = simpleeval.DEFAULT_OPERATORS | {
 
 
 class Scope:
-    """Names with their values; those of `formulas` are evaluated when an expression first reads them.
+    """Names with values for expressions; formulas are evaluated when an expression first reads them.
 
-    `names`: values; `formulas`: expressions by name; `functions`: beside those of `LIBRARY`.
+    `names`: values by name; `formulas`: expressions by name; `functions`: in addition to those of `LIBRARY`.
     """
 
     def __init__(
         self, names: Mapping[str, Any], formulas: Mapping[str, str], functions: Mapping[str, Callable[..., Any]]
     ) -> None:
         self._names, self._formulas, self._functions = dict(names), formulas, functions
-        self._found: dict[str, Any] = {"nan": math.nan, **names}
+        self._values: dict[str, Any] = {"nan": math.nan, **names}
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self._found:
+        if name not in self._values:
             formula = self._formulas[name]
             try:
-                self._found[name] = self.evaluate(formula)
-            except HostError as error:  # whoever reads it gets the same answer
-                self._found[name] = error
-        if isinstance(result := self._found[name], HostError):
+                self._values[name] = self.evaluate(formula)
+            except HostError as error:  # is raised at each access
+                self._values[name] = error
+        if isinstance(result := self._values[name], HostError):
             raise result
         return result
 
     def inner(self, names: Mapping[str, Any]) -> Scope:
-        """A scope with more names, in which formulas are evaluated again."""
+        """A scope with further names, in which formulas are evaluated again."""
         return Scope(self._names | dict(names), self._formulas, self._functions)
 
     def evaluate(self, expression: str) -> Any:
-        """The value of an expression. Raises `HostError` where a signal that it reads is not there."""
+        """The value of an expression. Raises `HostError` where a signal that it reads is missing."""
         functions = {**LIBRARY, **self._functions}
         evaluator = simpleeval.EvalWithCompoundTypes(dict(_OPERATORS), functions, self)
         return evaluator.eval(expression, _parsed(expression))
 
-    def words(self, template: str) -> str:
-        """A text in which ``{expression:format}`` stands for values, as in an f-string of Python."""
+    def formatted(self, template: str) -> str:
+        """A text with the values of its ``{expression:format}``, as of an f-string of Python."""
         return str(self.evaluate(f"f'''{template}'''")) if "{" in template else template
 
 

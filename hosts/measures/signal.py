@@ -1,4 +1,4 @@
-"""A measured signal: values over time with a name and a unit."""
+"""A measured signal: samples over time with a name and a unit."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Signal:
-    """A measured signal with its own samples."""
+    """A measured signal with its own times of samples."""
 
     name: str
-    """Name of the variable, in our names."""
+    """Our name of the variable."""
     source: str
     """Column of the log."""
     unit: str
     """Of `values`."""
     time: NDArray[np.float64]
-    """Shape (n,): s, increasing; where an input jumps its time stands twice."""
+    """Shape (n,): s, increasing; at the jump of an input the time occurs twice."""
     values: NDArray[np.float64]
     """Shape (n,): finite."""
 
@@ -35,6 +35,6 @@ class Signal:
         return np.asarray(self.time[1:][np.diff(self.time) == 0.0])
 
     def between(self, begin: float, end: float) -> Signal:
-        """The samples in a span of time."""
+        """The samples between two times, s, both included."""
         inside = (self.time >= begin - 1e-9) & (self.time <= end + 1e-9)
         return replace(self, time=self.time[inside], values=self.values[inside])

@@ -1,4 +1,4 @@
-"""Response of a quantity to a step of the steering: times, overshoot, steady value, as ISO 7401 has them."""
+"""Response of a quantity to a step of the steering: times, overshoot and steady value of ISO 7401."""
 
 import math
 from collections.abc import Mapping
@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.measures.filters import crossing
-from hosts.measures.peak import top
+from hosts.measures.peak import interpolated_peak
 
 
 @dataclass(frozen=True)
 class StepResponse:
-    """What is measured of one quantity; NaN where the record does not show it."""
+    """Measures of one quantity; NaN where the record does not yield them."""
 
     steady: float
     """Mean over the window of the steady state, less the mean before the step, in the unit of the quantity."""
@@ -27,7 +27,7 @@ class StepResponse:
     overshoot: float
     """(`peak` - `steady`) / `steady`; 0 if the response does not overshoot."""
     unsteadiness: float
-    """Standard deviation in the window of the steady state, in parts of the absolute value of `steady`."""
+    """Standard deviation in the window of the steady state over the absolute value of `steady`."""
 
 
 NOTHING = StepResponse(*6 * (float("nan"),))
@@ -47,10 +47,10 @@ def reference_time(
     before: tuple[float, float],
     steady: tuple[float, float],
 ) -> float:
-    """When the steering has passed half of its step.
+    """Time at which the steering has passed half of its step, s; NaN if there is no step.
 
-    `time`, `steering`: s and the angle of the steering wheel, shape (n,); `before`, `steady`: beginning and end, s, of
-    the windows over which the angles before and after the step are averaged. Result: in s; NaN if there is no step.
+    `time`, `steering`: s and steering-wheel angle, shape (n,); `before`, `steady`: begin and end of the windows over
+    which the angles before and after the step are averaged, s.
     """
     first, last = mean_between(time, steering, *before)[0], mean_between(time, steering, *steady)[0]
     return crossing(time, steering, 0.5 * (first + last), before[1])
@@ -65,34 +65,33 @@ def step_response(
 ) -> StepResponse:
     """Measures of the response of one quantity.
 
-    `time`, `values`: shape (n,); `reference`: reference time, s; `before`, `steady`: beginning and end of the windows
-    before the step and of the steady state, s. Result: all NaN where the record ends before the steady window, or the
-    quantity does not change.
+    `time`, `values`: shape (n,); `reference`: reference time, s; `before`, `steady`: begin and end of the windows
+    before the step and of the steady state, s. All measures are NaN where the record ends before the end of the steady
+    window, or the quantity does not change.
 
     Notes
     -----
-    The peak is the largest sample improved by a parabola through it and its neighbours, so that the step of the record
-    does not round its time. An excess below 1 % over the steady value is no overshoot: the response still settles, or
-    the car loses speed in the turn.
+    The peak is interpolated between samples. An excess below 1 % over the steady value is not an overshoot: the
+    response still settles, or the car loses speed in the turn.
     """
     if not np.isfinite(reference) or len(time) < 3 or time[-1] < steady[1] - 1e-6 or not np.isfinite(values).all():
         return NOTHING
-    zero = mean_between(time, values, *before)[0]
+    initial = mean_between(time, values, *before)[0]
     mean, deviation = mean_between(time, values, *steady)
-    final = mean - zero
+    final = mean - initial
     if not np.isfinite(final) or final == 0.0:
         return NOTHING
-    relative = (values - zero) / final
-    response = crossing(time, relative, 0.9, before[1]) - reference
+    relative = (values - initial) / final
+    response_time = crossing(time, relative, 0.9, before[1]) - reference
     first = int(np.searchsorted(time, before[1]))
-    at, peak = top(time[first:], relative[first:])
-    over = peak > 1.01
+    peak_time, peak = interpolated_peak(time[first:], relative[first:])
+    overshoots = peak > 1.01
     return StepResponse(
         steady=final,
-        response_time=response,
-        peak=final * peak if over else final,
-        peak_response_time=at - reference if over else float("nan"),
-        overshoot=peak - 1.0 if over else 0.0,
+        response_time=response_time,
+        peak=final * peak if overshoots else final,
+        peak_response_time=peak_time - reference if overshoots else float("nan"),
+        overshoot=peak - 1.0 if overshoots else 0.0,
         unsteadiness=deviation / abs(final),
     )
 
@@ -104,9 +103,9 @@ def step_of_steering(
     before: tuple[float, float],
     steady: tuple[float, float],
 ) -> dict[str, Any]:
-    """The step of the steering, `angle`, rad, and `rise` from 10 to 90 %, s, and the response of each signal.
+    """The `angle` of the step, rad, its `rise` time from 10 to 90 %, s, and the response of each signal by name.
 
-    See `reference_time` for the arguments. Numbers are NaN where the record ends before the steady state.
+    See `reference_time` for the arguments. Numbers are NaN where the record ends before the end of the steady window.
     """
     angle = rise = reference = math.nan
     if len(time) and time[-1] >= steady[1] - 1e-6:

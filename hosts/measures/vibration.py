@@ -1,4 +1,4 @@
-"""Vertical vibration as people feel it: frequency weighting Wk of ISO 2631-1 and its measures."""
+"""Perceived vertical vibration: frequency weighting Wk of ISO 2631-1 and its measures."""
 
 import math
 from functools import reduce
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 from scipy.signal import bilinear_zpk, sosfilt, tf2zpk, zpk2sos
 
-# Corners in Hz and quality factors of Wk: band limits, acceleration-velocity transition, upward step.
+# Corner frequencies in Hz and quality factors of Wk: band limits, acceleration-velocity transition, upward step.
 _HIGH_PASS = 0.4
 _LOW_PASS = 100.0
 _TRANSITION = 12.5
@@ -19,14 +19,11 @@ _STEP_LOW_Q = 0.91
 _STEP_HIGH = 3.35
 _STEP_HIGH_Q = 0.91
 LONGEST_STEP = 0.005
-"""Between samples, s: with it the weighting is right within 3 % up to 20 Hz, with 2 ms up to 45 Hz."""
+"""Longest interval of samples, s: the error of the weighting is below 3 % up to 20 Hz, with 2 ms up to 45 Hz."""
 
 
 def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Transfer function of Wk.
-
-    Returns `numerator` and `denominator`: of s in rad/s, descending powers; of degree 5 and 8.
-    """
+    """Numerator and denominator of the transfer function of Wk: coefficients of s, rad/s, in descending powers."""
 
     def w(frequency: float) -> float:
         return 2.0 * math.pi * frequency
@@ -34,35 +31,34 @@ def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     def second_order(frequency: float, q: float) -> list[float]:
         return [1.0, w(frequency) / q, w(frequency) ** 2]
 
-    high = ([1.0, 0.0, 0.0], second_order(_HIGH_PASS, math.sqrt(0.5)))
-    low = ([w(_LOW_PASS) ** 2], second_order(_LOW_PASS, math.sqrt(0.5)))
+    high_pass = ([1.0, 0.0, 0.0], second_order(_HIGH_PASS, math.sqrt(0.5)))
+    low_pass = ([w(_LOW_PASS) ** 2], second_order(_LOW_PASS, math.sqrt(0.5)))
     transition = ([w(_TRANSITION), w(_TRANSITION) ** 2], second_order(_TRANSITION, _TRANSITION_Q))
-    # the upward step is 1 at high frequencies
+    # The gain of the upward step is 1 at high frequencies.
     step = (second_order(_STEP_LOW, _STEP_LOW_Q), second_order(_STEP_HIGH, _STEP_HIGH_Q))
-    factors = (high, low, transition, step)
-    numerator, denominator = (reduce(np.polymul, [np.array(part[k]) for part in factors]) for k in (0, 1))
+    factors = (high_pass, low_pass, transition, step)
+    numerator, denominator = (reduce(np.polymul, [np.array(factor[k]) for factor in factors]) for k in (0, 1))
     return np.asarray(numerator, float), np.asarray(denominator, float)
 
 
 def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.float64]:
-    """Vertical acceleration weighted with Wk.
+    """Vertical acceleration weighted with Wk, m/s2, shape (n,); the filter starts at rest.
 
-    `acceleration`: in m/s2, zero at rest, shape (n,); `interval`: between samples, s. Returns an array of shape (n,):
-    in m/s2; the filter starts at rest.
+    `acceleration`: in m/s2, zero at rest, shape (n,); `interval`: between samples, s.
     """
-    # in factors: coefficients of degree 8 lose all digits at short steps
+    # In factors, since the coefficients of degree 8 have large rounding errors at short intervals.
     factors: Any = bilinear_zpk(*tf2zpk(*weighting_wk()), fs=1.0 / interval)
     return np.asarray(sosfilt(zpk2sos(*factors), acceleration))
 
 
 def largest_running_rms(values: NDArray[np.float64], interval: float) -> float:
-    """Largest root mean square within a window of 1 s that runs along (MTVV of ISO 2631-1), in the unit of `values`.
+    """Largest root mean square in a moving window of 1 s (MTVV of ISO 2631-1), in the unit of `values`.
 
     `values`: zero before the first sample, shape (n,); `interval`: in s.
     """
     samples = max(1, round(1.0 / interval))
-    squares = np.cumsum(np.concatenate([np.zeros(samples), np.square(values)]))
-    return math.sqrt(max(0.0, float((squares[samples:] - squares[:-samples]).max())) / samples)
+    summed_squares = np.cumsum(np.concatenate([np.zeros(samples), np.square(values)]))
+    return math.sqrt(max(0.0, float((summed_squares[samples:] - summed_squares[:-samples]).max())) / samples)
 
 
 def vibration_dose(values: NDArray[np.float64], interval: float) -> float:

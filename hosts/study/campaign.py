@@ -31,23 +31,23 @@ from hosts.study.folder import (
     check_same,
     fmu_of_folder,
     free_space,
-    keep_limits,
     read_record,
+    update_limits,
 )
 from hosts.study.outcome_table import OutcomeTable, Row
 from hosts.study.parts import part_files
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.study_runs import experiment_of, outcome_of, report_start
-from hosts.study.trial_runs import Trial, bytes_of, try_out, with_columns
+from hosts.study.trial_runs import Trial, bytes_of, make_trial_runs, with_columns
 from hosts.study.worker_data import FAILED, Outcome, Run
 
 if TYPE_CHECKING:
     from hosts.experiment.cluster_runs import ClusterRuns
 
-_MARGIN = 50e6  # bytes of the disk that are left to others
-_CHUNK_BYTES = 20e6  # of signals that come from a worker at once
-_LOOK = 1000  # runs that are prepared at a time
+_FREE_SPACE = 50e6  # bytes of the disk that the results must leave free
+_CHUNK_BYTES = 20e6  # of signals in the results of a chunk of runs
+_BLOCK = 1000  # runs that are prepared at a time
 
 
 @dataclass(frozen=True)
@@ -56,80 +56,83 @@ class StudyOutcome:
 
     folder: Path
     good: bool
-    """Whether every run has a row, and one at least of those made now has all its measures."""
+    """Whether every run has a row, and at least one of the new runs has all its measures."""
     failed: int
-    """Of the runs that were made now."""
+    """Number of failed new runs."""
 
 
 def run_study(
     file: Path, out: Path | None, scheduler: str | None, workers: int | None, dry: bool = False, again: bool = False
 ) -> StudyOutcome | None:
-    """Check a study, make the runs that are missing, and write their rows; None after a dry run.
+    """Check a study, make its missing runs and write their rows. Returns None after a dry run.
 
-    `scheduler`: address; `dry`: only print the plan; `again`: make failed runs again. Raises `HostError` or
-    `FileError`.
+    `out`: folder of the results; None: by the name of the study; `scheduler`: address of a scheduler of Dask; None:
+    `workers` processes of this machine; `dry`: only print the plan; `again`: make failed runs again. Raises `HostError`
+    or `FileError`.
     """
     study, content = read_study_file(file)
     folder = out_folder(out, study, file)
     if folder.exists() and not is_folder(folder):
         raise HostError(f"{folder} is a file; the results of a study are a folder.")
     check_no_link(folder)
-    before = _before(folder)
-    plan = _plan(study, file, folder, before)
+    earlier = _earlier_record(folder)
+    plan = _plan(study, file, folder, earlier)
     for note in plan.notes:
         print(f"note: {note}", file=sys.stderr)
     if all(job.manoeuvre is not None for job in plan.work.jobs):
-        plan = _with_limits(plan, study)  # measures of tests are known after a run only
-    if before is not None:
-        # columns of tests are known from the runs that there are
-        plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
-        check_same(folder, before, plan.record)
+        plan = _with_limits(plan, study)  # measures of tests are known only after a run
+    if earlier is not None:
+        # Columns of tests are known from existing runs.
+        plan = with_columns(plan, {n: u for n, u in earlier["measures"].items() if n not in plan.work.columns})
+        check_same(folder, earlier, plan.record)
         plan = _with_limits(plan, study)
     with nullcontext() if dry else ResultStore[Row](folder, Row, "runs a study") as store:
         done = np.zeros(plan.runs, dtype=np.bool_)
-        if before is not None and store is not None:
+        if earlier is not None and store is not None:
             from hosts.study.damaged_files import sound_runs
 
-            done, notes = sound_runs(folder, before)
-            for line in notes:
-                print(f"note: {line}", file=sys.stderr)
+            done, notes = sound_runs(folder, earlier)
+            for note in notes:
+                print(f"note: {note}", file=sys.stderr)
             if not again and done.all():
-                store.clear()  # a kill between a table and its journal leaves both
-                keep_limits(folder, before, plan.record["limits"], content)
+                store.clear()  # after a kill between writing the table and clearing the journal
+                update_limits(folder, earlier, plan.record["limits"], content)
                 print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
                 return StudyOutcome(folder, True, 0)
-        trial = try_out(plan)
+        trial = make_trial_runs(plan)
         for note in trial.notes:
             print(f"note: {note}", file=sys.stderr)
         plan = _with_limits(with_columns(plan, trial.columns), study)
         plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
         _print_plan(plan, trial, folder, scheduler, workers)
-        return None if store is None else _run(plan, trial, folder, content, scheduler, workers, again, store, done)
+        if store is None:
+            return None
+        return _make_missing_runs(plan, trial, folder, content, scheduler, workers, again, store, done)
 
 
-def _before(folder: Path) -> dict[str, Any] | None:
-    """The record of the runs that there are; None where there are none."""
+def _earlier_record(folder: Path) -> dict[str, Any] | None:
+    """The record of existing runs; None where there are none. Raises `HostError`: rows without a record."""
     record = read_record(folder)
     if record is None and part_files(folder):
         raise HostError(f"{folder} has rows of a study but not its study.json; give another --out.")
     return record
 
 
-def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | None) -> Plan:
-    """The checked plan, with the FMU that is named, or that of the car, which an unchanged car keeps."""
+def _plan(study: StudyFile, file: Path, folder: Path, earlier: dict[str, Any] | None) -> Plan:
+    """The checked plan, with the named FMU or that of the car; an unchanged car keeps the FMU of earlier runs."""
     if study.car is None:
         return make_plan(study, file, fmu_of_study(study, file))
     from hosts.fmu.built_fmu import car_digest
 
     digest = car_digest(_car(study.car, file))
-    is_unchanged = before is not None and before.get("car") == digest and (folder / before["fmu"]).exists()
-    fmu = fmu_of_folder(folder, before) if before is not None and is_unchanged else fmu_of_study(study, file)
+    is_unchanged = earlier is not None and earlier.get("car") == digest and (folder / earlier["fmu"]).exists()
+    fmu = fmu_of_folder(folder, earlier) if earlier is not None and is_unchanged else fmu_of_study(study, file)
     plan = make_plan(study, file, fmu)
     return replace(plan, record={**plan.record, "car": digest})
 
 
 def fmu_of_study(study: StudyFile, file: Path) -> Path:
-    """The FMU that a study file names, or that of its car, which is built where there is none."""
+    """The FMU that a study file names, or that of its car, which is built if necessary."""
     if study.fmu is not None:
         return file.parent / study.fmu
     from hosts.fmu.built_fmu import fmu_of_car
@@ -139,9 +142,9 @@ def fmu_of_study(study: StudyFile, file: Path) -> Path:
 
 
 def _car(name: str, file: Path) -> str:
-    """A car file beside the study, else a car of the package."""
-    beside = file.parent / name
-    return str(beside) if is_file(beside) or is_folder(beside) else name
+    """A car file beside the study file, else a car of the package."""
+    file_beside = file.parent / name
+    return str(file_beside) if is_file(file_beside) or is_folder(file_beside) else name
 
 
 def _with_limits(plan: Plan, study: StudyFile) -> Plan:
@@ -150,7 +153,7 @@ def _with_limits(plan: Plan, study: StudyFile) -> Plan:
 
 
 def out_folder(out: Path | None, study: StudyFile, file: Path) -> Path:
-    """Folder of the results."""
+    """Folder of the results. `out`: the requested one."""
     return out if out is not None else Path("out", study.name or file.stem)
 
 
@@ -164,10 +167,10 @@ def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, w
     print(f"measures    {some_of(plan.work.columns, 8)}")
     if plan.work.signals:
         print(f"signals     {some_of(plan.work.signals, 8)}")
-    total = plan.runs * trial.seconds
-    where = "on one worker" if count == 1 else f"with {count} workers"
+    seconds = plan.runs * trial.seconds
+    workers_text = "on one worker" if count == 1 else f"with {count} workers"
     print(
-        f"estimate    {trial.seconds:.3g} s a run, {duration(total / count)} in all {where}; "
+        f"estimate    {trial.seconds:.3g} s a run, {duration(seconds / count)} in all {workers_text}; "
         f"{_size(bytes_of(plan))} of results",
         flush=True,
     )
@@ -181,7 +184,7 @@ def _size(count: float) -> str:
     return f"{count / 1e3:.3g} GB"
 
 
-def _run(
+def _make_missing_runs(
     plan: Plan,
     trial: Trial,
     folder: Path,
@@ -189,7 +192,7 @@ def _run(
     scheduler: str | None,
     workers: int | None,
     again: bool,
-    kept: ResultStore[Row],
+    store: ResultStore[Row],
     done: NDArray[np.bool_],
 ) -> StudyOutcome:
     record = read_record(folder)
@@ -199,88 +202,90 @@ def _run(
         begin_study(folder, record, content, plan.fmu)
     else:
         check_same(folder, record, plan.record)
-        record = keep_limits(folder, record, plan.record["limits"], content)
+        record = update_limits(folder, record, plan.record["limits"], content)
     table = OutcomeTable(folder, record, done)
-    kept.into(table)
+    store.attach_table(table)
     if again:
-        failed = table.forget(lambda part: part["status"].to_numpy() == FAILED)
+        failed = table.remove_rows(lambda part: part["status"].to_numpy() == FAILED)
         print(f"{failed} failed runs are repeated")
-    before = int(np.count_nonzero(table.done))
-    if before:
-        print(f"{before} of {plan.runs} runs are there", flush=True)
-        _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
-    if before == plan.runs:
+    count = int(np.count_nonzero(table.done))
+    if count:
+        print(f"{count} of {plan.runs} runs are there", flush=True)
+        _check_space(bytes_of(plan) * (plan.runs - count) / plan.runs, folder)
+    if count == plan.runs:
         return StudyOutcome(folder, True, 0)
-    return _make(folder, table, kept, _outcomes(plan, trial, table.done.copy(), scheduler, workers), scheduler)
+    return _write_outcomes(
+        folder, table, store, _outcomes(plan, trial, table.done.copy(), scheduler, workers), scheduler
+    )
 
 
 def _check_space(needed: float, folder: Path) -> None:
     free = free_space(folder)
-    if needed + _MARGIN > free:
+    if needed + _FREE_SPACE > free:
         raise HostError(
             f"The results may need {_size(needed)} in {folder}, where {_size(free)} are free, of which "
-            f"{_size(_MARGIN)} are left to others; make room, give another --out, or keep fewer signals."
+            f"{_size(_FREE_SPACE)} are left to others; make room, give another --out, or keep fewer signals."
         )
 
 
-def _make(
+def _write_outcomes(
     folder: Path,
     table: OutcomeTable,
-    kept: ResultStore[Row],
+    store: ResultStore[Row],
     outcomes: Generator[Row],
     scheduler: str | None,
 ) -> StudyOutcome:
-    begin, lost, counts = clock.monotonic(), False, Counts()
+    begin, is_lost, counts = clock.monotonic(), False, Counts()
     try:
         with closing(outcomes):
             try:
                 for run, outcome in outcomes:
-                    kept.add(str(run.index), "", (run, outcome))
+                    store.add(str(run.index), "", (run, outcome))
                     counts.add(outcome)
             except FileError:
                 raise
             except BaseException:
-                kept.write()
+                store.write()
                 raise
-        kept.write()
+        store.write()
     except KeyboardInterrupt:
-        print(_kept(table.done), file=sys.stderr)
+        print(_resume_text(table.done), file=sys.stderr)
         raise
     except FileError as error:
-        raise FileError(f"{error} {_kept(table.done)}") from None
+        raise FileError(f"{error} {_resume_text(table.done)}") from None
     except HostError:
         raise
-    except Exception:  # of processes that were killed Dask raises many kinds
+    except Exception:  # Dask raises exceptions of many types for killed processes
         if scheduler is None:
             raise
-        lost = True
+        is_lost = True
     seconds = clock.monotonic() - begin
-    if lost and not table.done.all():
-        print(f"The scheduler at {scheduler} has gone. {_kept(table.done)}", file=sys.stderr)
+    if is_lost and not table.done.all():
+        print(f"The scheduler at {scheduler} has gone. {_resume_text(table.done)}", file=sys.stderr)
         return StudyOutcome(folder, False, counts.failed)
     rate = counts.made / seconds
     message = f"{counts.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {counts.failed} failed"
     if counts.incomplete:
         message += f", {counts.incomplete} incomplete"
-    for line in counts.said():
+    for line in counts.frequent_messages():
         print(line)
     print(f"{message}; written: {folder}")
-    bare = counts.made > 0 and counts.failed + counts.incomplete == counts.made
-    if bare:
+    is_incomplete = counts.made > 0 and counts.failed + counts.incomplete == counts.made
+    if is_incomplete:
         print(
             "No run has yielded all its measures; the column reason says why. Of a test, measures = [...] beside it "
             "keeps only those that are wanted.",
             file=sys.stderr,
         )
-    return StudyOutcome(folder, not bare, counts.failed)
+    return StudyOutcome(folder, not is_incomplete, counts.failed)
 
 
 def _outcomes(
     plan: Plan, trial: Trial, done: NDArray[np.bool_], scheduler: str | None, workers: int | None
 ) -> Generator[Row]:
     """Make the runs that are not done, on a cluster or in processes of this machine."""
-    work, before = plan.work, int(np.count_nonzero(done))
-    experiment, runs = experiment_of(work, plan.fmu), missing(plan, done)
+    work, count = plan.work, int(np.count_nonzero(done))
+    experiment, runs = experiment_of(work, plan.fmu), missing_runs(plan, done)
     with ExitStack() as stack:
         runner: Runner[Run, Outcome]
         if scheduler is None:
@@ -289,8 +294,8 @@ def _outcomes(
             from hosts.experiment.cluster import connected
 
             client = stack.enter_context(connected(scheduler))
-            runner = stack.enter_context(on_cluster(client, plan, trial, plan.runs - before))
-        results = stack.enter_context(closing(experiment.results(runs, runner, whole=plan.runs, before=before)))
+            runner = stack.enter_context(cluster_runner(client, plan, trial, plan.runs - count))
+        results = stack.enter_context(closing(experiment.results(runs, runner, whole=plan.runs, before=count)))
         for _, run, result in results:
             outcome = outcome_of(work, result)
             if scheduler is not None and isinstance(result, Lost):
@@ -298,28 +303,28 @@ def _outcomes(
             yield run, outcome
 
 
-def missing(plan: Plan, done: NDArray[np.bool_]) -> Generator[Run]:
-    """Runs that are not done, in their order."""
-    for first in range(0, len(done), _LOOK):
-        indices = (first + np.flatnonzero(~done[first : first + _LOOK])).tolist()
+def missing_runs(plan: Plan, done: NDArray[np.bool_]) -> Generator[Run]:
+    """Runs that are not done, in the order of their numbers. `done`: shape (runs,)."""
+    for first in range(0, len(done), _BLOCK):
+        indices = (first + np.flatnonzero(~done[first : first + _BLOCK])).tolist()
         for run in plan.runs_at(indices) if indices else []:
             report_start(plan.work, run)
             yield run
 
 
-def on_cluster(client: Any, plan: Plan, trial: Trial, left: int) -> ClusterRuns[Run, Outcome]:
-    """A cluster as what makes runs; its workers have the study then."""
-    from hosts.experiment.cluster import bring
+def cluster_runner(client: Any, plan: Plan, trial: Trial, runs: int) -> ClusterRuns[Run, Outcome]:
+    """The runner of a cluster, after sending the study to its workers. `runs`: number of runs."""
+    from hosts.experiment.cluster import send_experiment
     from hosts.experiment.cluster_runs import ChunkSize, ClusterRuns
     from hosts.experiment.cluster_worker import UnpackedFmu
 
     work = plan.work
-    brought = UnpackedFmu(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
-    bring(client, brought, plan.fmu)
+    unpacked_fmu = UnpackedFmu(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
+    send_experiment(client, unpacked_fmu, plan.fmu)
     bytes_a_run = max(8 * job.samples * len(work.signals) for job in work.jobs) + 1
     size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
-    return ClusterRuns(client, brought, left, size)
+    return ClusterRuns(client, unpacked_fmu, runs, size)
 
 
-def _kept(done: NDArray[np.bool_]) -> str:
+def _resume_text(done: NDArray[np.bool_]) -> str:
     return f"{np.count_nonzero(done)} of {len(done)} runs are written and stay; the same command makes the others."

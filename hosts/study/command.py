@@ -46,46 +46,46 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
     )
     options = parser.parse_args(arguments)
     return run_command(
-        lambda: _study(options, prog) if options.target is None else _target(options, parser),
+        lambda: _run_study(options, prog) if options.target is None else _find_target(options, parser),
         is_confined=options.confined,
     )
 
 
-def _study(options: argparse.Namespace, prog: str) -> int:
+def _run_study(options: argparse.Namespace, prog: str) -> int:
     if options.jobs is not None and options.scheduler is not None:
         raise HostError("--jobs are processes of this machine, --scheduler has its own; give one of them.")
     if options.by is not None or options.between is not None:
         raise HostError("--by and --between need --target MEASURE=VALUE.")
     if options.run is not None:
-        return _repeat(options)
+        return _print_commands(options)
     if options.report:
-        return _report(options.study if options.study.is_dir() else _out(options))
+        return _write_report(options.study if options.study.is_dir() else _out_folder(options))
     if options.study.is_dir():
-        raise HostError(_of_folder(options.study, prog))
+        raise HostError(_folder_message(options.study, prog))
     from hosts.study.campaign import run_study
 
-    ended = run_study(options.study, options.out, options.scheduler, options.jobs, options.dry_run, options.again)
-    if ended is None:
+    outcome = run_study(options.study, options.out, options.scheduler, options.jobs, options.dry_run, options.again)
+    if outcome is None:
         return 0
-    within_limits = _keeps_limits(ended.folder)
+    within_limits = _report_limits(outcome.folder)
     if options.report is not False:
-        _report(ended.folder)
-    return 0 if ended.good and within_limits else NOT_GOOD
+        _write_report(outcome.folder)
+    return 0 if outcome.good and within_limits else NOT_GOOD
 
 
-def _keeps_limits(folder: Path) -> bool:
+def _report_limits(folder: Path) -> bool:
     from hosts.study.folder import read_record
 
     if (read_record(folder) or {}).get("limits"):
         from hosts.study.limits import report_limits
 
         return report_limits(folder)
-    for name in ("limits.csv", "limits.json"):  # of limits that are not asked for any more
+    for name in ("limits.csv", "limits.json"):  # of limits of an earlier study file
         (folder / name).unlink(missing_ok=True)
     return True
 
 
-def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+def _find_target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.study.target import find_target, target_of
 
     conflicting = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
@@ -105,31 +105,31 @@ def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int
     )
 
 
-def _repeat(options: argparse.Namespace) -> int:
+def _print_commands(options: argparse.Namespace) -> int:
     from hosts.study.repeated_run import repeater
 
-    repeat = repeater(options.study if options.study.is_dir() else _out(options))(options.run)
+    repeat = repeater(options.study if options.study.is_dir() else _out_folder(options))(options.run)
     if not repeat.drive:
         raise HostError("The study has an alias file; a manoeuvre under its names cannot be repeated as a drive.")
     print("\n".join(line for line in (repeat.drive, repeat.view) if line))
     return 0
 
 
-def _out(options: argparse.Namespace) -> Path:
+def _out_folder(options: argparse.Namespace) -> Path:
     from hosts.study.campaign import out_folder
     from hosts.study.study_file import read_study_file
 
     return out_folder(options.out, read_study_file(options.study)[0], options.study)
 
 
-def _report(folder: Path) -> int:
+def _write_report(folder: Path) -> int:
     from hosts.study.analysis.report import write_report
 
     print(f"written: {', '.join(map(str, write_report(folder)))}")
     return 0
 
 
-def _of_folder(folder: Path, prog: str) -> str:
+def _folder_message(folder: Path, prog: str) -> str:
     from hosts.study.folder import read_record
 
     record = read_record(folder)

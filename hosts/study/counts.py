@@ -1,11 +1,11 @@
-"""Counts of the outcomes of a study while it runs."""
+"""Counts of the outcomes of a running study."""
 
 from collections import Counter
 
 from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome
 
-_MOST_SAID = 1000  # messages that are counted
-_TOLD = 5
+_MOST_COUNTED = 1000  # messages
+_MOST_REPORTED = 5
 
 
 class Counts:
@@ -13,21 +13,21 @@ class Counts:
 
     def __init__(self) -> None:
         self.failed = self.incomplete = self.made = 0
-        self._said: Counter[str] = Counter()
+        self._messages: Counter[str] = Counter()
 
     def add(self, outcome: Outcome) -> None:
-        """Count a run, whether it failed, and what was said in it."""
+        """Count a run by its status, and its messages."""
         self.made += 1
         self.failed += outcome.status == FAILED
         self.incomplete += outcome.status == INCOMPLETE
         for message in outcome.messages:
-            if message in self._said or len(self._said) < _MOST_SAID:
-                self._said[message] += 1
+            if message in self._messages or len(self._messages) < _MOST_COUNTED:
+                self._messages[message] += 1
 
-    def said(self) -> list[str]:
-        """The most frequent messages of the runs."""
-        lines = [f"in {n} of {self.made} runs: {message}" for message, n in self._said.most_common(_TOLD)]
-        remaining = len(self._said) - len(lines)
+    def frequent_messages(self) -> list[str]:
+        """The most frequent messages of the runs, a line each."""
+        lines = [f"in {n} of {self.made} runs: {message}" for message, n in self._messages.most_common(_MOST_REPORTED)]
+        remaining = len(self._messages) - len(lines)
         return [*lines, f"and {remaining} other messages, in the column messages"] if remaining > 0 else lines
 
 

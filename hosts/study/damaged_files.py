@@ -1,4 +1,4 @@
-"""Files of rows and signals that are not as they were written: found by their checksums, and their runs made again."""
+"""Detects damaged files of rows and signals by their checksums, and takes them out of the study."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.study.parts import DamagedPartError, marked, part_files, read_part, read_signals
+from hosts.study.parts import DamagedPartError, mark_runs, part_files, read_part, read_signals
 
 
 def check_signals(folder: Path, record: Mapping[str, Any]) -> None:
@@ -17,31 +17,31 @@ def check_signals(folder: Path, record: Mapping[str, Any]) -> None:
 
 
 def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool_], list[str]]:
-    """Which runs have a row, and signals where the study keeps some.
+    """Runs with an intact row, and with signals if the study keeps some.
 
-    What is damaged is taken out of the study, so that its runs are repeated: a part of the table stays under a name
-    that no reader takes for a part. Raises `HostError`: a part has a row that no study has.
+    Damaged files are taken out of the study, so that their runs are repeated: a damaged part of the table is renamed.
+    Raises `HostError`: a part has a run that is not of the study.
 
     Returns
     -------
-    ndarray of bool of shape (runs,)
-    list of str
-        What was taken out, a sentence for each.
+    sound : ndarray of bool, shape (runs,)
+    notes : list of str
+        A sentence on each file that was taken out.
     """
     sound, notes = np.zeros(record["runs"], dtype=np.bool_), []
     for file in part_files(folder):
         try:
             table = read_part(file, record)
         except DamagedPartError as error:
-            aside = file.replace(file.with_name(f".damaged-{file.name}"))
-            notes.append(f"{error.file} is damaged ({error.words}); its runs are repeated, it is kept as {aside}.")
+            renamed = file.replace(file.with_name(f".damaged-{file.name}"))
+            notes.append(f"{error.file} is damaged ({error.reason}); its runs are repeated, it is kept as {renamed}.")
             continue
         try:
             if record["signals"]:
                 read_signals(file, record)
         except DamagedPartError as error:
             file.unlink()
-            notes.append(f"{error.file} is damaged ({error.words}); its runs are repeated.")
+            notes.append(f"{error.file} is damaged ({error.reason}); its runs are repeated.")
         else:
-            marked(sound, file, table)
+            mark_runs(sound, file, table)
     return sound, notes

@@ -1,4 +1,4 @@
-"""The folder of the results of one study, and what it holds of the study: the types of ``study.json``."""
+"""The folder of the results of a study, and the types of its record ``study.json``."""
 
 from __future__ import annotations
 
@@ -27,25 +27,25 @@ RECORD = "study.json"
 _HASH = r"^[0-9a-f]{64}$"
 _FILE_NAME = r"^[^/\\:\x00-\x1f]*[^/\\:\x00-\x1f.][^/\\:\x00-\x1f]*$"
 _FORMS = {_HASH: "a SHA-256 hash, 64 hexadecimal digits", _FILE_NAME: "the name of a file in this folder"}
-_FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
-"""Keys of the record that may differ when a study goes on, or follow from others."""
-_WORDS = {
+_VARIABLE_KEYS = ("versions", "file", "units", "measures", "limits", "created", "reuse")
+"""Keys of the record that may differ when a study is resumed, or that follow from others."""
+_LABELS = {
     "guid": "the GUID of the FMU",
     "fmu_sha256": "the content of the FMU",
     "program": "the program that makes the runs",
     "points_sha256": "the points that are drawn",
     "measured": "the measures",
 }
-_MOST = 3
+_MOST_DIFFERENCES = 3
 
 Hash: TypeAlias = Annotated[str, Field(pattern=_HASH)]
 
 
-class _Part(BaseModel):
+class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class _Parameter(_Part):
+class _Parameter(_Table):
     kind: Literal["Real", "Integer", "Enumeration", "Boolean", "String"] = Field(
         title="Real, Integer, Enumeration, Boolean or String"
     )
@@ -57,20 +57,20 @@ class _Parameter(_Part):
 
 
 class _Manoeuvre(BaseModel):
-    model_config = ConfigDict(extra="allow", frozen=True, strict=True)  # with what the study file says of it
+    model_config = ConfigDict(extra="allow", frozen=True, strict=True)  # with the entries of the study file
 
     name: str = Field(title="text")
     step: FiniteFloat | None = Field(gt=0.0, title="a positive number, s")
     sha256: Hash
 
 
-class _Limit(_Part):
+class _Limit(_Table):
     min: FiniteFloat | None = Field(title="a number")
     max: FiniteFloat | None = Field(title="a number")
     unit: str = Field(title="text")
 
 
-class StudyRecord(_Part):
+class StudyRecord(_Table):
     """The record of a study: its plan, and the versions of the programs."""
 
     name: str = Field(title="text")
@@ -98,10 +98,10 @@ class StudyRecord(_Part):
     limits: dict[str, _Limit] = Field(default={}, title="a table for each limit")
 
     @model_validator(mode="after")
-    def _fits(self) -> StudyRecord:
-        each = len(self.manoeuvres)
-        if self.runs != self.points * each:
-            raise ValueError(f"it has {self.runs} runs where {self.points} points of {each} manoeuvres must be")
+    def _check_consistency(self) -> StudyRecord:
+        jobs = len(self.manoeuvres)
+        if self.runs != self.points * jobs:
+            raise ValueError(f"it has {self.runs} runs where {self.points} points of {jobs} manoeuvres must be")
         names = [*self.parameters, *self.measures]
         if len(set(names)) < len(names):
             raise ValueError("a parameter and a measure have the same name")
@@ -109,7 +109,7 @@ class StudyRecord(_Part):
 
 
 def read_record(folder: Path) -> dict[str, Any] | None:
-    """What is known of the study in a folder; None where there is none. Raises `HostError`: the file is damaged."""
+    """The record of the study in a folder; None where there is none. Raises `HostError`: the record is damaged."""
     file = folder / RECORD
     if not file.exists():
         return None
@@ -127,17 +127,14 @@ RUNS, SIGNALS, ANALYSIS, REPEAT = _WRITTEN = ("runs", "signals", "analysis", "re
 
 
 def check_no_link(folder: Path) -> None:
-    """Refuse a folder of results in which something is a link. Raises `HostError` with the link.
-
-    Whoever packed the folder would choose with a link which file of its reader is written over.
-    """
+    """Raise `HostError` if a path in a folder of results is a link, through which another file would be overwritten."""
     for path in chain(folder.glob("*"), *((folder / name).rglob("*") for name in _WRITTEN)):
         if path.is_symlink():
             raise HostError(f"{path} is a link; nothing is written through it. Remove it, or give another --out.")
 
 
 def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
-    """The FMU in a folder of results. Raises `HostError`: it is not there, or not the one that made the rows."""
+    """The FMU in a folder of results. Raises `HostError`: it is missing, or is not the FMU of the rows."""
     file = folder / str(record["fmu"])
     if not file.is_file():
         raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
@@ -151,7 +148,7 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
 
 
 def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu: Path) -> None:
-    """Write what a study begins with; the record comes last and says that the rest is there."""
+    """Write study file, FMU and record into the folder of a study; the record last, as it marks a complete folder."""
     with atomic_file(folder / "study.toml") as temporary:
         temporary.write_bytes(study_file)
     with atomic_file(folder / fmu.name) as temporary:
@@ -166,62 +163,66 @@ def write_record(folder: Path, record: Mapping[str, Any]) -> None:
 
 
 def free_space(folder: Path) -> int:
-    """Bytes that can be written there."""
+    """Free space of the disk of a folder, which need not exist, bytes."""
     existing = next(p for p in (folder.absolute(), *folder.absolute().parents) if p.exists())
     return shutil.disk_usage(existing).free
 
 
 def sync(file: Path) -> None:
-    """Bring a file to the disk, so that a rename after it never shows an empty one after a power cut."""
+    """Flush a file to the disk, so that it is not empty if power fails after it is renamed."""
     with file.open("rb+") as stream:
         os.fsync(stream.fileno())
 
 
-def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) -> None:
-    """Refuse to go on with another study than the one that began. Raises `HostError` with what differs."""
-    same = {key: json.loads(json.dumps(value)) for key, value in now.items()}
-    keys = [key for key in dict.fromkeys((*_WORDS, *before, *same)) if key not in _FREE]
-    differ = [key for key in keys if before.get(key) != same.get(key)]
-    if not differ:
+def check_same(folder: Path, earlier: Mapping[str, Any], now: Mapping[str, Any]) -> None:
+    """Raise `HostError` with the differences if a folder holds another study than the one to be resumed."""
+    new = {key: json.loads(json.dumps(value)) for key, value in now.items()}
+    keys = [key for key in dict.fromkeys((*_LABELS, *earlier, *new)) if key not in _VARIABLE_KEYS]
+    differences = [key for key in keys if earlier.get(key) != new.get(key)]
+    if not differences:
         return
-    # what follows from another difference does not explain it
-    if "guid" in differ:
-        differ = [key for key in differ if key != "fmu_sha256"]
-    if len(differ) > 1:
-        differ = [key for key in differ if key not in ("points_sha256", "points", "runs")]
-    message = some_of((_difference(key, before.get(key), same.get(key)) for key in differ), _MOST, "; ")
+    # Differences that follow from others are not reported.
+    if "guid" in differences:
+        differences = [key for key in differences if key != "fmu_sha256"]
+    if len(differences) > 1:
+        differences = [key for key in differences if key not in ("points_sha256", "points", "runs")]
+    message = some_of(
+        (_difference_text(key, earlier.get(key), new.get(key)) for key in differences), _MOST_DIFFERENCES, "; "
+    )
     raise HostError(
         f"{folder} holds another study, whose rows stay as they are: {message}. Put it back as it was, or give another "
         "--out."
     )
 
 
-def _difference(key: str, before: Any, now: Any) -> str:
-    if isinstance(before, dict) and isinstance(now, dict):
-        inner = next(k for k in dict.fromkeys((*before, *now)) if before.get(k) != now.get(k))
-        if key in _WORDS:
-            return f"{_WORDS[key]} '{inner}' changed"
-        return _difference(f"{key}.'{inner}'" if "." in inner else f"{key}.{inner}", before.get(inner), now.get(inner))
-    if isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
-        number = next(k for k in range(len(now)) if before[k] != now[k])
-        return _difference(f"{key}[{number + 1}]", before[number], now[number])
+def _difference_text(key: str, earlier: Any, now: Any) -> str:
+    if isinstance(earlier, dict) and isinstance(now, dict):
+        inner = next(k for k in dict.fromkeys((*earlier, *now)) if earlier.get(k) != now.get(k))
+        if key in _LABELS:
+            return f"{_LABELS[key]} '{inner}' changed"
+        return _difference_text(
+            f"{key}.'{inner}'" if "." in inner else f"{key}.{inner}", earlier.get(inner), now.get(inner)
+        )
+    if isinstance(earlier, list) and isinstance(now, list) and len(earlier) == len(now):
+        number = next(k for k in range(len(now)) if earlier[k] != now[k])
+        return _difference_text(f"{key}[{number + 1}]", earlier[number], now[number])
     if key.rpartition(".")[2] in ("sha256", "fmu_sha256", "points_sha256", "program", "aliases"):
-        return f"{_WORDS.get(key, key)} changed"
-    was, is_now = (
-        "not given" if v is None else one_line(json.dumps(v, ensure_ascii=False), VALUE) for v in (before, now)
+        return f"{_LABELS.get(key, key)} changed"
+    earlier_text, now_text = (
+        "not given" if v is None else one_line(json.dumps(v, ensure_ascii=False), VALUE) for v in (earlier, now)
     )
-    return f"{_WORDS.get(key, key)} was {was} and is {is_now}"
+    return f"{_LABELS.get(key, key)} was {earlier_text} and is {now_text}"
 
 
-def keep_limits(folder: Path, before: dict[str, Any], limits: Mapping[str, Any], content: bytes) -> dict[str, Any]:
-    """The record of an earlier start with the limits of now, on which runs do not depend.
+def update_limits(folder: Path, earlier: dict[str, Any], limits: Mapping[str, Any], content: bytes) -> dict[str, Any]:
+    """The record of earlier runs with new limits, on which runs do not depend; written if the limits differ.
 
     `content`: of the study file.
     """
-    if before.get("limits", {}) == limits:
-        return before
-    after = {**before, "limits": dict(limits)}
+    if earlier.get("limits", {}) == limits:
+        return earlier
+    record = {**earlier, "limits": dict(limits)}
     with atomic_file(folder / "study.toml") as temporary:
         temporary.write_bytes(content)
-    write_record(folder, after)
-    return after
+    write_record(folder, record)
+    return record

@@ -10,7 +10,7 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from ali3.reading import is_folder
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.execution import lacking, perform, settings_of_test
+from hosts.catalogue.execution import perform, settings_of_test, unmet_needs
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
@@ -29,27 +29,27 @@ from hosts.study.study_file import ManoeuvreEntry, StudyFile
 
 @dataclass(frozen=True)
 class Job:
-    """What is done at each point."""
+    """A manoeuvre, or a test of the catalogue, that is run at each point."""
 
     label: str
     manoeuvre: Manoeuvre | None
-    """With all start values but the parameters."""
+    """With all start values but the parameters; None: a test."""
     test: str = ""
-    """Of the catalogue, where there is no manoeuvre."""
+    """Name of the test; empty: a manoeuvre."""
     settings: dict[str, float] = field(default_factory=dict)
     measures: tuple[str, ...] = ()
-    """Of the test; empty: all."""
+    """Measures of the test; empty: all."""
     start: dict[str, Value] = field(default_factory=dict)
     step: float = float("nan")
     """Communication step, s; NaN for a test that takes that of the FMU."""
     every: int = 0
-    """Steps between kept values of signals; 0: none are kept."""
+    """Steps between stored values of signals; 0: none are stored."""
     samples: int = 0
-    """Kept values."""
+    """Number of stored values of a signal."""
 
 
 def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
-    """A manoeuvre of the package by its name, else a file beside the study; `HostError` where there is neither."""
+    """A manoeuvre of the package, else of a file beside the study file. Raises `HostError` where there is neither."""
     names = manoeuvre_names()
     if name in names:
         return load_manoeuvre(name)
@@ -62,59 +62,63 @@ def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
 def checked_test(
     name: str, set_values: Mapping[str, float], fmu: SimulatedFmu, where: str
 ) -> tuple[str, dict[str, float]]:
-    """Name and settings of a test, if it can be done with an FMU.
+    """Name and settings of a test that can be done with an FMU.
 
-    `set_values`: settings that are not by default; `where`: how messages call the entry. Raises `HostError`: there is
-    no such test or setting, or the FMU lacks what it needs.
+    `set_values`: settings other than the defaults; `where`: name of the entry in messages. Raises `HostError`: there is
+    no such test or setting, or the FMU lacks a variable that the test needs.
     """
     try:
         test = standard_test(name)
         settings = settings_of_test(test, set_values)
     except HostError as error:
         raise HostError(f"{where}: {error}") from None
-    for need in lacking(test, {*fmu.variables, *fmu.constants()}):
+    for need in unmet_needs(test, {*fmu.variables, *fmu.constants()}):
         raise HostError(
             f"{where}: the test {test.name} needs {need.replace(' | ', ' or ')}, which the FMU does not have."
         )
     return test.name, settings
 
 
-def performed(
+def perform_test(
     job: Job,
     name: str,
     fmu: FmuSource,
     values: Mapping[str, Value],
 ) -> TestRecord:
-    """What the test of a job has yielded. `name`: of the FMU in messages."""
+    """Run the test of a job. `name`: of the FMU in messages; `values`: of the parameters."""
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, fmu, {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings)
 
 
 def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:
-    """What is done at each point. `parameters`: those that the study varies.
+    """The jobs at each point. `parameters`: those that the study varies.
 
     Raises `HostError`: a manoeuvre cannot be driven with this FMU, or overwrites a parameter.
     """
     jobs: list[Job] = []
     for number, entry in enumerate(study.manoeuvres, start=1):
         where = f"{file}: manoeuvres[{number}]"
-        job = _test(entry, study, fmu, where) if entry.test is not None else _drive(entry, study, file, fmu, where)
+        job = (
+            _test_job(entry, study, fmu, where)
+            if entry.test is not None
+            else _manoeuvre_job(entry, study, file, fmu, where)
+        )
         for earlier in jobs:
             if earlier.label == job.label:
                 raise HostError(f"{where}: another manoeuvre is called '{job.label}'; give one of them another name.")
         if job.manoeuvre is not None:
-            _check_effect(job.manoeuvre, parameters, where)
-        twice = sorted(set(entry.start) & set(parameters))
-        if twice:
-            raise HostError(f"{where}.start sets '{twice[0]}', which is a parameter of the study; give it once.")
+            _check_parameters(job.manoeuvre, parameters, where)
+        duplicates = sorted(set(entry.start) & set(parameters))
+        if duplicates:
+            raise HostError(f"{where}.start sets '{duplicates[0]}', which is a parameter of the study; give it once.")
         jobs.append(job)
     if study.signals is not None and all(job.manoeuvre is None for job in jobs):
         raise HostError(f"{file}: [signals] are of manoeuvres; this study has tests only, which keep none.")
     return jobs
 
 
-def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFmu, where: str) -> Job:
+def _manoeuvre_job(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFmu, where: str) -> Job:
     if entry.manoeuvre is None:
         assert entry.stop_time is not None
         manoeuvre = Manoeuvre(entry.name or "run", np.zeros(0), {}, entry.stop_time)
@@ -130,28 +134,32 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFm
         step = communication_step(fmu, manoeuvre, study.step)
     except HostError as error:
         raise HostError(f"{where}: {error}") from None
-    start = {**manoeuvre.start, **_checked(study.start, fmu, ""), **_checked(entry.start, fmu, f"{where}.start")}
+    start = {
+        **manoeuvre.start,
+        **_checked_start(study.start, fmu, ""),
+        **_checked_start(entry.start, fmu, f"{where}.start"),
+    }
     manoeuvre = replace(manoeuvre, name=entry.name or manoeuvre.name, start=start)
-    every, samples = _sampling(study, manoeuvre.stop_time, step, where)
+    every, samples = _sampling_of_signals(study, manoeuvre.stop_time, step, where)
     return Job(manoeuvre.name, manoeuvre, step=step, every=every, samples=samples)
 
 
-def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: SimulatedFmu, where: str) -> Job:
+def _test_job(entry: ManoeuvreEntry, study: StudyFile, fmu: SimulatedFmu, where: str) -> Job:
     assert entry.test is not None
     test, settings = checked_test(entry.test, entry.settings, fmu, where)
-    start = {**study.start, **_checked(entry.start, fmu, f"{where}.start")}
+    start = {**study.start, **_checked_start(entry.start, fmu, f"{where}.start")}
     step = float("nan") if study.step is None else study.step
     return Job(entry.name or test, None, test, settings, tuple(entry.measures or ()), start, step)
 
 
-def _checked(values: Mapping[str, Value], fmu: SimulatedFmu, where: str) -> dict[str, Value]:
+def _checked_start(values: Mapping[str, Value], fmu: SimulatedFmu, where: str) -> dict[str, Value]:
     for name in values:
         if name not in fmu.variables:
             raise HostError(f"{where}: the FMU has no '{name}'{did_you_mean(name, fmu.variables)}")
     return {name: fmu.table[name].check(value, where) for name, value in values.items()}
 
 
-def _check_effect(manoeuvre: Manoeuvre, parameters: Sequence[str], where: str) -> None:
+def _check_parameters(manoeuvre: Manoeuvre, parameters: Sequence[str], where: str) -> None:
     for name in parameters:
         if name in manoeuvre.inputs:
             raise HostError(
@@ -161,8 +169,8 @@ def _check_effect(manoeuvre: Manoeuvre, parameters: Sequence[str], where: str) -
             raise HostError(f"{where}: '{name}' is a parameter of the study; the driver of the manoeuvre acts on it.")
 
 
-def _sampling(study: StudyFile, stop: float, step: float, where: str) -> tuple[int, int]:
-    """Steps between kept values of signals, and how many there are."""
+def _sampling_of_signals(study: StudyFile, stop: float, step: float, where: str) -> tuple[int, int]:
+    """Steps between stored values of signals, and the number of values. `stop`, `step`: in s."""
     if study.signals is None:
         return 0, 0
     every = steps_of(study.signals.interval, step, f"{where}: signals.interval")

@@ -21,7 +21,7 @@ from hosts.study.store import read_study
 from hosts.study.worker_data import ALL, DONE, FAILED, MISSING
 
 CONFIDENCE = 0.95
-_NO_INTERVAL = {
+_REASONS_WITHOUT_INTERVAL = {
     "grid": "the points of a grid are not a random sample",
     "table": "how the rows of a table were chosen is unknown",
     "saltelli": "runs of a block of the design share values, so that they are not an independent sample",
@@ -33,82 +33,81 @@ class Share:
     """Number and share of the runs within a limit."""
 
     measure: str
-    """Its column; `ALL` for variants, the points of the study, that keep every limit in all their runs."""
+    """Column of the measure; `ALL`: points of the study, called variants, that keep all limits in all their runs."""
     manoeuvre: str
     """Empty for `ALL`."""
     lowest: float
     highest: float
     unit: str
-    """`lowest`, `highest`: of the limit, in this unit; infinite where there is none."""
+    """`lowest`, `highest`: of the limit, in this unit; infinite: not limited."""
     within: int
     outside: int
-    """`within`, `outside`: runs, of `ALL` points."""
+    """`within`, `outside`: numbers of runs; of `ALL` of points."""
     without_result: int
-    """Those of `outside` that failed, or did not yield a measure that there should be."""
+    """Number of those of `outside` that failed or lack the measure."""
     absent: int
-    """Runs in which there is no such measure, as the critical speed of a car that understeers; neither within nor
-    outside."""
+    """Number of runs in which the measure does not exist, such as the critical speed of a car that understeers; neither
+    within nor outside."""
     share: float
-    """Part of the runs that count, 0 to 1; NaN where none does."""
+    """Share of `within` in `within` and `outside`, 0 to 1; NaN where both are 0."""
     share_low: float
     share_high: float
     """`share_low`, `share_high`: its interval, see `interval_of_share`; NaN where the runs are no random sample."""
 
 
 def shares(frame: pd.DataFrame) -> list[Share]:
-    """Shares of the runs that are there, each limit of each manoeuvre, and then all limits together.
+    """Shares of the finished runs within each limit of each manoeuvre, and then within all limits.
 
-    `frame`: with its attrs, as `hosts.study.store.read_study` gives it.
+    `frame`: of `hosts.study.store.read_study`, with its attrs.
 
     Notes
     -----
-    A run without a result is outside of its limits: nobody knows that it keeps them. A run that lacks another measure
-    is judged by the one that it has, and not at all by one that does not exist in it. Tables of earlier
-    versions do not say which measures a run lacks; there each that it does not have counts as lacking.
+    A run that lacks a measure is outside of its limit; a measure that does not exist in a run does not count. Tables of
+    earlier versions do not distinguish both; there a measure without a value counts as lacking.
     """
     about, results = frame.attrs, []
     points = frame["point"].to_numpy(dtype=np.int64)
-    broken, judged = (np.zeros(points.max(initial=-1) + 1, dtype=bool) for _ in range(2))
-    lost = broken.copy()
+    violated, judged = (np.zeros(points.max(initial=-1) + 1, dtype=bool) for _ in range(2))
+    without_result = violated.copy()
     manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
     for column, record in about["limits"].items():
         lowest, highest = ends = limit_ends(record)
         values = frame[column].to_numpy(dtype=np.float64)
-        for name in _of_column(column, about):
-            of_manoeuvre = manoeuvres == name
+        for name in _manoeuvres_of(column, about):
+            is_manoeuvre = manoeuvres == name
             finite = np.isfinite(values)
-            within = of_manoeuvre & finite & (values >= lowest) & (values <= highest)
-            bare = of_manoeuvre & ~finite & _should_be(column, frame)
-            outside = bare | (of_manoeuvre & finite & ~within)
-            absent = int((of_manoeuvre & ~finite & ~bare).sum())
-            broken[points[outside]] = lost[points[bare]] = True
+            within = is_manoeuvre & finite & (values >= lowest) & (values <= highest)
+            lacks = is_manoeuvre & ~finite & _lacks_measure(column, frame)
+            outside = lacks | (is_manoeuvre & finite & ~within)
+            absent = int((is_manoeuvre & ~finite & ~lacks).sum())
+            violated[points[outside]] = without_result[points[lacks]] = True
             judged[points[within | outside]] = True
-            results.append(_share(column, name, ends, record["unit"], (within, outside, bare), absent, about))
+            results.append(_share(column, name, ends, record["unit"], (within, outside, lacks), absent, about))
     if results:
-        sets = (judged & ~broken, broken, lost)
+        sets = (judged & ~violated, violated, without_result)
         absent = len(np.unique(points)) - int(judged.sum())
         results.append(_share(ALL, "", limit_ends(None), "1", sets, absent, about))
     return results
 
 
-def _should_be(column: str, frame: pd.DataFrame) -> NDArray[np.bool_]:
-    """Which runs, if they have not this measure, lack it; in the others it does not exist."""
+def _lacks_measure(column: str, frame: pd.DataFrame) -> NDArray[np.bool_]:
+    """Runs that lack a measure if it has no value; in the others it does not exist then. Shape (runs,)."""
     status = frame["status"].astype(str).to_numpy()
     if "missing" not in frame:
         return np.asarray(status != DONE)
-    lacking = [None if names is None else names.split(MISSING) for names in frame["missing"].astype(object)]
-    lacks_column = [known is None or column in known for known in lacking]
+    names_by_run = [None if names is None else names.split(MISSING) for names in frame["missing"].astype(object)]
+    lacks_column = [names is None or column in names for names in names_by_run]
     return np.asarray((status == FAILED) | ((status != DONE) & np.array(lacks_column, dtype=np.bool_)))
 
 
 def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
-    """Least and largest value of a limit of `limits_record`; infinite where there is none."""
+    """Least and largest value of a limit of `limits_record`; infinite: not limited."""
     low, high = (None, None) if record is None else (record["min"], record["max"])
     return (-math.inf if low is None else low), (math.inf if high is None else high)
 
 
-def _of_column(column: str, about: Mapping[str, Any]) -> list[str]:
-    """Manoeuvres whose runs have a measure: the test that it is named after, else all that are no tests."""
+def _manoeuvres_of(column: str, about: Mapping[str, Any]) -> list[str]:
+    """Manoeuvres whose runs have a measure: the test of its name, else all that are no tests."""
     tests = [n for n in about["tests"] if column.startswith(f"{n}.")]
     return [max(tests, key=len)] if tests else [n for n in about["manoeuvres"] if n not in about["tests"]]
 
@@ -122,11 +121,13 @@ def _share(
     absent: int,
     about: Mapping[str, Any],
 ) -> Share:
-    within, outside, bare = (int(s.sum()) for s in sets)
+    within, outside, without_result = (int(s.sum()) for s in sets)
     count = within + outside
-    interval = interval_of_share(within, count) if count and not why_no_interval(about) else (math.nan, math.nan)
+    interval = (
+        interval_of_share(within, count) if count and not reason_without_interval(about) else (math.nan, math.nan)
+    )
     share = within / count if count else math.nan
-    return Share(measure, manoeuvre, *ends, unit, within, outside, bare, absent, share, *interval)
+    return Share(measure, manoeuvre, *ends, unit, within, outside, without_result, absent, share, *interval)
 
 
 def interval_of_share(count: int, of: int) -> tuple[float, float]:
@@ -135,38 +136,38 @@ def interval_of_share(count: int, of: int) -> tuple[float, float]:
     return float(interval.low), float(interval.high)
 
 
-def why_no_interval(about: Mapping[str, Any]) -> str:
-    """Why the runs of a study say nothing about those that were not made; empty where they are a random sample."""
-    return _NO_INTERVAL.get(str(about["sampling"]["method"]), "")
+def reason_without_interval(about: Mapping[str, Any]) -> str:
+    """Why the runs of a study are not a random sample, as a clause; empty where they are."""
+    return _REASONS_WITHOUT_INTERVAL.get(str(about["sampling"]["method"]), "")
 
 
 def share_rows(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[tuple[str, str, str, str, str]]:
-    """Measure, limit, count, share and interval of each, in words and in the units of reports."""
+    """Rows of the table of limits: measure, limit, count, share and interval as text, in the units of reports."""
     rows = []
     for s in share_list:
         several = s.manoeuvre != "" and len(about["manoeuvres"]) > 1 and not s.measure.startswith(f"{s.manoeuvre}.")
         label = f"{s.measure} ({s.manoeuvre})" if several else s.measure
-        of = "variants" if s.measure == ALL else "runs"
-        count = f"{s.within} of {s.within + s.outside} {of}"
+        unit = "variants" if s.measure == ALL else "runs"
+        count = f"{s.within} of {s.within + s.outside} {unit}"
         if s.without_result:
             count += f", {s.without_result} without a result"
         if s.absent:
             count += f"; {s.absent} more do not have it"
         share = "–" if math.isnan(s.share) else f"{100.0 * s.share:.1f} %"
         interval = "–" if math.isnan(s.share_low) else f"{100.0 * s.share_low:.1f} to {100.0 * s.share_high:.1f} %"
-        rows.append((label, _allowed(s), count, share, interval))
+        rows.append((label, _limit_text(s), count, share, interval))
     return rows
 
 
-def _allowed(s: Share) -> str:
+def _limit_text(s: Share) -> str:
     unit, factor = shown_in(s.unit, s.measure)
     limit = Limit("", factor * s.lowest, factor * s.highest)
-    return "" if s.measure == ALL else limit.words(typeset(unit))
+    return "" if s.measure == ALL else limit.range_text(typeset(unit))
 
 
 def share_notes(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[str]:
-    """What is to be known of the shares, each in a sentence."""
-    why = why_no_interval(about)
+    """Notes on the table of limits, a sentence each."""
+    why = reason_without_interval(about)
     notes = [f"There is no interval: {why}." if why else "Interval of the share: Wilson's score interval, 95 %."]
     if any(s.without_result for s in share_list):
         notes.append("Runs that failed or did not yield the measure count as outside of its limits.")
@@ -186,7 +187,7 @@ def write_shares(share_list: Sequence[Share], folder: Path) -> list[Path]:
 
 
 def report_limits(folder: Path) -> bool:
-    """Print and write the shares of a study that has limits; whether all runs keep them."""
+    """Print and write the shares of a study with limits. Returns whether all runs keep them."""
     frame = read_study(folder)
     share_list = shares(frame)
     lines = in_columns([("limits", "", "within", "share", "95 %"), *share_rows(share_list, frame.attrs)])

@@ -1,4 +1,4 @@
-"""The outcomes of a study in its folder, as a table of a `ResultStore`: rows wait in memory, then become parts."""
+"""The outcomes of a study as a table of a `ResultStore`: rows are collected in memory and written in parts."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -10,33 +10,33 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from hosts.study.folder import RUNS
-from hosts.study.parts import part_files, read_part, signal_schema, signals_beside, table_schema, write_part
+from hosts.study.parts import part_files, read_part, signal_schema, signals_file, table_schema, write_part
 from hosts.study.worker_data import MISSING, Outcome, Run, seed_of
 
 Row: TypeAlias = tuple[Run, Outcome]
 
-_NAME = "part-{:06d}.parquet"
+_FILE_NAME = "part-{:06d}.parquet"
 _MOST_ROWS = 50_000  # of a part
-_MOST_BYTES = 200e6  # of signals that are kept before they are written
+_MOST_BYTES = 200e6  # of the signals of a part
 
 
 @dataclass
-class _Part:
-    """Rows that wait to be written as a part."""
+class _PendingPart:
+    """Rows that are not written yet."""
 
     number: int
     rows: dict[str, list[Any]]
     """Columns by name."""
     samples: list[tuple[int, NDArray[np.float64]]] = field(default_factory=list)
-    """Signals of runs, each with the number of its run."""
+    """Numbers of runs with their signals, shape (samples, signals)."""
     bytes: int = 0
-    """Of the signals."""
+    """Size of the signals."""
 
 
 class OutcomeTable:
-    """Where a `ResultStore` writes rows; the name of one is the number of its run.
+    """The table of a `ResultStore`; the name of a row is the number of its run.
 
-    `done`: which runs have a row, shape (runs,), see `hosts.study.damaged_files.sound_runs`; None: none.
+    `done`: whether a run has a row, shape (runs,), see `hosts.study.damaged_files.sound_runs`; None: no run has.
     """
 
     def __init__(self, folder: Path, record: Mapping[str, Any], done: NDArray[np.bool_] | None = None) -> None:
@@ -48,8 +48,8 @@ class OutcomeTable:
         files = part_files(folder)
         self._part = self._empty_part(int(files[-1].stem.rpartition("-")[2]) + 1 if files else 1)
 
-    def _empty_part(self, number: int) -> _Part:
-        return _Part(number, {name: [] for name in self._schema.names})
+    def _empty_part(self, number: int) -> _PendingPart:
+        return _PendingPart(number, {name: [] for name in self._schema.names})
 
     @property
     def is_full(self) -> bool:
@@ -82,36 +82,39 @@ class OutcomeTable:
             self._part.bytes += outcome.signals.nbytes
 
     def write(self) -> None:
-        """Write a part, after the signals of its runs, so that each row that is there has its own; see `Table`."""
+        """Write a part after the signals of its runs, so that no row lacks its signals; see `Table`."""
         part = self._part
         if not part.rows["index"]:
             return
-        file = self._folder / RUNS / _NAME.format(part.number)
+        file = self._folder / RUNS / _FILE_NAME.format(part.number)
         if self._signals is not None:
             index = pa.array([index for index, _ in part.samples], pa.int64())
-            columns = [_lists([x[:, k] for _, x in part.samples]) for k in range(len(self._signals) - 1)]
-            write_part(pa.Table.from_arrays([index, *columns], schema=self._signals), signals_beside(file))
+            columns = [_list_column([x[:, k] for _, x in part.samples]) for k in range(len(self._signals) - 1)]
+            write_part(pa.Table.from_arrays([index, *columns], schema=self._signals), signals_file(file))
         arrays = [pa.array(part.rows[field.name], field.type, from_pandas=False) for field in self._schema]
         write_part(pa.Table.from_arrays(arrays, schema=self._schema), file)
         self.done[part.rows["index"]] = True
-        # one assignment: a signal before it has the same file written again, one behind it nothing
+        # One assignment: after an interrupt the same file is written again, or nothing.
         self._part = self._empty_part(part.number + 1)
 
-    def forget(self, goes: Callable[[Any], NDArray[np.bool_]]) -> int:
-        """Take rows out of the parts, so that their runs are made again; how many. `goes`: of a part, which of them."""
-        before = np.count_nonzero(self.done)
+    def remove_rows(self, selection: Callable[[Any], NDArray[np.bool_]]) -> int:
+        """Remove rows of the parts, so that their runs are repeated. Returns their number.
+
+        `selection`: function of a part; returns whether a row is removed, shape (rows,).
+        """
+        count = np.count_nonzero(self.done)
         for file in part_files(self._folder):
             table = read_part(file, self._record)
-            removed = goes(table)
+            removed = selection(table)
             self.done[table["index"].to_numpy()[removed]] = False
             if removed.all():
                 file.unlink()
             elif removed.any():
                 write_part(table.filter(pa.array(~removed)), file)
-        return int(before - np.count_nonzero(self.done))
+        return int(count - np.count_nonzero(self.done))
 
 
-def _lists(rows: list[NDArray[np.float64]]) -> Any:
-    """A column of lists."""
+def _list_column(rows: list[NDArray[np.float64]]) -> Any:
+    """A column of lists of numbers."""
     ends = np.cumsum([0, *map(len, rows)], dtype=np.int32)
     return pa.ListArray.from_arrays(pa.array(ends), pa.array(np.concatenate([np.zeros(0), *rows])))

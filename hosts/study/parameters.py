@@ -1,4 +1,4 @@
-"""Parameters of a study: their declaration in the FMU, and their values from numbers in [0, 1)."""
+"""Parameters of a study: their variables in the FMU, and their values at positions in [0, 1)."""
 
 from __future__ import annotations
 
@@ -21,52 +21,53 @@ class Parameter:
 
     name: str
     kind: str
-    """Of its variable: ``Real``, ``Integer``, ``Boolean``, ``String`` or ``Enumeration``."""
+    """Type of its variable: ``Real``, ``Integer``, ``Boolean``, ``String`` or ``Enumeration``."""
     unit: str
-    """Of the FMU."""
+    """Unit of the FMU."""
     low: float = math.nan
     high: float = math.nan
-    """`low`, `high`: range; NaN where there are values."""
+    """`low`, `high`: range; NaN if `values` are listed."""
     log: bool = False
+    """Whether the range is divided by the logarithm."""
     values: tuple[Value, ...] = ()
-    """Empty where there is a range."""
+    """Listed values; empty: a range."""
     count: int | None = None
-    """Values of the range in a grid."""
+    """Number of values of the range in a grid."""
 
     @property
     def length(self) -> int:
         """Number of values in a grid."""
         return len(self.values) or self.count or 0
 
-    def at(self, u: NDArray[np.float64]) -> list[Value]:
-        """Values at places u in [0, 1), of shape (n,)."""
+    def at(self, positions: NDArray[np.float64]) -> list[Value]:
+        """Values at positions in [0, 1), shape (n,)."""
         if self.values:
-            return [self.values[k] for k in np.floor(u * len(self.values)).astype(int)]
-        if self.kind != "Real":  # whole numbers, each as often as the others
-            numbers = self.low + np.floor(u * (self.high - self.low + 1.0))
+            return [self.values[k] for k in np.floor(positions * len(self.values)).astype(int)]
+        if self.kind != "Real":  # whole numbers of equal probability
+            numbers = self.low + np.floor(positions * (self.high - self.low + 1.0))
             return [int(x) for x in np.minimum(numbers, self.high)]
-        return np.clip(self._between(u), self.low, self.high).tolist()  # type: ignore[no-any-return]
+        return np.clip(self._in_range(positions), self.low, self.high).tolist()  # type: ignore[no-any-return]
 
-    def _between(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _in_range(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         if self.log:
-            return np.asarray(np.exp(math.log(self.low) + u * (math.log(self.high) - math.log(self.low))))
-        return np.asarray(self.low + u * (self.high - self.low))
+            return np.asarray(np.exp(math.log(self.low) + positions * (math.log(self.high) - math.log(self.low))))
+        return np.asarray(self.low + positions * (self.high - self.low))
 
-    def of_grid(self) -> Parameter:
-        """The same with the values of a grid: the ends of its range, and what lies between them in equal steps."""
+    def with_grid_values(self) -> Parameter:
+        """The parameter with the values of a grid: its range in equal steps. Raises `HostError` if there are none."""
         if self.values:
             return self
         assert self.count is not None
         if self.count == 1:
             raise HostError(f"parameters.'{self.name}' has a count of 1; a range has at least 2 values in a grid.")
-        between = self._between(np.linspace(0.0, 1.0, self.count))
-        between[0], between[-1] = self.low, self.high
-        if self.kind != "Real" and (between != np.round(between)).any():
+        numbers = self._in_range(np.linspace(0.0, 1.0, self.count))
+        numbers[0], numbers[-1] = self.low, self.high
+        if self.kind != "Real" and (numbers != np.round(numbers)).any():
             raise HostError(
                 f"parameters.'{self.name}': {self.count} equal steps from {self.low:g} to {self.high:g} are no whole "
                 "numbers; list them as values."
             )
-        values = between.tolist() if self.kind == "Real" else [int(x) for x in between]
+        values = numbers.tolist() if self.kind == "Real" else [int(x) for x in numbers]
         return Parameter(self.name, self.kind, self.unit, self.low, self.high, self.log, tuple(values), self.count)
 
     def record(self) -> dict[str, Any]:
@@ -82,38 +83,38 @@ class Parameter:
 
 
 def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str) -> Parameter:
-    """A parameter, checked against its variable. `file`: how messages call the study file.
+    """A parameter, checked against its variable. `file`: name of the study file in messages.
 
-    Raises `HostError`: a value is of another kind or out of the range of the FMU, with what would be right.
+    Raises `HostError`: a value is of another kind or out of the range of the FMU, with a remedy.
     """
-    where = f"{file}: parameters.'{name}'"
+    label = f"{file}: parameters.'{name}'"
     if entry.range is not None:
         if variable.kind not in ("Real", "Integer"):
-            raise HostError(f"{where} has a range; it is of the kind {variable.kind}, so that it needs values.")
-        low, high = (in_unit(x, entry.unit, variable, f"{where}.range") for x in entry.range)
+            raise HostError(f"{label} has a range; it is of the kind {variable.kind}, so that it needs values.")
+        low, high = (in_fmu_unit(x, entry.unit, variable, f"{label}.range") for x in entry.range)
         assert not isinstance(low, str)
         assert not isinstance(high, str)
         if entry.log and not low > 0.0:
-            raise HostError(f"{where} begins at {low:g}; with log = true it must be positive.")
+            raise HostError(f"{label} begins at {low:g}; with log = true it must be positive.")
         if entry.log and variable.kind != "Real":
-            raise HostError(f"{where} is a whole number; list what it may be as values instead of log = true.")
+            raise HostError(f"{label} is a whole number; list what it may be as values instead of log = true.")
         return Parameter(name, variable.kind, variable.unit, float(low), float(high), entry.log, (), entry.count)
     entries = entry.values or []
-    values = tuple(in_unit(x, entry.unit, variable, f"{where}.values[{k}]") for k, x in enumerate(entries, start=1))
+    values = tuple(in_fmu_unit(x, entry.unit, variable, f"{label}.values[{k}]") for k, x in enumerate(entries, start=1))
     if len(set(values)) < len(values):
-        twice = next(x for k, x in enumerate(values) if x in values[:k])
-        raise HostError(f"{where}.values has {variable.text(twice)} twice; each is run once.")
+        duplicate = next(x for k, x in enumerate(values) if x in values[:k])
+        raise HostError(f"{label}.values has {variable.text(duplicate)} twice; each is run once.")
     return Parameter(name, variable.kind, variable.unit, values=values)
 
 
-def in_unit(value: Value, unit: str | None, variable: Variable, where: str) -> Value:
+def in_fmu_unit(value: Value, unit: str | None, variable: Variable, label: str) -> Value:
     """A value in the unit of the FMU, checked.
 
-    `unit`: that it is given in; None: that of the FMU; `where`: how messages call its place.
+    `unit`: of `value`; None: that of the FMU; `label`: key of the value in messages.
     """
     if unit is None or unit == variable.unit or isinstance(value, (str, bool)):
-        return variable.check(value, where)
+        return variable.check(value, label)
     if unit not in variable.displays:
         units = " or ".join([variable.unit, *variable.displays])
-        raise HostError(f"{where}: the unit is '{unit}'; the FMU knows '{variable.name}' in {units}.")
-    return variable.check(variable.from_display(float(value), unit, where), f"{where}, {value:g} {unit}")
+        raise HostError(f"{label}: the unit is '{unit}'; the FMU knows '{variable.name}' in {units}.")
+    return variable.check(variable.from_display(float(value), unit, label), f"{label}, {value:g} {unit}")

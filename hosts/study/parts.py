@@ -1,4 +1,4 @@
-"""The table of a study in parts, which are there whole or not at all, and beside each the signals of its runs."""
+"""The table of a study in parts, each written whole or not at all, and files of the signals of their runs."""
 
 import json
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ _TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64()
 
 
 def table_schema(record: Mapping[str, Any]) -> Any:
-    """Columns of the table with their units, and what `pandas.read_parquet` gives as ``attrs``."""
+    """Columns of the table with their units, and the ``attrs`` of `pandas.read_parquet`."""
     units = record["units"]
     fields = [("index", pa.int64()), ("point", pa.int64()), ("manoeuvre", pa.string()), ("seed", pa.int64())]
     fields += [(name, _TYPES.get(p["kind"], pa.string())) for name, p in record["parameters"].items()]
@@ -34,14 +34,14 @@ def table_schema(record: Mapping[str, Any]) -> Any:
 
 
 def signal_schema(record: Mapping[str, Any]) -> Any:
-    """Columns of the signals: the run, and its samples of each."""
+    """Columns of the signals: number of the run, and a list of samples for each signal."""
     names, units = record["signals"]["names"], record["units"]
     fields = [pa.field(name, pa.list_(pa.float64()), metadata={"unit": units[name]}) for name in names]
     return pa.schema([pa.field("index", pa.int64()), *fields])
 
 
 def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
-    """What a table says of itself: units of columns, parameters with their ranges, what was run by which program."""
+    """The attrs of a table: units of columns, parameters with their ranges, manoeuvres and versions of programs."""
     keys = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
     return {
         "study": record["name"],
@@ -55,31 +55,31 @@ def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def part_files(folder: Path) -> list[Path]:
-    """Parts that are there, in their order."""
+    """Paths of the existing parts, in the order of their numbers."""
     return sorted((folder / RUNS).glob("part-*.parquet"))
 
 
-def signals_beside(part: Path) -> Path:
-    """The signals of the runs of a part."""
+def signals_file(part: Path) -> Path:
+    """Path of the signals of the runs of a part."""
     return part.parent.with_name(SIGNALS) / part.name
 
 
 class DamagedPartError(HostError):
-    """A part that is not as it was written: `file`, and why in `words`."""
+    """A damaged part: its `file` and the `reason`."""
 
-    def __init__(self, file: Path, words: str) -> None:
-        super().__init__(f"{file} is damaged ({words}); the same study, started again, makes its runs again.")
-        self.file, self.words = file, words
+    def __init__(self, file: Path, reason: str) -> None:
+        super().__init__(f"{file} is damaged ({reason}); the same study, started again, makes its runs again.")
+        self.file, self.reason = file, reason
 
 
 def read_part(file: Path, record: Mapping[str, Any]) -> Any:
-    """The rows of a part, whose pages are checked by their checksums. Raises `DamagedPartError`."""
+    """Read the rows of a part, checked by checksums. Raises `DamagedPartError`."""
     return _read(file, table_schema(record))
 
 
 def read_signals(part: Path, record: Mapping[str, Any]) -> Any:
-    """The signals beside a part, see `read_part`; a file that has gone is one that is damaged."""
-    file = signals_beside(part)
+    """Read the signals of the runs of a part, see `read_part`; a missing file counts as damaged."""
+    file = signals_file(part)
     if not is_file(file):
         raise DamagedPartError(file, "it is not there")
     return _read(file, signal_schema(record))
@@ -88,19 +88,19 @@ def read_signals(part: Path, record: Mapping[str, Any]) -> Any:
 def _read(file: Path, schema: Any) -> Any:
     try:
         with opened_parquet(file, checksums=True) as parquet:
-            table, laid_out = parquet.read(), _is_laid_out(parquet.metadata)
-            written = [parquet.metadata.num_rows, sum(g.num_rows for g in _row_groups(parquet.metadata))]
+            table, is_contiguous = parquet.read(), _is_contiguous(parquet.metadata)
+            row_counts = [parquet.metadata.num_rows, sum(g.num_rows for g in _row_groups(parquet.metadata))]
     except HostError:
         raise
     except (pa.ArrowException, OSError, KeyError, ValueError) as error:
         raise DamagedPartError(file, one_line((str(error).strip() or repr(error)).splitlines()[0])) from None
     if not table.schema.equals(schema):
         types = {field.name: str(field.type) for field in schema}
-        odd = [f.name for f in table.schema if types.get(f.name) != str(f.type)]
-        raise DamagedPartError(file, f"its columns are not those of the study: {some_of(odd or types, 3)}")
-    if any(n != len(table) for n in written):  # the footer has no checksum
-        raise DamagedPartError(file, f"{max(written)} rows were written, and it has {len(table)}")
-    if not laid_out:
+        different = [f.name for f in table.schema if types.get(f.name) != str(f.type)]
+        raise DamagedPartError(file, f"its columns are not those of the study: {some_of(different or types, 3)}")
+    if any(n != len(table) for n in row_counts):  # the footer has no checksum
+        raise DamagedPartError(file, f"{max(row_counts)} rows were written, and it has {len(table)}")
+    if not is_contiguous:
         raise DamagedPartError(file, "its footer names other places than those of its columns")
     return table
 
@@ -109,9 +109,9 @@ def _row_groups(metadata: Any) -> list[Any]:
     return [metadata.row_group(k) for k in range(metadata.num_row_groups)]
 
 
-def _is_laid_out(metadata: Any) -> bool:
-    """Whether columns lie one behind the other: one at the place of another has right checksums too."""
-    end = 4  # behind the magic number
+def _is_contiguous(metadata: Any) -> bool:
+    """Whether the columns are contiguous; a column at the offset of another has valid checksums, too."""
+    end = 4  # after the magic number
     for column in (group.column(k) for group in _row_groups(metadata) for k in range(group.num_columns)):
         if end != (column.dictionary_page_offset or column.data_page_offset):
             return False
@@ -119,8 +119,8 @@ def _is_laid_out(metadata: Any) -> bool:
     return True
 
 
-def marked(done: NDArray[np.bool_], file: Path, table: Any) -> None:
-    """Mark the runs of the rows of a part. Raises `HostError`: no study, or another part, has such a row."""
+def mark_runs(done: NDArray[np.bool_], file: Path, table: Any) -> None:
+    """Mark the runs of a part in `done`, shape (runs,). Raises `HostError`: a run is unknown or repeated."""
     index = table["index"].to_numpy()
     if len(index) and not 0 <= index.min() <= index.max() < len(done):
         raise HostError(f"{file} has the run {index.max()}; the study has {len(done)} runs.")
@@ -130,7 +130,7 @@ def marked(done: NDArray[np.bool_], file: Path, table: Any) -> None:
 
 
 def write_part(table: Any, file: Path) -> None:
-    """Write a part, whole or not at all."""
+    """Write a part with checksums; the file is complete or absent."""
     buffer = pa.BufferOutputStream()
     pq.write_table(table, buffer, compression="zstd", write_page_checksum=True)
     with atomic_file(file) as temporary:

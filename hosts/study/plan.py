@@ -1,4 +1,4 @@
-"""A study that has been checked against its FMU: what is run, and what its table looks like."""
+"""A study that has been checked against its FMU: its runs, and the columns of its table."""
 
 import hashlib
 import json
@@ -33,17 +33,19 @@ OWN_COLUMNS = (
 )
 
 
-def source_beside(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
-    """The FMU under the names that a study file asks for: of an alias file beside it, else of one of the package.
+def fmu_source_of(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
+    """The FMU under the names of an alias file beside the study file, else of the package; `name` None: its own names.
 
-    Raises `HostError`: the file is not right, or is none for this FMU.
+    Raises `HostError`: the alias file is wrong, or is not for this FMU.
     """
-    beside = None if name is None else file.parent / name
-    return FmuSource.named(fmu.path, fmu.table, beside if beside is not None and is_file(beside) else name)
+    file_beside = None if name is None else file.parent / name
+    return FmuSource.named(
+        fmu.path, fmu.table, file_beside if file_beside is not None and is_file(file_beside) else name
+    )
 
 
-def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
-    """A variable that can be set, by our name and in our unit; None where it has no name of ours.
+def variable_by_our_name(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
+    """A variable that can be set, by our name and in our unit; None where there is no such name.
 
     Raises `HostError`: it is not a parameter or input.
     """
@@ -57,32 +59,32 @@ def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | Non
 
 @dataclass(frozen=True)
 class PlannedRuns:
-    """Runs of a study."""
+    """The FMU, points and jobs of a study."""
 
     fmu: SimulatedFmu
-    """Under our names, where there is an alias file."""
+    """Under our names if there is an alias file."""
     source: FmuSource
     points: Points
     parameters: dict[str, Any]
     """A record of each parameter by its name."""
     jobs: list[Job]
-    """What is done at each point."""
+    """Jobs at each point."""
 
 
 def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
-    """The runs of a study file. `file`: where it was read from; files it names are looked for beside it.
+    """The runs of a study file. `file`: its path, to which paths in it are relative.
 
     Raises `HostError`: an unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that
     overwrites a parameter.
     """
-    source = source_beside(study.aliases, file, opened)
+    source = fmu_source_of(study.aliases, file, opened)
     fmu: SimulatedFmu = source.seen(opened)
     points, parameters = _points(study, file, opened, fmu)
     return PlannedRuns(fmu, source, points, parameters, jobs_of(study, file, fmu, list(parameters)))
 
 
 def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
-    """The study whose results a folder holds, and its runs; `HostError` where its FMU is another one."""
+    """The study of a folder of results, and its runs. Raises `HostError`: the FMU is not that of the results."""
     study, _ = read_study_file(folder / "study.toml")
     with Fmu(fmu_of_folder(folder, record)) as opened:
         return study, planned_runs(study, Path(record["file"]), opened)
@@ -92,7 +94,7 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
     """Points, and a record of each parameter."""
 
     def variable_of(name: str, where: str) -> Variable:
-        return renamed_variable(fmu, name, where) or opened.table.settable(name, where)
+        return variable_by_our_name(fmu, name, where) or opened.table.settable(name, where)
 
     for name, value in study.start.items():
         variable_of(name, f"{file}: start").check(value, f"{file}: start")
@@ -127,9 +129,9 @@ class Plan:
     work: Work
     points: Points
     outputs: tuple[str, ...]
-    """Inputs and outputs of the FMU: all that a run records."""
+    """Inputs and outputs of the FMU, which a run records."""
     record: dict[str, Any]
-    """All of it for JSON; two plans with the same are the same study."""
+    """The plan for JSON; two plans with the same record are the same study."""
     notes: tuple[str, ...] = ()
 
     @property
@@ -144,27 +146,29 @@ class Plan:
 
     def runs_at(self, indices: Sequence[int]) -> list[Run]:
         """Runs with their values. `indices`: rising."""
-        each = len(self.work.jobs)
-        first, last = indices[0] // each, indices[-1] // each
+        jobs = len(self.work.jobs)
+        first, last = indices[0] // jobs, indices[-1] // jobs
         block = self.points.block(first, last - first + 1)
         return [
-            Run(index, {name: column[index // each - first] for name, column in block.items()}) for index in indices
+            Run(index, {name: column[index // jobs - first] for name, column in block.items()}) for index in indices
         ]
 
 
 def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
-    """Check a study against its FMU. `file`: where it was read from; files it names are looked for beside it.
+    """Check a study against its FMU. `file`: its path, to which paths in it are relative.
 
-    Raises `HostError`: whatever can be said before the first run: an unknown parameter, signal or measure, a value out
-    of range with its row, an empty grid, a manoeuvre that overwrites a parameter.
+    Raises `HostError`: an unknown parameter, signal or measure, a value out of range with its row, an empty grid, a
+    manoeuvre that overwrites a parameter.
     """
     content = read_bytes(fmu_path, LARGEST_ARCHIVE, HostError) if is_file(fmu_path) else b""
     with Fmu(fmu_path) as opened:
         runs = planned_runs(study, file, opened)
         fmu, points, parameters, jobs = runs.fmu, runs.points, runs.parameters, runs.jobs
         units = {n: v.unit or "1" for n, v in fmu.variables.items()}
-        signals = _signals(study, file, fmu)
-        measures, columns = _measures(study, file, fmu, units, [j.manoeuvre.stop_time for j in jobs if j.manoeuvre])
+        signals = _checked_signals(study, file, fmu)
+        measures, columns = _checked_measures(
+            study, file, fmu, units, [j.manoeuvre.stop_time for j in jobs if j.manoeuvre]
+        )
         outputs = tuple(dict.fromkeys((*fmu.names("input"), *fmu.names("output"))))
         guid, model = opened.description.guid, opened.description.modelName
     _check_names(file, [*parameters, *columns])
@@ -206,7 +210,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         "program": work.program,
         "file": str(file.absolute()),
     }
-    return Plan(name, file, fmu_path, work, points, outputs, record, _notes(study))
+    return Plan(name, file, fmu_path, work, points, outputs, record, _notes_on(study))
 
 
 def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
@@ -216,33 +220,33 @@ def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
 
 
 def job_digest(job: Job) -> str:
-    """A hash of all that a manoeuvre does, tables and states included."""
-    driven = "" if job.manoeuvre is None else manoeuvre_digest(job.manoeuvre)
-    key_parts = job.test, job.settings, job.start, job.step, job.every, job.samples, driven
-    return hashlib.sha256(repr(key_parts).encode()).hexdigest()
+    """A hash of a job, with the tables and states of its manoeuvre."""
+    manoeuvre_hash = "" if job.manoeuvre is None else manoeuvre_digest(job.manoeuvre)
+    content = job.test, job.settings, job.start, job.step, job.every, job.samples, manoeuvre_hash
+    return hashlib.sha256(repr(content).encode()).hexdigest()
 
 
-def _signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[str]:
+def _checked_signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[str]:
     if study.signals is None:
         return []
     variables = [*fmu.names("input"), *fmu.names("output")]
     for k, name in enumerate(study.signals.names):
         if name not in variables:
-            raise HostError(f"{file}: signals.names: {not_known(name, variables, 'input or output')}")
+            raise HostError(f"{file}: signals.names: {unknown_name_text(name, variables, 'input or output')}")
         if name in study.signals.names[:k]:
             raise HostError(f"{file}: signals.names has '{name}' twice; each is kept once.")
     return list(study.signals.names)
 
 
-def not_known(name: str, known: Iterable[str], what: str) -> str:
-    """The sentence for a name that there is not, with those that are near."""
-    return f"the FMU has no {what} '{name}'{did_you_mean(name, known, 'the command check lists them')}"
+def unknown_name_text(name: str, known: Iterable[str], kind: str) -> str:
+    """A sentence on an unknown name, with a similar one. `kind`: of the name."""
+    return f"the FMU has no {kind} '{name}'{did_you_mean(name, known, 'the command check lists them')}"
 
 
-def _measures(
+def _checked_measures(
     study: StudyFile, file: Path, fmu: SimulatedFmu, units: Mapping[str, str], stop_times: Sequence[float]
 ) -> tuple[list[StudyMeasure], dict[str, str]]:
-    """Measures of manoeuvres, and the units of their columns."""
+    """Measures of manoeuvres, and their columns with units. `stop_times`: of the manoeuvres, s."""
     if study.measures and not stop_times:
         raise HostError(f"{file}: [measures] are of manoeuvres; this study has tests only, which have their own.")
     if not study.measures:
@@ -268,12 +272,12 @@ def _check_names(file: Path, names: Sequence[str]) -> None:
             raise HostError(f"{file}: two columns of the table would be called '{name}'; give a measure another name.")
 
 
-def _notes(study: StudyFile) -> tuple[str, ...]:
+def _notes_on(study: StudyFile) -> tuple[str, ...]:
     notes = []
     n = study.sampling.runs or 1
     if study.sampling.method in ("sobol", "saltelli") and n & (n - 1):
-        below = 1 << (n.bit_length() - 1)
-        notes.append(f"Sobol' points are balanced at powers of two: {below} or {2 * below} would be better than {n}.")
+        power = 1 << (n.bit_length() - 1)
+        notes.append(f"Sobol' points are balanced at powers of two: {power} or {2 * power} would be better than {n}.")
     if not study.measures and study.signals is None and all(m.test is None for m in study.manoeuvres):
         notes.append("The study has neither measures nor signals: its table will only show which runs finished.")
     return tuple(notes)

@@ -1,4 +1,4 @@
-"""The points of a study: values of its parameters by a grid, at random or from a table, a block at a time."""
+"""The points of a study, in blocks: values of its parameters on a grid, at random or from a table."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ from ali3.tables import TextTable, number_of
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable
-from hosts.study.parameters import Parameter, in_unit
+from hosts.study.parameters import Parameter, in_fmu_unit
 from hosts.study.study_file import ParameterEntry, SamplingEntry
 
 if TYPE_CHECKING:
-    from hosts.study.random_points import Places
+    from hosts.study.random_points import UnitPoints
 
-_MOST = 10**9
-_DIGESTED = 256  # drawn points at both ends that tell one plan from another
+_MOST_POINTS = 10**9
+_MOST_DIGESTED = 256  # first and last points in the hash of drawn points
 
 
 @dataclass(frozen=True)
 class Points:
-    """The interface of a source of points."""
+    """A source of points."""
 
     count: int
     block: Callable[[int, int], Mapping[str, list[Value]]]
-    """Of the number of a point and how many: their values by name."""
+    """Function of the number of the first point and a count; returns values by the name of the parameter."""
     parameters: tuple[Parameter, ...] = ()
-    """Those that a rule draws; of a table none, any row of which can change by itself."""
+    """Parameters of a grid or of random points; empty for a table."""
 
 
-def grid(lengths: Sequence[int]) -> Places:
-    """All combinations, the last dimension fastest: middles of equal parts of [0, 1), one for each value."""
+def grid_points(lengths: Sequence[int]) -> UnitPoints:
+    """All combinations, the last dimension fastest; each value is the middle of an equal part of [0, 1)."""
 
     def block(first: int, count: int) -> NDArray[np.float64]:
         indices = np.unravel_index(np.arange(first, first + count), lengths)
@@ -51,29 +51,29 @@ def grid(lengths: Sequence[int]) -> Places:
 
 
 def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, file: str) -> Points:
-    """Points of a grid, or random ones. `file`: how messages call the study file.
+    """Points of a grid, or random ones. `file`: name of the study file in messages.
 
-    Raises `HostError`: there would be too many.
+    Raises `HostError`: there are too many points.
     """
     if sampling.method == "grid":
-        parameters = tuple(p.of_grid() for p in parameters)
+        parameters = tuple(p.with_grid_values() for p in parameters)
         lengths = tuple(p.length for p in parameters)
-        count, places = math.prod(lengths), grid(lengths)
-        if count > _MOST:
+        count, unit_points = math.prod(lengths), grid_points(lengths)
+        if count > _MOST_POINTS:
             product = " x ".join(map(str, lengths))
-            raise HostError(f"{file}: the grid has {product} = {count:.3g} points; at most {_MOST:.0e} can be.")
+            raise HostError(f"{file}: the grid has {product} = {count:.3g} points; at most {_MOST_POINTS:.0e} can be.")
     else:
-        count, places = _drawn(len(parameters), sampling, file)
+        count, unit_points = _random_points(len(parameters), sampling, file)
 
     def block(first: int, size: int) -> Mapping[str, list[Value]]:
-        u = places(first, size)
-        return {p.name: p.at(u[:, k]) for k, p in enumerate(parameters)}
+        positions = unit_points(first, size)
+        return {p.name: p.at(positions[:, k]) for k, p in enumerate(parameters)}
 
     return Points(count, block, parameters)
 
 
-def _drawn(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Places]:
-    """How many random points of d dimensions, and where they lie."""
+def _random_points(d: int, sampling: SamplingEntry, file: str) -> tuple[int, UnitPoints]:
+    """Number of random points of d dimensions, and the points."""
     from hosts.study.random_points import latin_hypercube, saltelli, sobol_sequence
 
     n, seed = sampling.runs or 0, sampling.seed
@@ -81,7 +81,7 @@ def _drawn(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Places]:
         return n, sobol_sequence(d, seed)
     if sampling.method == "saltelli":
         return n * (d + 2), saltelli(d, seed)
-    if n * d > _MOST:
+    if n * d > _MOST_POINTS:
         raise HostError(
             f"{file}: a Latin hypercube of {n} points of {d} parameters needs {8e-9 * n * d:.3g} GB of memory; "
             "take the method sobol."
@@ -90,11 +90,11 @@ def _drawn(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Places]:
 
 
 def digest(points: Points) -> str:
-    """A hash of all points of a table, of the first and last where a rule draws them, which distinguishes plans."""
-    limit = _DIGESTED if points.parameters else points.count
+    """A hash of all points of a table, or of the first and last ones of a grid or of random points."""
+    limit = _MOST_DIGESTED if points.parameters else points.count
     ends = [points.block(0, min(points.count, limit))]
     if points.count > limit:
-        ends.append(points.block(points.count - _DIGESTED, _DIGESTED))
+        ends.append(points.block(points.count - _MOST_DIGESTED, _MOST_DIGESTED))
     return hashlib.sha256(json.dumps([dict(end) for end in ends]).encode()).hexdigest()
 
 
@@ -103,8 +103,9 @@ def table_points(
 ) -> Points:
     """Points of a CSV file whose heading names parameters.
 
-    `variable_of`: of a name and of words for messages; raises `HostError` where there is no such variable that can be
-    set; `entries`: units of columns whose heading has none. Raises `HostError` with the line, the name and the value.
+    `variable_of`: function of a name and its position in messages; raises `HostError` where there is no such variable
+    that can be set; `entries`: units of columns whose heading has none. Raises `HostError` with the line, the name and
+    the value.
     """
     table = TextTable(file, HostError, f"The table {file}", units=True)
     names = table.names
@@ -125,10 +126,10 @@ def table_points(
 
 def points_of_columns(columns: Mapping[str, list[Value]]) -> Points:
     """Points of the columns of a table, all of the same length."""
-    return Points(len(next(iter(columns.values()))), partial(_rows, columns))
+    return Points(len(next(iter(columns.values()))), partial(_block_of_columns, columns))
 
 
-def _rows(columns: Mapping[str, list[Value]], first: int, count: int) -> Mapping[str, list[Value]]:
+def _block_of_columns(columns: Mapping[str, list[Value]], first: int, count: int) -> Mapping[str, list[Value]]:
     return {name: values[first : first + count] for name, values in columns.items()}
 
 
@@ -139,4 +140,4 @@ def _cell(text: str, variable: Variable, unit: str | None, where: str) -> Value:
         number = number_of(text)
     except ValueError:
         raise HostError(f"{where}: '{variable.name}': {brief(text)} is not a number.") from None
-    return in_unit(number, unit, variable, where)
+    return in_fmu_unit(number, unit, variable, where)

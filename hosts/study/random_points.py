@@ -1,4 +1,4 @@
-"""Random points of the unit cube, a block at a time, so that a million of them need no memory."""
+"""Random points of the unit cube, in blocks to save memory."""
 
 import warnings
 from collections.abc import Callable
@@ -8,44 +8,44 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-Places: TypeAlias = Callable[[int, int], NDArray[np.float64]]
-"""Of the number of a point and how many: where they lie in [0, 1), of shape (count, dimensions)."""
+UnitPoints: TypeAlias = Callable[[int, int], NDArray[np.float64]]
+"""Function of the number of the first point and a count; returns points in [0, 1), shape (count, dimensions)."""
 
 
-def latin_hypercube(dimensions: int, count: int, seed: int) -> Places:
-    """A Latin hypercube; its permutations need all points, 8 bytes each per dimension."""
+def latin_hypercube(dimensions: int, count: int, seed: int) -> UnitPoints:
+    """A Latin hypercube; all points are in memory, since its permutations depend on their number."""
     points = np.asarray(qmc.LatinHypercube(dimensions, rng=seed).random(count))
     return lambda first, size: points[first : first + size]
 
 
-def sobol_sequence(dimensions: int, seed: int) -> Places:
-    """Sobol' points, scrambled by the seed; good at powers of two. Blocks in order are the cheap ones."""
-    engine = qmc.Sobol(dimensions, rng=seed)
+def sobol_sequence(dimensions: int, seed: int) -> UnitPoints:
+    """Scrambled Sobol' points, balanced at powers of two; blocks in ascending order are fastest."""
+    sequence = qmc.Sobol(dimensions, rng=seed)
 
     def block(first: int, size: int) -> NDArray[np.float64]:
-        if first < engine.num_generated:
-            engine.reset()
-        if first > engine.num_generated:
-            engine.fast_forward(first - engine.num_generated)
+        if first < sequence.num_generated:
+            sequence.reset()
+        if first > sequence.num_generated:
+            sequence.fast_forward(first - sequence.num_generated)
         with warnings.catch_warnings():
-            # The number of all points is what counts, not that of a block; the plan tells of it.
+            # The balance depends on the number of all points, which the plan checks.
             warnings.filterwarnings("ignore", "The balance properties", UserWarning)
-            return np.asarray(engine.random(size))
+            return np.asarray(sequence.random(size))
 
     return block
 
 
-def saltelli(dimensions: int, seed: int) -> Places:
+def saltelli(dimensions: int, seed: int) -> UnitPoints:
     """Points for Sobol' indices, in the order of `SALib.sample.sobol.sample`.
 
     For each base point come A, A with one coordinate of B for each dimension, and B [Saltelli et al., Comput. Phys.
     Commun. 181 (2010) 259, table 2].
     """
-    base, group = sobol_sequence(2 * dimensions, seed), dimensions + 2
+    sequence, group = sobol_sequence(2 * dimensions, seed), dimensions + 2
 
     def block(first: int, size: int) -> NDArray[np.float64]:
         start, stop = first // group, -(-(first + size) // group)
-        a, b = np.split(base(start, stop - start), 2, axis=1)
+        a, b = np.split(sequence(start, stop - start), 2, axis=1)
         points = np.repeat(a[:, None], group, axis=1)
         points[:, -1] = b
         for k in range(dimensions):

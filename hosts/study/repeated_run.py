@@ -1,4 +1,4 @@
-"""Commands that repeat a run of a study as a drive or show it in the viewer."""
+"""Commands that repeat a run of a study, or show it in the viewer."""
 
 from __future__ import annotations
 
@@ -26,26 +26,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Repeat:
-    """Lines for a shell."""
+    """Commands for a shell."""
 
     drive: str
-    """Makes the run again and writes its table, or does the test again; empty for a manoeuvre under names of an alias
-    file."""
+    """Command that repeats the run and writes its table; empty for a manoeuvre under names of an alias file."""
     view: str
-    """Shows it moving; empty for a test."""
+    """Command that shows the run; empty for a test."""
 
 
 def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
-    """A function that gives the commands of a run by its number, and writes the manoeuvre that they name.
+    """A function that returns the commands of a run by its number, and writes the file of its manoeuvre.
 
-    Raises `HostError`: the folder is of no study, has a link in it, or another FMU than the one that made the rows; the
-    function raises it where there is no such run.
+    Raises `HostError`: the folder is not of a study, has a link, or an FMU that is not that of the rows; the function
+    raises it where there is no such run.
     """
-    place = Path(folder)
-    record = study_record(place)
-    check_no_link(place)
+    path = Path(folder)
+    record = study_record(path)
+    check_no_link(path)
     runs = record["runs"]
-    study, planned = runs_of_folder(place, record)
+    study, planned = runs_of_folder(path, record)
     aliases = ["--aliases", _alias_file(study.aliases, Path(record["file"]))] if study.aliases else []
 
     def repeat(index: int) -> Repeat:
@@ -53,34 +52,34 @@ def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
             raise HostError(f"There is no run {index}; the study in {folder} has the runs 0 to {runs - 1}.")
         point, number = divmod(index, len(planned.jobs))
         values = {name: column[0] for name, column in planned.points.block(point, 1).items()}
-        job, fmu = planned.jobs[number], place / record["fmu"]
+        job, fmu = planned.jobs[number], path / record["fmu"]
         if job.manoeuvre is None:
-            return _test(job, fmu, values, aliases, place / REPEAT / f"run-{index}")
+            return _test_commands(job, fmu, values, aliases, path / REPEAT / f"run-{index}")
         if aliases:
-            return Repeat("", "")  # the command run knows the names of the FMU only
-        return _drive(job, fmu, values, place / REPEAT / f"run-{index}.toml")
+            return Repeat("", "")  # the command run takes only the names of the FMU
+        return _drive_commands(job, fmu, values, path / REPEAT / f"run-{index}.toml")
 
     return repeat
 
 
 def _alias_file(name: str, file: Path) -> str:
-    beside = file.parent / name
-    return str(beside) if is_file(beside) else name
+    file_beside = file.parent / name
+    return str(file_beside) if is_file(file_beside) else name
 
 
-def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:
+def _test_commands(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:
     step = [] if math.isnan(job.step) else ["--step", repr(job.step)]
-    settings = [part for n, x in job.settings.items() for part in ("--test-setting", f"{job.test}.{n}={x!r}")]
+    settings = [argument for n, x in job.settings.items() for argument in ("--test-setting", f"{job.test}.{n}={x!r}")]
     arguments = [str(fmu), "--tests", job.test, *set_arguments({**job.start, **values}), *settings, *step, *aliases]
-    return Repeat(_line("catalogue", [*arguments, "--out", str(out)]), "")
+    return Repeat(_command_line("catalogue", [*arguments, "--out", str(out)]), "")
 
 
-def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
+def _drive_commands(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
     assert job.manoeuvre is not None
     write_manoeuvre(job.manoeuvre, file)
     arguments = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_arguments(values), "--out", str(file.parent)]
-    return Repeat(_line("run", arguments), _line("view", arguments))
+    return Repeat(_command_line("run", arguments), _command_line("view", arguments))
 
 
-def _line(command: str, arguments: list[str]) -> str:
+def _command_line(command: str, arguments: list[str]) -> str:
     return f"{command_name(command)} {shlex.join(arguments)}"

@@ -1,4 +1,4 @@
-"""Opens the results of a study, also while it runs."""
+"""Reads the results of a study, also while it runs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """What is known of a study, as in its file ``study.json``. Raises `HostError`: it is not a study folder."""
+    """The record of a study, from its file ``study.json``. Raises `HostError`: it is not a study folder."""
     record = read_record(Path(folder))
     if record is None:
         raise HostError(f"{folder} is not a study folder: there is no {RECORD} in it.")
@@ -42,7 +42,7 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
 
 
 def _frame(record: dict[str, Any], tables: Sequence[Any]) -> pd.DataFrame:
-    """The parts of a table as one."""
+    """The parts of a table as one frame."""
     table = pa.concat_tables(tables) if tables else table_schema(record).empty_table()
     frame: pd.DataFrame = table.to_pandas().set_index("index").sort_index()
     frame.attrs = attributes(record)
@@ -59,21 +59,21 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
     record = study_record(folder)
     if not record["signals"]:
         raise HostError(f"The study in {folder} has kept no signals; [signals] in its file asks for them.")
-    driven = {m["name"]: (k, m["step"]) for k, m in enumerate(record["manoeuvres"]) if "test" not in m}
-    if manoeuvre is None and len(driven) == 1:
-        manoeuvre = next(iter(driven))
-    if manoeuvre not in driven:
-        raise HostError(f"Signals are of one manoeuvre; those in {folder} are {', '.join(driven)}.")
-    (number, step), each = driven[manoeuvre], len(record["manoeuvres"])
+    manoeuvres = {m["name"]: (k, m["step"]) for k, m in enumerate(record["manoeuvres"]) if "test" not in m}
+    if manoeuvre is None and len(manoeuvres) == 1:
+        manoeuvre = next(iter(manoeuvres))
+    if manoeuvre not in manoeuvres:
+        raise HostError(f"Signals are of one manoeuvre; those in {folder} are {', '.join(manoeuvres)}.")
+    (number, step), job_count = manoeuvres[manoeuvre], len(record["manoeuvres"])
     signals, units = record["signals"], record["units"]
     results: dict[str, dict[int, np.ndarray]] = {name: {} for name in signals["names"]}
     parts = {file: read_part(file, record) for file in part_files(Path(folder))}
     for file, part in parts.items():
-        present = {int(k) for k in part["index"].to_numpy() if k % each == number}
+        run_indices = {int(k) for k in part["index"].to_numpy() if k % job_count == number}
         table = read_signals(file, record)
         for row, index in enumerate(table["index"].to_pylist()):
-            for name in signals["names"] if index in present else ():
-                results[name][index // each] = table[name][row].values.to_numpy()
+            for name in signals["names"] if index in run_indices else ():
+                results[name][index // job_count] = table[name][row].values.to_numpy()
     samples = max((len(x) for rows in results.values() for x in rows.values()), default=0)
     columns = {}
     for name, rows in results.items():

@@ -1,4 +1,4 @@
-"""A study as its file describes it; what depends on the FMU is checked in `hosts.study.plan`."""
+"""The study file; `hosts.study.plan` checks it against the FMU."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.\- ]*$", m
 NAME_WORDS = "up to 100 letters, digits, spaces, dots, minus signs and underscores, a letter first"
 
 
-class _Part(BaseModel):
+class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class ParameterEntry(_Part):
-    """How a parameter of the FMU is varied."""
+class ParameterEntry(_Table):
+    """The variation of a parameter of the FMU."""
 
     range: list[FiniteFloat] | None = Field(default=None, min_length=2, max_length=2, title="two numbers, low and high")
     values: list[Setting] | None = Field(default=None, min_length=1, title="a list of at least one value")
@@ -34,7 +34,7 @@ class ParameterEntry(_Part):
     log: bool = Field(default=False, title="true or false: whether the range is divided by the logarithm")
 
     @model_validator(mode="after")
-    def _fits(self) -> ParameterEntry:
+    def _check_consistency(self) -> ParameterEntry:
         if self.range is not None and self.values is not None:
             raise ValueError("it has a range and values; give one of them")
         if self.range is not None and not self.range[0] < self.range[1]:
@@ -46,8 +46,8 @@ class ParameterEntry(_Part):
         return self
 
 
-class ManoeuvreEntry(_Part):
-    """What is done with the FMU at each point."""
+class ManoeuvreEntry(_Table):
+    """A manoeuvre or a test at each point."""
 
     name: Name | None = Field(default=None, title=NAME_WORDS)
     manoeuvre: str | None = Field(default=None, title="a manoeuvre of the command run: its name or a file")
@@ -58,7 +58,7 @@ class ManoeuvreEntry(_Part):
     start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
 
     @model_validator(mode="after")
-    def _fits(self) -> ManoeuvreEntry:
+    def _check_consistency(self) -> ManoeuvreEntry:
         if self.manoeuvre is not None and self.test is not None:
             raise ValueError("it has a manoeuvre and a test; give one of them")
         if self.manoeuvre is None and self.test is None and self.stop_time is None:
@@ -72,7 +72,7 @@ class ManoeuvreEntry(_Part):
         return self
 
 
-class SamplingEntry(_Part):
+class SamplingEntry(_Table):
     """The sampling of the parameters."""
 
     method: Literal["grid", "latin_hypercube", "sobol", "saltelli", "table"] = Field(
@@ -83,7 +83,7 @@ class SamplingEntry(_Part):
     file: str | None = Field(default=None, title="a CSV file whose heading names parameters")
 
     @model_validator(mode="after")
-    def _fits(self) -> SamplingEntry:
+    def _check_consistency(self) -> SamplingEntry:
         is_random = self.method in ("latin_hypercube", "sobol", "saltelli")
         if is_random and self.runs is None:
             raise ValueError(f"the method {self.method} needs the number of points, runs")
@@ -94,14 +94,14 @@ class SamplingEntry(_Part):
         return self
 
 
-class SignalsEntry(_Part):
+class SignalsEntry(_Table):
     """Signals that are stored over time."""
 
     names: list[str] = Field(min_length=1, title="a list of at least one name of an input or output")
     interval: FiniteFloat = Field(gt=0.0, title="a positive number, s")
 
 
-class StudyFile(_Part):
+class StudyFile(_Table):
     """The content of a study file."""
 
     name: Name | None = Field(default=None, title=NAME_WORDS)
@@ -119,7 +119,7 @@ class StudyFile(_Part):
     limits: dict[str, LimitEntry] = Field(default_factory=dict, title="a table, min and max by names of measures")
 
     @model_validator(mode="after")
-    def _fits(self) -> StudyFile:
+    def _check_consistency(self) -> StudyFile:
         if (self.fmu is None) == (self.car is None):
             raise ValueError("it needs fmu or car, one of them")
         if self.sampling.method != "table":
@@ -137,15 +137,9 @@ class StudyFile(_Part):
 
 
 def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
-    """Read a study file.
+    """Read a study file. Returns the study and the content of the file.
 
-    Raises `HostError` with the key, its value, and what would be right.
-
-    Returns
-    -------
-    StudyFile
-    bytes
-        Content of the file.
+    Raises `HostError` with the key, its value and a remedy.
     """
     content = read_bytes(file, LARGEST_TOML, HostError)
     record = toml_of(content, HostError, str(file))
@@ -153,12 +147,12 @@ def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
         return StudyFile.model_validate(record), content
     except ValidationError as error:
         raise HostError(
-            f"{file}: {Sentences(StudyFile, record, names=NAME_WORDS, place=_place).of(error)[0]}"
+            f"{file}: {Sentences(StudyFile, record, names=NAME_WORDS, place=_key_path).of(error)[0]}"
         ) from None
 
 
-def _place(path: Sequence[str]) -> str:
-    """A key path with places in lists from 1, as people count manoeuvres."""
+def _key_path(path: Sequence[str]) -> str:
+    """The path of a key as text, with indices in lists from 1."""
     text = ""
     for key in path:
         name = key if key.replace("_", "").isalnum() else f"'{key}'"

@@ -1,4 +1,4 @@
-"""Runs of an FMU as a function of one parameter, of which one yields the measure that is wanted."""
+"""Runs of an FMU as a function of one parameter, for the search of a target value."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hosts.common.units import conversion
 from hosts.measures.limits import column_of
 from hosts.study.jobs import Job
 from hosts.study.plan import Plan
-from hosts.study.study_runs import OneProcess
+from hosts.study.study_runs import SingleProcess
 from hosts.study.target_search import SearchResult, seek
 from hosts.study.worker_data import Outcome
 from hosts.study.worker_data import Run as StudyRun
@@ -19,16 +19,17 @@ from hosts.study.worker_data import Run as StudyRun
 
 @dataclass(frozen=True)
 class Target:
-    """The measure and the value that are sought."""
+    """A target value of a measure, and the parameter that is sought."""
 
     measure: str
-    """As the user names it."""
+    """Name as the user writes it."""
     value: float
     unit: str
-    """Of `value`; empty: that of the measure."""
+    """Unit of `value`; empty: that of the measure."""
     by: str
+    """Name of the parameter."""
     range: tuple[float, float] | None
-    """In the unit of the FMU; None: that of the study file, else of the FMU."""
+    """Range of the parameter in the unit of the FMU; None: that of the study file, else of the FMU."""
 
 
 class TargetRuns:
@@ -37,66 +38,68 @@ class TargetRuns:
     def __init__(self, plan: Plan, target: Target) -> None:
         self.plan, self.target = plan, target
         (self.parameter,) = plan.points.parameters
-        self.job, self.column = self._job()
+        self.job, self.column = self._job_and_column()
         is_test = self.job.manoeuvre is None
         self.work = replace(plan.work, jobs=(self.job,), columns=() if is_test else plan.work.columns)
-        self.processes: OneProcess
-        self.unit, self.wanted, self.shown = "", target.value, Shown("", 1.0)
+        self.processes: SingleProcess
+        self.unit, self.target_value, self.display = "", target.value, Shown("", 1.0)
         if not is_test:
-            self._take_unit(plan.record["units"][self.column])
-        self._made: dict[float, Outcome] = {}
+            self._set_unit(plan.record["units"][self.column])
+        self._outcomes: dict[float, Outcome] = {}
         self._count = 0
 
-    def _job(self) -> tuple[Job, str]:
-        """The manoeuvre that yields the measure, and its column."""
+    def _job_and_column(self) -> tuple[Job, str]:
+        """The job that yields the measure, and its column. Raises `HostError` where there is none, or several."""
         name, jobs = self.target.measure, self.plan.work.jobs
-        by_prefix = [job for job in jobs if job.manoeuvre is None and name.startswith(f"{job.label}.")]
+        named = [job for job in jobs if job.manoeuvre is None and name.startswith(f"{job.label}.")]
         units = {c: self.plan.record["measures"][c] for c in self.plan.work.columns}
-        fit = by_prefix or [job for job in jobs if (job.manoeuvre is not None) == (name in units)]
-        if not fit:
-            name, fit = column_of(name, units, "--target"), list(jobs)
-        if len(fit) > 1:
-            labels = " and ".join(job.label for job in fit)
-            remedy = "give MANOEUVRE.MEASURE" if fit[0].manoeuvre is None else "leave one of them in the study file"
+        candidates = named or [job for job in jobs if (job.manoeuvre is not None) == (name in units)]
+        if not candidates:
+            name, candidates = column_of(name, units, "--target"), list(jobs)
+        if len(candidates) > 1:
+            labels = " and ".join(job.label for job in candidates)
+            remedy = (
+                "give MANOEUVRE.MEASURE" if candidates[0].manoeuvre is None else "leave one of them in the study file"
+            )
             raise HostError(f"--target {name}: it could be of {labels}; {remedy}.")
-        job = fit[0]
+        job = candidates[0]
         if job.manoeuvre is not None:
             return job, name
-        short = name.removeprefix(f"{job.label}.")
-        return replace(job, measures=(short,)), f"{job.label}.{short}"
+        measure = name.removeprefix(f"{job.label}.")
+        return replace(job, measures=(measure,)), f"{job.label}.{measure}"
 
-    def _take_unit(self, unit: str) -> None:
-        """Learn the unit of the measure: what is wanted in it, and how it is shown."""
+    def _set_unit(self, unit: str) -> None:
+        """Set the unit of the measure, and convert the target value to it."""
         target_unit = self.target.unit
         factor = conversion(target_unit, unit, f"--target {self.target.measure}") if target_unit else 1.0
-        self.unit, self.wanted = unit, factor * self.target.value
-        self.shown = Shown(target_unit, 1.0 / factor) if target_unit else shown_in(unit, self.column)
+        self.unit, self.target_value = unit, factor * self.target.value
+        self.display = Shown(target_unit, 1.0 / factor) if target_unit else shown_in(unit, self.column)
 
-    def found(self, start: float) -> SearchResult:
-        """The search from a start value of the parameter."""
+    def search_from(self, start: float) -> SearchResult:
+        """Search from a start value of the parameter."""
         low, high, log = self.parameter.low, self.parameter.high, self.parameter.log
         if self.job.manoeuvre is None:
-            self._first(low)
-        return seek(self.measure, self.wanted, low, high, log, start)
+            self._read_columns(low)
+        return seek(self.measure, self.target_value, low, high, log, start)
 
-    def _first(self, low: float) -> None:
-        """A run that tells which measures a test has; it is kept."""
-        outcome = self._run(low)
-        if not outcome.units:  # it failed, so that nobody knows them
-            outcome = self._run(self.parameter.high)
+    def _read_columns(self, low: float) -> None:
+        """Make the run at an end of the range, from which the measures of a test and their units are known."""
+        outcome = self._outcome_at(low)
+        if not outcome.units:  # it failed
+            outcome = self._outcome_at(self.parameter.high)
         if not outcome.units:
             raise HostError(f"The runs at both ends of the range of {self.target.by} fail: {outcome.reason}")
         column_of(self.column, outcome.units, "--target")
-        self._take_unit(outcome.units[self.column])
+        self._set_unit(outcome.units[self.column])
 
-    def _run(self, x: float) -> Outcome:
-        if x not in self._made:
-            self._made[x] = self.processes.run(StudyRun(0, {self.target.by: x}))
-        return self._made[x]
+    def _outcome_at(self, x: float) -> Outcome:
+        if x not in self._outcomes:
+            self._outcomes[x] = self.processes.run(StudyRun(0, {self.target.by: x}))
+        return self._outcomes[x]
 
     def measure(self, x: float) -> tuple[float, str]:
-        """See `seek`."""
-        outcome = self._run(x)
+        """The measure at a value of the parameter, or NaN and the reason; see `seek`."""
+        outcome = self._outcome_at(x)
         y = outcome.measures.get(self.column, math.nan)
         reason = "" if math.isfinite(y) else outcome.reason or "there is no such measure in the run"
         self._count += 1
@@ -110,4 +113,4 @@ class TargetRuns:
 
     def y_text(self, y: float) -> str:
         """A value of the measure with its unit."""
-        return number_in(self.shown.factor * y, self.shown.unit, ".5g")
+        return number_in(self.display.factor * y, self.display.unit, ".5g")

@@ -1,4 +1,4 @@
-"""Seeks the value of one parameter at which a measure has a wanted value, by few runs."""
+"""Seeks the value of one parameter at which a measure has a target value, by few runs."""
 
 import contextlib
 import itertools
@@ -9,14 +9,13 @@ from dataclasses import dataclass
 from scipy.optimize import brentq, minimize_scalar
 
 TOLERANCE = 1e-3
-"""Of the wanted value; where that is zero, of the change of the measure over the range."""
-MOST = 24
-"""Runs."""
-_CLOSEST = 1e-4  # part of the range that is not divided any more
-_INWARD = (0.0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0)  # parts of the range, where the run at an end fails
-_EXTREMUM = 0.02  # part of the range to which an extremum is found
-_SEEN = 8  # largest number of runs for an extremum
-_BESIDE = 0.01  # of the value, or of the range where that is less: to the run that tells the slope
+"""Of the target value; where that is zero, of the change of the measure over the range."""
+MOST_RUNS = 24
+_RESOLUTION = 1e-4  # of the range
+_INSETS = (0.0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0)  # of the range, from an end at which the run fails
+_EXTREMUM_TOLERANCE = 0.02  # of the range
+_MOST_EXTREMUM_RUNS = 8
+_SLOPE_STEP = 0.01  # of the value or of the range, the smaller one
 
 
 @dataclass(frozen=True)
@@ -25,9 +24,9 @@ class Run:
 
     x: float
     y: float
-    """Of the measure; NaN where the run does not yield it."""
+    """Value of the measure; NaN where the run does not yield it."""
     reason: str = ""
-    """Why it does not, else empty."""
+    """Reason for a NaN, else empty."""
 
 
 @dataclass(frozen=True)
@@ -35,198 +34,198 @@ class SearchResult:
     """The result of a search."""
 
     runs: tuple[Run, ...]
-    """In the order in which they were made."""
+    """In the order of the search."""
     best: Run | None
-    """Whose measure is nearest to what is wanted; None if no run yields it."""
+    """Run whose measure is nearest to the target value; None if no run yields it."""
     met: bool
-    """Whether that is within the tolerance."""
+    """Whether the measure of `best` is within the tolerance."""
     tolerance: float
     """In the unit of the measure."""
     slope: float
-    """Change of the measure by that of the parameter, of two runs where it is met, 1 % of the parameter or of the range
-    apart; NaN where it is not met, or one of them fails."""
+    """Change of the measure over that of the parameter between `best` and a run beside it; NaN where the target is not
+    met, or that run fails."""
     between: tuple[float, float]
-    """Values of the parameter of these runs."""
+    """Values of the parameter of these two runs."""
     rises: bool
     falls: bool
-    """`rises`, `falls`: whether the measure does so anywhere between neighbouring runs, by more than the tolerance or
+    """`rises`, `falls`: whether the measure rises or falls between any neighbouring runs, by more than the tolerance or
     a thousandth of its largest value; both: it is not monotone."""
     crossed: bool
-    """Whether the wanted value lies between those of two runs."""
+    """Whether the target value lies between the measures of two runs."""
 
 
-class _End(Exception):  # noqa: N818
-    """The search is over: the value is met, or there are no more runs."""
+class _SearchEnd(Exception):  # noqa: N818
+    """The search ends: the target is met, or the number of runs is exhausted."""
 
 
-class _New(Exception):  # noqa: N818
-    """A run that the method at work did not expect: it failed, or is on the other side of the wanted value."""
+class _UnexpectedRun(Exception):  # noqa: N818
+    """A run that ends a method: it failed, or is on the other side of the target value."""
 
 
 def seek(
     measure: Callable[[float], tuple[float, str]],
-    wanted: float,
+    target: float,
     low: float,
     high: float,
     log: bool = False,
     start: float = math.nan,
-    most: int = MOST,
+    most_runs: int = MOST_RUNS,
 ) -> SearchResult:
     """Seek a value of a parameter.
 
-    The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else the
-    extremum nearest to it is sought by Brent's minimisation, and his method again if a run is beyond the value. Where
-    it is met, a neighbouring run gives the slope.
+    The first runs are at the ends of the range. If their measures bracket the target, Brent's root finding follows;
+    else Brent's minimisation of the distance from the target, and root finding if a run is beyond the target. A further
+    run beside the solution yields the slope.
 
     Parameters
     ----------
     measure : callable
-        Of the parameter: the measure, NaN where a run does not yield it, and why.
+        Function of the parameter: the measure, or NaN, and the reason for a NaN.
     low, high : float
         Range of the parameter.
     log : bool
         Whether the range is divided by the logarithm.
     start : float
-        Where the value is met at several places, that nearest to this one is taken; NaN: to the middle.
-    most : int
-        Runs.
+        Of several solutions the bracket nearest to this value is taken; NaN: nearest to the middle.
+    most_runs : int
+        Largest number of runs.
 
     Notes
     -----
     R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapters 4 and 5, by SciPy.
     """
-    return _Search(measure, wanted, (low, high), log, start, most).found()
+    return _Search(measure, target, (low, high), log, start, most_runs).search()
 
 
 class _Search:
-    """The runs of a search by their places, 0 to 1, in the range."""
+    """A search whose runs are at positions 0 to 1 in the range."""
 
     def __init__(
         self,
         measure: Callable[[float], tuple[float, str]],
-        wanted: float,
+        target: float,
         ends: tuple[float, float],
         log: bool,
         start: float,
-        most: int,
+        most_runs: int,
     ) -> None:
-        self._measure, self._wanted, self._ends, self._log, self._most = measure, wanted, ends, log, most
+        self._measure, self._target, self._ends, self._log, self._most_runs = measure, target, ends, log, most_runs
         self._runs: dict[float, Run] = {}
-        self._tolerance = TOLERANCE * abs(wanted)
-        self._start = self._place(start) if math.isfinite(start) and (start > 0.0 or not log) else 0.5
+        self._tolerance = TOLERANCE * abs(target)
+        self._start = self._position(start) if math.isfinite(start) and (start > 0.0 or not log) else 0.5
 
-    def found(self) -> SearchResult:
-        with contextlib.suppress(_End):
-            self._from_the_ends()
+    def search(self) -> SearchResult:
+        with contextlib.suppress(_SearchEnd):
+            self._search_from_ends()
         if (best := self._best()) is None or not self._meets(best):
             return self._result(())
-        (low, high), aside = self._ends, _BESIDE * min(abs(best.x) or math.inf, self._ends[1] - self._ends[0])
-        point = self._place(best.x + aside if best.x + aside <= high else max(best.x - aside, low))
-        with contextlib.suppress(_End):
-            self._at(point)
-        return self._result([best, *([self._runs[point]] if point in self._runs else [])])
+        (low, high), step = self._ends, _SLOPE_STEP * min(abs(best.x) or math.inf, self._ends[1] - self._ends[0])
+        position = self._position(best.x + step if best.x + step <= high else max(best.x - step, low))
+        with contextlib.suppress(_SearchEnd):
+            self._residual(position)
+        return self._result([best, *([self._runs[position]] if position in self._runs else [])])
 
-    def _x(self, u: float) -> float:
+    def _value(self, u: float) -> float:
         low, high = self._ends
         if u in (0.0, 1.0):
             return high if u else low
         return low * (high / low) ** u if self._log else low + u * (high - low)
 
-    def _place(self, x: float) -> float:
+    def _position(self, x: float) -> float:
         low, high = self._ends
         return math.log(x / low) / math.log(high / low) if self._log else (x - low) / (high - low)
 
-    def _at(self, u: float) -> float:
-        """The measure less what is wanted; NaN where the run fails."""
+    def _residual(self, u: float) -> float:
+        """The measure less the target at a position; NaN where the run fails."""
         if u not in self._runs:
-            if len(self._runs) >= self._most:
-                raise _End
-            x = self._x(u)
+            if len(self._runs) >= self._most_runs:
+                raise _SearchEnd
+            x = self._value(u)
             self._runs[u] = Run(x, *self._measure(x))
             if self._meets(self._runs[u]):
-                raise _End
-        return self._runs[u].y - self._wanted
+                raise _SearchEnd
+        return self._runs[u].y - self._target
 
     def _meets(self, run: Run) -> bool:
-        return abs(run.y - self._wanted) <= self._tolerance
+        return abs(run.y - self._target) <= self._tolerance
 
-    def _from_the_ends(self) -> None:
-        first, last = (self._inward(end) for end in (0.0, 1.0))
-        if self._wanted == 0.0:
-            self._tolerance = TOLERANCE * abs(self._at(last) - self._at(first))
+    def _search_from_ends(self) -> None:
+        first, last = (self._usable_end(end) for end in (0.0, 1.0))
+        if self._target == 0.0:
+            self._tolerance = TOLERANCE * abs(self._residual(last) - self._residual(first))
         if not self._brackets():
-            self._to_the_extremum(first, last)
+            self._search_extremum(first, last)
         searched: set[tuple[float, float]] = set()
-        while brackets := [b for b in self._brackets() if b not in searched and b[1] - b[0] > _CLOSEST]:
+        while brackets := [b for b in self._brackets() if b not in searched and b[1] - b[0] > _RESOLUTION]:
             bracket = min(brackets, key=lambda b: max(b[0] - self._start, self._start - b[1]))
             searched.add(bracket)
             try:
-                brentq(self._known, *bracket, xtol=_CLOSEST, rtol=1e-12, maxiter=self._most)
-            except _New:  # a run between them failed: look on its other sides
-                failed = self._failed(bracket)
+                brentq(self._finite_residual, *bracket, xtol=_RESOLUTION, rtol=1e-12, maxiter=self._most_runs)
+            except _UnexpectedRun:  # a run between them failed: try the middles on both sides of it
+                position = self._failed_position(bracket)
                 for end in bracket:
-                    self._at(0.5 * (end + failed))
+                    self._residual(0.5 * (end + position))
 
-    def _inward(self, end: float) -> float:
-        """The place of a run that yields the measure, at an end of the range or near it."""
-        for inset in _INWARD:
+    def _usable_end(self, end: float) -> float:
+        """Position of a run that yields the measure, at an end of the range or nearest to it."""
+        for inset in _INSETS:
             position = abs(end - inset)
-            if math.isfinite(self._at(position)):
+            if math.isfinite(self._residual(position)):
                 return position
-        raise _End
+        raise _SearchEnd
 
-    def _known(self, u: float) -> float:
-        value = self._at(u)
+    def _finite_residual(self, u: float) -> float:
+        value = self._residual(u)
         if math.isnan(value):
-            raise _New
+            raise _UnexpectedRun
         return value
 
-    def _failed(self, bracket: tuple[float, float]) -> float:
+    def _failed_position(self, bracket: tuple[float, float]) -> float:
         return next(u for u, run in self._runs.items() if bracket[0] < u < bracket[1] and math.isnan(run.y))
 
-    def _to_the_extremum(self, first: float, last: float) -> None:
-        sign = math.copysign(1.0, self._at(first))
+    def _search_extremum(self, first: float, last: float) -> None:
+        sign = math.copysign(1.0, self._residual(first))
 
         def distance(u: float) -> float:
-            value = sign * self._known(u)
+            value = sign * self._finite_residual(u)
             if value < 0.0:
-                raise _New
+                raise _UnexpectedRun
             return value
 
-        with contextlib.suppress(_New):
+        with contextlib.suppress(_UnexpectedRun):
             minimize_scalar(
                 distance,
                 bounds=(first, last),
                 method="bounded",
-                options={"xatol": _EXTREMUM, "maxiter": _SEEN},
+                options={"xatol": _EXTREMUM_TOLERANCE, "maxiter": _MOST_EXTREMUM_RUNS},
             )
 
     def _brackets(self) -> list[tuple[float, float]]:
-        """Neighbouring runs on different sides of what is wanted, with no failed one between them."""
-        known_names = sorted(self._runs.items())
-        pairs = itertools.pairwise(known_names)
-        return [(a, b) for (a, one), (b, other) in pairs if (one.y - self._wanted) * (other.y - self._wanted) < 0.0]
+        """Positions of neighbouring runs on different sides of the target."""
+        pairs = itertools.pairwise(sorted(self._runs.items()))
+        return [(a, b) for (a, one), (b, other) in pairs if (one.y - self._target) * (other.y - self._target) < 0.0]
 
     def _best(self) -> Run | None:
-        """Of equal ones the last: at a jump the nearest to it."""
-        yielded = [run for run in reversed(self._runs.values()) if math.isfinite(run.y)]
-        return min(yielded, key=lambda run: abs(run.y - self._wanted), default=None)
+        """The run nearest to the target; of equally near ones the last, which is the nearest to a jump."""
+        finite = [run for run in reversed(self._runs.values()) if math.isfinite(run.y)]
+        return min(finite, key=lambda run: abs(run.y - self._target), default=None)
 
-    def _result(self, near: Sequence[Run]) -> SearchResult:
-        """`near`: two runs that give the slope, or fewer."""
+    def _result(self, slope_runs: Sequence[Run]) -> SearchResult:
+        """The result. `slope_runs`: the two runs of the slope, or fewer where there is none."""
         finite = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
         changes = [b.y - a.y for a, b in itertools.pairwise(finite)]
         largest = max((abs(run.y) for run in finite), default=0.0)
-        least, best = min(self._tolerance, TOLERANCE * largest), self._best()  # what is wanted may be far off
-        x, y = [run.x for run in near], [run.y for run in near]
+        threshold = min(self._tolerance, TOLERANCE * largest)  # the target may be far from all measures
+        best = self._best()
+        x, y = [run.x for run in slope_runs], [run.y for run in slope_runs]
         return SearchResult(
             tuple(self._runs.values()),
             best,
             best is not None and self._meets(best),
             self._tolerance,
-            (y[1] - y[0]) / (x[1] - x[0]) if len(near) > 1 else math.nan,
-            (x[0], x[-1]) if near else (math.nan, math.nan),
-            any(c > least for c in changes),
-            any(c < -least for c in changes),
-            bool(finite) and min(run.y for run in finite) <= self._wanted <= max(run.y for run in finite),
+            (y[1] - y[0]) / (x[1] - x[0]) if len(slope_runs) > 1 else math.nan,
+            (x[0], x[-1]) if slope_runs else (math.nan, math.nan),
+            any(c > threshold for c in changes),
+            any(c < -threshold for c in changes),
+            bool(finite) and min(run.y for run in finite) <= self._target <= max(run.y for run in finite),
         )

@@ -1,4 +1,4 @@
-"""The data of a study for its workers, sent to each of them once."""
+"""The data of a study that are sent to its workers, and outcomes of runs."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ if TYPE_CHECKING:
     from hosts.study.measures.study_measure import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
-"""How a run ended: every measure that exists is a number; some is none; there is no result."""
-ALL = "all limits"  # in the table of limits: variants that keep each of them
+"""Status of a run: it has all measures that exist; it lacks some; it has no result."""
+ALL = "all limits"
+"""Name of the row of variants that keep all limits, in the table of limits."""
 MISSING = ", "
-"""Between the names in the column ``missing``; no name of a measure has it."""
+"""Separator of the names in the column ``missing``; no name of a measure has it."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Work:
     """A study for a worker."""
 
     fmu: FmuSource
-    """Workers have a copy of it."""
+    """The FMU, of which workers have a copy."""
     guid: str
     sha256: str
     program: str
@@ -38,14 +39,14 @@ class Work:
     parameters: tuple[str, ...]
     measures: tuple[StudyMeasure, ...]
     columns: tuple[str, ...]
-    """All measures of the table."""
+    """Names of all measures of the table."""
     signals: tuple[str, ...]
     seed: int = 0
-    """Of the study."""
+    """Seed of the study."""
     reuse: bool = False
     """Whether an instance of the FMU is used again after a reset."""
     time_limit: float | None = None
-    """s a run may take."""
+    """Longest time of a run, s."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +54,9 @@ class Run:
     """A run of a study."""
 
     index: int
-    """Its point times the number of jobs, and its job."""
+    """Number of its point times the number of jobs, plus the number of its job."""
     values: Mapping[str, Value]
-    """Of the parameters."""
+    """Values of the parameters."""
 
 
 @dataclass
@@ -67,18 +68,18 @@ class Outcome:
     measures: dict[str, float] = field(default_factory=dict)
     simulated: float = 0.0
     wall: float = 0.0
-    """`simulated`, `wall`: s."""
+    """`simulated`, `wall`: simulated and elapsed time, s."""
     signals: NDArray[np.float64] | None = None
     """Shape (samples, signals)."""
     units: dict[str, str] = field(default_factory=dict)
-    """Of the measures of a test, where it is not yet known which there are."""
+    """Units of the measures of a test in a trial run."""
     messages: tuple[str, ...] = ()
     """Messages of the FMU, and notes of a test; each sentence once."""
     missing: tuple[str, ...] = ()
-    """Measures that there should be and that the run did not yield; other NaN are of measures that it has not."""
+    """Measures that the run did not yield; other NaN are of measures that do not exist in it."""
 
 
 def seed_of(study_seed: int, point: int) -> int:
-    """The seed of a point, the same for all its runs: 62 bits that depend on the study's seed and the point alone."""
+    """The seed of all runs of a point: 62 bits that depend on the seed of the study and the number of the point."""
     text = f"{study_seed} {point}".encode()
     return int.from_bytes(hashlib.sha256(text).digest()[:8], "big") >> 2

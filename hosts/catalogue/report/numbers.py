@@ -1,4 +1,4 @@
-"""Numbers and units for people."""
+"""Numbers, units and limits as text of the report."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
 NONE = "–"
-"""Shown in place of a number that there is not."""
+"""Text in place of a missing number."""
 
 
-def shown(value: float) -> str:
-    """Four digits, without an exponent where it reads well; `NONE` for what is not a number."""
+def number_text(value: float) -> str:
+    """A number with four digits, without an exponent below 1e7; `NONE` for NaN."""
     if not math.isfinite(value):
         return NONE if math.isnan(value) else ("∞" if value > 0.0 else "-∞")
     if 1e4 <= abs(value) < 1e7:
@@ -27,24 +27,24 @@ def shown(value: float) -> str:
 
 def with_unit(value: float, unit: str) -> str:
     """A number and its unit."""
-    text, tail = shown(value), typeset(unit)
+    text, tail = number_text(value), typeset(unit)
     return f"{text} {tail}" if tail and text != NONE else text
 
 
-def kept_shown(is_kept: bool, text: str = "") -> HtmlElement:
-    """Whether a limit is kept, in its colour. `text`: other words for it."""
+def limit_element(is_kept: bool, text: str = "") -> HtmlElement:
+    """Whether a limit is kept, in colour. `text`: in place of the default."""
     return element("span", text or ("kept" if is_kept else "not kept"), class_="kept" if is_kept else "broken")
 
 
-def difference(value: float, first: float) -> str:
-    """Difference to the first car's number with a sign, and in per cent of it where that means something."""
+def difference_text(value: float, first: float) -> str:
+    """Difference from the number of the first car with sign, and in per cent if that is below 1000 %."""
     change = value - first
     if not math.isfinite(change):
         return ""
     if is_round_off(change, max(abs(value), abs(first))):
         return "same"
     sign = "+" if change > 0.0 else "−"
-    text = f"{sign}{shown(abs(change))}"
+    text = f"{sign}{number_text(abs(change))}"
     if first != 0.0 and abs(change / first) < 10.0:
         text += f" ({sign}{100.0 * abs(change / first):.3g} %)"
     return text

@@ -1,4 +1,4 @@
-"""Plots of a test as SVG, lines of several cars in one."""
+"""Plots of a test as SVG, with the lines of several cars in one plot."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -13,16 +13,16 @@ from matplotlib.ticker import FuncFormatter
 from ali3.chart_style import COLOURS, STYLE
 from ali3.charts import Drawing, drawing
 from hosts.catalogue.record import Line, Plot
-from hosts.catalogue.report.numbers import shown
+from hosts.catalogue.report.numbers import number_text
 from hosts.common.display_units import axis_shown
-from hosts.experiment.line_simplification import thinned
+from hosts.experiment.line_simplification import thinned_indices
 
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
 _WIDTHS = (1.5, 1.9, 2.2, 1.7, 1.3, 1.7)
 _MARKERS = ("", "o", "s", "^", "D", "v", "P")
 _SHARED = "#767676"
-_MARKS = 9
-"""Markers on a line that is one of several of its car."""
+_MARKERS_OF_LINE = 9
+"""Number of markers on a line that is one of several of its car."""
 # Inches; the height is that of the axes.
 _WIDTH = 5.625
 _HEIGHT = 2.9
@@ -31,41 +31,41 @@ _RIGHT = 0.15
 _ABOVE = 0.32
 _BELOW = 0.55
 _LEGEND_ROW = 0.21
-_FEW = 40
-"""Points that may be measured ones: each is marked."""
+_FEW_POINTS = 40
+"""Largest number of points that are marked individually."""
 _SETTINGS: Mapping[Any, Any] = {**STYLE, "axes.titlesize": 10.5}
 
 
-def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> dict[str, Drawing]:
+def drawings_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> dict[str, Drawing]:
     """All plots of a test by their titles.
 
-    `plots_by_car`: by label of the car, in the order of the cars; plots of the same title are one picture.
+    `plots_by_car`: by label of the car, in the order of the cars; plots of one title are one drawing.
     """
     by_title: dict[str, dict[int, tuple[str, Plot]]] = {}
     for k, (label, plots) in enumerate(plots_by_car.items()):
         for plot in plots:
             by_title.setdefault(plot.title, {})[k] = (label, plot)
     with matplotlib.rc_context(dict(_SETTINGS)):
-        return {title: _picture(title, plots, len(plots_by_car) > 1) for title, plots in by_title.items()}
+        return {title: _draw_picture(title, plots, len(plots_by_car) > 1) for title, plots in by_title.items()}
 
 
-def _picture(title: str, plots: Mapping[int, tuple[str, Plot]], many: bool) -> Drawing:
+def _draw_picture(title: str, plots: Mapping[int, tuple[str, Plot]], many: bool) -> Drawing:
     plots = {k: (label, _displayed(plot)) for k, (label, plot) in plots.items()}
     first = next(iter(plots.values()))[1]
-    shared = _shared([plot for _, plot in plots.values()])
+    shared = _shared_lines([plot for _, plot in plots.values()])
     names = [
         *shared,
-        *(_name(n, line, p, many) for n, p in plots.values() for line in p.lines if line.label not in shared),
+        *(_legend_text(n, line, p, many) for n, p in plots.values() for line in p.lines if line.label not in shared),
     ]
     columns = 1 if max(map(len, names), default=0) > 30 else 2
     rows = -(-len(names) // columns) if len(names) > 1 else 0
     below = _BELOW + _LEGEND_ROW * rows
     height = _ABOVE + _HEIGHT * (1.3 if first.equal else 1.0) + below
     figure = Figure(figsize=(_WIDTH, height))
-    # Fixed margins: a layout that is computed takes longer than the drawing.
+    # Fixed margins: computing a layout takes longer than drawing.
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
     axes = figure.add_subplot()
-    descriptions = _drawn(axes, plots, shared, many)
+    descriptions = _draw_plots(axes, plots, shared, many)
     texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
     if rows:
         legend = figure.legend(
@@ -77,18 +77,18 @@ def _picture(title: str, plots: Mapping[int, tuple[str, Plot]], many: bool) -> D
     return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(descriptions) or 'No lines'}.")
 
 
-def _drawn(axes: Axes, plots: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
-    """Draw lines, labels and scales of a plot; what they show in words."""
+def _draw_plots(axes: Axes, plots: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
+    """Draw lines, labels and scales of a plot. Returns a description of each line."""
     first = next(iter(plots.values()))[1]
     descriptions = []
     for line in shared.values():
         axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
-        descriptions.append(f"{line.label}: {_range(line)}")
+        descriptions.append(f"{line.label}: {_line_description(line)}")
     for k, (label, plot) in plots.items():
         for j, line in enumerate(line for line in plot.lines if line.label not in shared):
-            name = _name(label, line, plot, many)
-            _draw(axes, line, name, *((k, j) if many else (j, 0)))
-            descriptions.append(f"{name or 'the line'}: {_range(line)}")
+            name = _legend_text(label, line, plot, many)
+            _draw_line(axes, line, name, *((k, j) if many else (j, 0)))
+            descriptions.append(f"{name or 'the line'}: {_line_description(line)}")
     for log, axis, set_scale in (
         (first.log_x, axes.xaxis, axes.set_xscale),
         (first.log_y, axes.yaxis, axes.set_yscale),
@@ -113,19 +113,19 @@ def _displayed(plot: Plot) -> Plot:
     return replace(plot, x=x, y=y, lines=lines)
 
 
-def _shared(plots: Sequence[Plot]) -> dict[str, Line]:
-    """Lines by label that are the same for all cars, such as lanes; none where cars do all the same."""
+def _shared_lines(plots: Sequence[Plot]) -> dict[str, Line]:
+    """Lines by label that are equal for all cars, such as lanes; none if all lines are equal."""
     if len(plots) < 2:
         return {}
-    results = {
+    shared = {
         line.label: line
         for line in plots[0].lines
-        if line.label and all(any(_same(line, other) for other in plot.lines) for plot in plots[1:])
+        if line.label and all(any(_are_equal(line, other) for other in plot.lines) for plot in plots[1:])
     }
-    return results if len(results) < len(plots[0].lines) else {}
+    return shared if len(shared) < len(plots[0].lines) else {}
 
 
-def _same(one: Line, other: Line) -> bool:
+def _are_equal(one: Line, other: Line) -> bool:
     return (
         one.label == other.label
         and np.array_equal(one.x, other.x, equal_nan=True)
@@ -137,18 +137,18 @@ def _two_or_five(value: float, _: object) -> str:
     return f"{value:g}" if f"{value:e}"[0] in "25" else ""
 
 
-def _name(label: str, line: Line, plot: Plot, many: bool) -> str:
+def _legend_text(label: str, line: Line, plot: Plot, many: bool) -> str:
     if not many:
         return line.label
     return label if len(plot.lines) == 1 or not line.label or line.label == label else f"{label}, {line.label}"
 
 
-def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
-    """`style` is shown by colour and dashes, which differ in grey too; `mark` by markers."""
+def _draw_line(axes: Axes, line: Line, name: str, style: int, marker_number: int) -> None:
+    """Draw a line. `style`: of colour and dashes, which differ also in grey; `marker_number`: of markers."""
     x, y = (np.atleast_1d(np.asarray(v, np.float64)) for v in (line.x, line.y))
-    indices = thinned(x, y)
+    indices = thinned_indices(x, y)
     x, y = x[indices], y[indices]
-    marker = _MARKERS[mark % len(_MARKERS)] or ("." if 0 < len(x) <= _FEW else "")
+    marker = _MARKERS[marker_number % len(_MARKERS)] or ("." if 0 < len(x) <= _FEW_POINTS else "")
     axes.plot(
         x,
         y,
@@ -157,18 +157,19 @@ def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
         linewidth=_WIDTHS[style % len(_WIDTHS)],
         marker=marker or None,
         markersize=4.5,
-        markevery=max(1, len(x) // _MARKS) if len(x) > _FEW else 1,
+        markevery=max(1, len(x) // _MARKERS_OF_LINE) if len(x) > _FEW_POINTS else 1,
         label=name or None,
     )
 
 
-def _range(line: Line) -> str:
+def _line_description(line: Line) -> str:
     finite = np.isfinite(line.x) & np.isfinite(line.y)
     if not finite.any():
         return "no points"
     x, y = np.asarray(line.x)[finite], np.asarray(line.y)[finite]
     top, low = int(np.argmax(y)), int(np.argmin(y))
     return (
-        f"from {shown(y[0])} at {shown(x[0])} to {shown(y[-1])} at {shown(x[-1])}, largest {shown(y[top])} at "
-        f"{shown(x[top])}, smallest {shown(y[low])} at {shown(x[low])}"
+        f"from {number_text(y[0])} at {number_text(x[0])} to {number_text(y[-1])} at {number_text(x[-1])}, "
+        f"largest {number_text(y[top])} at {number_text(x[top])}, "
+        f"smallest {number_text(y[low])} at {number_text(x[low])}"
     )

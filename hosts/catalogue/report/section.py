@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING
 from ali3.html_elements import Content, element, table
 from ali3.units import typeset
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, kept_shown, with_unit
+from hosts.catalogue.report.numbers import NONE, limit_element, with_unit
 from hosts.experiment.report import FAINT, NOTE, Section, paragraph
 from hosts.measures.measure import Measure
 
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
 
 CHECKED = "text checked"
 FROM_SUMMARIES = "from public summaries"
-_OF_TESTS = "--tests"
-_OF_SETTINGS = "--test-setting"
+_TESTS_OPTION = "--tests"
+_SETTING_OPTION = "--test-setting"
 
 
 def section(
@@ -31,11 +32,10 @@ def section(
 ) -> Section:
     """The section of a test.
 
-    `records`: by label of the car, in the order of the cars; `command`: that makes the whole report; empty where nobody
-    knows it.
+    `records`: by label of the car, in the order of the cars; `command`: of the whole report; empty: unknown.
     """
     finished = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
-    content: list[Content] = [_standard(s) for s in test.standards]
+    content: list[Content] = [_standard_element(s) for s in test.standards]
     if not test.standards:
         content.append(paragraph("After no standard.", FAINT))
     for label, record in records.items():
@@ -46,38 +46,37 @@ def section(
     if plots:
         content.append(element("div", *plots, class_="plots"))
     content += [
-        _measures(label, test.title, [m.displayed() for m in record.measures])
+        _measures_element(label, test.title, [m.displayed() for m in record.measures])
         for label, record in finished.items()
         if record.measures
     ]
     if test.settings:
-        content.append(_settings(test, settings))
+        content.append(_settings_element(test, settings))
     if command:
-        text = shlex.join(command_of(command, test.name))
+        text = shlex.join(command_of_test(command, test.name))
         content.append(element("p", "This test again:"))
         content.append(element("pre", element("code", text)))
     return Section(test.title, content, test.name)
 
 
-def command_of(command: Sequence[str], test: str) -> list[str]:
-    """The command for one test: without the list of tests and without settings of others."""
+def command_of_test(command: Sequence[str], test: str) -> list[str]:
+    """The command for one test, without the list of tests and without settings of other tests."""
     retained: list[str] = []
     words = iter(command)
     for word in words:
         name, equals, value = word.partition("=")
-        if name not in (_OF_TESTS, _OF_SETTINGS):
+        if name not in (_TESTS_OPTION, _SETTING_OPTION):
             retained.append(word)
             continue
         value = value if equals else next(words, "")
-        if name == _OF_SETTINGS and value.startswith(f"{test}."):
-            retained += [_OF_SETTINGS, value]
-    return [*retained, _OF_TESTS, test]
+        if name == _SETTING_OPTION and value.startswith(f"{test}."):
+            retained += [_SETTING_OPTION, value]
+    return [*retained, _TESTS_OPTION, test]
 
 
-def _standard(standard: Standard) -> HtmlElement:
+def _standard_element(standard: Standard) -> HtmlElement:
     if not standard.clauses:
-        message = f" ({FROM_SUMMARIES})"
-        return element("p", element("strong", standard.name), f", {standard.title}{message}")
+        return element("p", element("strong", standard.name), f", {standard.title} ({FROM_SUMMARIES})")
     clauses = [
         element(
             "li",
@@ -93,7 +92,7 @@ def _standard(standard: Standard) -> HtmlElement:
     )
 
 
-def _settings(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:
+def _settings_element(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:
     rows: list[list[Content]] = [
         [
             element("code", s.name),
@@ -115,17 +114,17 @@ def _settings(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:
     )
 
 
-def _measures(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement:
+def _measures_element(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement:
     rows: list[list[Content]] = []
     for m in measures:
         state: Content = NONE
         if m.limit is not None and m.is_kept is not None:
             state = element(
                 "td",
-                kept_shown(m.is_kept),
-                element("small", f"{m.limit.words(typeset(m.unit))}; {m.limit.source}"),
+                limit_element(m.is_kept),
+                element("small", f"{m.limit.range_text(typeset(m.unit))}; {m.limit.source}"),
             )
-        value = NONE if m.value != m.value else f"{m.value:.7g}"
+        value = NONE if math.isnan(m.value) else f"{m.value:.7g}"
         rows.append(
             [element("code", m.name), element("td", value, class_="value"), typeset(m.unit), state, m.text, m.note]
         )

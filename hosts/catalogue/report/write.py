@@ -6,8 +6,8 @@ from pathlib import Path
 from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
-from hosts.catalogue.report.overview import head, overview
-from hosts.catalogue.report.pictures import pictures_of
+from hosts.catalogue.report.overview import car_tables, overview_tables
+from hosts.catalogue.report.pictures import drawings_of
 from hosts.catalogue.report.section import section
 from hosts.experiment.report import Plots, Section, page
 
@@ -22,22 +22,22 @@ def write_report(
     settings: Mapping[str, Mapping[str, float]] = _NOTHING,
     command: Sequence[str] = (),
 ) -> None:
-    """Write one HTML file that needs no other, each plot as an SVG file of the folder ``plots`` beside it.
+    """Write the report as one self-contained HTML file, and each plot as SVG into the folder ``plots`` beside it.
 
     Parameters
     ----------
     file : Path
-        It is there whole or not at all.
+        Written whole or not at all.
     tests : sequence of StandardTest
         In the order of the report.
     cars : sequence of TestedCar
-        One or more, of different labels; the first is what the others are held against.
+        One or more, of different labels; the others are compared with the first.
     records : mapping of str to mapping of str to TestRecord or str
         By name of the test and label of the car; a str is the reason why a test could not be done.
     settings : mapping of str to mapping of str to float
-        By name of the test; what is missing is by default.
+        Settings other than the defaults, by name of the test.
     command : sequence of str
-        That made it, such as ``["ali3", "catalogue", "car.fmu"]``.
+        Command of the report, such as ``["ali3", "catalogue", "car.fmu"]``.
 
     Raises
     ------
@@ -45,10 +45,11 @@ def write_report(
         The file cannot be written.
     """
     labels = [car.label for car in cars]
-    plots, sections = Plots(file.parent / "plots"), [Section("Overview", overview(tests, labels, records), "overview")]
+    plots = Plots(file.parent / "plots")
+    sections = [Section("Overview", overview_tables(tests, labels, records), "overview")]
     for test in tests:
         results = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
-        pictures = pictures_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})
-        plot_elements = [plots.add(one, f"{test.name} {name}") for name, one in pictures.items()]
+        pictures = drawings_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})
+        plot_elements = [plots.add(drawing, f"{test.name} {name}") for name, drawing in pictures.items()]
         sections.append(section(test, results, settings.get(test.name, {}), command, plot_elements))
-    write_text(file, page(f"Standard tests of {', '.join(labels)}", head(cars), sections))
+    write_text(file, page(f"Standard tests of {', '.join(labels)}", car_tables(cars), sections))

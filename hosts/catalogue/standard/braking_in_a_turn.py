@@ -1,4 +1,4 @@
-"""Braking from a steady circle with the steering fixed, in steps of growing deceleration."""
+"""Braking from a steady circle with the steering fixed, in stops of increasing deceleration."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -6,36 +6,36 @@ from collections.abc import Mapping, Sequence
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.preparation import held, start_at
+from hosts.catalogue.preparation import constant_inputs, start_at_speed
 from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
 from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.fixed_steering import FixedSteering
 
-STEP = 0.005  # s; the yaw acceleration is a difference over some of them
+STEP = 0.005  # s; the yaw acceleration is a finite difference
 ON_CIRCLE = 12.0  # s, after which the steering is fixed
-HORIZON = 1.5  # s; shorter, light cars sway along the circle
+HORIZON = 1.5  # s; with a shorter one, light cars oscillate about the circle
 LONGEST_RUN_UP = 60.0  # s, for a car that cannot be started at speed
 
 
 def drive(sheet: Sheet) -> None:
-    """Stops from the circle with a growing pedal, until the car does not get there."""
+    """Drive stops from the circle with increasing pedal, until the car does not get onto the circle."""
     car, settings = sheet.with_step_up_to(STEP, "the yaw acceleration"), sheet.settings
     levels, stops = round(settings["levels"]), []
     for k in range(1, levels + 1):
-        braked = stop(car, settings, settings["pedal"] * k / levels)
+        braked = drive_stop(car, settings, settings["pedal"] * k / levels)
         stops.append(braked)
-        sheet.keep(f"pedal_{braked.pedal:.3g}", braked.result)
+        sheet.add_run(f"pedal_{braked.pedal:.3g}", braked.result)
         if math.isnan(braked.onset):
-            sheet.add("not_there", last=braked)
+            sheet.add("off_circle", last=braked)
             break
         sheet.progress(k / levels)
     add_stops(sheet, stops)
 
 
 def add_stops(sheet: Sheet, stops: Sequence[Stop]) -> None:
-    """The measures of stops with growing pedal."""
+    """Add the measures of stops with increasing pedal."""
     braked = [s for s in stops if not math.isnan(s.onset)]
     stop_values = [{"d": s.deceleration, **s.values()} for s in braked]
     stop_values = sorted(
@@ -43,15 +43,15 @@ def add_stops(sheet: Sheet, stops: Sequence[Stop]) -> None:
     )
     first = braked[0] if braked else HostError("the car did not get onto the circle")
     sheet.add("circle", first=first)
-    present = {"braked": braked, "known": stop_values} if braked else {"braked": first, "known": first}
+    present = {"braked": braked, "rows": stop_values} if braked else {"braked": first, "rows": first}
     sheet.add("stops", compared=COMPARED, **present)
 
 
-def stop(car: TestedCar, settings: Mapping[str, float], pedal: float, longest: float = math.inf) -> Stop:
-    """Onto the circle, steering fixed, one application of the brake to rest. `longest`: after its onset, s."""
+def drive_stop(car: TestedCar, settings: Mapping[str, float], pedal: float, longest_stop: float = math.inf) -> Stop:
+    """Drive onto the circle, fix the steering, and brake to rest. `longest_stop`: longest time after the onset, s."""
     constants, radius = car.facts.constants, settings["radius"]
     speed = math.sqrt(settings["lateral_acceleration"] * abs(radius))
-    start = start_at(car, speed)
+    start = start_at_speed(car, speed)
     begin = ON_CIRCLE if start else LONGEST_RUN_UP
     circle = CircleFollower(
         radius, speed, constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"], horizon=HORIZON
@@ -62,13 +62,13 @@ def stop(car: TestedCar, settings: Mapping[str, float], pedal: float, longest: f
         pedal,
         settings["rise_time"],
     )
-    # a car with less than 0.5 m/s2 does not brake
-    stop_time = begin + 1.5 * STEADY + min(longest, settings["rise_time"] + speed / 0.5)
-    ends = StopConditions(stands=0.05)
+    # Long enough for a deceleration of 0.5 m/s2.
+    stop_time = begin + 1.5 * STEADY + min(longest_stop, settings["rise_time"] + speed / 0.5)
+    conditions = StopConditions(stands=0.05)
 
-    def over(time: float, outputs: Mapping[str, float]) -> bool:
-        started = not math.isnan(pilot.onset)
-        return ends(outputs) and (started or ends.reason != "stands")
+    def is_over(time: float, outputs: Mapping[str, float]) -> bool:
+        has_braked = not math.isnan(pilot.onset)
+        return conditions(outputs) and (has_braked or conditions.reason != "stands")
 
-    result = car.drive(held(car, f"braking_in_a_turn {pedal:.3g}", stop_time, {}, start), pilot, over)
-    return Stop(pedal, result, pilot.onset, ends.reason)
+    result = car.drive(constant_inputs(car, f"braking_in_a_turn {pedal:.3g}", stop_time, {}, start), pilot, is_over)
+    return Stop(pedal, result, pilot.onset, conditions.reason)

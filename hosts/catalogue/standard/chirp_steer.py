@@ -1,4 +1,4 @@
-"""Sinusoidal steering whose frequency rises: responses over frequency, after ISO 7401."""
+"""Sinusoidal steering of increasing frequency: frequency responses, after ISO 7401."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,64 +9,66 @@ from scipy.signal import chirp
 from scipy.signal.windows import tukey
 
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.steady_map import driven_ramp
+from hosts.catalogue.steady_map import drive_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.measures.bandwidth import bandwidth
 from hosts.measures.frequency_response import FrequencyResponse, frequency_response
 from hosts.measures.second_order import NOTHING, fit_second_order
 
-_STRAIGHT = 2.0
-_LINES = 60
+_AFTER = 2.0  # s, straight ahead
+_LINES = 60  # frequencies of the responses
 _QUANTITIES: Mapping[str, tuple[str, str, str, int | None]] = {
     "yaw_rate": ("yaw_rate", "yaw rate", "1/s", 1),
     "lateral_acceleration": ("acceleration", "lateral acceleration", "m/(s2.rad)", 2),
     "sideslip": ("sideslip", "sideslip angle", "1", 1),
     "roll": ("roll", "roll angle", "1", None),
 }
-"""Signal, word, unit over rad, and zeros in the bicycle model."""
+"""By the name of a quantity: its signal, label, unit over rad, and degree of the numerator in the bicycle model."""
 
 
 def drive(sheet: Sheet) -> None:
-    """A slow ramp, then the chirp."""
+    """Drive a slow ramp, then the chirp."""
     settings = sheet.settings
     low, high = settings["lowest_frequency"], settings["highest_frequency"]
-    ramp = driven_ramp(sheet, settings["lateral_acceleration"])
+    ramp = drive_ramp(sheet, settings["lateral_acceleration"])
     sheet.progress(0.3)
-    amplitude = ramp.need_angle_at(settings["lateral_acceleration"])
+    amplitude = ramp.required_angle_at(settings["lateral_acceleration"])
     table = _table(amplitude, low, high, settings["duration"])
     run = steer(sheet.car, "chirp", ramp.speed, *table, Pedals.HOLD_SPEED)
     sheet.runs["chirp"] = run.thinned()
     sheet.progress(0.95)
     sheet.add("run", run=run, speed=ramp.speed, amplitude=amplitude)
-    results: list[dict[str, Any]] = []
+    responses: list[dict[str, Any]] = []
     for name, (signal, word, unit, zeros) in _QUANTITIES.items():
         response = _response(run, getattr(run, signal), low, high)
-        none = "" if len(response.frequency) else f"The run does not show the {word}."
-        names = {"name": name, "word": word, "unit": unit, "response": response, "found": bandwidth(response)}
-        why = none or "Not within the range of frequencies."
-        sheet.add("quantity", why_none=why, should_be=bool(none), frequency=response.frequency, **names)
-        results += [] if none else [{**names, "zeros": zeros}]
-    fitted = [q for q in results if q["zeros"] is not None]
-    fits = fit_second_order([q["response"] for q in fitted], [q["zeros"] for q in fitted]) or [NOTHING]
-    fitted_names = " and ".join(q["word"] for q in fitted)
-    why = "The fit does not converge." if fitted else "There is no response."
-    sheet.add("mode", why_none=why, fit=fits[0], misfit=max(f.misfit for f in fits), words=fitted_names or "nothing")
-    sheet.add("pictures", run=run, found=results)
+        missing = "" if len(response.frequency) else f"The run does not show the {word}."
+        names = {"name": name, "word": word, "unit": unit, "response": response, "band": bandwidth(response)}
+        reason = missing or "Not within the range of frequencies."
+        sheet.add("quantity", why_none=reason, should_be=bool(missing), frequency=response.frequency, **names)
+        responses += [] if missing else [{**names, "zeros": zeros}]
+    fitted_responses = [q for q in responses if q["zeros"] is not None]
+    fits = fit_second_order([q["response"] for q in fitted_responses], [q["zeros"] for q in fitted_responses]) or [
+        NOTHING
+    ]
+    fitted_names = " and ".join(q["word"] for q in fitted_responses)
+    reason = "The fit does not converge." if fitted_responses else "There is no response."
+    sheet.add("mode", why_none=reason, fit=fits[0], misfit=max(f.misfit for f in fits), words=fitted_names or "nothing")
+    sheet.add("pictures", run=run, responses=responses)
 
 
 def _table(
     amplitude: float, low: float, high: float, duration: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Times and angles: a chirp from half the lowest frequency to a tenth above the highest, then straight on."""
+    """Times, s, and angles of a chirp from half the lowest to 1.1 times the highest frequency, then straight ahead."""
     t = np.arange(0.0, duration, 0.02 / high)
     sweep = chirp(t, 0.5 * low, duration, 1.1 * high, method="logarithmic", phi=-90.0) * tukey(len(t), 0.05)
-    return np.append(t, [duration, duration + _STRAIGHT]), amplitude * np.append(sweep, [0.0, 0.0])
+    return np.append(t, [duration, duration + _AFTER]), amplitude * np.append(sweep, [0.0, 0.0])
 
 
 def _response(run: SteeredRun, values: NDArray[np.float64], low: float, high: float) -> FrequencyResponse:
-    """Response of a quantity; of length 0 where the car does not provide it, or the run is too short."""
+    """Frequency response of a quantity; of length 0 if the car does not provide it, or the run ended early."""
     during, before = run.time >= 0.0, run.time < 0.0
     if not run.whole or np.isnan(values).any() or not before.any():
         return FrequencyResponse(np.zeros(0), np.zeros(0, complex), np.zeros(0))
-    steering, answer = (x[during] - x[before].mean() for x in (run.steering, values))
-    return frequency_response(steering, answer, run.interval, np.geomspace(low, high, _LINES))
+    steering, output = (x[during] - x[before].mean() for x in (run.steering, values))
+    return frequency_response(steering, output, run.interval, np.geomspace(low, high, _LINES))

@@ -1,4 +1,4 @@
-"""Double lane change: the highest entry speed at which no cone is hit, on both courses of ISO 3888."""
+"""Double lane change: the highest entry speed without hitting a cone, on both courses of ISO 3888."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -9,7 +9,7 @@ import numpy as np
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.passage import Passage
-from hosts.catalogue.preparation import RunUp, held
+from hosts.catalogue.preparation import RunUp, constant_inputs
 from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
@@ -20,20 +20,20 @@ from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.run_up_pilot import RunUpPilot
 from hosts.driving.planned_course import planned
 
-STEP = 0.005  # s, in which the driver holds the steering
+STEP = 0.005  # s, of the driver
 RUN_UP = 10.0  # m, from the front of the car to the first lane
-RELEASED_AFTER = 2.0  # m, into the first lane of ISO 3888-2
+RELEASED_AFTER = 2.0  # m into the first lane of ISO 3888-2
 
 
 @dataclass(frozen=True)
-class _Layout:
+class _CourseSettings:
     """A course and its driver settings."""
 
     name: str
     release: float  # m into the first lane
 
 
-_LAYOUTS = (_Layout("iso_3888_1", math.inf), _Layout("iso_3888_2", RELEASED_AFTER))
+_COURSES = (_CourseSettings("iso_3888_1", math.inf), _CourseSettings("iso_3888_2", RELEASED_AFTER))
 
 DRIVERS: dict[str, tuple[float, float, float]] = {
     "least curvature, close": (0.2, 0.3, 0.3),
@@ -41,33 +41,33 @@ DRIVERS: dict[str, tuple[float, float, float]] = {
     "least curvature, late": (0.3, 0.5, 0.5),
     "centre line": (0.25, 0.0, 0.0),
 }
-"""Drivers that try each speed, as people have several attempts: preview, horizon and lead of `LineFollower`, s."""
+"""Drivers that try each speed: preview, horizon and lead of `LineFollower`, s."""
 
 
 def drive(sheet: Sheet) -> None:
-    """Each course faster and faster until a cone is hit, then the limit by bisection."""
+    """Drive each course at increasing speed until a cone is hit, then bisect the limit."""
     car, settings = sheet.with_step_up_to(STEP, "the steering of the driver"), sheet.settings
     sheet.add("driver", count=len(DRIVERS))
-    chosen = _LAYOUTS if settings["course"] == 0.0 else (_LAYOUTS[int(settings["course"]) - 1],)
-    for k, layout in enumerate(chosen):
+    courses = _COURSES if settings["course"] == 0.0 else (_COURSES[int(settings["course"]) - 1],)
+    for k, course in enumerate(courses):
 
-        def part(done: float, k: int = k) -> None:
-            sheet.progress((k + done) / len(chosen))
+        def report(done: float, k: int = k) -> None:
+            sheet.progress((k + done) / len(courses))
 
-        passed, failed, notes = limit(car, layout, settings, part)
+        passed, failed, notes = find_limit(car, course, settings, report)
         sheet.notes += notes
-        add_limit(sheet, layout.name, passed, failed)
+        add_limit(sheet, course.name, passed, failed)
         for word, passage in (("passed", passed), ("failed", failed)):
             if passage is not None:
-                sheet.runs[f"{layout.name}_{word}"] = passage.result
+                sheet.runs[f"{course.name}_{word}"] = passage.result
 
 
 def add_limit(sheet: Sheet, name: str, passed: Passage | None, failed: Passage | None) -> None:
-    """The measures of a course. `passed`, `failed`: the fastest without and the slowest with a cone."""
+    """Add the measures of a course. `passed`, `failed`: the fastest clean passage and the slowest other one."""
     names = {"name": name, "title": name.upper().replace("_", " ", 1).replace("_", "-")}
     sheet.add("limit", fastest=passed, slowest=failed, **names)
-    nothing = HostError("no speed was passed")
-    sheet.add("fastest", passed=nothing if passed is None else passed, **names)
+    error = HostError("no speed was passed")
+    sheet.add("fastest", passed=error if passed is None else passed, **names)
     passages = {word: p for word, p in (("passed", passed), ("failed", failed)) if p is not None and p.after.any()}
     for word, passage in passages.items():
         sheet.add("path", passage=passage, word=word, **names)
@@ -75,27 +75,20 @@ def add_limit(sheet: Sheet, name: str, passed: Passage | None, failed: Passage |
         sheet.add("signals", best=next(iter(passages.values())), **names)
 
 
-def limit(
-    car: TestedCar, layout: _Layout, settings: Mapping[str, float], progress: Callable[[float], None]
+def find_limit(
+    car: TestedCar, layout: _CourseSettings, settings: Mapping[str, float], progress: Callable[[float], None]
 ) -> tuple[Passage | None, Passage | None, tuple[str, ...]]:
-    """The fastest passage without a cone and the slowest with one.
-
-    Returns
-    -------
-    passed, failed : Passage or None
-        None: there is none.
-    notes : tuple of str
-    """
+    """Find the fastest clean passage and the slowest other one, None where there is none, and notes."""
     passed: Passage | None = None
     failed: Passage | None = None
     speed, attempts = settings["lowest"], 0
     bisections = math.ceil(math.log2(max(settings["increment"] / settings["resolution"], 1.0)))
-    attempt_limit = math.ceil((settings["highest"] - settings["lowest"]) / settings["increment"]) + 1 + bisections
+    most_attempts = math.ceil((settings["highest"] - settings["lowest"]) / settings["increment"]) + 1 + bisections
     while failed is None:
-        passage = tries(car, layout, speed, passed)
+        passage = try_drivers(car, layout, speed, passed)
         attempts += 1
-        progress(attempts / attempt_limit)
-        if passage.clean:
+        progress(attempts / most_attempts)
+        if passage.is_clean:
             passed = passage
             if speed >= settings["highest"]:
                 return passed, None, (f"{layout.name}: no cone was hit up to {speed:g} km/h; take a higher highest.",)
@@ -103,71 +96,69 @@ def limit(
         else:
             failed = passage
     if passed is None:
-        why = failed.why
-        return None, failed, (f"{layout.name}: already at {speed:g} km/h {why}; take a lower lowest, if slower helps.",)
-    while failed.wanted - passed.wanted > settings["resolution"] * (1.0 + 1e-9):
-        passage = tries(car, layout, 0.5 * (passed.wanted + failed.wanted), passed)
+        note = f"{layout.name}: already at {speed:g} km/h {failed.failure}; take a lower lowest, if slower helps."
+        return None, failed, (note,)
+    while failed.target_speed - passed.target_speed > settings["resolution"] * (1.0 + 1e-9):
+        passage = try_drivers(car, layout, 0.5 * (passed.target_speed + failed.target_speed), passed)
         attempts += 1
-        progress(min(attempts / attempt_limit, 1.0))
-        if passage.clean:
+        progress(min(attempts / most_attempts, 1.0))
+        if passage.is_clean:
             passed = passage
         else:
             failed = passage
-    return passed, failed, (f"{layout.name}: at {failed.wanted:g} km/h {failed.why} (driver: {failed.driver}).",)
+    note = f"{layout.name}: at {failed.target_speed:g} km/h {failed.failure} (driver: {failed.driver})."
+    return passed, failed, (note,)
 
 
-def tries(car: TestedCar, layout: _Layout, speed: float, passed: Passage | None) -> Passage:
-    """The first clean passage of the drivers, that of the last success first; else the one nearest to clean."""
+def try_drivers(car: TestedCar, layout: _CourseSettings, speed: float, passed: Passage | None) -> Passage:
+    """Drive a course by several drivers, the last successful one first, until a passage is clean; else the best one.
+
+    `speed`: in km/h; `passed`: the last clean passage.
+    """
     order = sorted(DRIVERS, key=lambda name: passed is None or name != passed.driver)
     results = []
     for driver in order:
         results.append(drive_through(car, layout, speed, driver))
-        if results[-1].clean:
+        if results[-1].is_clean:
             return results[-1]
     return max(
         results, key=lambda p: (not p.not_driven, -math.inf if math.isnan(p.least_clearance) else p.least_clearance)
     )
 
 
-def steering_of(driver: str, course: Course, constants: Mapping[str, float], speed: float) -> Pilot:
-    """One of the drivers.
-
-    `driver`: one of `DRIVERS`; `speed`: in m/s.
-    """
-    wheelbase, angle = constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"]
+def pilot_of(driver: str, course: Course, constants: Mapping[str, float], speed: float) -> Pilot:
+    """The pilot of a driver. `driver`: one of `DRIVERS`; `speed`: in m/s."""
+    wheelbase, largest_angle = constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"]
     length, width = constants["vehicle.length"], constants["vehicle.width"]
     if driver == "centre line":
-        return CourseFollower(course, DriverSettings(speed, wheelbase, angle, length, width))
+        return CourseFollower(course, DriverSettings(speed, wheelbase, largest_angle, length, width))
     preview, horizon, lead = DRIVERS[driver]
-    return LineFollower(planned(course, 0.0, length, width), wheelbase, angle, preview, horizon, lead)
+    return LineFollower(planned(course, 0.0, length, width), wheelbase, largest_angle, preview, horizon, lead)
 
 
-def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage:
-    """One passage of a course.
-
-    `speed`: in km/h; `driver`: one of `DRIVERS`.
-    """
+def drive_through(car: TestedCar, layout: _CourseSettings, speed: float, driver: str) -> Passage:
+    """Drive a course once. `speed`: in km/h; `driver`: one of `DRIVERS`."""
     constants, entry_speed = car.facts.constants, speed / 3.6
     length, width = constants["vehicle.length"], constants["vehicle.width"]
     course = course_of(layout.name, width, RUN_UP + 0.5 * length)
     run_up = RunUp(car, entry_speed)
     pilot = RunUpPilot(
-        steering_of(driver, course, constants, entry_speed),
+        pilot_of(driver, course, constants, entry_speed),
         entry_speed,
         run_up.is_over,
         course.gates[0].x_start + layout.release - 0.5 * length,
     )
     course_end = course.gates[-1].x_end + length
-    ends = StopConditions(stands=0.3 * entry_speed)
+    conditions = StopConditions(stands=0.3 * entry_speed)
 
-    def over(time: float, outputs: Mapping[str, float]) -> bool:
+    def is_over(time: float, outputs: Mapping[str, float]) -> bool:
         if math.isnan(pilot.start):
             return time > run_up.longest
         x, y, _ = pilot.seen(outputs)
-        return ends(outputs) or x > course_end or abs(y) > 8.0
+        return conditions(outputs) or x > course_end or abs(y) > 8.0
 
     stop_time = run_up.longest + 3.0 * course_end / entry_speed
-    manoeuvre = held(car, f"{layout.name} {speed:g} km/h", stop_time, {}, run_up.start)
-    result = car.drive(manoeuvre, pilot, over)
+    manoeuvre = constant_inputs(car, f"{layout.name} {speed:g} km/h", stop_time, {}, run_up.start)
+    result = car.drive(manoeuvre, pilot, is_over)
     after = result.time >= pilot.start - 1e-9 if not math.isnan(pilot.start) else np.zeros(len(result.time), bool)
-    return Passage(speed, result, driver, course, (length, width), pilot.pose, after, ends.reason, layout.release)
+    return Passage(speed, result, driver, course, (length, width), pilot.pose, after, conditions.reason, layout.release)

@@ -6,19 +6,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.steady_map import driven_ramp
+from hosts.catalogue.steady_map import drive_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.measures.one_period import NOTHING, OnePeriod, one_period
 
-_AFTER = 2.0
-_POINTS = 400
+_AFTER = 2.0  # s, straight ahead
+_POINTS = 400  # of a period
 
 
 def drive(sheet: Sheet) -> None:
-    """A slow ramp, then one period that begins to each side."""
-    ramp = driven_ramp(sheet, sheet.settings["lateral_acceleration"])
+    """Drive a slow ramp, then one period that begins to each side."""
+    ramp = drive_ramp(sheet, sheet.settings["lateral_acceleration"])
     sheet.progress(0.4)
-    amplitude, period = ramp.need_angle_at(sheet.settings["lateral_acceleration"]), 1.0 / sheet.settings["frequency"]
+    amplitude = ramp.required_angle_at(sheet.settings["lateral_acceleration"])
+    period = 1.0 / sheet.settings["frequency"]
     t = np.linspace(0.0, period, _POINTS + 1)
     time, sine = np.append(t, period + _AFTER), np.append(np.sin(2.0 * math.pi * t / period), 0.0)
     sides: dict[str, SteeredRun] = {}
@@ -26,9 +27,9 @@ def drive(sheet: Sheet) -> None:
         sides[side] = steer(sheet.car, f"sine {side}", ramp.speed, time, sign * amplitude * sine, Pedals.FIXED)
         sheet.runs[f"sine_{side}"] = sides[side].thinned()
         sheet.progress(0.4 + 0.3 * len(sides))
-    short = sorted(set(filter(None, [run.shortfall(amplitude) for run in sides.values()])))
+    shortfalls = sorted(set(filter(None, [run.shortfall(amplitude) for run in sides.values()])))
     sheet.add("run", amplitude=amplitude, **sides)
-    sheet.notes += short
+    sheet.notes += shortfalls
     for name, signal, units in (
         ("yaw_rate", "yaw_rate", ("1/s", "rad/s")),
         ("lateral_acceleration", "acceleration", ("m/(s2.rad)", "m/s2")),
@@ -38,9 +39,9 @@ def drive(sheet: Sheet) -> None:
 
 
 def _one_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> OnePeriod:
-    """From the beginning to when the car runs straight again, of signals less their values before."""
+    """Measures of the period and the time after it, of signals less their means before the steering."""
     if not run.whole:
         return NOTHING
     before, during = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)
-    steering, answer = (x[during] - (x[before].mean() if before.any() else x[0]) for x in (run.steering, values))
-    return one_period(run.time[during], steering, answer, longest=0.45 * period)
+    steering, response = (x[during] - (x[before].mean() if before.any() else x[0]) for x in (run.steering, values))
+    return one_period(run.time[during], steering, response, longest=0.45 * period)

@@ -1,4 +1,4 @@
-"""Steady driving on a circle, both ways, after ISO 4138: what a car needs of steering as it is driven faster."""
+"""Steady-state circular driving to both sides, after ISO 4138: steering over lateral acceleration."""
 
 from hosts.catalogue.circle_run import CircleRun, drive_circle
 from hosts.catalogue.measure_sheet import Sheet
@@ -6,7 +6,7 @@ from hosts.catalogue.steering_ratio import steering_ratio
 
 
 def drive(sheet: Sheet) -> None:
-    """A slow drive for the steering ratio, then faster and faster to each side."""
+    """Measure the steering ratio in a slow drive, then drive circles to both sides at increasing acceleration."""
     ratio = steering_ratio(sheet.car)
     sheet.progress(0.04)
     runs: dict[str, CircleRun] = {}
@@ -16,7 +16,7 @@ def drive(sheet: Sheet) -> None:
             sign,
             sheet.settings,
             ratio,
-            lambda part, k=k: sheet.progress(0.04 + 0.48 * (k + part)),  # type: ignore[misc]
+            lambda done, k=k: sheet.progress(0.04 + 0.48 * (k + done)),  # type: ignore[misc]
         )
         sheet.runs[side] = runs[side].result
     left, right = ({"side": side, "sign": 1.0 if side == "left" else -1.0, "run": run} for side, run in runs.items())

@@ -1,4 +1,4 @@
-"""Step of the steering at a constant speed, to both sides and several lateral accelerations, after ISO 7401."""
+"""Step steer at constant speed, to both sides and at several lateral accelerations, after ISO 7401."""
 
 import math
 from typing import Any
@@ -6,55 +6,59 @@ from typing import Any
 import numpy as np
 
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.steady_map import driven_ramp
+from hosts.catalogue.steady_map import drive_ramp
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
 from hosts.measures.step_response import step_of_steering
 
-_BEFORE = (-0.8, 0.0)
-_CLOSE = 0.02
-_MOST_RUNS = 4
+_BEFORE_STEP = (-0.8, 0.0)  # s
+_TOLERANCE = 0.02  # of the steady lateral acceleration
+_MOST_RUNS = 4  # to find the angle of a step
 
 
 def drive(sheet: Sheet) -> None:
-    """A slow ramp, then a step to both sides at each level."""
+    """Drive a slow ramp, then a step to both sides at each level."""
     levels = {n: x for n in ("level_1", "level_2", "level_3") if (x := sheet.settings[n]) > 0.0}
-    ramp = driven_ramp(sheet, max(levels.values()))
+    ramp = drive_ramp(sheet, max(levels.values()))
     driven = []
     for k, (level, acceleration) in enumerate(levels.items()):
         try:
-            angle = ramp.need_angle_at(acceleration, level)
+            angle = ramp.required_angle_at(acceleration, level)
         except HostError as error:
             sheet.notes.append(str(error))
             sides: dict[str, Any] = dict.fromkeys(("left", "right"), error)
         else:
-            left = _to_the_left(sheet, ramp.speed, acceleration, angle, 0.2 + 0.8 * k / len(levels))
-            sides = {"left": left, "right": _step(sheet, ramp.speed, acceleration, -left["given"])}
+            left = _find_left_step(sheet, ramp.speed, acceleration, angle, 0.2 + 0.8 * k / len(levels))
+            sides = {"left": left, "right": _drive_step(sheet, ramp.speed, acceleration, -left["demand"])}
             sheet.runs |= {f"{level}_{side}": step["run"].thinned() for side, step in sides.items()}
-            driven.append({"wanted": acceleration, "run": left["run"]})
+            driven.append({"target": acceleration, "run": left["run"]})
         sheet.progress(0.2 + 0.8 * (k + 1) / len(levels))
-        sheet.add("level", level=level, wanted=acceleration, **sides)
+        sheet.add("level", level=level, target=acceleration, **sides)
     sheet.add("pictures", driven=driven)
 
 
-def _to_the_left(sheet: Sheet, speed: float, acceleration: float, angle: float, done: float) -> dict[str, Any]:
-    """The step of the wanted steady acceleration, by secants from an angle on; `done`: of the test before it."""
-    largest_angle, before = SteeringInput.of(sheet.car.facts).largest, (0.0, 0.0)
-    for n in range(_MOST_RUNS):
-        left = _step(sheet, speed, acceleration, angle)
-        sheet.progress(done + 0.05 * (n + 1))
-        reached = left["acceleration"].steady
-        slope = (reached - before[1]) / (angle - before[0])
-        if not reached > 0.0 or abs(reached - acceleration) <= _CLOSE * acceleration or not slope > 0.0:
+def _find_left_step(sheet: Sheet, speed: float, acceleration: float, angle: float, done: float) -> dict[str, Any]:
+    """The step to the left with a steady lateral acceleration, m/s2, by the secant method.
+
+    `angle`: first guess, rad; `done`: progress of the test before it.
+    """
+    largest_angle, last_point = SteeringInput.of(sheet.car.facts).largest, (0.0, 0.0)
+    for attempt in range(_MOST_RUNS):
+        step = _drive_step(sheet, speed, acceleration, angle)
+        sheet.progress(done + 0.05 * (attempt + 1))
+        reached = step["acceleration"].steady
+        slope = (reached - last_point[1]) / (angle - last_point[0])
+        if not reached > 0.0 or abs(reached - acceleration) <= _TOLERANCE * acceleration or not slope > 0.0:
             break
-        # at most half as much again: near the limit the slope says little
-        before, angle = (angle, reached), min(angle + min((acceleration - reached) / slope, 0.5 * angle), largest_angle)
-    return left
+        # At most 1.5 times the angle: near the limit the slope is unreliable.
+        last_point = angle, reached
+        angle = min(angle + min((acceleration - reached) / slope, 0.5 * angle), largest_angle)
+    return step
 
 
-def _step(sheet: Sheet, speed: float, acceleration: float, angle: float) -> dict[str, Any]:
-    """A step to an angle, its run and the responses to it."""
+def _drive_step(sheet: Sheet, speed: float, acceleration: float, angle: float) -> dict[str, Any]:
+    """Drive a step to an angle, rad. Returns its demand, its run and the responses."""
     settings, is_angle = sheet.settings, SteeringInput.of(sheet.car.facts).is_angle
     steady = settings["steady_from"], settings["steady_to"]
     rise = max(abs(angle) / math.radians(settings["steering_rate"]), 1e-3) if is_angle else 0.1
@@ -63,4 +67,4 @@ def _step(sheet: Sheet, speed: float, acceleration: float, angle: float) -> dict
         sheet.car, f"{acceleration:g} m/s2 {'left' if angle > 0.0 else 'right'}", speed, time, table, Pedals.FIXED
     )
     signals = {n: getattr(run, n) for n in ("yaw_rate", "acceleration", "roll", "sideslip")}
-    return {"given": angle, "run": run, **step_of_steering(run.time, run.steering, signals, _BEFORE, steady)}
+    return {"demand": angle, "run": run, **step_of_steering(run.time, run.steering, signals, _BEFORE_STEP, steady)}

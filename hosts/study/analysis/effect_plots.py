@@ -16,15 +16,15 @@ from hosts.study.analysis.main_effects import MainEffect, failed_share
 
 WIDTH = 11.0
 _COLUMNS = 4
-_ROW = 2.5
+_ROW_HEIGHT = 2.5
 
 
 def parameter_panels(parameters: Sequence[Parameter], label: str) -> tuple[Figure, list[Axes]]:
-    """A figure with axes that are labelled, the vertical ones with `label`; these have one scale, to be compared."""
+    """A figure with axes for each parameter; their vertical axes have one scale and the given label."""
     columns = min(_COLUMNS, max(len(parameters), 2))
     rows = -(-len(parameters) // columns)
     figure, grid = plt.subplots(
-        rows, columns, figsize=(WIDTH, 0.4 + _ROW * rows), sharey=True, squeeze=False, layout="constrained"
+        rows, columns, figsize=(WIDTH, 0.4 + _ROW_HEIGHT * rows), sharey=True, squeeze=False, layout="constrained"
     )
     axes = list(grid.flat)
     for panel in axes[len(parameters) :]:
@@ -36,20 +36,20 @@ def parameter_panels(parameters: Sequence[Parameter], label: str) -> tuple[Figur
             panel.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
             panel.xaxis.set_major_formatter("{x:g}")
             panel.xaxis.set_minor_formatter(NullFormatter())
-        if parameter.words:
-            panel.set_xticks(range(len(parameter.words)), parameter.words)
+        if parameter.categories:
+            panel.set_xticks(range(len(parameter.categories)), parameter.categories)
         if k % columns == 0:
             panel.set_ylabel(_wrapped(label))
     return figure, axes[: len(parameters)]
 
 
 def _wrapped(label: str) -> str:
-    """A long name in lines that fit beside a panel."""
+    """A long label in several lines."""
     return label if len(label) <= 28 else label.replace(" (", "\n(").replace(", ", ",\n")
 
 
-def drawn(count: int, most: int) -> NDArray[np.int64]:
-    """Positions of the runs that a plot shows: all, or so many at random."""
+def random_subset(count: int, most: int) -> NDArray[np.int64]:
+    """Positions of all `count` runs of a plot, or of a random subset of `most`."""
     if count <= most:
         return np.arange(count)
     return np.sort(np.random.default_rng(0).choice(count, most, replace=False))
@@ -59,32 +59,30 @@ MOST_POINTS = 2000
 
 
 def plot_main_effects(parameters: Sequence[Parameter], response: Response, effects: Sequence[MainEffect]) -> Figure:
-    """Means with their intervals, on one scale."""
+    """Means over each parameter with their intervals, on one scale."""
     figure, axes = parameter_panels(parameters, f"mean of {response.title}")
     for panel, parameter, effect in zip(axes, parameters, effects, strict=True):
         panel.axhline(float(response.values.mean()), color="#888888", linewidth=0.8)
-        _with_interval(panel, parameter, effect, BLUE)
+        _plot_interval(panel, parameter, effect, BLUE)
     return figure
 
 
 def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffect]) -> Figure:
-    """The measure of each run, its mean as a line, and failed runs as marks at the lower edge."""
+    """The measure of each run over each parameter, means as lines, and failed runs as marks at the lower edge."""
     figure, axes = parameter_panels(data.parameters, response.title)
-    selected = drawn(len(response.rows), MOST_POINTS)
-    # A few runs are to be seen, many are not to become one patch.
-    size, alpha = (
-        float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0)),
-        float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9)),
-    )
+    selected = random_subset(len(response.rows), MOST_POINTS)
+    # Markers of few runs are large; those of many are small and transparent.
+    size = float(np.clip(60.0 / len(selected) ** 0.4, 3.0, 10.0))
+    alpha = float(np.clip(12.0 / len(selected) ** 0.45, 0.4, 0.9))
     failed = data.failed_of(response)
-    failed = failed[drawn(len(failed), MOST_POINTS)]
+    failed = failed[random_subset(len(failed), MOST_POINTS)]
     for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
         x = data.x[response.rows[selected], k]
         (points,) = panel.plot(
             x, response.values[selected], ".", color=BLUE, markersize=size, alpha=alpha, markeredgewidth=0
         )
         points.set_rasterized(len(x) > MANY_POINTS)
-        mark = "_" if data.parameters[k].words else "-"
+        mark = "_" if data.parameters[k].categories else "-"
         panel.plot(effect.at, effect.mean, mark, color="#222222", linewidth=1.2, markersize=14)
         if len(failed):
             panel.plot(
@@ -97,20 +95,20 @@ def plot_failed(data: StudyData) -> Figure:
     """The share of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
     figure, axes = parameter_panels(data.parameters, "failed runs, %")
     for k, panel in enumerate(axes):
-        _with_interval(panel, data.parameters[k], failed_share(data.x[:, k], data.failed), RED, 100.0)
+        _plot_interval(panel, data.parameters[k], failed_share(data.x[:, k], data.failed), RED, 100.0)
         rows = np.flatnonzero(data.failed)
-        rows = rows[drawn(len(rows), MOST_POINTS)]
+        rows = rows[random_subset(len(rows), MOST_POINTS)]
         panel.plot(data.x[rows, k], np.full(len(rows), 0.02), "|", color=RED, transform=panel.get_xaxis_transform())
     axes[0].set_ylim(bottom=-5.0)
     return figure
 
 
-def _with_interval(panel: Axes, parameter: Parameter, effect: MainEffect, colour: str, factor: float = 1.0) -> None:
-    """A line in its band; points with bars where the values of the parameter have no order."""
-    at, middle, low, high = effect.at, *(factor * part for part in (effect.mean, effect.low, effect.high))
-    if parameter.words:
-        panel.errorbar(at, middle, np.stack([middle - low, high - middle]), fmt="o", color=colour, markersize=4)
+def _plot_interval(panel: Axes, parameter: Parameter, effect: MainEffect, colour: str, factor: float = 1.0) -> None:
+    """Draw a line with its band, or points with error bars where the parameter is not a number."""
+    at, mean, low, high = effect.at, *(factor * part for part in (effect.mean, effect.low, effect.high))
+    if parameter.categories:
+        panel.errorbar(at, mean, np.stack([mean - low, high - mean]), fmt="o", color=colour, markersize=4)
         panel.margins(x=0.2)
         return
     panel.fill_between(at, low, high, color=colour, alpha=0.2, linewidth=0)
-    panel.plot(at, middle, "o-", color=colour, markersize=4)
+    panel.plot(at, mean, "o-", color=colour, markersize=4)

@@ -1,4 +1,4 @@
-"""Main effects: the mean of a measure over a parameter, whatever the others are."""
+"""Main effects: the mean of a measure over one parameter, averaged over the others."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,12 +10,10 @@ from scipy import stats
 
 from hosts.study.limits import CONFIDENCE, interval_of_share
 
-# So few different values are levels of a design; more are divided into classes.
-_MOST_LEVELS = 12
+_MOST_LEVELS = 12  # distinct values; more are divided into classes
 _MOST_BINS = 10
 _FEWEST_IN_BIN = 5
-# The mean of so many values is normally distributed; below, the bootstrap needs no such assumption.
-_MANY = 500
+_FEWEST_FOR_NORMAL = 500  # runs; intervals of fewer are by the bootstrap
 _RESAMPLES = 999
 
 
@@ -24,21 +22,21 @@ class MainEffect:
     """Means of a measure in classes of a parameter."""
 
     at: NDArray[np.float64]
-    """Shape (b,): value of the parameter: its level, or its mean in the class."""
+    """Shape (b,): level of the parameter, or its mean in the class."""
     mean: NDArray[np.float64]
     low: NDArray[np.float64]
     high: NDArray[np.float64]
-    """`mean`, `low`, `high`, shape (b,): mean of the measure and its confidence interval; NaN limits where a class has
-    one run."""
+    """`mean`, `low`, `high`, shape (b,): mean of the measure and its 95 % interval, which is NaN for a class of one
+    run."""
 
     @property
     def span(self) -> float:
-        """Largest less smallest mean, in the unit of the measure."""
+        """Difference of the largest and the smallest mean, in the unit of the measure."""
         return float(self.mean.max() - self.mean.min())
 
 
 def classes(x: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Class of each value: its level, or one of up to ten with equally many runs."""
+    """Class of each value: its level, or one of up to ten classes of equal size; shape (n,)."""
     levels, codes = np.unique(x, return_inverse=True)
     if len(levels) <= _MOST_LEVELS:
         return codes.astype(np.int64)
@@ -51,19 +49,19 @@ def classes(x: NDArray[np.float64]) -> NDArray[np.int64]:
 def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -> MainEffect:
     """The main effect of a parameter.
 
-    `x`, `y`: parameter and measure of each run, shape (n,); n is at least 1; `seed`: of the bootstrap. Result: with
-    intervals of 95 %: by the bootstrap (percentiles), by the normal distribution for more than 500 runs.
+    `x`, `y`: parameter and measure of each run, shape (n,), n at least 1; `seed`: of the bootstrap. The intervals are
+    percentiles of the bootstrap, or of the normal distribution for more than 500 runs.
     """
     rng = np.random.default_rng(seed)
-    return _of_classes(x, y, lambda of_class: _interval(of_class, rng))
+    return _effect_of_classes(x, y, lambda of_class: _interval(of_class, rng))
 
 
 def failed_share(x: NDArray[np.float64], failed: NDArray[np.bool_]) -> MainEffect:
-    """The share of failed runs, 0 to 1, with Wilson's interval. `x`, `failed`: of each run, shape (n,)."""
-    return _of_classes(x, failed, lambda of_class: interval_of_share(int(of_class.sum()), len(of_class)))
+    """The share of failed runs, 0 to 1, with Wilson's interval. `x`, `failed`: parameter and status of runs, (n,)."""
+    return _effect_of_classes(x, failed, lambda of_class: interval_of_share(int(of_class.sum()), len(of_class)))
 
 
-def _of_classes(
+def _effect_of_classes(
     x: NDArray[np.float64], y: NDArray[Any], interval: Callable[[NDArray[Any]], tuple[float, float]]
 ) -> MainEffect:
     codes = classes(x)
@@ -76,7 +74,7 @@ def _interval(y: NDArray[np.float64], rng: np.random.Generator) -> tuple[float, 
         return float("nan"), float("nan")
     if np.ptp(y) == 0.0:
         return float(y[0]), float(y[0])
-    if len(y) > _MANY:
+    if len(y) > _FEWEST_FOR_NORMAL:
         half = float(stats.norm.ppf(0.5 + 0.5 * CONFIDENCE)) * float(y.std(ddof=1)) / np.sqrt(len(y))
         return float(y.mean() - half), float(y.mean() + half)
     means = y[rng.integers(len(y), size=(_RESAMPLES, len(y)))].mean(axis=1)

@@ -1,4 +1,4 @@
-"""The part of the report about one measure."""
+"""The section of the report about one measure."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from hosts.study.analysis.main_effects import MainEffect, main_effect
 from hosts.study.analysis.parallel_plots import MOST_LINES, plot_parallel
 from hosts.study.analysis.study_section import Commands
 from hosts.study.analysis.summary_plots import plot_overview
-from hosts.study.analysis.tables import Row, extremes, no_distribution
+from hosts.study.analysis.tables import Row, extremes, reason_without_distribution
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
     from matplotlib.figure import Figure
 
-_WORST = 5
+_MOST_EXTREMES = 5
 
 
 def measure_section(
@@ -37,9 +37,10 @@ def measure_section(
     commands: Commands,
     numbers: list[dict[str, object]],
 ) -> Section:
-    """Its distribution, indices, main effects, runs, and the highest and lowest of them with their commands.
+    """The section of a measure: distribution, indices, main effects, runs, and the highest and lowest runs.
 
-    `number`: of the response, for the names of its plots; `numbers`: to which the effects are added, a row a parameter.
+    `number`: of the response, for the names of its plots; `commands`: that repeat a run; `numbers`: rows of the table
+    of effects, to which one for each parameter is added.
     """
     if not response.varies:
         value = number_in(float(response.values.min()), response.unit, ".6g")
@@ -49,13 +50,13 @@ def measure_section(
         return Section(response.title, [paragraph(message, NOTE)])
     effects = [main_effect(data.x[response.rows, k], response.values) for k in range(len(data.parameters))]
     indices = indices_of(data, response)
-    numbers += _numbers(response, data.parameters, effects, indices)
-    lost, label = bool(data.failed.any()), response.label
+    numbers += _effect_rows(response, data.parameters, effects, indices)
+    has_failed, label = bool(data.failed.any()), response.label
 
     def plot(figure: Figure, name: str, message: str) -> HtmlElement:
         return plots.add(drawing(figure, message), f"{number + 1:02d}_{name}_{label}")
 
-    message = f"{'Values' if no_distribution(data, response) else 'Distribution'} of {label}"
+    message = f"{'Values' if reason_without_distribution(data, response) else 'Distribution'} of {label}"
     body = [plot(plot_overview(data, response, indices), "overview", message)]
     body.append(paragraph(indices if isinstance(indices, str) else indices.how, FAINT))
     if data.parameters:
@@ -66,34 +67,38 @@ def measure_section(
         body.append(paragraph(message, FAINT))
         body.append(element("h3", "Runs"))
         body.append(plot(plot_scatter(data, response, effects), "runs", f"{label} over each parameter"))
-        body.append(_drawn("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * lost))
+        body.append(
+            _count_note("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * has_failed)
+        )
         body.append(plot(plot_parallel(data, response), "parallel", f"Parallel coordinates of {label}"))
-        body.append(_drawn("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs" * lost))
-    highest, lowest = extremes(data, response, _WORST)
+        body.append(
+            _count_note("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs" * has_failed)
+        )
+    highest, lowest = extremes(data, response, _MOST_EXTREMES)
     body.append(element("h3", "Highest and lowest"))
-    body.append(_extremes(data, response, [*highest, *reversed(lowest)], commands))
+    body.append(_extremes_table(data, response, [*highest, *reversed(lowest)], commands))
     return Section(response.title, body)
 
 
-def _drawn(what: str, count: int, most: int, more: str) -> HtmlElement:
-    message = f"{most} of {count} {what}s, drawn at random" if count > most else f"All {count} {what}s"
-    return paragraph(f"{message}{more}.", FAINT)
+def _count_note(noun: str, count: int, most: int, suffix: str) -> HtmlElement:
+    message = f"{most} of {count} {noun}s, drawn at random" if count > most else f"All {count} {noun}s"
+    return paragraph(f"{message}{suffix}.", FAINT)
 
 
-def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands: Commands) -> HtmlElement:
-    cells = []
+def _extremes_table(data: StudyData, response: Response, rows: Sequence[Row], commands: Commands) -> HtmlElement:
+    table_rows = []
     for row in rows:
         values = [
-            p.words[int(v)] if p.words else f"{v:.6g}"
+            p.categories[int(v)] if p.categories else f"{v:.6g}"
             for p, v in zip(data.parameters, data.x[row.position], strict=True)
         ]
-        cells.append((str(row.index), f"{row.value:.6g}", *values, commands_cell(commands(row.index))))
+        table_rows.append((str(row.index), f"{row.value:.6g}", *values, commands_cell(commands(row.index))))
     head = ("run", response.title, *(p.title for p in data.parameters), "to repeat it")
-    return table(f"Highest runs of {response.title}, then lowest", head, cells, "numbers")
+    return table(f"Highest runs of {response.title}, then lowest", head, table_rows, "numbers")
 
 
 def indices_of(data: StudyData, response: Response) -> Indices | str:
-    """Sobol' indices of a measure as the design allows them, or why there are none."""
+    """Sobol' indices of a measure by the estimator for the design, or a sentence why there are none."""
     names = [p.name for p in data.parameters]
     if not names:
         return "The study has no parameters."
@@ -106,15 +111,15 @@ def indices_of(data: StudyData, response: Response) -> Indices | str:
         return grid_indices(names, x, response.values)
     if data.method == "table":
         return "No indices: they need a random design or a full grid; how the rows of a table were chosen is unknown."
-    ordered = [k for k, p in enumerate(data.parameters) if len(p.words) <= 2]
+    ordered = [k for k, p in enumerate(data.parameters) if len(p.categories) <= 2]
     result = estimated_indices([names[k] for k in ordered], x[:, ordered], response.values)
-    unordered = [p.name for p in data.parameters if len(p.words) > 2]
+    unordered = [p.name for p in data.parameters if len(p.categories) > 2]
     if unordered and isinstance(result, Indices):
         result = replace(result, how=f"{result.how} Without {', '.join(unordered)}, whose values have no order.")
     return result
 
 
-def _numbers(
+def _effect_rows(
     response: Response, parameters: Sequence[Parameter], effects: Sequence[MainEffect], indices: Indices | str
 ) -> list[dict[str, object]]:
     rows = []

@@ -1,4 +1,4 @@
-"""Parallel coordinates: a line a run, an axis a parameter."""
+"""Plots of parallel coordinates: a line for each run, an axis for each parameter."""
 
 from collections.abc import Sequence
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ali3.chart_style import RED
 from hosts.study.analysis.data import Parameter, Response, StudyData
-from hosts.study.analysis.effect_plots import WIDTH, drawn
+from hosts.study.analysis.effect_plots import WIDTH, random_subset
 
 MOST_LINES = 300
 _TICKS = 5
@@ -21,19 +21,19 @@ _MOST_LEVELS = 6
 
 
 def plot_parallel(data: StudyData, response: Response) -> Figure:
-    """Parameters and, on the last axis, the measure, which is the colour too; failed runs are dotted and end before."""
-    selected = drawn(len(response.rows), MOST_LINES)
-    # Extreme runs lie on top of those of the middle.
+    """Parallel coordinates with the measure on the last axis and as colour; failed runs, without it, are dotted."""
+    selected = random_subset(len(response.rows), MOST_LINES)
+    # Lines of extreme runs are drawn last.
     selected = selected[np.argsort(np.abs(response.values[selected] - np.median(response.values)), kind="stable")]
     values = response.values[selected]
     failed = data.failed_of(response)
-    failed = failed[drawn(len(failed), MOST_LINES // 5)]
+    failed = failed[random_subset(len(failed), MOST_LINES // 5)]
 
     heights, ticks = [], []
     for k, parameter in enumerate(data.parameters):
-        scaled, marks = _axis(parameter, data.x[:, k])
-        heights.append(scaled)
-        ticks.append(marks)
+        axis_heights, axis_ticks = _scaled_axis(parameter, data.x[:, k])
+        heights.append(axis_heights)
+        ticks.append(axis_ticks)
     low, high = _range(response.values)
     last = (values - low) / (high - low)
     x = np.stack(heights, axis=1)
@@ -41,32 +41,36 @@ def plot_parallel(data: StudyData, response: Response) -> Figure:
     colours = colormaps["viridis"](Normalize(low, high)(values))
     width = 0.6 if len(selected) > 100 else 1.0
     axes.add_collection(
-        LineCollection(_lines(np.column_stack([x[response.rows[selected]], last])), colors=colours, linewidths=width)
+        LineCollection(
+            _polylines(np.column_stack([x[response.rows[selected]], last])), colors=colours, linewidths=width
+        )
     )
     if len(failed):
         axes.add_collection(
-            LineCollection(_lines(x[failed]), colors=RED, linewidths=0.9, linestyles="dotted", zorder=3)
+            LineCollection(_polylines(x[failed]), colors=RED, linewidths=0.9, linestyles="dotted", zorder=3)
         )
-    ticks.append([((v - low) / (high - low), _short(v)) for v in np.linspace(low, high, _TICKS)])
+    ticks.append([((v - low) / (high - low), _tick_text(v)) for v in np.linspace(low, high, _TICKS)])
     _decorate(axes, [p.title for p in data.parameters] + [response.title], ticks)
     return figure
 
 
-def _axis(parameter: Parameter, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], list[tuple[float, str]]]:
-    """Heights 0 to 1 of the values of a parameter, and of its ticks."""
+def _scaled_axis(parameter: Parameter, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], list[tuple[float, str]]]:
+    """Values of a parameter scaled to 0 to 1, and its ticks as positions with texts."""
     scaled = np.log(x) if parameter.log else x
     low, high = _range(scaled)
-    if parameter.words:
-        return (scaled - low) / (high - low), [((k - low) / (high - low), w) for k, w in enumerate(parameter.words)]
+    if parameter.categories:
+        return (scaled - low) / (high - low), [
+            ((k - low) / (high - low), w) for k, w in enumerate(parameter.categories)
+        ]
     levels = np.unique(scaled)
     marks = levels if len(levels) <= _MOST_LEVELS else np.linspace(low, high, _TICKS)
     values = np.exp(marks) if parameter.log else marks
-    ticks = [((float(m) - low) / (high - low), _short(v)) for m, v in zip(marks, values, strict=True)]
+    ticks = [((float(m) - low) / (high - low), _tick_text(v)) for m, v in zip(marks, values, strict=True)]
     return (scaled - low) / (high - low), ticks
 
 
-def _short(value: float) -> str:
-    """Four digits, without an exponent where there is room."""
+def _tick_text(value: float) -> str:
+    """A number with four digits, without an exponent below 1e6."""
     return f"{value:.0f}" if 1e3 <= abs(value) < 1e6 else f"{value:.4g}"
 
 
@@ -75,10 +79,10 @@ def _range(values: NDArray[np.float64]) -> tuple[float, float]:
     return (low, high) if high > low else (low - 0.5, high + 0.5)
 
 
-def _lines(heights: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Points (axes, 2) of each line."""
-    across = np.broadcast_to(np.arange(heights.shape[1], dtype=float), heights.shape)
-    return list(np.stack([across, heights], axis=2))
+def _polylines(heights: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Points of each line, shape (axes, 2). `heights`: shape (lines, axes)."""
+    columns = np.broadcast_to(np.arange(heights.shape[1], dtype=float), heights.shape)
+    return list(np.stack([columns, heights], axis=2))
 
 
 def _decorate(axes: Axes, titles: Sequence[str], ticks: Sequence[Sequence[tuple[float, str]]]) -> None:

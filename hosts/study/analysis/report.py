@@ -1,4 +1,4 @@
-"""The report of a study: one HTML file, its pictures and its tables."""
+"""The report of a study: one HTML file, its plots and its table of effects."""
 
 import shlex
 from pathlib import Path
@@ -30,16 +30,16 @@ from hosts.study.store import read_study, study_record
 
 
 def write_report(folder: Path) -> list[Path]:
-    """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, finished or not.
+    """Write ``report.html``, and its plots and the table of effects into ``analysis``.
 
-    Returns the report, and the folder with its pictures and the table of effects. Raises `HostError`: there is no
-    study, no run in it yet, a link in the folder, or a file of rows or signals that is damaged.
+    `folder`: of a study, finished or not. Returns the paths of the report and of the folder ``analysis``. Raises
+    `HostError`: there is no study, no finished run, a link in the folder, or a damaged file of rows or signals.
     """
     frame = read_study(folder)
     check_signals(folder, study_record(folder))
 
     def commands(index: int) -> list[str]:
-        # the command of one run prints those of its FMU; its path is absolute, as the report is read from any folder
+        # The path is absolute, since the report may be read from any folder.
         return [f"{command_name('study')} {shlex.join([str(folder.absolute()), '--run', str(index)])}"]
 
     return report_of(frame, folder, commands)
@@ -52,7 +52,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     check_no_link(folder)
     data, plots = study_data(frame), Plots(folder / ANALYSIS)
     responses = data.responses[:MOST_RESPONSES]
-    numbers: list[dict[str, object]] = []
+    effect_rows: list[dict[str, object]] = []
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
         sections = [*limits_section(data), measures_section(data), *failed_sections(data, plots, commands)]
         if responses and data.parameters:
@@ -60,9 +60,9 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
             correlations = plots.add(drawing(plot_correlations(data, responses), "Rank correlations"), "correlations")
             sections.append(Section("Rank correlations", [paragraph(message, FAINT), correlations]))
         for k, response in enumerate(bar_of(responses, desc="report", unit="measure")):
-            sections.append(measure_section(data, response, k, plots, commands, numbers))
-    file, rows = folder / "report.html", make_folder(folder / ANALYSIS) / "effects.csv"
+            sections.append(measure_section(data, response, k, plots, commands, effect_rows))
+    file, effects_file = folder / "report.html", make_folder(folder / ANALYSIS) / "effects.csv"
     write_text(file, page(f"Study {data.about['study']}", facts(data), sections))
-    with atomic_file(rows) as temporary:
-        pd.DataFrame(numbers).to_csv(temporary, index=False)
-    return [file, rows.parent]
+    with atomic_file(effects_file) as temporary:
+        pd.DataFrame(effect_rows).to_csv(temporary, index=False)
+    return [file, effects_file.parent]

@@ -1,4 +1,4 @@
-"""Parts of the report about the study as a whole: what was run, all measures, failed runs."""
+"""Sections of the report about the whole study: runs, all measures, limits, failed runs."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ali3.html_elements import Content, table
 from hosts.experiment.report import FAINT, NOTE, Plots, Section, commands_cell, paragraph
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
-from hosts.study.analysis.tables import reasons, reported_statistics, said, statistics
+from hosts.study.analysis.tables import messages_with_runs, reasons, reported_statistics, statistics
 from hosts.study.limits import share_notes, share_rows, shares
 
 MOST_RESPONSES = 40
-_SHOWN_OF_A_REASON = 3
-_SHOWN_REASONS = 20
+_MOST_RUNS_OF_REASON = 3
+_MOST_REASONS = 20
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -25,7 +25,7 @@ Commands: TypeAlias = "Callable[[int], Sequence[str]]"
 
 
 def facts(data: StudyData) -> list[HtmlElement]:
-    """What was run, and how much of it is done."""
+    """The table of the study, and notes on missing runs and measures without plots."""
     about, counts = data.about, data.frame["status"].astype(str).value_counts()
     message = ", ".join(f"{counts[s]} {s}" for s in ("done", "incomplete", FAILED) if s in counts)
     versions = ", ".join(f"{k} {v}" for k, v in about["versions"].items())
@@ -54,14 +54,14 @@ def facts(data: StudyData) -> list[HtmlElement]:
 
 
 def measures_section(data: StudyData) -> Section:
-    """A table of all measures with their percentiles; those of no random sample have their range only."""
+    """The table of all measures with their percentiles, or with their ranges where runs are not a random sample."""
     if not data.responses:
         return Section("Measures", [paragraph("No run yields a measure.", NOTE)])
     names, why = reported_statistics(data)
-    results = [(r, statistics(r)) for r in data.responses]
+    all_statistics = [(r, statistics(r)) for r in data.responses]
     rows = [
-        (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{s[n]:.5g}" for n in names if n != "runs"))
-        for r, s in results
+        (r.label, r.unit, f"{len(r.rows)} of {r.requested}", *(f"{s[n]:.5g}" for n in names if n != "runs"))
+        for r, s in all_statistics
     ]
     body = [table("Of all runs", ("measure", "unit", *names), rows, "numbers")]
     if why:
@@ -70,7 +70,7 @@ def measures_section(data: StudyData) -> Section:
 
 
 def limits_section(data: StudyData) -> list[Section]:
-    """Which share of the runs keeps the limits of the study; empty where it has none."""
+    """The table of shares of the runs within the limits of the study; empty where it has none."""
     share_list = shares(data.frame)
     if not share_list:
         return []
@@ -81,12 +81,12 @@ def limits_section(data: StudyData) -> list[Section]:
 
 
 def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[Section]:
-    """Where in the space of the parameters runs failed, why, and what the FMU said; empty where all was good."""
+    """Sections on failed runs, on incomplete runs and on messages of the FMU; empty where there are none."""
     sections = []
     for groups, title in (
         (reasons(data, FAILED), "Failed runs"),
         (reasons(data, "incomplete"), "Runs without some measure"),
-        (said(data), "Messages of the FMU"),
+        (messages_with_runs(data), "Messages of the FMU"),
     ):
         if not groups:
             continue
@@ -96,12 +96,12 @@ def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[S
             message = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
             body += [plots.add(plot, "failed"), paragraph(message, FAINT)]
         rows: list[tuple[Content, ...]] = []
-        for text, indices in groups[:_SHOWN_REASONS]:
-            for k, index in enumerate(indices[:_SHOWN_OF_A_REASON]):
+        for text, indices in groups[:_MOST_REASONS]:
+            for k, index in enumerate(indices[:_MOST_RUNS_OF_REASON]):
                 first = (text, str(len(indices))) if k == 0 else ("", "")
                 rows.append((*first, str(index), commands_cell(commands(index))))
         body.append(table("Words and runs", ("words", "runs", "for example", "to repeat it"), rows, "numbers"))
-        if len(groups) > _SHOWN_REASONS:
-            body.append(paragraph(f"{len(groups) - _SHOWN_REASONS} rarer ones are in the table of runs only.", FAINT))
+        if len(groups) > _MOST_REASONS:
+            body.append(paragraph(f"{len(groups) - _MOST_REASONS} rarer ones are in the table of runs only.", FAINT))
         sections.append(Section(title, body))
     return sections

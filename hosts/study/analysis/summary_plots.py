@@ -1,4 +1,4 @@
-"""Plots of a whole measure: its distribution, its indices, and its correlation with the parameters."""
+"""Plots of a measure over all runs: distribution, indices, and rank correlations with the parameters."""
 
 import math
 from collections.abc import Sequence
@@ -15,14 +15,14 @@ from ali3.chart_style import BLACK, BLUE, ORANGE, RED
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.effect_plots import WIDTH
 from hosts.study.analysis.indices import Indices
-from hosts.study.analysis.tables import no_distribution
+from hosts.study.analysis.tables import reason_without_distribution
 
 PERCENTILES = (5.0, 50.0, 95.0)
 _MOST_BINS = 60
 
 
 def plot_overview(data: StudyData, response: Response, indices: Indices | str) -> Figure:
-    """The distribution; beside it the indices, where there are some."""
+    """The distribution of a measure, and beside it its indices, if there are any."""
     if isinstance(indices, str):
         figure, axes = plt.subplots(figsize=(0.55 * WIDTH, 2.9), layout="constrained")
         plot_distribution(axes, data, response)
@@ -35,16 +35,16 @@ def plot_overview(data: StudyData, response: Response, indices: Indices | str) -
 
 
 def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:
-    """Histogram with percentiles and the limits of the study; the values in their order where it cannot be told."""
-    if why := no_distribution(data, response):
+    """Draw a histogram with percentiles, or the sorted values where there is no distribution, and the limits."""
+    if reason := reason_without_distribution(data, response):
         axes.plot(np.sort(response.values), np.arange(1, len(response.values) + 1), "o", color=BLUE, markersize=4)
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_ylabel("runs, lowest first")
-        axes.set_title(f"Values ({why})")
+        axes.set_title(f"Values ({reason})")
     else:
         _histogram(axes, response.values)
-    for end in filter(math.isfinite, response.limits):
-        axes.axvline(end, color=BLACK, linewidth=2.0, label=f"limit: {end:.6g}")
+    for limit in filter(math.isfinite, response.limits):
+        axes.axvline(limit, color=BLACK, linewidth=2.0, label=f"limit: {limit:.6g}")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(
             loc="lower right", bbox_to_anchor=(1.0, 0.985), ncols=3, handlelength=1.4, columnspacing=1.0, fontsize=8
@@ -66,7 +66,7 @@ def _histogram(axes: Axes, y: NDArray[np.float64]) -> None:
 
 
 def plot_indices(axes: Axes, indices: Indices) -> None:
-    """Indices with their intervals; hollow where the interval reaches zero, so that the index may be none."""
+    """Draw indices with their intervals, with hollow markers where the interval includes zero."""
     order = np.argsort(np.where(np.isnan(indices.total), indices.first, indices.total))
     at = np.arange(len(order), dtype=float)
     has_total = bool(np.isfinite(indices.total).any())
@@ -76,11 +76,14 @@ def plot_indices(axes: Axes, indices: Indices) -> None:
     ):
         if np.isfinite(values).any():
             value, half = values[order], np.nan_to_num(conf[order])
-            noise = (value - half <= 0.0) & (half > 0.0)
-            for some, fill, message in ((~noise, colour, label), (noise, "white", f"{label}, may be 0")):
-                if some.any():
+            may_be_zero = (value - half <= 0.0) & (half > 0.0)
+            for rows, fill, message in (
+                (~may_be_zero, colour, label),
+                (may_be_zero, "white", f"{label}, may be 0"),
+            ):
+                if rows.any():
                     axes.errorbar(
-                        value[some], at[some] + shift, xerr=half[some], fmt="o", color=colour, markerfacecolor=fill,
+                        value[rows], at[rows] + shift, xerr=half[rows], fmt="o", color=colour, markerfacecolor=fill,
                         markersize=6, capsize=3, linewidth=1.2, label=message,
                     )  # fmt: skip
     axes.set_yticks(at, [indices.names[k] for k in order])
@@ -97,20 +100,20 @@ def plot_indices(axes: Axes, indices: Indices) -> None:
 def rank_correlations(data: StudyData, responses: Sequence[Response]) -> NDArray[np.float64]:
     """Spearman's rank correlation of each measure with each parameter.
 
-    Returns an array of shape (responses, parameters): -1 to 1; NaN where one of the two does not change, or the
-    parameter has more than two words for values.
+    Returns an array of shape (responses, parameters): -1 to 1; NaN where one of the two is constant, or the parameter
+    has more than two categories.
     """
     table = np.full((len(responses), len(data.parameters)), np.nan)
     for i, response in enumerate(responses):
         for j, parameter in enumerate(data.parameters):
             x = data.x[response.rows, j]
-            if len(parameter.words) <= 2 and len(x) > 2 and np.ptp(x) > 0.0 and response.varies:
+            if len(parameter.categories) <= 2 and len(x) > 2 and np.ptp(x) > 0.0 and response.varies:
                 table[i, j] = spearmanr(x, response.values).statistic
     return table
 
 
 def plot_correlations(data: StudyData, responses: Sequence[Response]) -> Figure:
-    """A table in colours."""
+    """The rank correlations as a coloured table."""
     table = rank_correlations(data, responses)
     size = (min(WIDTH, 4.0 + 0.9 * table.shape[1]), 1.4 + 0.36 * table.shape[0])
     figure, axes = plt.subplots(figsize=size, layout="constrained")

@@ -1,4 +1,4 @@
-"""Numbers of the measures: percentiles, reasons of failed runs, worst cases."""
+"""Tables of a study: statistics of measures, highest and lowest runs, reasons of failed runs."""
 
 from __future__ import annotations
 
@@ -11,23 +11,22 @@ import pandas as pd
 from hosts.study.analysis.data import Response, StudyData
 
 _STATISTICS = ("runs", "mean", "std", "lowest", "5 %", "median", "95 %", "highest")  # as pandas describes numbers
-_OF_SAMPLES = ("mean", "std", "5 %", "95 %")
-# Of fewer values the 5 % and the 95 % are between the two outermost ones.
-_FEWEST_FOR_DISTRIBUTION = 20
+_SAMPLE_STATISTICS = ("mean", "std", "5 %", "95 %")
+_FEWEST_FOR_DISTRIBUTION = 20  # runs, of which one is below the 5 % percentile
 _NUMBER = re.compile(r"(?<![A-Za-z_\d.\[])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w\]])")
 
 
 @dataclass(frozen=True)
 class Row:
-    """A run to be looked at: its index, and the value of the measure."""
+    """A run by its index and its position in the frame, with its value of the measure."""
 
     index: int
     position: int
     value: float
 
 
-def no_distribution(data: StudyData, response: Response) -> str:
-    """Why the values of a measure are not a random sample from which a distribution can be told; "" if they are."""
+def reason_without_distribution(data: StudyData, response: Response) -> str:
+    """Why a distribution cannot be estimated from the values of a measure, as a clause; empty if it can."""
     count = len(response.values)
     if data.method in ("grid", "table"):
         return f"{count} runs of a {data.method}, no random sample"
@@ -42,42 +41,42 @@ def statistics(response: Response) -> dict[str, float]:
 
 
 def reported_statistics(data: StudyData) -> tuple[list[str], str]:
-    """Names of the `statistics` that can be told of all measures, and why not the others; "" for all of them."""
-    why = next(filter(None, (no_distribution(data, response) for response in data.responses)), "")
-    return [name for name in _STATISTICS if not (why and name in _OF_SAMPLES)], why
+    """Names of the `statistics` that are known of all measures, and why others are not; empty if all are known."""
+    reason = next(filter(None, (reason_without_distribution(data, response) for response in data.responses)), "")
+    return [name for name in _STATISTICS if not (reason and name in _SAMPLE_STATISTICS)], reason
 
 
 def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row], list[Row]]:
-    """The highest and the lowest runs, of equal ones those with the lowest index first.
+    """The highest and the lowest runs; of equal ones those of the lowest index come first.
 
-    `count`: of each; fewer where there are not twice as many.
+    `count`: of each, at most half of the runs.
     """
-    order = np.argsort(response.values, kind="stable")
-    up = np.argsort(-response.values, kind="stable")
-    count = min(count, (len(order) + 1) // 2)
+    ascending = np.argsort(response.values, kind="stable")
+    descending = np.argsort(-response.values, kind="stable")
+    count = min(count, (len(ascending) + 1) // 2)
     index = data.frame.index.to_numpy()
 
     def rows(of: np.ndarray) -> list[Row]:
         return [Row(int(index[response.rows[k]]), int(response.rows[k]), float(response.values[k])) for k in of[:count]]
 
-    return rows(up), rows(order)
+    return rows(descending), rows(ascending)
 
 
 def reasons(data: StudyData, status: str) -> list[tuple[str, list[int]]]:
-    """Reasons of the runs of a status and their indices, the most frequent first; of numbers that differ the range."""
-    return _grouped(data.frame.loc[data.frame["status"].astype(str) == status, "reason"])
+    """Reasons of the runs of a status with their indices, the most frequent first; numbers that differ as ranges."""
+    return _grouped_by_text(data.frame.loc[data.frame["status"].astype(str) == status, "reason"])
 
 
-def said(data: StudyData) -> list[tuple[str, list[int]]]:
-    """Messages of the FMU in its runs and their indices, the most frequent first; of numbers that differ the range."""
+def messages_with_runs(data: StudyData) -> list[tuple[str, list[int]]]:
+    """Messages of the FMU with the indices of runs, the most frequent first; numbers that differ as ranges."""
     if "messages" not in data.frame:
         return []
     messages = data.frame["messages"].fillna("").astype(str)
-    return _grouped(messages[messages != ""])
+    return _grouped_by_text(messages[messages != ""])
 
 
-def _grouped(texts: pd.Series[str]) -> list[tuple[str, list[int]]]:
-    """Texts that are the same but for their numbers, and the runs in which they stand."""
+def _grouped_by_text(texts: pd.Series[str]) -> list[tuple[str, list[int]]]:
+    """Texts that are equal except for numbers, with the indices of their runs."""
     results: dict[str, list[tuple[int, str]]] = {}
     for index, text in texts.astype(str).items():
         results.setdefault(_NUMBER.sub("…", text), []).append((int(str(index)), text))
@@ -86,7 +85,7 @@ def _grouped(texts: pd.Series[str]) -> list[tuple[str, list[int]]]:
 
 
 def _with_ranges(texts: list[str]) -> str:
-    """A text for those that differ in their numbers alone: where they do, the least and the largest."""
+    """One text for texts that differ in numbers only, with the range of each number that differs."""
     columns = zip(*(_NUMBER.findall(text) for text in texts), strict=True)
     spans = iter([(min(column, key=float), max(column, key=float)) for column in columns])
 

@@ -1,7 +1,7 @@
 """Expressions such as ``max(abs(chassis.ay), after=2.0)``, evaluated by simpleeval.
 
-They are of users: names, forms and units are checked before the first run, which those of the files of standard tests
-(`hosts.measures.scope`), of runs and arrays without units, cannot be.
+Users write them: names, forms and units are checked before the first run. Those of standard tests
+(`hosts.measures.scope`) have no units.
 """
 
 from __future__ import annotations
@@ -40,22 +40,22 @@ _OPERATORS: Mapping[type[ast.AST], Callable[..., Quantity]] = {
 
 @dataclass(frozen=True)
 class Expression:
-    """A number of a run by reductions of its signals; make it by `read`."""
+    """A measure of a run by reductions of its signals; made by `read`."""
 
     name: str
     text: str
 
     @staticmethod
     def read(text: str, name: str = "") -> Expression:
-        """An expression of which the form is right; whether its signals are there, `columns` checks.
+        """Read an expression, and check its form; `columns` checks its signals.
 
-        Raises `HostError` with what cannot be read.
+        Raises `HostError` with the part that cannot be read.
         """
         tree, signals = _parse(text)
-        always = np.zeros(1)
+        samples = np.zeros(1)
         try:
-            result = _evaluated(text, {name: Quantity(name, always, ANY, always) for name in signals})
-        except NotYieldedError:  # the form is right
+            result = _evaluate(text, {name: Quantity(name, samples, ANY, samples) for name in signals})
+        except NotYieldedError:  # of the one sample; the form is right
             result = None
         if result is not None and result.time is not None:
             raise HostError(
@@ -77,16 +77,17 @@ class Expression:
         return hashlib.sha256(ast.unparse(_parse(self.text)[0]).encode()).hexdigest()
 
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
-        """Its one column; see `hosts.study.measures.study_measure.StudyMeasure`."""
+        """The column with its unit; see `hosts.study.measures.study_measure.StudyMeasure`."""
         for signal in sorted(self.signals):
             if signal not in units:
                 raise HostError(
-                    f"The measure '{self.text}' needs '{signal}', which is not an input or output{near(signal, units)}"
+                    f"The measure '{self.text}' needs '{signal}', which is not an input or "
+                    f"output{similar_names(signal, units)}"
                 )
         time = np.array([0.0, np.finfo(float).max if stop_time is None else stop_time])
         signals = {n: Quantity(n, np.ones(2), units.get(n, "s") or NONE, time) for n in (*self.signals, TIME)}
         try:
-            return {self.name: _evaluated(self.text, signals).unit}
+            return {self.name: _evaluate(self.text, signals).unit}
         except NotYieldedError as error:
             raise HostError(f"The measure '{self.text}' cannot be computed for any run. {error}") from None
 
@@ -96,7 +97,7 @@ class Expression:
         try:
             if result.refusal:
                 raise NotYieldedError(sentence_of(result.refusal))
-            quantity = _evaluated(self.text, self._signals_of(result))
+            quantity = _evaluate(self.text, self._signals_of(result))
             value, unit = float(quantity.values), quantity.unit
             if not math.isfinite(value):
                 note = f"'{self.text}' is {value:g}: it divides by zero or is too large for a number."
@@ -111,38 +112,38 @@ class Expression:
             if signal not in result:
                 raise HostError(f"The run has no signal '{signal}'.")
             values = np.asarray(result.continuous(signal), dtype=float)
-            wrong = ~np.isfinite(values)
-            if wrong.any():
-                first = int(wrong.argmax())
+            is_wrong = ~np.isfinite(values)
+            if is_wrong.any():
+                first = int(is_wrong.argmax())
                 raise NotYieldedError(f"'{signal}' is {values[first]:g} at {result.time[first]:g} s.")
             results[signal] = Quantity(signal, values, result.units.get(signal) or NONE, result.time)
         return results
 
 
-def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
-    """What an expression is of these signals.
+def _evaluate(text: str, signals: Mapping[str, Quantity]) -> Quantity:
+    """The value of an expression.
 
-    Raises `HostError`: it has what cannot stand there; `NotYieldedError`: the signals do not yield it.
+    Raises `HostError`: a part of it is not allowed; `NotYieldedError`: the signals do not yield a value.
     """
-    where = f"The measure '{text}'"
+    label = f"The measure '{text}'"
     evaluator = simpleeval.SimpleEval(operators=dict(_OPERATORS), functions=dict(_FUNCTIONS))
     node_types = (ast.UnaryOp, ast.BinOp, ast.Call, ast.keyword)
     evaluator.nodes = {node: evaluator.nodes[node] for node in node_types}
-    evaluator.nodes |= dict.fromkeys((ast.Name, ast.Attribute, ast.Subscript), lambda node: signals[_name(node)])
+    evaluator.nodes |= dict.fromkeys((ast.Name, ast.Attribute, ast.Subscript), lambda node: signals[_signal_name(node)])
     evaluator.nodes[ast.Constant] = lambda node: signals[node.value] if node.value in signals else _number(node)
     try:
         with np.errstate(all="ignore"):
             result = evaluator.eval(text, _parse(text)[0])
     except HostError as error:
-        raise HostError(f"{where}: {error}") from None
+        raise HostError(f"{label}: {error}") from None
     except simpleeval.FunctionNotDefined as error:
-        present = ", ".join(_FUNCTIONS)
-        raise HostError(f"{where} has no function '{error.func_name}' to use; there are: {present}.") from None
+        allowed = ", ".join(_FUNCTIONS)
+        raise HostError(f"{label} has no function '{error.func_name}' to use; there are: {allowed}.") from None
     except (simpleeval.InvalidExpression, TypeError, KeyError):
-        present = f"signals, numbers, + - * / and the functions {', '.join(_FUNCTIONS)}"
-        raise HostError(f"{where} cannot be read: {present} can stand there.") from None
+        allowed = f"signals, numbers, + - * / and the functions {', '.join(_FUNCTIONS)}"
+        raise HostError(f"{label} cannot be read: {allowed} can stand there.") from None
     except RecursionError:
-        raise HostError(f"{where} is nested too deep; use a function in a file: file.py:function.") from None
+        raise HostError(f"{label} is nested too deep; use a function in a file: file.py:function.") from None
     assert isinstance(result, Quantity)
     return result
 
@@ -164,7 +165,7 @@ def _parse(text: str) -> tuple[ast.expr, frozenset[str]]:
     """The tree of an expression, and the names of its signals."""
     try:
         tree = ast.parse(text.strip(), mode="eval").body
-        return tree, frozenset(_signals(tree))
+        return tree, frozenset(_signal_names(tree))
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         message = (error.msg if isinstance(error, SyntaxError) else "") or "it is not an expression"
         raise HostError(
@@ -173,23 +174,23 @@ def _parse(text: str) -> tuple[ast.expr, frozenset[str]]:
         ) from None
 
 
-def _signals(node: ast.AST) -> Iterator[str]:
-    """What an expression names as signals: with dots and indices, or as a text in quotation marks."""
+def _signal_names(node: ast.AST) -> Iterator[str]:
+    """Names of signals in an expression: with dots and indices, or as a text in quotation marks."""
     root = node
     while isinstance(root, (ast.Attribute, ast.Subscript)):
         root = root.value
     if isinstance(root, ast.Name) or (isinstance(node, ast.Constant) and isinstance(node.value, str)):
-        yield _name(node)
+        yield _signal_name(node)
     else:
-        inner = [*node.args, *node.keywords] if isinstance(node, ast.Call) else ast.iter_child_nodes(node)
-        for each in inner:
-            yield from _signals(each)
+        children = [*node.args, *node.keywords] if isinstance(node, ast.Call) else ast.iter_child_nodes(node)
+        for child in children:
+            yield from _signal_names(child)
 
 
-def _name(node: ast.AST) -> str:
+def _signal_name(node: ast.AST) -> str:
     return str(node.value) if isinstance(node, ast.Constant) else ast.unparse(node).replace(" ", "")
 
 
-def near(name: str, known: Mapping[str, str]) -> str:
+def similar_names(name: str, known: Mapping[str, str]) -> str:
     """A suggestion of similar names, as the end of a sentence."""
     return did_you_mean(name, known, f"there are: {', '.join(known) or 'none'}" if len(known) <= 2 * MOST else "")

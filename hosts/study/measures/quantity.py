@@ -16,8 +16,8 @@ from hosts.common.errors import HostError
 Array: TypeAlias = NDArray[np.float64]
 NONE = "1"
 ANY = "any unit"
-"""Unit of a signal that is not known yet; it can be added to any other."""
-_PLAIN = re.compile(r"[^/.* ]+")
+"""Unit of a signal whose unit is not known yet; it can be added to any other."""
+_SINGLE_UNIT = re.compile(r"[^/.* ]+")
 
 
 @dataclass(frozen=True)
@@ -25,28 +25,28 @@ class Quantity:
     """A signal with its times, or a number."""
 
     text: str
-    """As it stands in the expression."""
+    """As in the expression."""
     values: Array
-    """Of shape (n,), or () of a number."""
+    """Shape (n,); of a number ()."""
     unit: str = NONE
     time: Array | None = None
-    """Times of a signal, of shape (n,), s; None of a number."""
+    """Times of a signal, shape (n,), s; None: a number."""
 
     def __add__(self, other: Quantity) -> Quantity:
-        return self._with(other, "+", operator.add, self._common_unit(other, "+"))
+        return self._combined(other, "+", operator.add, self._common_unit(other, "+"))
 
     def __sub__(self, other: Quantity) -> Quantity:
-        return self._with(other, "-", operator.sub, self._common_unit(other, "-"))
+        return self._combined(other, "-", operator.sub, self._common_unit(other, "-"))
 
     def __mul__(self, other: Quantity) -> Quantity:
         a, b = self.unit, other.unit
-        unit = b if a == NONE else a if b == NONE else f"{_whole(a)}.{_whole(b)}"
-        return self._with(other, "*", operator.mul, unit)
+        unit = b if a == NONE else a if b == NONE else f"{_parenthesised(a)}.{_parenthesised(b)}"
+        return self._combined(other, "*", operator.mul, unit)
 
     def __truediv__(self, other: Quantity) -> Quantity:
         a, b = self.unit, other.unit
-        unit = a if b == NONE else NONE if a == b else f"{_whole(a)}/{_whole(b)}"
-        return self._with(other, "/", operator.truediv, unit)
+        unit = a if b == NONE else NONE if a == b else f"{_parenthesised(a)}/{_parenthesised(b)}"
+        return self._combined(other, "/", operator.truediv, unit)
 
     def __neg__(self) -> Quantity:
         return Quantity(f"-{self.text}", -self.values, self.unit, self.time)
@@ -57,7 +57,7 @@ class Quantity:
     def __abs__(self) -> Quantity:
         return Quantity(f"abs({self.text})", np.abs(self.values), self.unit, self.time)
 
-    def _with(self, other: Quantity, sign: str, apply: Callable[[Array, Array], Array], unit: str) -> Quantity:
+    def _combined(self, other: Quantity, sign: str, apply: Callable[[Array, Array], Array], unit: str) -> Quantity:
         time = other.time if self.time is None else self.time
         return Quantity(f"{self.text} {sign} {other.text}", np.asarray(apply(self.values, other.values)), unit, time)
 
@@ -72,7 +72,7 @@ class Quantity:
         return self.unit
 
 
-def _whole(unit: str) -> str:
+def _parenthesised(unit: str) -> str:
     if unit == ANY:
         return unit
-    return unit if _PLAIN.fullmatch(unit) else f"({unit})"
+    return unit if _SINGLE_UNIT.fullmatch(unit) else f"({unit})"

@@ -10,7 +10,7 @@ from hosts.common.errors import HostError
 from hosts.study.measures.quantity import Array, Quantity
 
 SAME_TIME = 1e-9
-"""s; times of a run add up with rounding errors."""
+"""Difference of equal times by rounding errors, s."""
 
 
 class NotYieldedError(Exception):
@@ -19,28 +19,28 @@ class NotYieldedError(Exception):
 
 @dataclass(frozen=True)
 class Reduction:
-    """A function of a signal, and maybe of a number."""
+    """A function of a signal and, for some, of a number."""
 
     name: str
     apply: Callable[[Array, Array, float], float]
-    """Of time (n,) s, signal (n,) and the number; n is at least 1."""
+    """Function of time, s, and signal, shape (n,), n at least 1, and of the number."""
     unit: str | None = None
-    """Of what it gives; by default that of the signal."""
+    """Unit of the result; None: that of the signal."""
     number: str = ""
-    """What its second argument is; empty: it has none."""
+    """Description of the second argument; empty: there is none."""
     greatest: float = math.inf
-    """Of its second argument."""
+    """Largest value of the second argument."""
     windowed: bool = True
-    """Whether ``after`` and ``before`` can be given."""
+    """Whether ``after`` and ``before`` are allowed."""
 
     def __call__(self, *arguments: Quantity, **window: Quantity) -> Quantity:
         """Reduce a signal.
 
-        Raises `HostError`: the arguments are none of this function; `NotYieldedError`: the signal has no sample there.
+        Raises `HostError`: the arguments are not allowed; `NotYieldedError`: the signal has no sample in the window.
         """
         if len(arguments) != (2 if self.number else 1):
-            needs = f"a signal and {self.number}" if self.number else "one signal"
-            raise HostError(f"{self.name} takes {needs}; it was given {len(arguments)} arguments.")
+            arguments_text = f"a signal and {self.number}" if self.number else "one signal"
+            raise HostError(f"{self.name} takes {arguments_text}; it was given {len(arguments)} arguments.")
         signal, text = arguments[0], ", ".join(a.text for a in arguments)
         if signal.time is None:
             raise HostError(f"{self.name} takes a signal over time; '{signal.text}' is a number.")
@@ -52,10 +52,10 @@ class Reduction:
         begin, end = signal.time[0], signal.time[-1]
         if self.name == "value" and not begin - SAME_TIME <= number <= end + SAME_TIME:
             raise NotYieldedError(f"The run ends at {end:g} s, before the {number:g} s of '{text}'.")
-        inside = (signal.time >= after - SAME_TIME) & (signal.time <= before + SAME_TIME)
-        if not inside.any():
+        selected = (signal.time >= after - SAME_TIME) & (signal.time <= before + SAME_TIME)
+        if not selected.any():
             raise NotYieldedError(f"The run from {begin:g} to {end:g} s has no sample for '{text}'.")
-        result = self.apply(signal.time[inside], np.broadcast_to(signal.values, signal.time.shape)[inside], number)
+        result = self.apply(signal.time[selected], np.broadcast_to(signal.values, signal.time.shape)[selected], number)
         return Quantity(text, np.asarray(result), self.unit or signal.unit)
 
     def _window(self, window: dict[str, Quantity]) -> tuple[float, float]:
@@ -74,7 +74,7 @@ class Reduction:
 
 
 def mean_over_time(time: Array, x: Array) -> float:
-    """Integral by the trapezoidal rule over the duration; it does not change with the sampling as a plain mean does."""
+    """Integral by the trapezoidal rule over the duration, which does not depend on uneven sampling."""
     if len(x) == 1:
         return float(x[0])
     return float(np.trapezoid(x, time) / (time[-1] - time[0])) if time[-1] > time[0] else float(np.mean(x))

@@ -8,13 +8,13 @@ from hosts.study.measures.expression import Expression
 from hosts.study.measures.user_function import UserFunction, read_user_function
 
 StudyMeasure: TypeAlias = Expression | UserFunction
-"""What is measured of every run; it can be pickled.
+"""A measure of every run; it can be pickled.
 
-`name`: of its column, or what its columns begin with; `text`: as the user wrote it; `digest`: another one where it
-would measure something else. `columns(units, stop_time)`: names and units of its numbers, of the units of the signals
-of a run, and of the time of every run, s; raises `HostError` where no run can yield it: an unknown signal, a sum of
-different units, a time after the end. `evaluate(result, parameters)`: its numbers of a run in the order of `columns`,
-NaN with a note where the run does not yield them; `parameters`: what was set before the start.
+`name`: of its column, or prefix of its columns; `text`: as the user wrote it; `digest`: hash of its definition.
+`columns(units, stop_time)`: names of its columns with their units; arguments are the units of the signals of a run and
+the stop time of every run, s; raises `HostError` where no run can yield it: an unknown signal, a sum of different
+units, a time after the end. `evaluate(result, parameters)`: its numbers of a run in the order of `columns`, NaN with a
+note where the run does not yield them; `parameters`: start values.
 """
 _FUNCTION = re.compile(r"(.+\.py):\s*([^:\s]*)")
 
@@ -23,8 +23,8 @@ def parse_measure(text: str, name: str = "", folder: Path = Path()) -> StudyMeas
     """Read a measure of a study.
 
     `text`: such as ``max(abs(chassis.ay), after=2.0)``, or ``file.py:function``; `name`: of its column; by default the
-    text, or the name of the function; `folder`: from which the file is looked for. Raises `HostError`: it cannot be
-    read, or the file or function is not there.
+    text, or the name of the function; `folder`: to which the path of the file is relative. Raises `HostError`: the text
+    cannot be read, or the file or function is missing.
     """
     function = _FUNCTION.fullmatch(text.strip())
     if function is None:

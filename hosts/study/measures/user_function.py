@@ -1,4 +1,4 @@
-"""A function of the user's that makes numbers of a run."""
+"""A function of the user that computes measures of a run."""
 
 import hashlib
 import inspect
@@ -20,18 +20,18 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
-from hosts.study.measures.expression import near
+from hosts.study.measures.expression import similar_names
 
 
 @dataclass(frozen=True)
 class UserFunction:
     """A function in a file; made by `read_user_function`.
 
-    It carries its source, so that a worker on another machine needs no such file.
+    It includes its source, so that a worker on another machine does not need the file.
     """
 
     name: str
-    """Of its column, or what its columns begin with."""
+    """Name of its column, or prefix of its columns."""
     file: str
     function: str
     source: str
@@ -47,7 +47,7 @@ class UserFunction:
         return hashlib.sha256(f"{self.function}\n{self.source}".encode()).hexdigest()
 
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
-        """What it declares; see `hosts.study.measures.study_measure.StudyMeasure`."""
+        """The declared columns with their units; see `hosts.study.measures.study_measure.StudyMeasure`."""
         declared = getattr(_load(self), "units", "1")
         if isinstance(declared, str):
             return {self.name: declared or "1"}
@@ -71,7 +71,7 @@ class UserFunction:
             note = sentence_of(result.refusal)
         else:
             try:
-                values_by_name = self._named(self._call(result, dict(parameters or {})), columns)
+                values_by_name = self._by_column(self._call(result, dict(parameters or {})), columns)
                 values = {name: _number(value) for name, value in values_by_name.items()}
                 notes = {
                     name: f"{self.text} gave {value!r:.60} for it, not a finite number."
@@ -79,21 +79,21 @@ class UserFunction:
                     if not math.isfinite(values[name])
                 }
             except Exception as error:
-                note = str(error) if isinstance(error, HostError) else _words(self, error)
+                note = str(error) if isinstance(error, HostError) else _error_text(self, error)
         return [Measure(n, values[n], columns[n], self.text, note=notes.get(n, note)) for n in columns]
 
     def _call(self, result: Result, parameters: dict[str, Value]) -> Any:
         function = _load(self)
         return function(result, parameters) if _takes_parameters(function) else function(result)
 
-    def _named(self, value: Any, columns: Mapping[str, str]) -> dict[str, Any]:
-        """What the function gave, by the names of the columns."""
-        single = list(columns) == [self.name]
+    def _by_column(self, value: Any, columns: Mapping[str, str]) -> dict[str, Any]:
+        """The value of the function by the names of the columns. Raises `HostError` where it is not as declared."""
+        is_single = list(columns) == [self.name]
         if not isinstance(value, Mapping):
-            if single:
+            if is_single:
                 return {self.name: value}
             raise HostError(f"{self.text} gave {value!r:.60}; {self.function}.units declares a mapping.")
-        if single:
+        if is_single:
             raise HostError(
                 f"{self.text} gave a mapping; declare its names and units behind the function, such as "
                 f"{self.function}.units = {{{', '.join(f'{str(k)!r}: {chr(34)}1{chr(34)}' for k in list(value)[:3])}}}."
@@ -108,9 +108,10 @@ class UserFunction:
 
 
 def read_user_function(file: Path, function: str, name: str = "") -> UserFunction:
-    """Read the file and load it once, so that what is wrong is said before the first run.
+    """Read the file and load it once, so that its mistakes are reported before the first run.
 
-    `name`: by default that of the function. Raises `HostError`: no file, no function, or the file cannot be run.
+    `name`: of the measure; by default that of the function. Raises `HostError`: no file, no function, or the file
+    cannot be run.
     """
     if not function.isidentifier():
         raise HostError(f"'{file}:{function}' names no function; the form is file.py:function.")
@@ -123,23 +124,25 @@ def read_user_function(file: Path, function: str, name: str = "") -> UserFunctio
 
 @lru_cache(maxsize=100)
 def _load(function: UserFunction) -> Callable[..., Any]:
-    """Run the file in a module of its own, once in a process."""
+    """The function, after running its file as a module, once in a process."""
     module = ModuleType(f"study_function_{hashlib.sha256(function.source.encode()).hexdigest()[:16]}")
     module.__file__ = function.file
-    # Data classes and pickling look there for the module of a class.
+    # Data classes and pickling find the module of a class by its name.
     sys.modules[module.__name__] = module
-    neighbours = str(Path(path_of_caller(function.file)).resolve().parent)
-    sys.path.insert(0, neighbours)
+    folder = str(Path(path_of_caller(function.file)).resolve().parent)
+    sys.path.insert(0, folder)
     try:
         exec(compile(function.source, function.file, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
-        raise HostError(_words(function, error)) from None
+        raise HostError(_error_text(function, error)) from None
     finally:
-        sys.path.remove(neighbours)
+        sys.path.remove(folder)
     result = getattr(module, function.function, None)
     if result is None:
         functions = {n: "" for n, value in vars(module).items() if inspect.isfunction(value)}
-        raise HostError(f"{function.file} has no function '{function.function}'{near(function.function, functions)}")
+        raise HostError(
+            f"{function.file} has no function '{function.function}'{similar_names(function.function, functions)}"
+        )
     if not callable(result):
         raise HostError(f"{function.text} is {type(result).__name__}, not a function.")
     _takes_parameters(result, function.text)
@@ -147,7 +150,7 @@ def _load(function: UserFunction) -> Callable[..., Any]:
 
 
 def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:
-    """Whether it takes the parameters of the run as well as the result."""
+    """Whether a function takes the parameters of the run in addition to the result. `text`: its name in messages."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):  # of a function in C
@@ -162,7 +165,7 @@ def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:
 
 
 def _number(value: Any) -> float:
-    """NaN for what is not a number."""
+    """The value as a number; NaN for other values."""
     try:
         number = float(value) if isinstance(value, numbers.Real) or hasattr(value, "__float__") else math.nan
     except (TypeError, ValueError):
@@ -170,7 +173,7 @@ def _number(value: Any) -> float:
     return number if math.isfinite(number) else math.nan
 
 
-def _words(function: UserFunction, error: BaseException) -> str:
+def _error_text(function: UserFunction, error: BaseException) -> str:
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == function.file]
     line = error.lineno if isinstance(error, SyntaxError) else lines[-1] if lines else None
     message = error.msg if isinstance(error, SyntaxError) else str(error)

@@ -9,7 +9,7 @@ import pytest
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.task import Task, do, write_runs
+from hosts.catalogue.task import Task, perform_task, write_runs
 from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
@@ -142,7 +142,7 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
     aliases = find_aliases("carsim", Variables(described(theirs)))
     car = TestedCar("a car", FmuSource(theirs, aliases), start={"initial.speed": 0.0, "steering": 0.5})
     task = Task("drop", car, {}, tmp_path)
-    record = do(task, lambda part: None)
+    record = perform_task(task, lambda part: None)
     assert isinstance(record, TestRecord)
     write_runs(task, record)
     (table,) = tmp_path.rglob("*.csv")

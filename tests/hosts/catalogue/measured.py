@@ -2,7 +2,7 @@
 
 from typing import Any, cast
 
-from hosts.catalogue.definition import file_of_test
+from hosts.catalogue.definition import read_test_file
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.record import TestRecord
 
@@ -14,6 +14,6 @@ def values(record: TestRecord) -> dict[str, float]:
 
 def sheet_of(test: str, car: Any = None, **settings: float) -> Sheet:
     """A sheet of a test on which nothing stands; settings that are not given are by default."""
-    file = file_of_test(test)
+    file = read_test_file(test)
     values = {s.name: s.value for s in file.settings} | settings
     return Sheet(file, cast(Any, car), values, lambda done: None)

@@ -8,12 +8,12 @@ import pytest
 
 from ali3.iso_3888 import Gate
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.execution import missing_for, perform
+from hosts.catalogue.execution import perform, reason_against
 from hosts.catalogue.passage import Passage
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard import double_lane_change
-from hosts.catalogue.standard.double_lane_change import _LAYOUTS, DRIVERS, add_limit, limit
+from hosts.catalogue.standard.double_lane_change import _COURSES, DRIVERS, add_limit, find_limit
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.result import Result
@@ -50,7 +50,7 @@ def passage(speed: float, aside: float, until: float = 50.0, driver: str = "cent
 
 def test_clearance_and_speeds_are_taken_in_the_axes_of_the_course() -> None:
     clean = passage(72.0, 0.2)
-    assert clean.clean
+    assert clean.is_clean
     assert clean.least_clearance == pytest.approx(0.3)
     measured = {m.name: m for m in measures_of("lane", clean)}
     # the front is at the lane after 8 m of 50
@@ -69,10 +69,10 @@ def measures_of(name: str, passed: Passage | None) -> list[Measure]:
 
 def test_hit_or_stopped_is_not_clean() -> None:
     hit, stopped = passage(72.0, 0.6), passage(72.0, 0.0, until=29.0)
-    assert not hit.clean
-    assert "hit by 0.1 m" in hit.why
-    assert not stopped.clean
-    assert "come through" in stopped.why
+    assert not hit.is_clean
+    assert "hit by 0.1 m" in hit.failure
+    assert not stopped.is_clean
+    assert "come through" in stopped.failure
 
 
 def test_the_limit_is_found_by_bisection(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -86,21 +86,21 @@ def test_the_limit_is_found_by_bisection(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(double_lane_change, "drive_through", passage_of)
     settings = {"lowest": 40.0, "highest": 160.0, "increment": 10.0, "resolution": 1.0}
     done: list[float] = []
-    passed, failed, notes = limit(None, _LAYOUTS[0], settings, done.append)  # type: ignore[arg-type]
+    passed, failed, notes = find_limit(None, _COURSES[0], settings, done.append)  # type: ignore[arg-type]
     assert passed is not None
     assert failed is not None
-    assert passed.wanted < 77.3 <= failed.wanted
-    assert failed.wanted - passed.wanted <= 1.0
+    assert passed.target_speed < 77.3 <= failed.target_speed
+    assert failed.target_speed - passed.target_speed <= 1.0
     assert passed.driver == list(DRIVERS)[1]
     # who got through is asked first from then on
     assert tried[2] == (50.0, list(DRIVERS)[1])
     assert done == sorted(done)
     assert 0.0 < done[-1] <= 1.0
     assert "a cone is hit" in notes[0]
-    passed, failed, notes = limit(None, _LAYOUTS[0], settings | {"highest": 70.0}, done.append)  # type: ignore[arg-type]
+    passed, failed, notes = find_limit(None, _COURSES[0], settings | {"highest": 70.0}, done.append)  # type: ignore[arg-type]
     assert failed is None
     assert "up to 70 km/h" in notes[0]
-    passed, failed, notes = limit(None, _LAYOUTS[0], settings | {"lowest": 80.0}, done.append)  # type: ignore[arg-type]
+    passed, failed, notes = find_limit(None, _COURSES[0], settings | {"lowest": 80.0}, done.append)  # type: ignore[arg-type]
     assert passed is None
     assert "already at 80 km/h" in notes[0]
 
@@ -130,7 +130,7 @@ def test_prototype_has_a_limit_on_the_obstacle_course(driven: TestRecord) -> Non
 def test_clearance_does_not_depend_on_the_step(prototype: TestedCar) -> None:
     least = [
         double_lane_change.drive_through(
-            replace(prototype, step=step), _LAYOUTS[1], 55.0, "least curvature, late"
+            replace(prototype, step=step), _COURSES[1], 55.0, "least curvature, late"
         ).least_clearance
         for step in (0.001, 0.005)
     ]
@@ -142,7 +142,7 @@ def test_missing_variables_and_wrong_settings_are_reported(prototype: TestedCar)
     bare = replace(prototype)
     constants = {n: x for n, x in prototype.facts.constants.items() if n != "vehicle.width"}
     bare.__dict__["facts"] = replace(prototype.facts, constants=constants)
-    assert "vehicle.width" in str(missing_for(standard_test("double_lane_change"), bare, {}))
+    assert "vehicle.width" in str(reason_against(standard_test("double_lane_change"), bare, {}))
     with pytest.raises(HostError, match="course is 1.5"):
         perform(standard_test("double_lane_change"), prototype, {"course": 1.5})
     with pytest.raises(HostError, match="lowest speed is 90"):
@@ -151,9 +151,9 @@ def test_missing_variables_and_wrong_settings_are_reported(prototype: TestedCar)
 
 @pytest.mark.slow
 def test_a_car_that_does_not_reach_the_speed_is_reported(prototype: TestedCar) -> None:
-    slow = double_lane_change.drive_through(prototype, _LAYOUTS[0], 240.0, next(iter(DRIVERS)))
-    assert not slow.clean
-    assert "the speed was not reached" in slow.why
+    slow = double_lane_change.drive_through(prototype, _COURSES[0], 240.0, next(iter(DRIVERS)))
+    assert not slow.is_clean
+    assert "the speed was not reached" in slow.failure
 
 
 def test_a_value_at_a_position_that_the_car_did_not_reach_is_undefined() -> None:

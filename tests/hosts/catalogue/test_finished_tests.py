@@ -8,11 +8,11 @@ import pytest
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.execution import settings_of_test
-from hosts.catalogue.finished_tests import find, keep
+from hosts.catalogue.finished_tests import find_record, store_record
 from hosts.catalogue.output import measures_csv
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
-from hosts.catalogue.task import Task, do, write_runs
+from hosts.catalogue.task import Task, perform_task, write_runs
 from hosts.experiment.store import ResultStore
 from hosts.fmu.fmu_source import FmuSource
 
@@ -21,7 +21,7 @@ SETTINGS = {"height": 0.05, "duration": 4.0}
 
 def kept(task: Task, out: Path) -> TestRecord | None:
     with ResultStore[TestRecord](out, TestRecord, "does tests") as there:
-        return find(there, task)
+        return find_record(there, task)
 
 
 @pytest.mark.slow
@@ -33,11 +33,11 @@ def test_kept_records_are_those_of_the_runs(
         "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(drop, SETTINGS), tmp_path
     )
     assert kept(task, tmp_path) is None
-    record = do(task, lambda part: None)
+    record = perform_task(task, lambda part: None)
     assert isinstance(record, TestRecord)
     write_runs(task, record)
     with ResultStore[TestRecord](tmp_path, TestRecord, "does tests") as there:
-        keep(there, task, record)
+        store_record(there, task, record)
     again = kept(task, tmp_path)
     assert again is not None
     assert measures_csv([drop], {"drop": {"p": again}}) == measures_csv([drop], {"drop": {"p": record}})
@@ -51,7 +51,7 @@ def test_kept_records_are_those_of_the_runs(
     def undone(tasks: list[Task], *_: object) -> object:
         yield from (pytest.fail("it was done again") for _ in tasks)
 
-    monkeypatch.setattr(command, "_done", undone)
+    monkeypatch.setattr(command, "_finished_tasks", undone)
     options = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
     assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *options]) == 0
     output = capsys.readouterr().out

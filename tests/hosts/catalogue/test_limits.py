@@ -9,9 +9,9 @@ import pytest
 from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.definition import file_of_test
+from hosts.catalogue.definition import read_test_file
 from hosts.catalogue.execution import settings_of_test
-from hosts.catalogue.finished_tests import keep
+from hosts.catalogue.finished_tests import store_record
 from hosts.catalogue.limits import GivenLimits
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import TESTS, standard_test
@@ -47,7 +47,7 @@ def kept(outcomes: dict[str, dict[str, Outcome]]) -> dict[tuple[str, str], bool 
 
 def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
     own_limits = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"drop.critical_speed" = {min = 80, unit = "km/h"}')
-    result, faults = own_limits.judged(
+    result, faults = own_limits.apply_to(
         {"drop": {"a": record(1999.0), "b": record(2001.0, False), "c": "It has no wheels."}}
     )
     assert not faults
@@ -60,7 +60,7 @@ def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("least", "both"), [(0.4, True), (0.6, False)])
 def test_the_limit_of_a_standard_holds_too(tmp_path: Path, least: float, both: bool) -> None:
-    outcomes, _ = limits(tmp_path, f"rest = {{min = {least}, max = 9.0}}").judged({"drop": {"a": record(1.0)}})
+    outcomes, _ = limits(tmp_path, f"rest = {{min = {least}, max = 9.0}}").apply_to({"drop": {"a": record(1.0)}})
     outcome = outcomes["drop"]["a"]
     assert isinstance(outcome, TestRecord)
     assert outcome.measures[2].limit == Limit("at rest; limits.toml", least, 1.0)
@@ -71,14 +71,14 @@ def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path: Path
     own_limits = limits(
         tmp_path, 'peek = {max = 1}\n"rest.unit" = {max = 1}\npeak = {max = 1}\n"drop.peak" = {min = 0}'
     )
-    result, faults = own_limits.judged({"drop": {"a": record(2.0)}})
+    result, faults = own_limits.apply_to({"drop": {"a": record(2.0)}})
     assert kept(result)["a", "peak"] is False
     assert [fault.removeprefix(f"{own_limits.file}: limits.") for fault in faults] == [
         "'peek': there is no measure 'peek'; there are drop.peak, drop.critical_speed, drop.rest.",
         "'rest.unit': there is no measure 'rest.unit'; there are drop.peak, drop.critical_speed, drop.rest.",
         "'drop.peak' and another limit are both of 'drop.peak'; give one of them.",
     ]
-    (fault,) = limits(tmp_path, 'peak = {max = 1, unit = "m"}').judged({"drop": {"a": record(2.0)}})[1]
+    (fault,) = limits(tmp_path, 'peak = {max = 1, unit = "m"}').apply_to({"drop": {"a": record(2.0)}})[1]
     assert "limits.'peak'.unit" in fault
 
 
@@ -109,7 +109,7 @@ def test_the_command_names_the_measure_outside_its_limits(
         "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(standard_test("drop"), {})
     )
     with ResultStore[TestRecord](tmp_path, TestRecord, "does tests") as store:
-        keep(store, task, record(2001.0))
+        store_record(store, task, record(2001.0))
     file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"kerb.peak" = {max = 1}').file
     drop = [str(prototype_fmu), "--tests", "drop", "--no-runs", "--out", str(tmp_path)]
     assert command.main(drop) == 0
@@ -125,7 +125,7 @@ def test_the_command_names_the_measure_outside_its_limits(
 
 def test_measures_are_in_si_units() -> None:
     """Tables of data keep them; reports show degrees and km/h."""
-    results = [m.unit for test in TESTS for part in file_of_test(test).parts.values() for m in part.measures.values()]
+    results = [m.unit for test in TESTS for part in read_test_file(test).parts.values() for m in part.measures.values()]
     results = [unit for unit in results if "{" not in unit]
     assert len(results) > 100
     known = {unit: known_unit(str(unit)) for unit in results}

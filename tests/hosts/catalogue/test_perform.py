@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.catalogue.execution import missing_for, perform, settings_of_test
+from hosts.catalogue.execution import perform, reason_against, settings_of_test
 from hosts.catalogue.record import Setting, StandardTest, TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
@@ -41,11 +41,11 @@ def test_messages_of_the_fmu_are_noted_once() -> None:
 
 
 def test_one_of_several_names_suffices() -> None:
-    assert missing_for(TALKING, BicycleCar(), {}) is None
+    assert reason_against(TALKING, BicycleCar(), {}) is None
     test = replace(TALKING, needs=("speed", "nothing | nowhere"))
-    assert "has no nothing or nowhere; where it has" in str(missing_for(test, BicycleCar(), {}))
+    assert "has no nothing or nowhere; where it has" in str(reason_against(test, BicycleCar(), {}))
     aliases = Aliases(missing={"nothing": "The file takes it from X."})
-    assert str(missing_for(test, BicycleCar(fmu=FmuSource(Path(), aliases)), {})).endswith(
+    assert str(reason_against(test, BicycleCar(fmu=FmuSource(Path(), aliases)), {})).endswith(
         "; The file takes it from X."
     )
 

@@ -10,7 +10,7 @@ import pytest
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.task import Task, do, write_runs
+from hosts.catalogue.task import Task, perform_task, write_runs
 from hosts.experiment.pool import Pool
 from hosts.fmu.fmu_source import FmuSource
 from tests.hosts.catalogue.bicycle_car import BicycleCar
@@ -29,14 +29,14 @@ class FaultyCar(BicycleCar):
 def test_a_fault_is_the_outcome_of_its_test_and_runs_are_written(tmp_path: Path) -> None:
     good, faulty = (Task("steady_circle", car, FAST, tmp_path) for car in (BicycleCar(label="b"), FaultyCar()))
     parts: list[float] = []
-    outcome = do(good, parts.append)
+    outcome = perform_task(good, parts.append)
     assert isinstance(outcome, TestRecord)
     assert len(parts) > 1
     write_runs(good, outcome)
     assert sorted(p.name for p in (tmp_path / "runs" / "steady_circle").iterdir()) == [
         *("b_left.csv", "b_left.json", "b_right.csv", "b_right.json"),
     ]
-    assert "KeyError('nothing')" in str(do(faulty, parts.append))
+    assert "KeyError('nothing')" in str(perform_task(faulty, parts.append))
 
 
 @pytest.mark.slow
@@ -47,7 +47,7 @@ def test_processes_and_their_unpacked_files_end_with_the_iteration(
     others = psutil.Process().children()
     slow = Task("steady_circle", TestedCar("slow", FmuSource(prototype_fmu)), {"speed_rise": 0.02})
     tasks = [slow, Task("steady_circle", FaultyCar(), FAST)]  # type: ignore[arg-type]
-    iteration = Pool(do, TestRecord | str, 2).results(tasks)
+    iteration = Pool(perform_task, TestRecord | str, 2).results(tasks)
     assert next(iteration)[0] == 1
     end = time.monotonic() + 30.0
     while not any("modelDescription.xml" in files for _, _, files in os.walk(tmp_path)) and time.monotonic() < end:

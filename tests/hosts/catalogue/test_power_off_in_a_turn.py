@@ -37,7 +37,7 @@ def test_measures_of_made_turns(side: float) -> None:
 
 def test_each_release_has_a_run_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
     sheet = sheet_of("power_off_in_a_turn", lowest=10.0, highest=10.5, levels=12.0)
-    monkeypatch.setattr("hosts.catalogue.standard.power_off_in_a_turn.stop", lambda *_: turn(1.0, 1.0, 40.0, 0.0))
+    monkeypatch.setattr("hosts.catalogue.standard.power_off_in_a_turn.drive_stop", lambda *_: turn(1.0, 1.0, 40.0, 0.0))
     monkeypatch.setattr(Sheet, "with_step_up_to", lambda *_: None)
     drive(sheet)
     assert len(sheet.runs) == 12

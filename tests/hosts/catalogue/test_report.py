@@ -15,10 +15,10 @@ from ali3.units import typeset
 from hosts.catalogue.output import print_measures
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
-from hosts.catalogue.report.numbers import difference, shown
-from hosts.catalogue.report.pictures import pictures_of
+from hosts.catalogue.report.numbers import difference_text, number_text
+from hosts.catalogue.report.pictures import drawings_of
 from hosts.catalogue.side_measures import mean_of_sides
-from hosts.experiment.line_simplification import MOST, thinned
+from hosts.experiment.line_simplification import MOST_POINTS, thinned_indices
 from hosts.measures.measure import Limit, Measure
 from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic
 
@@ -154,7 +154,7 @@ def svg_of(picture):
 def test_cars_differ_without_colour(fmu):
     """In dashes: by them alone two cars can be told apart in grey."""
     plot = Plot("p", "x, m", "y, m", [Line("", np.arange(50.0), np.arange(50.0))])
-    picture = pictures_of({f"car {k}": [plot] for k in range(5)})["p"]
+    picture = drawings_of({f"car {k}": [plot] for k in range(5)})["p"]
     paths = svg_of(picture).xpath(
         "//*[starts-with(@id, 'axes_1')]//*[local-name()='path'][contains(@style, 'stroke: #')]"
     )
@@ -166,7 +166,7 @@ def test_cars_differ_without_colour(fmu):
 
 
 def test_plots_of_several_cars_are_one_picture():
-    pictures = pictures_of({"a": record(0, 500).plots, "b": record(1, 500).plots[:2]})
+    pictures = drawings_of({"a": record(0, 500).plots, "b": record(1, 500).plots[:2]})
     assert list(pictures) == ["Yaw rate", "Gain", "Path"]
     assert "a: from" in pictures["Yaw rate"].words
     assert "b: from" in pictures["Yaw rate"].words
@@ -177,17 +177,17 @@ def test_what_is_the_same_for_all_cars_is_drawn_once():
     x = np.arange(100.0)
     lanes = Line("lanes", x, np.where(x < 50.0, 1.0, np.nan))
     plots = {f"car {k}": [Plot("p", "x, m", "y, m", [lanes, Line("path", x, k * x)])] for k in range(3)}
-    message = pictures_of(plots)["p"].words
+    message = drawings_of(plots)["p"].words
     assert message.count("lanes") == 1
     assert all(f"car {k}, path" in message for k in range(3))
     same = {f"car {k}": [Plot("p", "x, m", "y, m", [lanes])] for k in range(2)}
-    assert "car 1" in pictures_of(same)["p"].words
+    assert "car 1" in drawings_of(same)["p"].words
 
 
 def test_empty_and_broken_lines_are_drawn():
     nothing = Line("nothing", np.full(5, np.nan), np.full(5, np.nan))
     plots = [Plot("p", "x, 1", "y, 1", [nothing, Line("none", np.empty(0), np.empty(0))]), Plot("q", "x", "y", [])]
-    pictures = pictures_of({"a": plots})
+    pictures = drawings_of({"a": plots})
     assert pictures["p"].words.endswith("nothing: no points; none: no points.")
 
 
@@ -198,11 +198,11 @@ def test_thinned_lines_keep_extremes_and_gaps():
     y[77_777] = 1e6
     y[33_333] = -1e6
     y[50_000:50_010] = np.nan
-    kept = thinned(x, y)
-    assert len(kept) < 1.1 * MOST
+    kept = thinned_indices(x, y)
+    assert len(kept) < 1.1 * MOST_POINTS
     assert {0, len(x) - 1, 77_777, 33_333} <= set(kept.tolist())
     assert np.isnan(y[kept]).any()
-    assert np.array_equal(thinned(x[:100], y[:100]), np.arange(100))
+    assert np.array_equal(thinned_indices(x[:100], y[:100]), np.arange(100))
     # Nobody sees the difference: a step's line runs within the range of what was left out.
     for a, b in pairwise(kept):
         inside = y[a : b + 1]
@@ -213,7 +213,7 @@ def test_thinned_lines_keep_extremes_and_gaps():
 
 
 def test_numbers_for_people():
-    assert [shown(v) for v in (0.123456, 1e-7, 12345.6, float("nan"), float("-inf"))] == [
+    assert [number_text(v) for v in (0.123456, 1e-7, 12345.6, float("nan"), float("-inf"))] == [
         "0.1235",
         "1e-7",
         "12350",
@@ -222,11 +222,11 @@ def test_numbers_for_people():
     ]
     units = ("m/s2", "1", "N.m", "m.s-1.75", "rad.s-2", "km/h")
     assert [typeset(unit) for unit in units] == ["m/s²", "", "N·m", "m·s^-1.75", "rad·s⁻²", "km/h"]
-    assert difference(0.9, 1.0) == "−0.1 (−10 %)"
-    assert difference(1.0, 0.0) == "+1"
-    assert difference(1.0, float("nan")) == ""
-    assert Limit("", highest=0.35).words() == "at most 0.35"
-    assert Limit("", 1.0, 2.0).words("m") == "1 to 2 m"
+    assert difference_text(0.9, 1.0) == "−0.1 (−10 %)"
+    assert difference_text(1.0, 0.0) == "+1"
+    assert difference_text(1.0, float("nan")) == ""
+    assert Limit("", highest=0.35).range_text() == "at most 0.35"
+    assert Limit("", 1.0, 2.0).range_text("m") == "1 to 2 m"
 
 
 def test_a_car_whose_file_is_gone_and_characters_that_cannot_be_there(fmu, tmp_path):
@@ -273,6 +273,6 @@ def test_measures_plots_and_limits_are_in_the_units_of_the_field(fmu, tmp_path, 
 def test_round_off_is_no_difference():
     assert Measure("asymmetry", 5.6e-13, "1", "").displayed().value == 0.0
     assert Measure("asymmetry", 5.6e-9, "1", "").displayed().value == 5.6e-9
-    assert difference(1.0 + 1e-13, 1.0) == "same"
-    assert difference(3e-16, -1e-15) == "same"
-    assert difference(1.0 + 1e-6, 1.0).startswith("+1e-6")
+    assert difference_text(1.0 + 1e-13, 1.0) == "same"
+    assert difference_text(3e-16, -1e-15) == "same"
+    assert difference_text(1.0 + 1e-6, 1.0).startswith("+1e-6")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.dwell_series import DwellRun, processed, table
+from hosts.catalogue.dwell_series import DwellRun, filtered_run, sine_with_dwell_table
 from hosts.catalogue.execution import perform
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.steered_run import Pedals, steer
@@ -92,7 +92,7 @@ def test_a_series_that_one_side_has_lost_has_no_displacement() -> None:
     car, speed, a = BicycleCar(), 80.0 / 3.6, 0.2
 
     def driven(amplitude: float, side: float) -> DwellRun:
-        run = processed(steer(car, "m", speed, *table(side * amplitude), Pedals.COAST))
+        run = filtered_run(steer(car, "m", speed, *sine_with_dwell_table(side * amplitude), Pedals.COAST))
         return DwellRun(amplitude, run, sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration))
 
     both, one = [[[driven(f * a, s) for f in fs] for s, fs in zip((1.0, -1.0), sides, strict=True)]
@@ -100,8 +100,8 @@ def test_a_series_that_one_side_has_lost_has_no_displacement() -> None:
     kept = []
     for left, right in (both, one):
         sheet = sheet_of("sine_with_dwell")
-        results = {"a": a, "found": [a, a], "sides": {"left": left, "right": right}, "wanted": [2.0 * a, 5.0 * a]}
-        sheet.add("series", given=SteeringInput.of(car.facts), ramps={}, **results)
+        results = {"a": a, "angles": [a, a], "sides": {"left": left, "right": right}, "amplitudes": [2.0 * a, 5.0 * a]}
+        sheet.add("series", steering=SteeringInput.of(car.facts), ramps={}, **results)
         kept += [m for m in sheet.measures if m.name == "displacement"]
     # of the car that is measured 1 m is enough
     assert [m.value > 1.0 for m in kept] == [True, False]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from hosts.catalogue.dwell_series import amplitudes, processed, table
+from hosts.catalogue.dwell_series import filtered_run, series_amplitudes, sine_with_dwell_table
 from hosts.catalogue.execution import perform
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.steered_run import Pedals, steer
@@ -34,7 +34,7 @@ def degrees(*values: float) -> list[float]:
     ],
 )
 def test_amplitudes_of_a_series(a: float, lock: float, first: float, last: float, number: int) -> None:
-    result = degrees(*amplitudes(math.radians(a), 1.5, 0.5, math.radians(lock)))
+    result = degrees(*series_amplitudes(math.radians(a), 1.5, 0.5, math.radians(lock)))
     assert result[0] == pytest.approx(first)
     assert result[-1] == pytest.approx(last)
     assert len(result) == number
@@ -42,7 +42,7 @@ def test_amplitudes_of_a_series(a: float, lock: float, first: float, last: float
 
 
 def test_table_is_a_sine_with_a_dwell_at_its_second_peak() -> None:
-    time, angle = table(2.0)
+    time, angle = sine_with_dwell_table(2.0)
     t = np.array([0.0, 0.25 / 0.7, 0.5 / 0.7, 0.75 / 0.7, 0.75 / 0.7 + 0.25, 0.75 / 0.7 + 0.5, 1.0 / 0.7 + 0.5])
     assert np.interp(t, time, angle) == pytest.approx([0.0, 2.0, 0.0, -2.0, -2.0, -2.0, 0.0], abs=1e-3)
 
@@ -60,7 +60,7 @@ def test_a_linear_car_keeps_the_limits() -> None:
     t = np.arange(0.0, 6.0, 1e-3)
     runs = sorted(name for name in record.runs if name.startswith("left"))
     assert len(runs) == 4
-    time, angle = table(5.0 * a)
+    time, angle = sine_with_dwell_table(5.0 * a)
     # the model stays at the speed from which it coasts
     _, acceleration, slip = lsim(bicycle(SPEED + 0.7), np.interp(t, time, angle), t)[1].T
     begin = math.asin(math.radians(5.0) / (5.0 * a)) / (2 * math.pi * 0.7)
@@ -123,9 +123,9 @@ def test_a_series_without_end_is_refused() -> None:
 
 
 def test_signals_are_filtered_at_their_frequencies_and_zero_before_the_steering() -> None:
-    run = steer(BicycleCar(), "sine", SPEED, *table(0.5), Pedals.COAST)
+    run = steer(BicycleCar(), "sine", SPEED, *sine_with_dwell_table(0.5), Pedals.COAST)
     six, ten = (np.sin(2 * np.pi * f * run.time) for f in (6.0, 10.0))
-    result = processed(replace(run, steering=0.3 + ten, yaw_rate=0.3 + six, acceleration=0.3 + six))
+    result = filtered_run(replace(run, steering=0.3 + ten, yaw_rate=0.3 + six, acceleration=0.3 + six))
     inner = (run.time > 0.5) & (run.time < 3.0)
     for got, wave in ((result.steering, ten), (result.yaw_rate, six), (result.acceleration, six)):
         # half of the amplitude at the cut-off; the mean before the steering, of no whole number of periods, is gone

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from hosts.catalogue.dwell_series import table
+from hosts.catalogue.dwell_series import sine_with_dwell_table
 from hosts.catalogue.execution import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
@@ -213,7 +213,7 @@ def test_the_map_of_a_slow_ramp_is_that_of_the_steady_state() -> None:
 
 
 def test_a_steering_wheel_that_does_not_come_to_its_angle_is_reported() -> None:
-    whole = steer(BicycleCar(), "sine", SPEED, *table(0.5), Pedals.FIXED)
+    whole = steer(BicycleCar(), "sine", SPEED, *sine_with_dwell_table(0.5), Pedals.FIXED)
     assert whole.shortfall(0.5) == ""
     assert (
         replace(whole, steering=0.9 * whole.steering)

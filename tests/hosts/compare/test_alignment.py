@@ -10,7 +10,7 @@ from scipy.signal import lfilter
 
 from hosts.compare.alignment import align
 from hosts.compare.comparison import compare
-from hosts.compare.comparison_text import common_sentence
+from hosts.compare.comparison_text import delay_sentence
 from hosts.compare.curve import Curve
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
@@ -139,8 +139,8 @@ def test_a_signal_with_a_delay_of_its_own_is_reported(curve: Curve) -> None:
     """One of six is 5 ms late: the common delay is of none, and the sentence names the one."""
     names = "abcdef"
     logs = {n: log_of(0.005 if n == "b" else 0.0, 0.0, 1e-3, seed) for seed, n in enumerate(names)}
-    text = common_sentence(compare(logs, dict.fromkeys(names, curve), 0.5))
+    text = delay_sentence(compare(logs, dict.fromkeys(names, curve), 0.5))
     (alone,) = re.findall(r" \d of 6 signals have another delay, 'b' farthest, ([\d.]+) ms\.$", text)
     assert float(alone) == pytest.approx(5.0, abs=0.1)
     logs["b"] = log_of(0.0, 0.0, 1e-3, 9)
-    assert "another" not in common_sentence(compare(logs, dict.fromkeys(names, curve), 0.5))
+    assert "another" not in delay_sentence(compare(logs, dict.fromkeys(names, curve), 0.5))

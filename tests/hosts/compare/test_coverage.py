@@ -9,7 +9,7 @@ from pendulum import END, measured, measured_pull, motion
 
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.fit_unknowns import Unknown, nuisances
-from hosts.compare.replay import Replay, inputs_of
+from hosts.compare.replay import Replay, replay_manoeuvre
 from hosts.compare.segments import Segment
 from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
@@ -26,7 +26,7 @@ UNKNOWNS = [
 
 @pytest.fixture(scope="module")
 def replay(tuned: Path) -> Iterator[Replay]:
-    manoeuvre = inputs_of("log", {"pull": measured_pull()}, {}, END, STEP)
+    manoeuvre = replay_manoeuvre("log", {"pull": measured_pull()}, {}, END, STEP)
     with Replay(FmuSource(tuned.absolute()), [Segment(manoeuvre)], STEP) as opened:
         assert opened.check_reset()
         yield opened

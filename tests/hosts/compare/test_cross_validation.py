@@ -3,7 +3,14 @@
 import numpy as np
 from scipy import stats
 
-from hosts.compare.cross_validation import FOLDS, Parts, clustered_covariance, folds, left_out, without_each
+from hosts.compare.cross_validation import (
+    FOLDS,
+    Parts,
+    clustered_covariance,
+    fold_changes,
+    left_out_residuals,
+    rms_without_each,
+)
 
 LENGTH = 10.0  # s
 SAMPLES = 40
@@ -21,7 +28,7 @@ def linear(begins: np.ndarray, seed: int = 3) -> tuple[np.ndarray, np.ndarray, P
 
 def test_what_is_left_of_a_part_is_that_of_a_fit_without_it_and_without_its_neighbours() -> None:
     jacobian, residual, parts = linear(0.5 * LENGTH * np.arange(8))
-    actual = left_out(jacobian, residual, parts)
+    actual = left_out_residuals(jacobian, residual, parts)
     for k, begin in enumerate(parts.begins):
         near = np.abs(parts.begins - begin) < LENGTH
         kept = ~near[parts.number]
@@ -35,7 +42,7 @@ def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it() -> None:
     """Of windows that are given in any order."""
     begins = 0.5 * LENGTH * np.random.default_rng(1).permutation(12)
     jacobian, residual, parts = linear(begins)
-    actual = folds(jacobian, residual, parts)
+    actual = fold_changes(jacobian, residual, parts)
     assert actual.shape == (FOLDS, 3)
     for change, group in zip(actual, np.split(np.argsort(begins), FOLDS), strict=True):
         near = np.abs(begins[:, None] - begins[group]).min(axis=1) < LENGTH
@@ -46,10 +53,10 @@ def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it() -> None:
 
 def test_a_parameter_that_tells_nothing_does_not_pay() -> None:
     jacobian, residual, parts = linear(LENGTH * np.arange(8))
-    whole = float(np.sqrt(np.mean(left_out(jacobian, residual, parts) ** 2)))
+    whole = float(np.sqrt(np.mean(left_out_residuals(jacobian, residual, parts) ** 2)))
     # The first is moved far from its start; the others stand at it.
     apart = 10.0 / np.linalg.norm(jacobian[:, 0]) * np.linalg.norm(residual)
-    moved, *still = without_each(jacobian, residual, parts, [apart, 0.0, 0.0])
+    moved, *still = rms_without_each(jacobian, residual, parts, [apart, 0.0, 0.0])
     assert moved > 2.0 * whole
     assert max(still) < whole
 

@@ -51,7 +51,7 @@ def test_an_omitted_sample_is_reported_for_used_signals(
 ) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")
     (tmp_path / "log.csv").write_text(text)
-    log = log_for(fmu, read_log(tmp_path / "log.csv", LogAliases().dialect), LogAliases(), used=used)
+    log = log_for(fmu, read_log(tmp_path / "log.csv", LogAliases().dialect), LogAliases(), noted=used)
     assert len(log.outputs["bob.x"].values) == ROWS - 1
     assert sum("no neighbour supports" in note for note in log.notes) == reported
 

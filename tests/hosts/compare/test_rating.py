@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hosts.compare.deviations import deviations
-from hosts.compare.rating import on_equal_steps, rating
+from hosts.compare.rating import rating, resampled_evenly
 
 T = np.linspace(0.0, 1.0, 500)
 
@@ -53,6 +53,6 @@ def test_like_an_independent_program() -> None:
 
 def test_no_more_points_than_a_thousand() -> None:
     t = np.linspace(0.0, 10.0, 5001)
-    grid, (y,) = on_equal_steps(t, 2.0 * t)
+    grid, (y,) = resampled_evenly(t, 2.0 * t)
     assert len(grid) == 1000
     assert y == pytest.approx(2.0 * grid)

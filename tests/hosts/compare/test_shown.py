@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 
 from hosts.common.display_units import axis_shown, number_in, shown_number, titled
 from hosts.compare.comparison import Comparison, compare
-from hosts.compare.comparison_text import common_sentence, common_text, table
+from hosts.compare.comparison_text import common_notes, delay_sentence, table
 from hosts.compare.curve import Curve
 from hosts.compare.page import comparison_figure
 from hosts.compare.report import bin_rows
@@ -42,14 +42,14 @@ def test_deviations_are_in_degrees(comparison: Comparison) -> None:
 def test_a_drift_is_reported_where_it_is_one(comparison: Comparison) -> None:
     """In the terminal and on the page by the same sentence."""
     clock = replace(comparison.common, delay=0.01, delay_error=1e-4, drift=-3e-4, drift_error=1e-5, explained=0.9)
-    message = common_sentence(Comparison(comparison.signals, clock))
+    message = delay_sentence(Comparison(comparison.signals, clock))
     assert message == (
         "All signals together: the log is 10 ± 0.1 ms late; the clock of its outputs runs 300 ± 10 ppm slow against "
         "that of its inputs, which explains 90 % of what a delay leaves."
     )
-    assert common_text(Comparison(comparison.signals, clock))[-1] == message
+    assert common_notes(Comparison(comparison.signals, clock))[-1] == message
     model = Comparison(comparison.signals, replace(clock, explained=0.05))
-    assert common_sentence(model) == (
+    assert delay_sentence(model) == (
         "All signals together: the log is 10 ± 0.1 ms late. "
         "1 of 2 signals have another delay, 'chassis.wz' farthest, 0 ms."
     )

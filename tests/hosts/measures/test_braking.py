@@ -8,13 +8,13 @@ import pytest
 from hosts.measures.braking import (
     STANDING,
     corrected_to,
+    distance_between,
     locked,
     mean_fully_developed_deceleration,
     stopping_distance,
     time_below,
     time_to_reach,
     travelled,
-    way_between,
 )
 
 ONSET = 1.0  # s
@@ -77,7 +77,7 @@ def test_what_does_not_come_is_not_a_number() -> None:
     assert math.isnan(mean_fully_developed_deceleration(time[early], speed[early], ONSET, V))
     assert math.isnan(stopping_distance(time[early], speed[early], ONSET, A))
     assert math.isnan(time_below(time[early], speed[early], 1.0, ONSET))
-    assert math.isnan(way_between(time, speed, 1.0, math.nan))
+    assert math.isnan(distance_between(time, speed, 1.0, math.nan))
     # a car that gathers speed has no deceleration to end its way with
     assert math.isnan(stopping_distance(time, speed, ONSET, -1.0))
 

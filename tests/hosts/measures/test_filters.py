@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hosts.measures.filters import crossing, phaseless_low_pass, resample
-from hosts.measures.peak import top
+from hosts.measures.peak import interpolated_peak
 
 
 @pytest.mark.parametrize(("frequency", "part"), [(1.0, 1.0), (6.0, 0.5), (9.0, 1.0 / (1.0 + 1.5**12))])
@@ -64,4 +64,4 @@ def test_crossings_are_found_between_samples_and_after_a_time() -> None:
 
 def test_the_top_of_a_wave_is_found_between_samples() -> None:
     t = np.arange(0.0, 3.0, 0.1)
-    assert top(t, np.sin(t)) == pytest.approx((np.pi / 2, 1.0), abs=2e-4)
+    assert interpolated_peak(t, np.sin(t)) == pytest.approx((np.pi / 2, 1.0), abs=2e-4)

@@ -22,7 +22,7 @@ def _no_run(monkeypatch: pytest.MonkeyPatch) -> None:
     def run(*_: object) -> None:
         raise AssertionError("a run was made")
 
-    monkeypatch.setattr(trial, "_outcomes", run)
+    monkeypatch.setattr(trial, "_outcomes_at", run)
 
 
 @pytest.fixture

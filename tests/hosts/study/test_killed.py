@@ -20,7 +20,7 @@ from distributed import Client
 from distributed.comm import CommClosedError
 
 from hosts.common.errors import HostError
-from hosts.experiment.cluster import bring
+from hosts.experiment.cluster import send_experiment
 from hosts.experiment.cluster_runs import ClusterRuns
 from hosts.experiment.cluster_worker import UnpackedFmu
 from hosts.experiment.journal import Journal
@@ -225,7 +225,7 @@ def test_the_exit_code_depends_on_missing_rows_and_not_on_errors_of_dask(
         raise CommClosedError("in <TCP local=...>: Stream is closed")
 
     monkeypatch.setattr("hosts.experiment.cluster.connected", broken)
-    monkeypatch.setattr("hosts.experiment.cluster.bring", lambda *_: None)
+    monkeypatch.setattr("hosts.experiment.cluster.send_experiment", lambda *_: None)
     monkeypatch.setattr(ClusterRuns, "results", results)
     code = main([str(study_file()), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9", "--no-report"])
     assert len(read_study(tmp_path / "out")) == count
@@ -254,5 +254,5 @@ def test_a_worker_that_ends_too_early_is_reported_as_such() -> None:
 
     brought = UnpackedFmu("a", "none.fmu", "", "", lambda path: None)  # type: ignore[arg-type, return-value]
     with pytest.raises(HostError, match="A worker has ended or was cut off before it had what is run") as caught:
-        bring(Lost(), brought, Path(__file__))  # type: ignore[arg-type]
+        send_experiment(Lost(), brought, Path(__file__))  # type: ignore[arg-type]
     assert "version" not in str(caught.value)

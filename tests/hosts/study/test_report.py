@@ -17,7 +17,7 @@ from hosts.study.analysis.measure_section import indices_of
 from hosts.study.analysis.report import report_of
 from hosts.study.analysis.study_section import measures_section
 from hosts.study.analysis.summary_plots import plot_distribution, plot_indices, rank_correlations
-from hosts.study.analysis.tables import extremes, reasons, said, statistics
+from hosts.study.analysis.tables import extremes, messages_with_runs, reasons, statistics
 from tests.hosts.study.frames import frame_of
 
 pytestmark = pytest.mark.drawn
@@ -75,7 +75,7 @@ def test_the_report_of_an_incomplete_study_with_limits_and_messages(frame: pd.Da
     half["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(60)]
     half.attrs = frame.attrs | {"limits": {"peak": {"min": 3.0, "max": None, "unit": "m/s2"}}}
     within = int((half["peak"] >= 3.0).sum())
-    assert said(study_data(half)) == [("The step 1 to 57 ms is coarse.", list(range(0, 60, 7)))]
+    assert messages_with_runs(study_data(half)) == [("The step 1 to 57 ms is coarse.", list(range(0, 60, 7)))]
     text = report_of(half, tmp_path, commands)[0].read_text(encoding="utf-8")
     assert "The step 1 to 57 ms is coarse." in text.partition("Messages of the FMU")[2]
     assert "at least 3 m/s²" in text

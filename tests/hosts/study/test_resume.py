@@ -135,7 +135,7 @@ def write(self):
     if rows:  # full from now on
         resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))
 OutcomeTable.write = write
-store._WRITE = (0.0, 0.0)
+store._WRITE_INTERVAL = (0.0, 0.0)
 from hosts.study.command import main
 from tests.hosts.in_this_process import in_this_process
 with in_this_process():

@@ -9,11 +9,11 @@ import pytest
 from SALib.sample import sobol
 from scipy.stats import qmc
 
-from hosts.study.points import grid
-from hosts.study.random_points import Places, latin_hypercube, saltelli, sobol_sequence
+from hosts.study.points import grid_points
+from hosts.study.random_points import UnitPoints, latin_hypercube, saltelli, sobol_sequence
 
 
-def in_blocks(places: Places, count: int, size: int) -> np.ndarray:
+def in_blocks(places: UnitPoints, count: int, size: int) -> np.ndarray:
     return np.vstack([places(k, min(size, count - k)) for k in range(0, count, size)])
 
 
@@ -32,10 +32,10 @@ def test_points_for_sobol_indices_are_those_of_salib(monkeypatch: pytest.MonkeyP
         (lambda: latin_hypercube(3, 50, 2), 50),
         (lambda: sobol_sequence(3, 2), 50),
         (lambda: saltelli(2, 2), 36),
-        (lambda: grid((3, 4, 2)), 24),
+        (lambda: grid_points((3, 4, 2)), 24),
     ],
 )
-def test_blocks_are_pieces_of_the_whole(make: Callable[[], Places], count: int) -> None:
+def test_blocks_are_pieces_of_the_whole(make: Callable[[], UnitPoints], count: int) -> None:
     whole = make()(0, count)
     assert len(whole) == count
     assert np.array_equal(in_blocks(make(), count, 4), whole)
@@ -57,5 +57,5 @@ def test_sobol_points_are_balanced_at_a_power_of_two() -> None:
 
 
 def test_a_grid_has_all_combinations_once_the_last_fastest() -> None:
-    places = np.floor(grid((2, 3))(0, 6) * [2, 3]).astype(int)
+    places = np.floor(grid_points((2, 3))(0, 6) * [2, 3]).astype(int)
     assert [tuple(place) for place in places] == list(itertools.product(range(2), range(3)))

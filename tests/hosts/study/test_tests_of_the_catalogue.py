@@ -11,7 +11,7 @@ from hosts.study.command import main
 from hosts.study.plan import make_plan
 from hosts.study.study_file import read_study_file
 from hosts.study.study_runs import Bench
-from hosts.study.trial_runs import try_out, with_columns
+from hosts.study.trial_runs import make_trial_runs, with_columns
 from hosts.study.worker_data import DONE, Outcome
 
 STUDY = 'fmu = "{fmu}"\nstep = 0.005\n[parameters]\n"front.tyre.grip" = {{ values = [1.0, 0.9] }}\n'
@@ -61,7 +61,7 @@ def test_each_test_gives_a_whole_row(study: Callable[[str], Path], prototype_fmu
 def test_measures_that_are_chosen_are_the_columns(study: Callable[[str], Path], prototype_fmu: Path) -> None:
     file = study(entry("drop", 'measures = ["settling_time", "load.peak"]'))
     plan = make_plan(read_study_file(file)[0], file, prototype_fmu)
-    trial = try_out(plan)
+    trial = make_trial_runs(plan)
     assert (trial.columns, trial.notes) == ({"drop.load.peak": "N", "drop.settling_time": "s"}, ())
     outcome = Bench(with_columns(plan, trial.columns).work, prototype_fmu).run(plan.work.jobs[0], {}, 0)
     assert sorted(outcome.measures) == sorted(trial.columns)

@@ -11,7 +11,7 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu_source import FmuSource
 from hosts.study.campaign import run_study
 from hosts.study.jobs import Job
-from hosts.study.study_runs import OneProcess
+from hosts.study.study_runs import SingleProcess
 from hosts.study.worker_data import Run, Work
 
 pytestmark = pytest.mark.usefixtures("in_process")
@@ -43,6 +43,6 @@ def test_a_start_is_reported_where_a_run_has_it(
     start = {"road.file": road_value(str(tmp_path / "far.csv"), tmp_path)}
     job = Job("far", Manoeuvre("far", np.zeros(1), {}, 1.0, start))
     work = Work(FmuSource(Path("none.fmu")), "", "", "", (job,), ("initial.x",), (), (), ())
-    with OneProcess(work, tmp_path / "none.fmu") as processes:
+    with SingleProcess(work, tmp_path / "none.fmu") as processes:
         assert "none.fmu" in processes.run(Run(0, {"initial.x": x})).reason
     assert capfd.readouterr().err.count("warning: ") == reported
