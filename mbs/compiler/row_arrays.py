@@ -14,9 +14,9 @@ Index = NDArray[np.int64]
 
 
 class RowArrays:
-    """The row arrays of the System file by name in `arrays`, with coefficients as written by the joints until `scale`.
+    """The row arrays of the System file, by name in `arrays`; coefficients are those of the joints until `scale`.
 
-    `rows`: over z before the elimination order; `new`: new number of each coordinate of z.
+    `rows`: over z before ordering; `new`: index of each z in elimination order.
     """
 
     def __init__(self, rows: Sequence[RowTerms], new: Index) -> None:
@@ -30,25 +30,28 @@ class RowArrays:
         velocities: list[tuple[int, int, int, float]] = []
         velocity_rows: list[int] = []
         for r, row in enumerate(rows):
-            ordered = sorted(row.columns(), key=lambda c: int(new[c]))
-            pattern, position = [int(new[c]) for c in ordered], {c: k for k, c in enumerate(ordered)} | {-1: -1}
-            lin = [0.0] * len(pattern)
-            const = 0.0
+            row_coordinates = sorted(row.columns(), key=lambda c: int(new[c]))
+            pattern, position = (
+                [int(new[c]) for c in row_coordinates],
+                {c: k for k, c in enumerate(row_coordinates)} | {-1: -1},
+            )
+            row_linear = [0.0] * len(pattern)
+            row_constant = 0.0
             for a, b, v in _terms(row.main, position):
                 if b >= 0:
                     quad.append((r, a, b, v))
                 elif a >= 0:
-                    lin[a] += v
+                    row_linear[a] += v
                 else:
-                    const += v
+                    row_constant += v
             if row.theta >= 0:
                 n = len(angles)
                 angles.append((r, position[row.theta]))
-                both: dict[tuple[int, int], list[float]] = {}
+                coefficients: dict[tuple[int, int], list[float]] = {}
                 for k, p in enumerate((row.cosine, row.sine)):
                     for a, b, v in _terms(p, position):
-                        both.setdefault((a, b), [0.0, 0.0])[k] = v
-                angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(both.items())]
+                        coefficients.setdefault((a, b), [0.0, 0.0])[k] = v
+                angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(coefficients.items())]
             for guide, power, p in row.guides:
                 gterms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
             if row.rates:
@@ -56,11 +59,11 @@ class RowArrays:
                     if a >= 0:
                         velocities.append((len(velocity_rows), a, b, v))
                     else:
-                        lin[b] += v
+                        row_linear[b] += v
                 velocity_rows.append(r)
             columns += pattern
-            linear += lin
-            constant.append(const)
+            linear += row_linear
+            constant.append(row_constant)
             pointer.append(len(columns))
         tables = ((quad, 4), (angle_terms, 5), (gterms, 6), (velocities, 4))
         q, t, g, w = (np.array(x, dtype=float).reshape(-1, k) for x, k in tables)
@@ -110,15 +113,15 @@ class RowArrays:
         a["velocity_h"] = a["velocity_h"] * factor[self._row_of_velocity]
 
     def cliques(self) -> list[Index]:
-        """Coordinates of each row, in the new order."""
+        """Coordinates of each row, in elimination order."""
         return np.split(self.arrays["row_col"].astype(np.int64), self.arrays["row_ptr"][1:-1]) if self.nc else []
 
     def evaluate(
         self, q: Array, guides: Array, guide_rates: Array | None = None
     ) -> tuple[Array, sparse.csr_matrix, Array]:
-        """Phi, Phi_q and Phi_t at position `q` with guide values and rates (default: at rest).
+        """Phi, shape (nc,), Phi_q, shape (nc, nq), and Phi_t, shape (nc,), at position `q`, shape (nq,).
 
-        A condition on velocities has the matrix A of its A qd in place of Phi_q, and no Phi.
+        `guide_rates`: zero by default. A condition A qd = 0 on velocities has A in place of Phi_q, and Phi = 0.
         """
         a = self.arrays
         start, col = a["row_ptr"], a["row_col"]
@@ -128,16 +131,18 @@ class RowArrays:
         phi_t = np.zeros(self.nc)
 
         def entry(row: Index, position: Index) -> tuple[Index, Array]:
-            """Indices of coordinates at positions within their rows (-1: the constant 1), and their values."""
-            at = np.where(position >= 0, start[row] + position, -1)
-            return at, padded[np.where(at >= 0, col[at], self.nq)] if len(col) else padded[np.full(len(at), self.nq)]
+            """Indices in `col` of positions within rows (-1: the constant 1), and values of the coordinates there."""
+            entries = np.where(position >= 0, start[row] + position, -1)
+            return entries, padded[np.where(entries >= 0, col[entries], self.nq)] if len(col) else padded[
+                np.full(len(entries), self.nq)
+            ]
 
-        def add(row: Index, place_a: Index, place_b: Index, h: Array) -> Array:
+        def add(row: Index, position_a: Index, position_b: Index, h: Array) -> Array:
             """Add the gradient of h q_a q_b and return the values."""
-            at_a, u = entry(row, place_a)
-            at_b, v = entry(row, place_b)
-            for at, slope in ((at_a, h * v), (at_b, h * u)):
-                np.add.at(jac, at[at >= 0], slope[at >= 0])
+            index_a, u = entry(row, position_a)
+            index_b, v = entry(row, position_b)
+            for index, derivative in ((index_a, h * v), (index_b, h * u)):
+                np.add.at(jac, index[index >= 0], derivative[index >= 0])
             return h * u * v
 
         phi += np.bincount(
