@@ -13,7 +13,7 @@ from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.start_velocities import GivenVelocity, contradiction, given_velocities
 from mbs.kernel.header.enumerations import GuideType
-from mbs.model.guides import of_table
+from mbs.model.guides import table_value
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ def guide_start(model: Model) -> tuple[Array, Array]:
                 t = -breaks[k]
                 rates[g.index] = sum(p * c[k, p] * t ** (p - 1) for p in range(1, 6))
         elif g.type == GuideType.BY_TABLE:
-            rates[g.index] = of_table(g, values[g.input])[1] * rates[g.input]
+            rates[g.index] = table_value(g, values[g.input])[1] * rates[g.input]
     return values, rates
 
 

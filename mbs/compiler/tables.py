@@ -15,7 +15,7 @@ from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.sensor import MOST_FACTORS, Sensor
+from mbs.model.sensor import MAX_FACTORS, Sensor
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -148,7 +148,7 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
             reals[-1] = [t.weight for t in sensor.terms]
             for t in sensor.terms:
                 factors = [signals.number(f) for f in t.factors]
-                padding = [-1] * (MOST_FACTORS - len(factors))
+                padding = [-1] * (MAX_FACTORS - len(factors))
                 ints[-1] += [row(sensor, t.joint or sensor.joint, t.equation), *factors, *padding, t.guide]
                 if sensor.type == SensorType.REACTION_BY_TABLE:
                     ints[-1].append(t.slope)

@@ -146,7 +146,7 @@ class InputSignals:
             return of_function
         times, values = (part.tolist() for part in _table(signal))
 
-        def of_table(t: float, after: bool) -> float:
+        def table_value(t: float, after: bool) -> float:
             right = bisect_right(times, t + tolerance) if after else bisect_left(times, t - tolerance)
             if right == 0 or right == len(times):
                 return float(values[right and -1])
@@ -154,7 +154,7 @@ class InputSignals:
             share = min(1.0, max(0.0, (t - begin) / span)) if span > 0.0 else 0.0
             return float(values[right - 1] + share * (values[right] - values[right - 1]))
 
-        return of_table
+        return table_value
 
     def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
         inside = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
