@@ -111,32 +111,32 @@ class Joint:
     Attributes
     ----------
     as_rows : bool
-        Its force equations are rows, never eliminated, so that their multipliers (the joint force) exist; a joint-force
-        sensor sets it.
+        Whether its force equations are rows and not eliminated, so that their multipliers (the joint force) exist; set
+        by sensors of joint forces.
     switch : Switch or None
         Switches its rows on and off; None: they are always on.
     rows_weight : float
-        Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
+        Factor of the force on the first body along equation k, ``-rows_weight * lam_k``; 0 without such a force.
     normals : sequence of AffineVector
-        Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
+        Unit vectors of the second body along which ``-lam_k`` of the line equations act on the first.
     turning : RotationConditions or None
-        Vectors whose products keep the bodies from turning; `hold_turning` makes it.
+        Conditions on the relative rotation as products of vectors, made by `hold_turning`.
     places : JointPlaces or None
-        Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
+        Points and axes of joints of spanning trees: revolute, prismatic, spherical and weld.
     drawing : Drawing or None
-        Of joints between two rigid bodies whose drawing can be corrected.
+        Conditions of a joint between two rigid bodies whose drawing can be corrected.
     turn : AngleBodies or None
-        Of a relative angle.
+        Bodies of a relative angle.
     ends : JointEnds or None
-        Of joints that can be part of a closed loop.
+        Ends of a joint that can be part of a closed loop.
     rolls : RollingBody, RollingSpin or None
-        Of a wheel that rolls.
+        The wheel of a rolling joint.
     couples : (int, int, float) or None
-        Of a gear: the coordinates of its wheels, and the turns of the first for one turn of the second.
+        Coordinates of the wheels of a gear, and turns of the first for one turn of the second.
     actuator : JointEnds or None
-        Of a driven distance: its ends.
+        Ends of a driven distance.
     slide : (int, SlidingPoint) or None
-        Of a distance: the number of the end that a guide slides, and that sliding point.
+        Number of the end of a distance that a guide slides, and the sliding point.
     """
 
     def __init__(
