@@ -54,8 +54,8 @@ def rows_of_block(
 
     `rows`: all rows, each with the coordinates it depends on; `full`: full coordinates as expressions in z.
     """
-    moving_bodies = [b for v in block.vertices if v is not block.held for b in v.bodies]
-    held_bodies = [b for b in block.held.bodies if not b.is_ground]
+    moving_bodies = [b for v in block.vertices if v is not block.reference for b in v.bodies]
+    held_bodies = [b for b in block.reference.bodies if not b.is_ground]
     tying_rows = [
         (columns, MAX_TIED[model.joints[row.joint].type])
         for row, columns in rows

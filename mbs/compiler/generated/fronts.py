@@ -123,7 +123,7 @@ class _Shape:
             factors = ", ".join(f"{name} = A[{(start + k) * self.size + j}]" for k, name in enumerate(f))
             lines.append(f"  const double {factors};")
             for p in column_pieces:
-                lines.append(f"  t{p.first} = {self._less(f't{p.first}', q, p, f)};")
+                lines.append(f"  t{p.first} = {self._subtract_panel(f't{p.first}', q, p, f)};")
         lines += [p.store("c", f"t{p.first}") for p in column_pieces]
         return [*lines, "  }"]
 
