@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from mbs.compiler.generated.pattern import Pattern
-from mbs.compiler.generated.text import are_consecutive, function, vector
+from mbs.compiler.generated.text import are_consecutive, function, literal, vector
 
 TRANSPOSED = "APART void rows_transposed(const double *restrict J, const double *restrict w, double *restrict out)"
 MASS = "APART void mass_times(const double *restrict val, const double *restrict x, double *restrict out)"
@@ -80,7 +80,7 @@ def signals(pattern: Pattern) -> list[str]:
         i, triple = pattern.active[n], pattern.active_triple[n]
         length = 3 if triple else 1
         follows = n + 3 < len(pattern.active) and pattern.active[n + 3] == i + 3
-        value = f"(four){{constant[{i}], constant[{i + 1}], constant[{i + 2}], 0.0}}" if triple else f"constant[{i}]"
+        value = literal([f"constant[{i + d}]" for d in range(3)]) if triple else f"constant[{i}]"
         rate = "NONE" if triple else "0.0"
         for k in pattern.entries(i):
             columns = range(pattern.sig_col[k], pattern.sig_col[k] + length)
@@ -113,8 +113,7 @@ def forces(pattern: Pattern) -> list[str]:
         lists = [terms[c] for c in group]
         if not any(lists):
             continue
-        begin = f"(four){{Q[{group[0]}], Q[{group[0] + 1}], Q[{group[0] + 2}], 0.0}}" if len(group) == 3 else ""
-        text = begin or f"Q[{group[0]}]"
+        text = literal([f"Q[{c}]" for c in group]) if len(group) == 3 else f"Q[{group[0]}]"
         for m in range(max(map(len, lists))):
             text = f"({text} + {_force(pattern, [x[m] if m < len(x) else None for x in lists])})"
         lines.append(f"  put3(Q + {group[0]}, {text});" if len(group) == 3 else f"  Q[{group[0]}] = {text};")
@@ -145,8 +144,7 @@ def _force(pattern: Pattern, terms: Sequence[tuple[int, int, int] | None]) -> st
             and k + 4 <= len(pattern.sig_val)
         ):
             return f"V(val + {k}) * f{e}[{i}]"
-    words = ["0.0" if t is None else f"val[{t[2]}] * f{t[0]}[{t[1]}]" for t in terms]
-    return "(four){" + ", ".join([*words, "0.0"]) + "}"
+    return literal(["0.0" if t is None else f"val[{t[2]}] * f{t[0]}[{t[1]}]" for t in terms])
 
 
 def _is_triple_term(pattern: Pattern, e: int, i: int, terms: Sequence[tuple[int, int, int]]) -> bool:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from mbs.compiler.generated.pattern import Pattern
-from mbs.compiler.generated.text import are_consecutive, function, vector
+from mbs.compiler.generated.text import are_consecutive, function, literal, vector
 
 ROWS = (
     "APART void rows(const double *restrict lin, const double *restrict constant, const double *restrict hess, "
@@ -51,7 +51,7 @@ def _product(entries: Sequence[int], columns: Sequence[int]) -> str:
     """Products J x of a run of entries as a vector of four, zero after them."""
     i, c = entries[0], columns[0]
     if len(entries) == 1:
-        return f"(four){{J[{i}] * x[{c}], 0.0, 0.0, 0.0}}"
+        return literal([f"J[{i}] * x[{c}]"])
     if len(entries) == 2:
         return f"WIDE(P(J + {i}) * P(x + {c}))"
     return f"V(J + {i}) * V(x + {c})"
@@ -93,7 +93,7 @@ def _zero(run: Sequence[int]) -> str:
 
 
 def _as_four(run: Sequence[int], expression: str) -> str:
-    return f"(four){{{expression}, 0.0, 0.0, 0.0}}" if len(run) == 1 else expression
+    return literal([expression]) if len(run) == 1 else expression
 
 
 def _sum_of_terms(pattern: Pattern, run: Sequence[int], begin: str) -> str:
@@ -103,15 +103,14 @@ def _sum_of_terms(pattern: Pattern, run: Sequence[int], begin: str) -> str:
         terms = [pattern.terms[i][m] if m < len(pattern.terms[i]) else None for i in run]
         indices = [None if t is None else t[0] for t in terms]
         columns = [None if t is None else t[1] for t in terms]
-        text = f"({text} + {_literal('hess', indices)} * {_literal('q', columns)})"
+        text = f"({text} + {_entries('hess', indices)} * {_entries('q', columns)})"
     return text
 
 
-def _literal(array: str, indices: Sequence[int | None]) -> str:
+def _entries(array: str, indices: Sequence[int | None]) -> str:
     """C vector of entries of an array: as `vector`, but equal indices are not read as one number."""
     if len(indices) > 1 and not are_consecutive(indices):
-        words = ["0.0" if p is None else f"{array}[{p}]" for p in indices]
-        return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"
+        return literal(["0.0" if i is None else f"{array}[{i}]" for i in indices])
     return vector(array, indices)
 
 
@@ -131,7 +130,7 @@ def _position_entry(pattern: Pattern, row: int, run: Sequence[int], name: str, l
 def _linear_part(run: Sequence[int]) -> str:
     if len(run) == 1:
         return f"lin[{run[0]}]"
-    return "(four){" + ", ".join([f"lin[{i}]" for i in run] + ["0.0"] * (4 - len(run))) + "}"
+    return literal([f"lin[{i}]" for i in run])
 
 
 def _rate_entry(pattern: Pattern, run: Sequence[int], name: str) -> list[str]:
@@ -165,16 +164,10 @@ def _row_sums(group: range, products: Sequence[Sequence[tuple[int, str]]], out: 
         if max_length > 3:
             lines.append(f"  total += FAR(h{level}, i{level});")
     if constant is not None:
-        indices = list(group)
-        lines.append(
-            f"  total = {vector(constant, indices) if len(indices) == 4 else _tail(constant, indices)} + 0.5 * total;"
-        )
+        constants = vector(constant, group) if len(group) == 4 else literal([f"{constant}[{k}]" for k in group])
+        lines.append(f"  total = {constants} + 0.5 * total;")
     if len(group) == 4:
         lines.append(f"  PUT({out} + {group[0]}, total);")
     else:
         lines += [f"  {out}[{k}] = total[{i}];" for i, k in enumerate(group)]
     return [*lines, "  }"]
-
-
-def _tail(array: str, indices: Sequence[int]) -> str:
-    return "(four){" + ", ".join([f"{array}[{k}]" for k in indices] + ["0.0"] * (4 - len(indices))) + "}"

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from mbs.compiler.generated.fronts import Piece, pieces
 from mbs.compiler.generated.pattern import Front, Pattern
-from mbs.compiler.generated.text import are_consecutive, function
+from mbs.compiler.generated.text import are_consecutive, function, literal
 
 LARGE, FOUR_SUMS = 12, 16
 """Sizes of a front from which pivots are eliminated in fours, and sums have four parts."""
@@ -33,7 +33,7 @@ def _gather(front: Front, piece: Piece) -> str:
     coordinates = front.coordinates[piece.first : piece.first + 4]
     if are_consecutive(coordinates):
         return f"V(b + {coordinates[0]})"
-    return "(four){" + ", ".join(f"b[{c}]" for c in coordinates) + "}"
+    return literal([f"b[{c}]" for c in coordinates])
 
 
 def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.compiler.generated import angles
 from mbs.compiler.generated.fronts import pieces
 from mbs.compiler.generated.pattern import Element, Front, Pattern
-from mbs.compiler.generated.text import are_consecutive, declare_array, function, vector
+from mbs.compiler.generated.text import are_consecutive, declare_array, function, literal, vector
 
 FRONT = (
     "APART void tangent{0}_{1}(const ali3_tangent_parts *restrict parts, const double *restrict w, "
@@ -161,8 +161,7 @@ class _FrontTangent:
             same_signal = all(i == first for i, _ in present)
             if same_signal and are_consecutive([k for _, k in present]) and k + 4 <= len(self.pattern.sig_val):
                 return f"T{e}[{s * n + first}] * V(val + {k})"
-        words = ["0.0" if t is None else f"T{e}[{s * n + t[0]}] * val[{t[1]}]" for t in terms]
-        return "(four){" + ", ".join([*words, "0.0"]) + "}"
+        return literal(["0.0" if t is None else f"T{e}[{s * n + t[0]}] * val[{t[1]}]" for t in terms])
 
     def _tangent_count(self) -> int:
         return sum(len(e.signals) ** 2 for e in self.pattern.elements if e.front >= 0)
@@ -184,7 +183,7 @@ class _FrontTangent:
             if kind == "double":
                 lines.append(f"  F[{offset}] = a{d};")
             else:
-                lines.append(f"  {'PUT' if offset + 4 <= self._storage() else 'put3'}(F + {offset}, a{d});")
+                lines.append(f"  {'PUT' if offset + 4 <= self._storage_size() else 'put3'}(F + {offset}, a{d});")
         return [*lines, "  }"]
 
     def _zeros_above(self, block: _Block) -> list[str]:
@@ -233,8 +232,7 @@ class _FrontTangent:
             array, at, k = present[0]
             if array == "hess":
                 return f"factor[{k}] * V(hess + {at})"
-        words = ["0.0" if t is None else self._second_order_term(t) for t in terms]
-        return "(four){" + ", ".join([*words, "0.0"]) + "}"
+        return literal(["0.0" if t is None else self._second_order_term(t) for t in terms])
 
     def _second_order_term(self, term: tuple[str, int, int]) -> str:
         array, at, k = term

@@ -87,10 +87,14 @@ def vector(array: str, indices: Sequence[int | None], end: int | None = None) ->
     first = indices[0]
     if are_consecutive(indices) and first is not None and (end is None or first + 4 <= end):
         return f"V({array} + {first})"
-    if all(p == first for p in indices) and first is not None:
+    if all(i == first for i in indices) and first is not None:
         return f"{array}[{first}]"
-    words = ["0.0" if p is None else f"{array}[{p}]" for p in indices]
-    return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"
+    return literal(["0.0" if i is None else f"{array}[{i}]" for i in indices])
+
+
+def literal(numbers: Sequence[str]) -> str:
+    """C vector of up to four numbers, zero after them."""
+    return "(four){" + ", ".join([*numbers, *["0.0"] * (4 - len(numbers))]) + "}"
 
 
 def declare_array(name: str, numbers: int) -> str:
