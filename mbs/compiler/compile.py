@@ -64,11 +64,9 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
             return drawing(model, frames.T, frames.constant, start)
 
     def compile_with_ports(system: System) -> System | None:
-        return (
-            None
-            if make_ported is None
-            else with_ports_of(System.of(_compile_closed(make_ported(), correct)[1]), system)
-        )
+        if make_ported is None:
+            return None
+        return with_ports_of(System.of(_compile_closed(make_ported(), correct)[1]), system)
 
     lazy_drawing = LazyValue(draw)
     model.draw_before_change(lazy_drawing)

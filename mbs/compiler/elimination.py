@@ -85,7 +85,6 @@ def eliminate(
         for j in row:
             users[j].add(i)
     solved: dict[int, int] = {}  # row -> column
-    redundant = 0
 
     def pivot_cost(i: int) -> tuple[bool, int, bool, int]:
         row = {j: v for j, v in rows[i].items() if j not in retained}
@@ -141,40 +140,39 @@ def eliminate(
         solved[i] = pivot
         for k in users[pivot] - {i}:
             other = rows[k]
-            f = other.pop(pivot)
+            factor = other.pop(pivot)
             for j, v in row.items():
                 old = other.get(j)
                 if old is None:
-                    other[j] = -f * v
+                    other[j] = -factor * v
                     users[j].add(k)
                     continue
-                new = old - f * v
-                if abs(new) > DROP * (abs(old) + abs(f * v)):
+                new = old - factor * v
+                if abs(new) > DROP * (abs(old) + abs(factor * v)):
                     other[j] = new
                 else:
                     del other[j]
                     users[j].discard(k)
-            constants[k] -= f * constants[i]
+            constants[k] -= factor * constants[i]
             if k not in solved and queue_row(k):
                 redundant_rows.add(k)
         users[pivot] = {i}
-    redundant = len(redundant_rows)
 
-    by_column = {j: i for i, j in solved.items()}
-    remaining = [j for j in range(n) if j not in by_column]
+    row_of = {j: i for i, j in solved.items()}
+    remaining = [j for j in range(n) if j not in row_of]
     number = {j: k for k, j in enumerate(remaining)}
-    expressions = []
-    for j in range(n):
-        if j in number:
-            expressions.append(Affine({number[j]: 1.0}))
-        else:
-            i = by_column[j]
-            constant = -constants[i]
-            expressions.append(
-                Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0)
-            )
+    expressions = [
+        Affine({number[j]: 1.0}) if j in number else _solution(rows[row_of[j]], constants[row_of[j]], number, scale)
+        for j in range(n)
+    ]
     left = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(leftover_rows)]
-    return Elimination(remaining, expressions, redundant, left)
+    return Elimination(remaining, expressions, len(redundant_rows), left)
+
+
+def _solution(row: Mapping[int, float], constant: float, number: Mapping[int, int], scale: float) -> Affine:
+    """Expression in z of the pivot of a solved row; a constant that is round-off of `scale` is zero."""
+    terms = {number[k]: -v for k, v in row.items()}
+    return Affine(terms, -constant if abs(constant) > DROP * scale else 0.0)
 
 
 def _sizes(row: Mapping[int, float], preferred: set[int], length: float) -> tuple[float, ...]:

@@ -243,12 +243,8 @@ def _make_tables(
 ) -> tuple[Tables, str, Callable[[], Tables] | None]:
     """All arrays of the System with its start as drawn, the reason why it has no tree, and a function for modes."""
     dependents, rows, natural = reduced.dependents, reduced.rows, reduced.natural
-    remaining, full, of_z, with_dependents = (
-        dependents.remaining,
-        dependents.full,
-        dependents.of_z,
-        dependents.with_dependents,
-    )
+    remaining, full, of_z = dependents.remaining, dependents.full, dependents.of_z
+    with_dependents = dependents.with_dependents
     T, mass, fronts, new, arrays = ordered.T, ordered.mass, ordered.fronts, ordered.new, ordered.arrays
     order, q, guides, nz = fronts.order, start.q, start.guides, len(remaining)
     _, Phiq, _ = arrays.evaluate(q, guides)

@@ -91,12 +91,10 @@ def _multiplier_map(ported: System, plain: System, T: sparse.csc_matrix, constan
     """
     random = np.random.Generator(np.random.PCG64(0))
     positions = [plain.arrays["q0"] + _DISTANCE * random.standard_normal(plain.nq) for _ in range(_POSITIONS + 1)]
-    instance_plain, instance_ported = (
-        Instance(LoadedSystem(plain.kernel_bytes())),
-        Instance(LoadedSystem(ported.kernel_bytes())),
-    )
-    plain_gradients = [_gradients(plain, instance_plain, q) for q in positions]
-    ported_gradients = [_gradients(ported, instance_ported, T @ q + constant) @ T for q in positions]
+    plain_instance = Instance(LoadedSystem(plain.kernel_bytes()))
+    ported_instance = Instance(LoadedSystem(ported.kernel_bytes()))
+    plain_gradients = [_gradients(plain, plain_instance, q) for q in positions]
+    ported_gradients = [_gradients(ported, ported_instance, T @ q + constant) @ T for q in positions]
     multiplier_map, *_ = np.linalg.lstsq(
         np.hstack(ported_gradients[:-1]).T, np.hstack(plain_gradients[:-1]).T, rcond=CLOSED
     )

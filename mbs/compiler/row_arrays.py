@@ -1,6 +1,7 @@
 """Flat arrays of the constraint rows of a System, and values of the rows at a position."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,73 +14,74 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
-class RowArrays:
-    """The row arrays of the System file, by name in `arrays`; coefficients are those of the joints until `scale`.
+@dataclass
+class _TermLists:
+    """Terms of the rows by kind, row by row, with positions of coordinates in the pattern of their row."""
 
-    `rows`: over z before ordering; `new`: index of each z in elimination order.
-    """
+    pointer: list[int] = field(default_factory=lambda: [0])
+    columns: list[int] = field(default_factory=list)
+    linear: list[float] = field(default_factory=list)
+    constant: list[float] = field(default_factory=list)
+    quad: list[tuple[int, int, int, float]] = field(default_factory=list)
+    angles: list[tuple[int, int]] = field(default_factory=list)
+    angle_terms: list[tuple[int, int, int, float, float]] = field(default_factory=list)
+    guide_terms: list[tuple[int, int, int, int, int, float]] = field(default_factory=list)
+    velocity_rows: list[int] = field(default_factory=list)
+    velocities: list[tuple[int, int, int, float]] = field(default_factory=list)
 
-    def __init__(self, rows: Sequence[RowTerms], new: Index) -> None:
-        self.nq = len(new)
-        self.nc = len(rows)
-        pointer, columns, linear, constant = [0], [], [], []
-        quad: list[tuple[int, int, int, float]] = []
-        angles: list[tuple[int, int]] = []
-        angle_terms: list[tuple[int, int, int, float, float]] = []
-        gterms: list[tuple[int, int, int, int, int, float]] = []
-        velocities: list[tuple[int, int, int, float]] = []
-        velocity_rows: list[int] = []
-        for r, row in enumerate(rows):
-            row_coordinates = sorted(row.columns(), key=lambda c: int(new[c]))
-            pattern, position = (
-                [int(new[c]) for c in row_coordinates],
-                {c: k for k, c in enumerate(row_coordinates)} | {-1: -1},
-            )
-            row_linear = [0.0] * len(pattern)
-            row_constant = 0.0
-            for a, b, v in _terms(row.main, position):
-                if b >= 0:
-                    quad.append((r, a, b, v))
-                elif a >= 0:
-                    row_linear[a] += v
+    def add(self, row: RowTerms, new: Index) -> None:
+        """Add the terms of the next row; `new`: index of each z in elimination order."""
+        r = len(self.constant)
+        coordinates = sorted(row.columns(), key=lambda c: int(new[c]))
+        position = {c: k for k, c in enumerate(coordinates)} | {-1: -1}
+        linear = [0.0] * len(coordinates)
+        constant = 0.0
+        for a, b, v in _terms(row.main, position):
+            if b >= 0:
+                self.quad.append((r, a, b, v))
+            elif a >= 0:
+                linear[a] += v
+            else:
+                constant += v
+        if row.theta >= 0:
+            n = len(self.angles)
+            self.angles.append((r, position[row.theta]))
+            coefficients: dict[tuple[int, int], list[float]] = {}
+            for k, p in enumerate((row.cosine, row.sine)):
+                for a, b, v in _terms(p, position):
+                    coefficients.setdefault((a, b), [0.0, 0.0])[k] = v
+            self.angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(coefficients.items())]
+        for guide, power, p in row.guides:
+            self.guide_terms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
+        if row.rates:
+            for a, b, v in sorted((position[i], position[j], v) for (i, j), v in row.rates.items()):
+                if a >= 0:
+                    self.velocities.append((len(self.velocity_rows), a, b, v))
                 else:
-                    row_constant += v
-            if row.theta >= 0:
-                n = len(angles)
-                angles.append((r, position[row.theta]))
-                coefficients: dict[tuple[int, int], list[float]] = {}
-                for k, p in enumerate((row.cosine, row.sine)):
-                    for a, b, v in _terms(p, position):
-                        coefficients.setdefault((a, b), [0.0, 0.0])[k] = v
-                angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(coefficients.items())]
-            for guide, power, p in row.guides:
-                gterms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
-            if row.rates:
-                for a, b, v in sorted((position[i], position[j], v) for (i, j), v in row.rates.items()):
-                    if a >= 0:
-                        velocities.append((len(velocity_rows), a, b, v))
-                    else:
-                        row_linear[b] += v
-                velocity_rows.append(r)
-            columns += pattern
-            linear += row_linear
-            constant.append(row_constant)
-            pointer.append(len(columns))
-        tables = ((quad, 4), (angle_terms, 5), (gterms, 6), (velocities, 4))
+                    linear[b] += v
+            self.velocity_rows.append(r)
+        self.columns += [int(new[c]) for c in coordinates]
+        self.linear += linear
+        self.constant.append(constant)
+        self.pointer.append(len(self.columns))
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """The row arrays of the System file, by name."""
+        tables = ((self.quad, 4), (self.angle_terms, 5), (self.guide_terms, 6), (self.velocities, 4))
         q, t, g, w = (np.array(x, dtype=float).reshape(-1, k) for x, k in tables)
-        ang = np.array(angles, dtype=np.int64).reshape(-1, 2)
-        self.arrays: dict[str, NDArray[Any]] = {
-            "row_ptr": np.array(pointer, dtype=np.int64),
-            "row_col": np.array(columns, dtype=np.int64),
-            "row_lin": np.array(linear, dtype=float),
-            "row_const": np.array(constant, dtype=float),
-            "quad_ptr": _pointer(q[:, 0], self.nc),
+        angles = np.array(self.angles, dtype=np.int64).reshape(-1, 2)
+        return {
+            "row_ptr": np.array(self.pointer, dtype=np.int64),
+            "row_col": np.array(self.columns, dtype=np.int64),
+            "row_lin": np.array(self.linear, dtype=float),
+            "row_const": np.array(self.constant, dtype=float),
+            "quad_ptr": _pointer(q[:, 0], len(self.constant)),
             "quad_a": q[:, 1].astype(np.int64),
             "quad_b": q[:, 2].astype(np.int64),
             "quad_h": q[:, 3].copy(),
-            "angle_row": ang[:, 0].copy(),
-            "angle_theta": ang[:, 1].copy(),
-            "angle_ptr": _pointer(t[:, 0], len(ang)),
+            "angle_row": angles[:, 0].copy(),
+            "angle_theta": angles[:, 1].copy(),
+            "angle_ptr": _pointer(t[:, 0], len(angles)),
             "angle_a": t[:, 1].astype(np.int64),
             "angle_b": t[:, 2].astype(np.int64),
             "angle_hc": t[:, 3].copy(),
@@ -90,16 +92,31 @@ class RowArrays:
             "gterm_a": g[:, 3].astype(np.int64),
             "gterm_b": g[:, 4].astype(np.int64),
             "gterm_h": g[:, 5].copy(),
-            "velocity_row": np.array(velocity_rows, dtype=np.int64),
-            "velocity_ptr": _pointer(w[:, 0], len(velocity_rows)),
+            "velocity_row": np.array(self.velocity_rows, dtype=np.int64),
+            "velocity_ptr": _pointer(w[:, 0], len(self.velocity_rows)),
             "velocity_a": w[:, 1].astype(np.int64),
             "velocity_b": w[:, 2].astype(np.int64),
             "velocity_h": w[:, 3].copy(),
         }
-        self._row_of_entry = np.repeat(np.arange(self.nc), np.diff(self.arrays["row_ptr"]))
-        self._quad_row = q[:, 0].astype(np.int64)
-        self._angle_of_term = t[:, 0].astype(np.int64)
-        self._row_of_velocity = self.arrays["velocity_row"][w[:, 0].astype(np.int64)]
+
+
+class RowArrays:
+    """The row arrays of the System file, by name in `arrays`; coefficients are those of the joints until `scale`.
+
+    `rows`: over z before ordering; `new`: index of each z in elimination order.
+    """
+
+    def __init__(self, rows: Sequence[RowTerms], new: Index) -> None:
+        self.nq = len(new)
+        self.nc = len(rows)
+        lists = _TermLists()
+        for row in rows:
+            lists.add(row, new)
+        self.arrays = lists.arrays()
+        self._row_of_entry = _owners(self.arrays["row_ptr"])
+        self._quad_row = _owners(self.arrays["quad_ptr"])
+        self._angle_of_term = _owners(self.arrays["angle_ptr"])
+        self._row_of_velocity = self.arrays["velocity_row"][_owners(self.arrays["velocity_ptr"])]
 
     def scale(self, factor: Array) -> None:
         """Multiply every row by its factor, shape (nc,)."""
@@ -131,11 +148,10 @@ class RowArrays:
         phi_t = np.zeros(self.nc)
 
         def entry(row: Index, position: Index) -> tuple[Index, Array]:
-            """Indices in `col` of positions within rows (-1: the constant 1), and values of the coordinates there."""
+            """Index in `col` of positions within rows (-1: the constant 1), and values of the coordinates there."""
             entries = np.where(position >= 0, start[row] + position, -1)
-            return entries, padded[np.where(entries >= 0, col[entries], self.nq)] if len(col) else padded[
-                np.full(len(entries), self.nq)
-            ]
+            coordinates = np.where(entries >= 0, col[entries], self.nq) if len(col) else np.full(len(entries), self.nq)
+            return entries, padded[coordinates]
 
         def add(row: Index, position_a: Index, position_b: Index, h: Array) -> Array:
             """Add the gradient of h q_a q_b and return the values."""
@@ -187,8 +203,13 @@ def _terms(p: Polynomial, position: Mapping[int, int]) -> list[tuple[int, int, f
     return sorted((max(position[i], position[j]), min(position[i], position[j]), v) for (i, j), v in p.items())
 
 
+def _owners(pointer: Index) -> Index:
+    """Owner of each item, of the starts of the items of each owner."""
+    return np.repeat(np.arange(len(pointer) - 1), np.diff(pointer))
+
+
 def _pointer(owner: Array, n: int) -> Index:
-    """Start of each owner's items; `owner` is ascending."""
+    """Start of the items of each of `n` owners, and their total number; `owner`: of each item, ascending."""
     return np.concatenate([[0], np.cumsum(np.bincount(owner.astype(np.int64), minlength=n)[:n] if n else [])]).astype(
         np.int64
     )

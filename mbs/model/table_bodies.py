@@ -54,7 +54,14 @@ class TabledBody(Body):
     """A rigid body that a table places on another (`Model.tabled_body`); it takes forces and sensors, no joints."""
 
     is_tabled = True
-    outputs: tuple[str, ...] = ()  # sensors that place its wheel in drawings: centre, the body's quaternion, angle
+    outputs: tuple[str, ...] = ()
+    """Sensors of the wheel in drawings: of its centre, of the quaternion of the body, of its angle."""
+    base: Body
+    """Body on which the table places it."""
+    parameters: tuple[Coordinate, ...]
+    """Variables of its table."""
+    table: SmoothTable
+    """Along the axes of the base: p, the position of `com` from that of the base, then the columns of R, its axes."""
 
     def coordinates(self) -> list[CoordinateInfo]:
         """Dependent coordinates of the body: of the position, then of each axis."""
@@ -67,13 +74,6 @@ class TabledBody(Body):
     def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
         offset = super()._affine_point(local, origin)
         return self.base.point(self.base.com) + offset if origin else offset
-
-    base: Body
-    """Body on which the table places it."""
-    parameters: tuple[Coordinate, ...]
-    """Variables of its table."""
-    table: SmoothTable
-    """Along the axes of the base: p, the position of `com` from that of the base, then the columns of R, its axes."""
 
 
 @dataclass(frozen=True)
