@@ -119,14 +119,14 @@ def _merge(structure: list[set[int]], parent: list[int], size: int) -> tuple[dic
 
 
 def _number_fronts(
-    order: Index, structure: list[set[int]], pivots: dict[int, list[int]], parents: dict[int, int]
+    order: Index, structure: list[set[int]], pivots: dict[int, list[int]], parent_of: dict[int, int]
 ) -> Fronts:
     """Fronts numbered in postorder, with contiguous pivots."""
     children: dict[int, list[int]] = {k: [] for k in pivots}
     roots = []
     for k in sorted(pivots):
-        if parents[k] >= 0:
-            children[parents[k]].append(k)
+        if parent_of[k] >= 0:
+            children[parent_of[k]].append(k)
         else:
             roots.append(k)
     postorder: list[int] = []
@@ -142,5 +142,5 @@ def _number_fronts(
     new[sequence] = np.arange(len(order))
     col = np.concatenate([[0], np.cumsum([len(pivots[k]) for k in postorder])]).astype(np.int64)
     index = [np.sort(new[[*pivots[k], *structure[k]]]) for k in postorder]
-    parents = np.array([front_of[parents[k]] if parents[k] >= 0 else -1 for k in postorder], dtype=np.int64)
+    parents = np.array([front_of[parent_of[k]] if parent_of[k] >= 0 else -1 for k in postorder], dtype=np.int64)
     return Fronts(order[sequence], col, index, parents)
