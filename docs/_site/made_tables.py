@@ -10,7 +10,7 @@ from sphinx.errors import ExtensionError
 from benchmarks.car.variable_tables import blocks
 from benchmarks.car.variable_tables import tables as variable_tables
 from mbs.elements.tables import element_table, law_table, number_table
-from mbs.kernel.read_headers import PARTS, array_table, sensor_table, size_table, status_table
+from mbs.kernel.read_headers import TABLE_PREFIXES, array_table, sensor_table, size_table, status_table
 from mbs.vehicle.reference import tables
 
 MARK = re.compile(r"<!-- made with the site: (.+) -->\n")
@@ -30,7 +30,7 @@ MAKERS: dict[str, Callable[[], str]] = {
     "sensors": sensor_table,
     "sizes of a System": size_table,
     "statuses": status_table,
-    **{f"arrays {part}".rstrip(): partial(array_table, part) for part in ("", *PARTS)},
+    **{f"arrays {part}".rstrip(): partial(array_table, part) for part in ("", *TABLE_PREFIXES)},
     **{name: lambda name=name: _variables()[name] for name in VARIABLES},
 }
 

@@ -29,7 +29,7 @@ from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import by_name_in_system, check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of
 from mbs.compiler.generated.library import named_code_of
-from mbs.compiler.ports import following
+from mbs.compiler.ports import map_followers
 
 Say = Callable[[str], None]
 _REPEATED = 10.0  # s
@@ -167,7 +167,7 @@ class FmuBuilder:
         plain: bool = False,
     ) -> None:
         systems_by_fidelity = systems_by_number(system)
-        systems, followers = following(list(systems_by_fidelity.values()))
+        systems, followers = map_followers(list(systems_by_fidelity.values()))
         fidelity = default_fidelity(fidelity, len(systems_by_fidelity))
         metas = [s.meta for s in systems]
         check_fidelities(metas)

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.compiler.block_rows import MovingPart, affine_of, moving_part, quadratics
-from mbs.compiler.loop_motion import TURN, trace
+from mbs.compiler.block_rows import BlockRows, affine_of, quadratics, rows_of_block
+from mbs.compiler.loop_motion import MAX_TURN, trace
 from mbs.compiler.loops import Block, blocks_of_loops
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.tables import Signals, ragged
@@ -29,73 +29,75 @@ from mbs.model.perpendicular_vectors import perpendicular
 
 Array = NDArray[np.float64]
 
-MOST_VERTICES = 24
-"""Blocks with more bodies and rods are not traced."""
-MOST_COORDINATES = 120
-"""Blocks with more moving coordinates are not traced: the matrices are dense."""
-MOST_TRIADS = 15
-"""Triads of a block: each has two bits in an int32."""
+MAX_VERTICES = 24
+"""Largest number of bodies and rods of a block that is traced."""
+MAX_COORDINATES = 120
+"""Largest number of moving coordinates of a block that is traced: its matrices are dense."""
+MAX_TRIADS = 15
+"""Largest number of triads of a block: each has two bits in an int32."""
 DEFINITE = 0.15
 """Sine or cosine beyond which a sign counts; the kernel has the same (assembly_mode.c)."""
-ASTRIDE = 3
-"""Most steps of the trace between a dead centre and the point where a body reverses its rotation."""
-assert TURN < DEFINITE  # no combination of signs is stepped over
+MAX_REVERSAL_STEPS = 3
+"""Largest number of steps between a dead centre and the position where a body reverses its rotation."""
+assert MAX_TURN < DEFINITE  # a step skips no combination of signs
 
 
 def mode_arrays(
     model: Model, rows: Sequence[RowTerms], full: Sequence[Affine], q: Array, guides: Array, signals: Signals
 ) -> tuple[dict[str, Any], Callable[[], dict[str, Any]]]:
-    """Build the `mode_` arrays of the triads, and a function that traces their loops for the `mode_cell` arrays.
+    """The `mode_` arrays of the triads, and a function that traces their loops and returns the `mode_cell` arrays.
 
-    Only stepping needs the latter. `rows`: constraint rows in z; `full`: full coordinates as expressions in z; `q`:
+    Only steps need the latter. `rows`: constraint rows in z; `full`: full coordinates as expressions in z; `q`:
     assembled values of z.
     """
     numbers, loops, names = [], [], []
-    with_columns = [(row, set(row.columns())) for row in rows]
+    rows_and_columns = [(row, set(row.columns())) for row in rows]
     for block in blocks_of_loops(model):
-        if len(block.vertices) > MOST_VERTICES:
+        if len(block.vertices) > MAX_VERTICES:
             continue
         block_triads = triads(block)
-        if not 0 < len(block_triads) <= MOST_TRIADS:
+        if not 0 < len(block_triads) <= MAX_TRIADS:
             continue
         rings = sorted({t.ring for t in block_triads})
-        numbers.append([n for t in block_triads for n in _items(t, signals, rings.index(t.ring))])
-        loops.append((block, block_triads, moving_part(model, block, with_columns, full)))
+        numbers.append([n for t in block_triads for n in _triad_integers(t, signals, rings.index(t.ring))])
+        loops.append((block, block_triads, rows_of_block(model, block, rows_and_columns, full)))
         names += [list(t.name.encode()) for t in block_triads]
 
-    def modes() -> dict[str, Any]:
-        cells = [[n for cell in _modes(*loop, full, q, guides) for n in cell] for loop in loops]
+    def trace_modes() -> dict[str, Any]:
+        cells = [[n for cell in _block_modes(*loop, full, q, guides) for n in cell] for loop in loops]
         return ragged("mode_cell", cells, np.int64)
 
-    return {**ragged("mode_triad", numbers, np.int64), **ragged("mode_name", names, np.int64)}, modes
+    return {**ragged("mode_triad", numbers, np.int64), **ragged("mode_name", names, np.int64)}, trace_modes
 
 
-def _items(triad: Triad, signals: Signals, ring: int) -> list[int]:
-    """Integers of a triad in the System: its signals, the bits turned and planar, the number of its ring."""
+def _triad_integers(triad: Triad, signals: Signals, ring: int) -> list[int]:
+    """Integers of a triad in the System: its signals, its bits (1: turned, 2: planar), the number of its ring."""
     planar = not triad.n[0].terms and not triad.n[1].terms and all(v[2] == Affine() for v in (triad.a, triad.b))
     return [*(signals.number(c) for c in triad.components), int(triad.turned) + 2 * int(planar), ring]
 
 
-def _modes(
-    block: Block, block_triads: Sequence[Triad], part: MovingPart, full: Sequence[Affine], q: Array, guides: Array
+def _block_modes(
+    block: Block, block_triads: Sequence[Triad], block_rows: BlockRows, full: Sequence[Affine], q: Array, guides: Array
 ) -> list[tuple[int, int]]:
     """Modes as (signs, mask); none if the block has several degrees of freedom or its trace does not close."""
-    if not part.rows or part.bends or len(part.coordinates) > MOST_COORDINATES:
+    if not block_rows.rows or block_rows.flexible or len(block_rows.coordinates) > MAX_COORDINATES:
         return []
     hinges = _frame_hinges(block, full, q)
     traced = [*block_triads, *hinges]
-    components = np.array([affine_of(c, full, part.coordinates, q) for t in traced for c in t.components])
+    components = np.array([affine_of(c, full, block_rows.coordinates, q) for t in traced for c in t.components])
     mirrored = np.array([t.turned for t in traced])
-    path = trace(quadratics(part, q, guides), components[:, 0], components[:, 1:], mirrored, q[part.coordinates])
+    path = trace(
+        quadratics(block_rows, q, guides), components[:, 0], components[:, 1:], mirrored, q[block_rows.coordinates]
+    )
     if path is None:
         return []
     n = len(block_triads)
     sines, cosines = path.sines[:, :n], path.cosines[:, :n]
-    turns = np.abs(path.steps.sum(axis=0)) > np.pi
-    if np.any(turns[n:]) or (part.driven and np.any(turns)) or path.branches:
+    rotations = np.abs(path.steps.sum(axis=0)) > np.pi
+    if np.any(rotations[n:]) or (block_rows.driven and np.any(rotations)) or path.branches:
         return sorted({_cell(s, c) for s, c in zip(sines, cosines, strict=True)})
-    if not part.sprung:
-        return []  # nothing limits its motion, so that it may leave the mode
+    if not block_rows.has_spring:
+        return []  # no spring limits its motion, which may leave the mode
     mask = 0
     for k in range(n):
         if abs(sines[0, k]) > 2.0 * DEFINITE and _is_dead_centre(sines[:, k], path.steps):
@@ -107,13 +109,18 @@ def _modes(
 def _is_dead_centre(sine: Array, steps: Array) -> bool:
     """Whether an angle reverses wherever the sine of a triad changes its sign. `steps`: rows of steps of all angles."""
     crossings = np.flatnonzero(sine[1:] * sine[:-1] < 0.0)
-    back = np.any(steps * np.roll(steps, 1, axis=0) < 0.0, axis=1)
-    near = np.array([np.any(np.take(back, range(i - ASTRIDE, i + ASTRIDE + 1), mode="wrap")) for i in crossings])
-    return bool(len(crossings)) and bool(np.all(near))
+    reverses = np.any(steps * np.roll(steps, 1, axis=0) < 0.0, axis=1)
+    is_near = np.array(
+        [
+            np.any(np.take(reverses, range(i - MAX_REVERSAL_STEPS, i + MAX_REVERSAL_STEPS + 1), mode="wrap"))
+            for i in crossings
+        ]
+    )
+    return bool(len(crossings)) and bool(np.all(is_near))
 
 
 def _cell(sine: Array, cosine: Array) -> tuple[int, int]:
-    """Signs as bits, 2k and 2k + 1 of sine and cosine of triad k, 1 if positive; and the mask of definite ones."""
+    """Signs of sine and cosine of triad k as bits 2k and 2k + 1, 1 if positive; and the mask of definite signs."""
     signs = mask = 0
     for k, value in enumerate(np.stack([sine, cosine], axis=1).ravel().tolist()):
         if abs(value) >= DEFINITE:
@@ -123,15 +130,15 @@ def _cell(sine: Array, cosine: Array) -> tuple[int, int]:
 
 
 def _frame_hinges(block: Block, full: Sequence[Affine], q: Array) -> list[Triad]:
-    """Rotations of the bodies that are hinged on the frame of the block, as triads."""
+    """Triads that measure the rotation of the bodies hinged on the frame of the block."""
     hinges = []
     values = np.array([e.value(q) for e in full])
     for edge in block.edges:
-        if block.held not in edge.ends or edge.slides:
+        if block.reference not in edge.ends or edge.slides:
             continue
         planar = len(edge.point) == 2
         n = AffineVector.constant((0.0, 0.0, 1.0)) if planar else edge.axis
-        vertex = edge.other(block.held)
+        vertex = edge.other(block.reference)
         arm = next((e for e in block.edges if vertex in e.ends and e is not edge), None)
         if n is None or arm is None:
             continue

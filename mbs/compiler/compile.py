@@ -10,7 +10,7 @@ from mbs.common.lazy_value import LazyValue
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
 from mbs.compiler.generated.library import library_of
-from mbs.compiler.model_to_system import checked, compiled
+from mbs.compiler.model_to_system import check_model, compiled
 from mbs.compiler.overconstrained import TOLERANCE, closed_loops
 from mbs.compiler.ports import with_ports_of
 from mbs.compiler.tree import tree_arrays
@@ -20,7 +20,7 @@ from mbs.system.drawing import Drawing
 from mbs.system.system import System
 
 Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]
-"""Makes a context in which joints are drawn as their loops close, of the corrections by joint: m and rad."""
+"""Returns a context in which the loops of a model are drawn closed, with the correction of each joint, m and rad."""
 
 
 def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False) -> System:
@@ -54,28 +54,30 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
         If the assembly cannot be closed or the model is not possible; the message names the joints. `native`: there
         is no compiler.
     """
-    closing = closed_loops(tolerance)
-    corrected, compiled_loops = _closed(model, closing)
-    frames, start, make = compiled_loops.frames, compiled_loops.arrays["q0"], model.with_ports
+    correct = closed_loops(tolerance)
+    correction, compiled_loops = _compile_closed(model, correct)
+    frames, start, make_ported = compiled_loops.frames, compiled_loops.arrays["q0"], model.with_ports
     assert frames is not None
 
     def draw() -> Drawing:
-        with corrected():
+        with correction():
             return drawing(model, frames.T, frames.constant, start)
 
-    def ported(system: System) -> System | None:
-        return None if make is None else with_ports_of(System.of(_closed(make(), closing)[1]), system)
+    def compile_with_ports(system: System) -> System | None:
+        if make_ported is None:
+            return None
+        return with_ports_of(System.of(_compile_closed(make_ported(), correct)[1]), system)
 
-    late = LazyValue(draw)
-    model.draw_before_change(late)
-    system = System.of(compiled_loops, late, None if make is None else ported)
+    lazy_drawing = LazyValue(draw)
+    model.draw_before_change(lazy_drawing)
+    system = System.of(compiled_loops, lazy_drawing, None if make_ported is None else compile_with_ports)
     if flag(native, "The native of compile"):
         system.native = library_of(system)
     return system
 
 
-def _closed(model: Model, closing: Callable[[Model], Correction]) -> tuple[Correction, CompiledModel]:
-    """The correction that closes the loops of a model, and the model compiled with closed loops."""
-    corrected = closing(checked(model))
-    with corrected() as closed:
-        return corrected, compiled(model, closed, watch=mode_arrays, trees=tree_arrays)
+def _compile_closed(model: Model, correct: Callable[[Model], Correction]) -> tuple[Correction, CompiledModel]:
+    """The correction that closes the loops of a model, and the compiled model with closed loops."""
+    correction = correct(check_model(model))
+    with correction() as corrections:
+        return correction, compiled(model, corrections, make_modes=mode_arrays, make_tree=tree_arrays)

@@ -1,4 +1,4 @@
-"""Position and velocity problem at the start, solved while the rows still have names."""
+"""Position and velocity problem at the start."""
 
 from collections.abc import Callable, Mapping, Sequence
 
@@ -16,18 +16,18 @@ Array = NDArray[np.float64]
 CLOSED = 1e-11
 """Violation, m, at which an assembly counts as closed."""
 OPEN = 1e-8
-"""Violation, m, above which it is refused."""
-LEAST = 1e-3
-"""Of |Phi_q|: where a row hardly moves, its violation is no distance."""
+"""Violation, m, above which an assembly is refused."""
+MIN_GRADIENT = 1e-3
+"""Least |Phi_q| by which a violation is divided to make it a distance."""
 ITERATIONS = 60
 REGULARISATION = 1e-11
-"""Of the multipliers, against rows scaled to Phi_q M^-1 Phi_q' = 1: lets redundant rows pass."""
-FREE = 1e-8
+"""Regularisation of the multipliers for redundant rows; rows have unit length."""
+FREE_WEIGHT = 1e-8
 """Weight of the kinetic energy of bodies without a given velocity."""
 
 
-def solver(metric: sparse.csr_matrix, Phiq: sparse.csr_matrix) -> tuple[object, Array]:
-    """Factorised [W Phi_q'; Phi_q -eps] with rows scaled to unit length, and the row factors."""
+def factorise(metric: sparse.csr_matrix, Phiq: sparse.csr_matrix) -> tuple[object, Array]:
+    """Factorisation of [W Phi_q'; Phi_q -eps], with rows scaled to unit length, and the factors of the rows."""
     size = np.sqrt(np.asarray(Phiq.multiply(Phiq).sum(axis=1)).ravel())
     factor = 1.0 / np.where(size > 0.0, size, 1.0)
     scaled = sparse.diags(factor) @ Phiq
@@ -53,76 +53,78 @@ def close_position(
     q: Array,
     guides: Array,
     joint_gaps: Callable[[Array], Mapping[str, float]],
-    fine: float,
+    tolerance_factor: float,
 ) -> Array:
-    """The assembled position next to `q` (Gauss-Newton in the metric of the mass and of the stiffness of flexible
-    bodies, kg), or a `ModelError` naming the joints that stay open; `joint_gaps`: gaps of the eliminated joints;
-    `fine`: factor of the tolerances, `fineness` of the model.
+    """The assembled position next to `q`, by Gauss-Newton in the metric of the mass and of the stiffness, kg.
+
+    `joint_gaps`: returns gaps of the eliminated joints, m; `tolerance_factor`: `fineness` of the model. Raises
+    `ModelError`: joints stay open, which it names.
     """
     if arrays.nc == 0:
         return q
     metric = (positive_metric(mass) + stiffness).tocsr()
-    open_now, best, step = _violation(arrays, q, guides, fine)[0], q, 1.0
+    violation, position, step = _violation(arrays, q, guides, tolerance_factor)[0], q, 1.0
     for _ in range(ITERATIONS):
-        if np.max(open_now) <= CLOSED * fine:
-            return best
-        phi, Phiq, _ = arrays.evaluate(best, guides)
-        lu, factor = solver(metric, Phiq)
-        move = lu.solve(np.concatenate([np.zeros(arrays.nq), -phi * factor]))[: arrays.nq]  # type: ignore[attr-defined]
+        if np.max(violation) <= CLOSED * tolerance_factor:
+            return position
+        phi, Phiq, _ = arrays.evaluate(position, guides)
+        lu, factor = factorise(metric, Phiq)
+        correction = lu.solve(np.concatenate([np.zeros(arrays.nq), -phi * factor]))[: arrays.nq]  # type: ignore[attr-defined]
         while step > 1e-3:
-            candidate = best + step * move
-            trial = _violation(arrays, candidate, guides, fine)[0]
-            if np.linalg.norm(trial) < np.linalg.norm(open_now):
+            candidate = position + step * correction
+            trial = _violation(arrays, candidate, guides, tolerance_factor)[0]
+            if np.linalg.norm(trial) < np.linalg.norm(violation):
                 break
             step *= 0.5
         else:
             break
-        best, open_now, step = candidate, trial, min(1.0, 2.0 * step)
-    if np.max(open_now) <= OPEN * fine:
-        return best
-    gaps = dict(joint_gaps(best))
-    for row, value in zip(rows, open_now, strict=True):
+        position, violation, step = candidate, trial, min(1.0, 2.0 * step)
+    if np.max(violation) <= OPEN * tolerance_factor:
+        return position
+    gaps = dict(joint_gaps(position))
+    for row, value in zip(rows, violation, strict=True):
         if row.joint >= 0:
             gaps[row.name] = max(gaps.get(row.name, 0.0), float(value))
-    largest = max([OPEN * fine, *gaps.values()])
-    listed = sorted((item for item in gaps.items() if item[1] > 0.01 * largest), key=lambda item: -item[1])[:6]
+    largest = max([OPEN * tolerance_factor, *gaps.values()])
+    largest_gaps = sorted((item for item in gaps.items() if item[1] > 0.01 * largest), key=lambda item: -item[1])[:6]
     raise ModelError(
         "The assembly cannot be closed; these joints stay open: "
-        + ", ".join(f"'{n}' by {v:.3g} m" for n, v in listed)
+        + ", ".join(f"'{n}' by {v:.3g} m" for n, v in largest_gaps)
         + "."
     )
 
 
-def _violation(arrays: RowArrays, q: Array, guides: Array, fine: float) -> tuple[Array, sparse.csr_matrix]:
-    """|Phi| / |Phi_q| per row, about metres."""
+def _violation(arrays: RowArrays, q: Array, guides: Array, tolerance_factor: float) -> tuple[Array, sparse.csr_matrix]:
+    """|Phi| / |Phi_q| of each row, approximately m, and Phi_q."""
     phi, Phiq, _ = arrays.evaluate(q, guides)
     size = np.sqrt(np.asarray(Phiq.multiply(Phiq).sum(axis=1)).ravel())
-    return np.abs(phi) / np.maximum(size, LEAST * fine), Phiq
+    return np.abs(phi) / np.maximum(size, MIN_GRADIENT * tolerance_factor), Phiq
 
 
 def start_velocity(
     arrays: RowArrays,
     mass: sparse.csr_matrix,
     stiffness: sparse.csr_matrix,
-    given: sparse.csr_matrix,
-    aim: Array,
+    given_mass: sparse.csr_matrix,
+    given_momentum: Array,
     q: Array,
     guides: Array,
     guide_rates: Array,
-    near: Array | None = None,
+    free_momentum: Array | None = None,
 ) -> Array:
     """Velocity that satisfies the rows and comes nearest to the given velocities.
 
-    Minimises (v-target)' given (v-target) with a slight weight on the kinetic energy of all else; repeated about its
-    own result, so that the slight weight leaves no trace in the given velocities. Rates of deformation count by the
-    energy they would store, so that flexible bodies start with as little vibration as the joints allow.
+    Minimises the kinetic energy of the difference from the given velocities, with a small weight on that of all other
+    velocities; repeated about its own result, so that the weight does not change the given velocities. Rates of
+    deformation count by their elastic energy, so that flexible bodies start with as little vibration as the joints
+    allow.
 
     Parameters
     ----------
     stiffness : csr_matrix
         Of the flexible bodies, as a mass (kg).
     given : csr_matrix
-        Mass of the bodies with a given velocity, over z.
+        Mass of the bodies with a given velocity, in z.
     aim : ndarray, shape (nq,)
         The same mass times the given velocities.
     near : ndarray, shape (nq,), optional
@@ -130,19 +132,19 @@ def start_velocity(
     """
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     v = np.zeros(arrays.nq)
-    if not np.any(aim) and not np.any(phi_t):
+    if not np.any(given_momentum) and not np.any(phi_t):
         return v
     metric = (positive_metric(mass) + stiffness).tocsr()
-    if near is not None:
-        v = np.atleast_1d(spsolve(metric.tocsc(), near))
-    total = (given + stiffness + FREE * metric).tocsr()
-    lu, factor = solver(total, Phiq)
+    if free_momentum is not None:
+        v = np.atleast_1d(spsolve(metric.tocsc(), free_momentum))
+    total = (given_mass + stiffness + FREE_WEIGHT * metric).tocsr()
+    lu, factor = factorise(total, Phiq)
     weight = float(np.mean(total.diagonal()))
     for _ in range(4):
-        right = np.concatenate([(aim + FREE * (metric @ v)) / weight, -phi_t * factor])
+        right = np.concatenate([(given_momentum + FREE_WEIGHT * (metric @ v)) / weight, -phi_t * factor])
         v = lu.solve(right)[: arrays.nq]  # type: ignore[attr-defined]
-    # tighten Phi_q v = -Phi_t
-    lu, factor = solver(metric, Phiq)
+    # reduce the error of Phi_q v = -Phi_t to round-off
+    lu, factor = factorise(metric, Phiq)
     for _ in range(2):
         v = v - lu.solve(np.concatenate([np.zeros(arrays.nq), (Phiq @ v + phi_t) * factor]))[: arrays.nq]  # type: ignore[attr-defined]
     return v

@@ -15,15 +15,15 @@ from mbs.compiler.extent import fineness
 from mbs.compiler.polynomial import Monomial, RowTerms
 
 DEPENDENT = 1e-7
-"""Relative size of the remainder of a dependent row. A drawing with rounded numbers that is next to a special one
-leaves remainders that are no conditions of their own.
+"""Relative size of the remainder of a dependent row: rounded numbers of a drawing leave remainders that are not
+conditions.
 """
 CONTRADICTION = 1e-9
-"""Constant that dependent rows may leave, m or m2; in a model below 1 m in parts of its length or of the square."""
+"""Largest constant that dependent rows leave, m or m2; in a model below 1 m, parts of its length or of its square."""
 ROUND_OFF = 1e-13
-"""Of constants, in parts of the largest that cancel."""
-OWNED = 1e-3
-"""A row owns a monomial if no other row has it and its coefficient is this part of the row's largest."""
+"""Round-off of constants, in parts of the largest one that cancels."""
+OWNERSHIP = 1e-3
+"""A row owns a monomial that no other row has if its coefficient is at least this part of the row's largest."""
 CONSTANT: Monomial = (-1, -1)
 
 
@@ -32,32 +32,34 @@ def independent_rows(
 ) -> tuple[list[RowTerms], int]:
     """The rows without those that follow from others, in the same order, and the number removed.
 
-    `joints` are the names of the joints at each body, for the message where rows contradict each other; `length`:
-    of the model, m.
+    `joints`: names of the joints at each body, for errors; `length`: of the model, m. Raises `ModelError`: dependent
+    rows contradict each other.
     """
     unit = fineness(length)
-    by_degree = (1.0, unit, unit * unit)  # else linear terms vanish next to squares in a small model
+    unit_by_degree = (1.0, unit, unit * unit)  # otherwise linear terms are negligible next to squares in a small model
     chosen: set[int] = set()
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):
-        if not row.plain:
-            chosen.add(i)  # angle and guide rows bring a variable of their own, switched rows are on or off
+        if not row.is_plain:
+            chosen.add(i)  # rows of angles and guides have variables that no other row has; switched rows may be off
             continue
-        main = {(i, j): v * by_degree[(i >= 0) + (j >= 0)] for (i, j), v in row.main.items()}
+        main = {(i, j): v * unit_by_degree[(i >= 0) + (j >= 0)] for (i, j), v in row.main.items()}
         size = max((abs(v) for m, v in main.items() if m != CONSTANT), default=0.0)
         if size == 0.0:
-            least = CONTRADICTION * min(1.0, length**2) + ROUND_OFF * length**2
-            _must_vanish([row], row.main.get(CONSTANT, 0.0), joints, least)
+            tolerance = CONTRADICTION * min(1.0, length**2) + ROUND_OFF * length**2
+            _check_constant([row], row.main.get(CONSTANT, 0.0), joints, tolerance)
             continue
         normal[i] = {m: v / size for m, v in main.items()}
-    remaining = _peel(normal, chosen)
+    remaining = _choose_owners(normal, chosen)
     for group in _groups(remaining, normal):
         chosen.update(_independent(group, normal, rows, joints, length))
     return [row for i, row in enumerate(rows) if i in chosen], len(rows) - len(chosen)
 
 
-def _must_vanish(rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]], least: float) -> None:
-    if abs(constant) <= least:
+def _check_constant(
+    rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]], tolerance: float
+) -> None:
+    if abs(constant) <= tolerance:
         return
     bodies = sorted({r.name for r in rows if r.joint < 0})
     names = sorted({r.name for r in rows if r.joint >= 0} | {j for body in bodies for j in joints.get(body, ())})
@@ -68,8 +70,8 @@ def _must_vanish(rows: list[RowTerms], constant: float, joints: Mapping[str, Seq
     )
 
 
-def _peel(normal: dict[int, dict[Monomial, float]], chosen: set[int]) -> set[int]:
-    """Move rows that own a monomial to `chosen` until none is left that does; return the rest."""
+def _choose_owners(normal: dict[int, dict[Monomial, float]], chosen: set[int]) -> set[int]:
+    """Move rows that own a monomial to `chosen` until no remaining row owns one; return the remaining rows."""
     users: dict[Monomial, set[int]] = defaultdict(set)
     for i, row in normal.items():
         for m in row:
@@ -82,7 +84,7 @@ def _peel(normal: dict[int, dict[Monomial, float]], chosen: set[int]) -> set[int
         if len(users[m]) != 1:
             continue
         (i,) = users[m]
-        if abs(normal[i][m]) < OWNED:
+        if abs(normal[i][m]) < OWNERSHIP:
             continue
         remaining.discard(i)
         chosen.add(i)
@@ -95,7 +97,7 @@ def _peel(normal: dict[int, dict[Monomial, float]], chosen: set[int]) -> set[int
 
 
 def _groups(remaining: set[int], normal: dict[int, dict[Monomial, float]]) -> list[list[int]]:
-    """Rows connected by shared monomials."""
+    """Groups of rows that are connected by shared monomials."""
     users: dict[Monomial, list[int]] = defaultdict(list)
     for i in remaining:
         for m in normal[i]:
@@ -127,7 +129,7 @@ def _independent(
     joints: Mapping[str, Sequence[str]],
     length: float,
 ) -> list[int]:
-    """Independent rows of a connected group by a rank-revealing factorization; scaling prefers shorter rows."""
+    """Independent rows of a connected group by a rank-revealing factorization that prefers shorter rows."""
     degree = 2 if any(j >= 0 for i in group for _, j in normal[i]) else 1
     unit = fineness(length) ** degree
     monomials = sorted({m for i in group for m in normal[i] if m != CONSTANT})
@@ -151,7 +153,7 @@ def _independent(
         combined = [rows[group[c]] for c, w in zip(chosen, weights, strict=True) if abs(w) > 1e-6]
         remainder = float(np.linalg.norm(A[k] - weights @ A[chosen]))
         constant = float(constants[k] - weights @ constants[chosen])
-        least = (CONTRADICTION + 10.0 * remainder) * min(1.0, length**degree)
-        least += ROUND_OFF * (length**2 + unit * float(np.max(np.abs(constants))))
-        _must_vanish([rows[group[k]], *combined], unit * constant, joints, least)
+        tolerance = (CONTRADICTION + 10.0 * remainder) * min(1.0, length**degree)
+        tolerance += ROUND_OFF * (length**2 + unit * float(np.max(np.abs(constants))))
+        _check_constant([rows[group[k]], *combined], unit * constant, joints, tolerance)
     return [group[k] for k in chosen]

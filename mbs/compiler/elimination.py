@@ -1,8 +1,7 @@
 """Elimination of linear joint equations, q_full = T z + z0, with fill-reducing pivoting.
 
-Gauss-Jordan on sparse rows: the pivot (row, column) with the smallest Markowitz product is taken, where the column
-count includes the rows that are already solved. Counting those too is what keeps T sparse: eliminating a chain link
-by link looks free to the unsolved rows and makes T dense.
+Gauss-Jordan on sparse rows: each pivot (row, column) has the smallest Markowitz product. Its column count includes
+solved rows, which keeps T sparse: eliminating a chain link by link fills no unsolved row, but makes T dense.
 """
 
 import heapq
@@ -16,7 +15,7 @@ from mbs.compiler.polynomial import VANISHED
 PIVOT_THRESHOLD = 0.1
 """A pivot is at least this part of the largest entry of its row."""
 DROP = 1e-12
-"""A sum smaller than this part of its terms is a zero."""
+"""A sum below this part of its terms counts as zero."""
 CONSISTENT = 1e-9
 """Largest mismatch, relative to the size of the constants (at least 1 m), of a redundant linear equation."""
 
@@ -26,22 +25,22 @@ class Elimination:
     """Result of `eliminate`."""
 
     remaining: list[int]
-    """Full coordinates that stay: z."""
+    """Full coordinates that form z."""
     expressions: list[Affine]
-    """Every full coordinate as an expression of z (terms count in z)."""
+    """Each full coordinate as an expression in z."""
     redundant: int
-    """Equations that followed from others."""
+    """Number of equations that follow from others."""
     left: list[tuple[int, Affine]]
-    """Numbers of the equations between coordinates that stay, as expressions of z."""
+    """Numbers of the equations between retained coordinates, and their expressions in z."""
 
 
 def eliminate(
     n: int,
     equations: Sequence[tuple[str, Affine]],
     locked: set[int],
-    first: set[int],
-    first_only: bool = False,
-    stay: frozenset[int] = frozenset(),
+    preferred: set[int],
+    preferred_first: bool = False,
+    retained: frozenset[int] = frozenset(),
     length: float = 1.0,
 ) -> Elimination:
     """Solve linear equations for as many coordinates.
@@ -51,16 +50,21 @@ def eliminate(
     equations : sequence of (name, Affine)
         Each expression is zero; the name is that of its joint.
     locked : set of int
-        Coordinates that must stay (angles and spins).
+        Coordinates that must not be eliminated (angles and spins).
     first : set of int
-        Coordinates that are eliminated rather than others at equal cost.
+        Coordinates that are eliminated in preference to others at equal cost.
     first_only : bool
-        Eliminate all that can be of `first` before any other, whatever the cost.
+        Eliminate as many as possible of `preferred` before any other, whatever the cost.
     stay : set of int
-        Coordinates that stay although equations between them are possible: those are left (flexible bodies).
+        Coordinates that are not eliminated, of flexible bodies; equations between them remain.
     length : float
-        Of the model, m: the remainder of an equation is round-off if it is so for coordinates of `first` of 1 m and
-        of this length.
+        Length of the model, m: the remainder of an equation is round-off if it is so for coordinates of `preferred` of
+        1 m and of this length.
+
+    Raises
+    ------
+    ModelError
+        An equation fixes a locked coordinate, or contradicts others.
 
     Examples
     --------
@@ -73,7 +77,7 @@ def eliminate(
     [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
     """
     rows = [dict(e.terms) for _, e in equations]
-    largest: list[tuple[float, ...]] = [(0.0, 0.0)] * len(rows)  # of each row, as long as it is not solved
+    largest: list[tuple[float, ...]] = [(0.0, 0.0)] * len(rows)  # sizes of each unsolved row so far
     constants = [e.constant for _, e in equations]
     scale = max([1.0, *(abs(c) for c in constants)])
     users: list[set[int]] = [set() for _ in range(n)]
@@ -81,34 +85,35 @@ def eliminate(
         for j in row:
             users[j].add(i)
     solved: dict[int, int] = {}  # row -> column
-    redundant = 0
 
-    def best(i: int) -> tuple[bool, int, bool, int]:
-        row = {j: v for j, v in rows[i].items() if j not in stay}
+    def pivot_cost(i: int) -> tuple[bool, int, bool, int]:
+        row = {j: v for j, v in rows[i].items() if j not in retained}
         least = PIVOT_THRESHOLD * max(abs(v) for v in row.values())
         columns = [j for j, v in row.items() if abs(v) >= least and j not in locked]
         if not columns:
             raise ModelError(
                 f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; prescribe it by m.drive instead."
             )
-        late, count, other, j = min((first_only and j not in first, len(users[j]), j not in first, j) for j in columns)
-        return late, (len(rows[i]) - 1) * (count - 1), other, j
+        is_late, count, other, j = min(
+            (preferred_first and j not in preferred, len(users[j]), j not in preferred, j) for j in columns
+        )
+        return is_late, (len(rows[i]) - 1) * (count - 1), other, j
 
     heap: list[tuple[bool, int, bool, int]] = []
 
-    def offer(i: int) -> bool:
-        """Queue an unsolved row; an empty one is checked. True if it was redundant."""
-        current = _sizes(rows[i], first, length)
+    def queue_row(i: int) -> bool:
+        """Queue an unsolved row, or check its constant if it is empty; whether it is redundant."""
+        current = _sizes(rows[i], preferred, length)
         largest[i] = tuple(map(max, largest[i], current))
         if rows[i] and all(size <= VANISHED * most for size, most in zip(current, largest[i], strict=True)):
             for j in rows[i]:
                 users[j].discard(i)
             rows[i].clear()
-        if rows[i] and stay.issuperset(rows[i]):
+        if rows[i] and retained.issuperset(rows[i]):
             leftover_rows.add(i)
             return False
         if rows[i]:
-            heapq.heappush(heap, (*best(i)[:3], i))
+            heapq.heappush(heap, (*pivot_cost(i)[:3], i))
             return False
         if abs(constants[i]) > CONSISTENT * scale:
             raise ModelError(
@@ -118,14 +123,14 @@ def eliminate(
         return True
 
     leftover_rows: set[int] = set()
-    empty = {i for i in range(len(rows)) if offer(i)}
+    redundant_rows = {i for i in range(len(rows)) if queue_row(i)}
     while heap:
         *cost, i = heapq.heappop(heap)
-        if i in solved or i in empty or i in leftover_rows:
+        if i in solved or i in redundant_rows or i in leftover_rows:
             continue
-        *current, pivot = best(i)
+        *current, pivot = pivot_cost(i)
         if current > cost:
-            offer(i)
+            queue_row(i)
             continue
         row = rows[i]
         p = row.pop(pivot)
@@ -135,44 +140,43 @@ def eliminate(
         solved[i] = pivot
         for k in users[pivot] - {i}:
             other = rows[k]
-            f = other.pop(pivot)
+            factor = other.pop(pivot)
             for j, v in row.items():
                 old = other.get(j)
                 if old is None:
-                    other[j] = -f * v
+                    other[j] = -factor * v
                     users[j].add(k)
                     continue
-                new = old - f * v
-                if abs(new) > DROP * (abs(old) + abs(f * v)):
+                new = old - factor * v
+                if abs(new) > DROP * (abs(old) + abs(factor * v)):
                     other[j] = new
                 else:
                     del other[j]
                     users[j].discard(k)
-            constants[k] -= f * constants[i]
-            if k not in solved and offer(k):
-                empty.add(k)
+            constants[k] -= factor * constants[i]
+            if k not in solved and queue_row(k):
+                redundant_rows.add(k)
         users[pivot] = {i}
-    redundant = len(empty)
 
-    by_column = {j: i for i, j in solved.items()}
-    remaining = [j for j in range(n) if j not in by_column]
+    row_of = {j: i for i, j in solved.items()}
+    remaining = [j for j in range(n) if j not in row_of]
     number = {j: k for k, j in enumerate(remaining)}
-    expressions = []
-    for j in range(n):
-        if j in number:
-            expressions.append(Affine({number[j]: 1.0}))
-        else:
-            i = by_column[j]
-            constant = -constants[i]
-            expressions.append(
-                Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0)
-            )
-    over = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(leftover_rows)]
-    return Elimination(remaining, expressions, redundant, over)
+    expressions = [
+        Affine({number[j]: 1.0}) if j in number else _solution(rows[row_of[j]], constants[row_of[j]], number, scale)
+        for j in range(n)
+    ]
+    left = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(leftover_rows)]
+    return Elimination(remaining, expressions, len(redundant_rows), left)
 
 
-def _sizes(row: Mapping[int, float], first: set[int], length: float) -> tuple[float, ...]:
-    """The largest coefficient, for coordinates of `first` in metres and in this length."""
+def _solution(row: Mapping[int, float], constant: float, number: Mapping[int, int], scale: float) -> Affine:
+    """Expression in z of the pivot of a solved row; a constant that is round-off of `scale` is zero."""
+    terms = {number[k]: -v for k, v in row.items()}
+    return Affine(terms, -constant if abs(constant) > DROP * scale else 0.0)
+
+
+def _sizes(row: Mapping[int, float], preferred: set[int], length: float) -> tuple[float, ...]:
+    """The largest coefficient, for coordinates of `preferred` in m and in parts of a length (m)."""
     return tuple(
-        max((abs(v) * (unit if j in first else 1.0) for j, v in row.items()), default=0.0) for unit in (1.0, length)
+        max((abs(v) * (unit if j in preferred else 1.0) for j, v in row.items()), default=0.0) for unit in (1.0, length)
     )

@@ -20,8 +20,8 @@ MAX_ITERATIONS = 400
 def start_arrays(
     system: CompiledModel | None, parameters: Mapping[str, float], y: NDArray[np.float64] | None = None
 ) -> dict[str, Any]:
-    """The `static_` arrays: whether a System starts in equilibrium, where that is sought from (the start of `system`,
-    with its states where `y`, those of the equilibrium, are others), and parameters that hold meanwhile.
+    """The `static_` arrays: whether a System starts in equilibrium, parameters that hold during its solution, and the
+    initial guess: coordinates of `system`, with its states where those of the equilibrium, `y`, differ.
     """
     if system is None:
         return {"static_start": [], "static_par": [], "static_value": [], "static_q": []}
@@ -38,10 +38,10 @@ def start_arrays(
 def equilibrium(
     system: CompiledModel, parameters: Mapping[str, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Coordinates, shape (nq,), and states of elements, shape (ny,), where all forces balance with the inputs at their
-    start values.
+    """Coordinates, shape (nq,), and states of elements, shape (ny,), of the static equilibrium at the start inputs.
 
-    `parameters` hold only while it is sought: a drive that pushes has no equilibrium.
+    `parameters` hold only during its solution: a model with a driving torque has no equilibrium. Raises `ModelError`:
+    a parameter is unknown or outside its limits, or there is no equilibrium.
     """
     instance = StandingInstance(LoadedSystem(system.kernel_bytes(modes=False)))
     names = [entry["name"] for entry in system.meta["parameters"]]
@@ -51,9 +51,9 @@ def equilibrium(
             f"The equilibrium of '{system.meta['name']}' sets '{unknown[0]}', which is not a parameter of it."
         )
     for name, value in parameters.items():
-        entry, what = system.meta["parameters"][names.index(name)], f"The parameter '{name}' of the equilibrium"
-        if not entry["min"] <= number(value, what) <= entry["max"]:
-            raise ModelError(f"{what} is {value:g}; it must lie between {entry['min']:g} and {entry['max']:g}.")
+        entry, subject = system.meta["parameters"][names.index(name)], f"The parameter '{name}' of the equilibrium"
+        if not entry["min"] <= number(value, subject) <= entry["max"]:
+            raise ModelError(f"{subject} is {value:g}; it must lie between {entry['min']:g} and {entry['max']:g}.")
     try:
         for name, value in parameters.items():
             instance.set_parameter(names.index(name), value)

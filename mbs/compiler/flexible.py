@@ -17,16 +17,16 @@ Array = NDArray[np.float64]
 PAIRS = ((1, 2), (2, 0), (0, 1))
 """yz, zx, xy."""
 TIME = 0.1
-"""What moves within this time, s, should deform bodies as little as possible when the start is made consistent."""
+"""Time, s, whose square times the stiffness is a mass: a consistent start deforms bodies as little as possible."""
 
 
 def flexible_bodies(model: Model) -> list[tuple[Body, Flexibility]]:
-    """Flexible bodies of a model, and how they bend."""
+    """Flexible bodies of a model, and their flexibility."""
     return [(b, b.flexibility) for b in model.bodies if b.flexibility is not None]
 
 
 def flexible_coordinates(model: Model) -> set[int]:
-    """Full coordinates that are never eliminated: frames and amplitudes."""
+    """Full coordinates of flexible bodies, which are never eliminated: frames and modal amplitudes."""
     return {i for b, _ in flexible_bodies(model) for i in range(b.start, b.start + b.size)}
 
 
@@ -38,11 +38,11 @@ def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
 def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
     """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
     rows, columns, values = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros(0)]
-    for body, bending in flexible_bodies(model):
+    for body, flexibility in flexible_bodies(model):
         coordinates = new[_body_coordinates(body, full)][12:]
         rows.append(np.repeat(coordinates, len(coordinates)))
         columns.append(np.tile(coordinates, len(coordinates)))
-        values.append(TIME**2 * bending.K.ravel())
+        values.append(TIME**2 * flexibility.K.ravel())
     entries = (np.concatenate(rows), np.concatenate(columns))
     return sparse.coo_matrix((np.concatenate(values), entries), shape=(len(new), len(new))).tocsr()
 
@@ -51,7 +51,7 @@ def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
     """The `flex_` arrays; amplitudes in the order of their coordinates."""
     counts, frames, modes, fronts, locs = [0], [], [], [], []
     data: dict[str, list[Array]] = {name: [] for name in ("gravity", "P", "c", "T", "K", "C")}
-    for body, s in flexible_bodies(model):
+    for body, flexibility in flexible_bodies(model):
         coordinates = new[_body_coordinates(body, full)]
         order = np.argsort(coordinates[12:])
         frame, mode = coordinates[:12], coordinates[12:][order]
@@ -61,13 +61,13 @@ def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
         modes.append(mode)
         fronts.append(front)
         locs += loc
-        pick = np.ix_(order, order)
+        block = np.ix_(order, order)
         data["gravity"].append(model.gravity)
-        data["P"].append(s.P[:, order])
-        data["c"].append(s.c[:, order].transpose(0, 2, 1))
-        data["T"].append(_products(s.T[pick]))
-        data["K"].append(s.K[pick])
-        data["C"].append(s.C[pick])
+        data["P"].append(flexibility.P[:, order])
+        data["c"].append(flexibility.c[:, order].transpose(0, 2, 1))
+        data["T"].append(_products(flexibility.T[block]))
+        data["K"].append(flexibility.K[block])
+        data["C"].append(flexibility.C[block])
     return {
         "flex_mode_ptr": np.cumsum(counts),
         "flex_frame": np.concatenate([np.zeros(0, int), *frames]),
@@ -79,7 +79,7 @@ def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
 
 
 def _body_coordinates(body: Body, full: Sequence[Affine]) -> list[int]:
-    """Coordinates of z: a frame and amplitudes are never eliminated."""
+    """Coordinates of z of a flexible body: each of its coordinates is one of z."""
     return [next(iter(full[i].terms)) for i in range(body.start, body.start + body.size)]
 
 

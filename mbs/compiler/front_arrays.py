@@ -1,4 +1,4 @@
-"""Fronts as the arrays of the System file, and the places of rows, elements and mass in them."""
+"""Fronts as arrays of the System file, and positions of rows, elements and mass in them."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -15,7 +15,7 @@ Locate = Callable[[Sequence[int]], tuple[int, list[int]]]
 
 
 def locator(fronts: Fronts) -> Locate:
-    """A function from columns to (front, local indices)."""
+    """A function from coordinates to the number of their front and their indices in it."""
     front_of = np.repeat(np.arange(len(fronts.index)), np.diff(fronts.col))
 
     def locate(columns: Sequence[int]) -> tuple[int, list[int]]:
@@ -58,7 +58,7 @@ def front_arrays(fronts: Fronts) -> dict[str, Any]:
 
 
 def mass_positions(mass: sparse.csr_matrix, fronts: Fronts) -> Index:
-    """Place of each lower-triangle entry in the front storage, -1 above the diagonal."""
+    """Position of each entry of the lower triangle in front storage; -1 above the diagonal."""
     sizes = np.array([len(i) for i in fronts.index], dtype=np.int64)
     offset = np.concatenate([[0], np.cumsum(sizes * sizes)])
     front_of = np.repeat(np.arange(len(fronts.index)), np.diff(fronts.col))

@@ -15,7 +15,7 @@ DENSE_SIZE = 24
 MERGE_SIZE = 12
 """A child is merged into its parent if the merged front has at most this many coordinates."""
 MERGE_SIZE_FLEXIBLE = 44
-"""The same where the root has many modes, whose vectors are long."""
+"""The same for models with flexible bodies, whose modes are long columns of one front."""
 MERGE_ZEROS = 0.25
 """A child is also merged if at most this part of the merged trapezoid are new zeros."""
 
@@ -41,7 +41,7 @@ class Fronts:
 
 
 def _trapezoid(pivots: int, size: int) -> int:
-    """Number of entries of the factor in a front of a size: its columns of pivots from the diagonal down."""
+    """Number of entries of the factor in a front: its columns of pivots from the diagonal down."""
     return pivots * size - pivots * (pivots - 1) // 2
 
 
@@ -55,15 +55,15 @@ def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, in
         return Fronts(np.zeros(0, int), np.zeros(1, int), [], np.zeros(0, int))
     if n <= DENSE_SIZE:
         return Fronts(np.asarray(order), np.array([0, n]), [np.arange(n)], np.array([-1]))
-    structure = _columns(pattern, order)
+    structure = _factor_columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
-    pivots, above = _merge(structure, parent, MERGE_SIZE_FLEXIBLE if late else MERGE_SIZE)
+    pivots, parent_of = _merge(structure, parent, MERGE_SIZE_FLEXIBLE if late else MERGE_SIZE)
     rank = {k: (late.get(c, 0), c) for k, c in enumerate(map(int, order))}
     groups = {k: sorted(front, key=rank.__getitem__) for k, front in pivots.items()}
-    return _number(np.asarray(order), structure, groups, above)
+    return _number_fronts(np.asarray(order), structure, groups, parent_of)
 
 
-def _columns(pattern: sparse.csc_matrix, order: Index) -> list[set[int]]:
+def _factor_columns(pattern: sparse.csc_matrix, order: Index) -> list[set[int]]:
     """Row structure of each factor column below the diagonal, in the new order."""
     n = len(order)
     new = np.empty(n, dtype=np.int64)
@@ -98,7 +98,7 @@ def _merge(structure: list[set[int]], parent: list[int], size: int) -> tuple[dic
             k = head[k]
         return k
 
-    # zeros each front already holds, so that repeated merging does not hide them
+    # zeros in each front, counted again in later merges
     zeros = [0] * n
     for k in range(n):
         p = parent[k]
@@ -108,8 +108,8 @@ def _merge(structure: list[set[int]], parent: list[int], size: int) -> tuple[dic
         child = pivots[k]
         child_size, merged_size = len(structure[k]) + len(child), len(pivots[top]) + len(structure[top]) + len(child)
         area = _trapezoid(len(child) + len(pivots[top]), merged_size)
-        before = _trapezoid(len(child), child_size) + _trapezoid(len(pivots[top]), merged_size - len(child))
-        new_zeros = area - before + zeros[k] + zeros[top]
+        unmerged_area = _trapezoid(len(child), child_size) + _trapezoid(len(pivots[top]), merged_size - len(child))
+        new_zeros = area - unmerged_area + zeros[k] + zeros[top]
         if merged_size <= size or new_zeros <= MERGE_ZEROS * area:
             pivots[top] = child + pivots[top]
             zeros[top] = new_zeros
@@ -118,27 +118,29 @@ def _merge(structure: list[set[int]], parent: list[int], size: int) -> tuple[dic
     return pivots, {k: (find(parent[k]) if parent[k] >= 0 else -1) for k in pivots}
 
 
-def _number(order: Index, structure: list[set[int]], groups: dict[int, list[int]], above: dict[int, int]) -> Fronts:
-    """Number fronts in postorder and make their pivots contiguous."""
-    children: dict[int, list[int]] = {k: [] for k in groups}
+def _number_fronts(
+    order: Index, structure: list[set[int]], pivots: dict[int, list[int]], parent_of: dict[int, int]
+) -> Fronts:
+    """Fronts numbered in postorder, with contiguous pivots."""
+    children: dict[int, list[int]] = {k: [] for k in pivots}
     roots = []
-    for k in sorted(groups):
-        if above[k] >= 0:
-            children[above[k]].append(k)
+    for k in sorted(pivots):
+        if parent_of[k] >= 0:
+            children[parent_of[k]].append(k)
         else:
             roots.append(k)
-    post: list[int] = []
+    postorder: list[int] = []
     stack = list(reversed(roots))
     while stack:  # parents before children, reversed below
         k = stack.pop()
-        post.append(k)
+        postorder.append(k)
         stack.extend(children[k])
-    post.reverse()
-    front_of = {k: s for s, k in enumerate(post)}
-    sequence = [c for k in post for c in groups[k]]
+    postorder.reverse()
+    front_of = {k: s for s, k in enumerate(postorder)}
+    sequence = [c for k in postorder for c in pivots[k]]
     new = np.empty(len(order), dtype=np.int64)
     new[sequence] = np.arange(len(order))
-    col = np.concatenate([[0], np.cumsum([len(groups[k]) for k in post])]).astype(np.int64)
-    index = [np.sort(new[[*groups[k], *structure[k]]]) for k in post]
-    parents = np.array([front_of[above[k]] if above[k] >= 0 else -1 for k in post], dtype=np.int64)
+    col = np.concatenate([[0], np.cumsum([len(pivots[k]) for k in postorder])]).astype(np.int64)
+    index = [np.sort(new[[*pivots[k], *structure[k]]]) for k in postorder]
+    parents = np.array([front_of[parent_of[k]] if parent_of[k] >= 0 else -1 for k in postorder], dtype=np.int64)
     return Fronts(order[sequence], col, index, parents)

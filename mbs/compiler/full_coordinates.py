@@ -1,4 +1,4 @@
-"""From full coordinates to z: the transformation q_full = T z + z0, mass and gravity."""
+"""Transformation of full coordinates q_full = T z + z0, with mass matrix and gravity of the full coordinates."""
 
 from collections.abc import Mapping, Sequence
 
@@ -18,66 +18,74 @@ Array = NDArray[np.float64]
 
 
 def reduce_coordinates(
-    model: Model, natural: NaturalCoordinates, linear: Sequence[Equation], stay: set[int], length: float
+    model: Model, natural: NaturalCoordinates, linear: Sequence[Equation], retained: set[int], length: float
 ) -> tuple[NaturalCoordinates, list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
-    `stay`: coordinates of flexible bodies, which are never eliminated; `length`: of the model as drawn, m.
+    `retained`: coordinates of flexible bodies, which are never eliminated; `length`: of the model as drawn, m.
 
     Returns
     -------
     natural : NaturalCoordinates
-        Those given, and of a floating scene the vectors between points that its joints leave.
+        The given ones, and for a floating scene vectors between its remaining points.
     remaining : list of int
-        Natural coordinates that are z.
+        Natural coordinates that form z.
     full : list of Affine
-        Each coordinate of the model (centre of mass, unit axes) as an expression of z.
+        Each coordinate of the model (centre of mass, unit axes) as an expression in z.
     all : list of Affine
-        Each natural coordinate as an expression of z.
+        Each natural coordinate as an expression in z.
     redundant : int
-        Redundant linear equations.
+        Number of redundant linear equations.
     left : list of RowTerms
-        Linear equations between coordinates that stay.
+        Linear equations between coordinates of flexible bodies.
     """
     equations = [(e.name, substitute(e.linear_form(), natural.expressions)) for e in linear]
 
-    def solved(info: Sequence[CoordinateInfo], equations: Sequence[tuple[str, Affine]]) -> Elimination:
+    def eliminate_all(info: Sequence[CoordinateInfo], equations: Sequence[tuple[str, Affine]]) -> Elimination:
         locked = {i for i, c in enumerate(info) if c.kind in ("angle", "spin")}
         points = {i for i, c in enumerate(info) if c.kind == "point"}
-        # a scene without ties to the ground may go far: its rows must not hold differences of positions
+        # a scene without joints to the ground may move far: its rows must not contain differences of positions
         return eliminate(
-            len(info), equations, locked, points, first_only=not model.grounded, stay=frozenset(stay), length=length
+            len(info),
+            equations,
+            locked,
+            points,
+            preferred_first=not model.grounded,
+            retained=frozenset(retained),
+            length=length,
         )
 
-    solution = solved(natural.info, equations)
-    if model.floating and (between := _difference_coordinates(natural.info, solution, stay, model.dimension)):
-        natural = NaturalCoordinates([*natural.info, *(info for info, _ in between)], natural.expressions)
-        solution = solved(natural.info, equations + [(info.name, e) for info, e in between])
+    solution = eliminate_all(natural.info, equations)
+    if model.floating and (differences := _difference_coordinates(natural.info, solution, retained, model.dimension)):
+        natural = NaturalCoordinates([*natural.info, *(info for info, _ in differences)], natural.expressions)
+        solution = eliminate_all(natural.info, equations + [(info.name, e) for info, e in differences])
     full = [substitute(e, solution.expressions) for e in natural.expressions]
-    remaining_rows = []
-    for i, over in solution.left:
-        terms = {(j, -1): v for j, v in over.terms.items()} | {(-1, -1): over.constant}
-        remaining_rows.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
-    return natural, solution.remaining, full, solution.expressions, solution.redundant, remaining_rows
+    left = []
+    for i, expression in solution.left:
+        terms = {(j, -1): v for j, v in expression.terms.items()} | {(-1, -1): expression.constant}
+        left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
+    return natural, solution.remaining, full, solution.expressions, solution.redundant, left
 
 
 def _difference_coordinates(
-    info: Sequence[CoordinateInfo], solution: Elimination, stay: set[int], dimension: int
+    info: Sequence[CoordinateInfo], solution: Elimination, retained: set[int], dimension: int
 ) -> list[tuple[CoordinateInfo, Affine]]:
     """New coordinates, each with its equation: vectors to the remaining points from the one that most expressions use.
 
-    A scene that goes far then has one position, and differences of positions lose no digits.
+    A scene that moves far then has one position, and no differences of large positions.
     """
     uses = {i: sum(k in e.terms for e in solution.expressions) for k, i in enumerate(solution.remaining)}
     points = [i for i in solution.remaining if info[i].kind == "point" and info[i].component == 0]
-    base = max(points, key=lambda i: (i in stay, uses[i]), default=-1)
+    base = max(points, key=lambda i: (i in retained, uses[i]), default=-1)
     differences: list[tuple[CoordinateInfo, Affine]] = []
     for i in points:
-        if i == base or i in stay:
+        if i == base or i in retained:
             continue
         for k in range(dimension):
-            to, start, new = info[i + k], info[base + k], len(info) + len(differences)
-            difference = CoordinateInfo(f"{to.name} - {start.name}", "vector", k, to.reference - start.reference)
+            point, origin, new = info[i + k], info[base + k], len(info) + len(differences)
+            difference = CoordinateInfo(
+                f"{point.name} - {origin.name}", "vector", k, point.reference - origin.reference
+            )
             differences.append((difference, Affine({i + k: 1.0, base + k: -1.0, new: -1.0})))
     return differences
 
@@ -91,7 +99,7 @@ def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, 
 
 
 def full_mass(model: Model, weights: Mapping[int, Array] | None = None) -> sparse.csr_matrix:
-    """Mass matrix of the full coordinates, or one of the blocks in `weights` by the number of their body."""
+    """Mass matrix of the full coordinates, or a matrix of the blocks in `weights`, by number of the body."""
     rows, columns, values = [], [], []
     for k, body in enumerate(model.bodies):
         if weights is not None and k not in weights:
@@ -108,12 +116,12 @@ def full_mass(model: Model, weights: Mapping[int, Array] | None = None) -> spars
         values.append(np.array(list(model.inertias.values()), dtype=float))
     n = len(model.coordinates)
     empty = np.zeros(0)
-    i, j, v = (np.concatenate([empty, *part]) for part in (rows, columns, values))
+    i, j, v = (np.concatenate([empty, *arrays]) for arrays in (rows, columns, values))
     return sparse.coo_matrix((v, (i.astype(np.int64), j.astype(np.int64))), shape=(n, n)).tocsr()
 
 
 def full_gravity(model: Model) -> Array:
-    """Generalised gravity of the full coordinates: m g on r, first moments times g on the axes."""
+    """Generalised gravity force on the full coordinates, N: m g on r, first moments times g on the axes."""
     force = np.zeros(len(model.coordinates))
     d = model.dimension
     for body in model.bodies:
@@ -129,11 +137,11 @@ def full_gravity(model: Model) -> Array:
 
 
 def symmetric(matrix: sparse.csr_matrix) -> sparse.csr_matrix:
-    """Exactly symmetric, without round-off entries."""
+    """A mass matrix made exactly symmetric, without entries that are round-off."""
     m = (0.5 * (matrix + matrix.T)).tocoo()
     diagonal = np.abs(m.tocsr().diagonal())
-    # a direction without mass, such as the axle of a thin disc, has exactly none
+    # the mass of a massless direction, such as the axle of a thin disc, is set to zero
     diagonal[diagonal < 1e-14 * np.max(diagonal, initial=0.0)] = 0.0
-    big = np.sqrt(np.maximum(diagonal[m.row] * diagonal[m.col], 0.0))
-    stay = (np.abs(m.data) > 1e-14 * big) & (big > 0.0)
-    return sparse.coo_matrix((m.data[stay], (m.row[stay], m.col[stay])), shape=m.shape).tocsr()
+    scale = np.sqrt(np.maximum(diagonal[m.row] * diagonal[m.col], 0.0))
+    significant = (np.abs(m.data) > 1e-14 * scale) & (scale > 0.0)
+    return sparse.coo_matrix((m.data[significant], (m.row[significant], m.col[significant])), shape=m.shape).tocsr()

@@ -1,4 +1,4 @@
-"""Errors for models whose joints allow no motion, or not the motion that a drive prescribes."""
+"""Checks of models whose joints allow no motion, or not the motion that a drive prescribes."""
 
 from collections.abc import Sequence
 
@@ -16,8 +16,8 @@ from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
-IMPOSSIBLE = 1e-6
-"""Part of the largest rate a condition asks for that may stay open."""
+MAX_OPEN_RATE = 1e-6
+"""Largest error of a rate that may remain, parts of the largest prescribed rate."""
 
 
 def locked_gears(model: Model) -> str:
@@ -34,29 +34,29 @@ def locked_gears(model: Model) -> str:
             first, second, ratio = joint.couples
             gears.setdefault(first, []).append((second, 1.0 / ratio, joint.name))
             gears.setdefault(second, []).append((first, ratio, joint.name))
-    turns: dict[int, float] = {}  # of each wheel for one of the first that it is tied to
-    path: dict[int, set[str]] = {}  # gears that lead to it from there
+    turns: dict[int, float] = {}  # turns of each wheel for one turn of the first wheel that is connected to it
+    path: dict[int, set[str]] = {}  # gears between these two wheels
     for start in gears:
         if start in turns:
             continue
-        turns[start], path[start], tied, ring = 1.0, set(), [start], ""
-        for wheel in tied:
+        turns[start], path[start], connected, message = 1.0, set(), [start], ""
+        for wheel in connected:
             for other, ratio, name in gears[wheel]:
                 turn = ratio * turns[wheel]
                 if other not in turns:
                     turns[other], path[other] = turn, path[wheel] | {name}
-                    tied.append(other)
-                elif not ring and abs(turn - turns[other]) > DEPENDENT * abs(turns[other]):
+                    connected.append(other)
+                elif not message and abs(turn - turns[other]) > DEPENDENT * abs(turns[other]):
                     names = ", ".join(f"'{gear}'" for gear in sorted((path[wheel] ^ path[other]) | {name}))
-                    ring = (
+                    message = (
                         f"The gears {names} form a ring that is locked: '{model.coordinates[other].name}' would have "
                         f"to turn {turn / turns[other]:g} times as far as by the other way round, so none of their "
                         "wheels turns; check the ratios and their signs."
                     )
-        if ring and any(wheel in model.coordinate_rates for wheel in tied):
-            raise ModelError(ring)
-        if ring:
-            return ring
+        if message and any(wheel in model.coordinate_rates for wheel in connected):
+            raise ModelError(message)
+        if message:
+            return message
     return ""
 
 
@@ -70,13 +70,14 @@ def locked_parts(
 ) -> str:
     """A sentence on parts that joints hold while others can move; empty if there are none.
 
-    Parts that rows tie to each other are judged together: at a dead centre one of them has no rate, but not all.
-    Conditions that drive, that can be switched off or that bind rates alone lock nothing. `full`: coordinates before
-    elimination in those of z; `new`: places of these in `Phiq`.
+    Parts that rows connect are tested together: at a dead centre one of them has no rate, but not all. Rows of drives,
+    with switches and on velocities lock nothing. `full`: full coordinates as expressions in z; `new`: columns of z in
+    `Phiq`.
     """
-    lasting = [i for i, row in enumerate(rows) if row.switch < 0 and not row.guides and not row.rates]
-    jacobian = Phiq[lasting].tocsr()
-    ties = [jacobian.indices[jacobian.indptr[i] : jacobian.indptr[i + 1]] for i in range(len(lasting))]  # of zeros too
+    permanent = [i for i, row in enumerate(rows) if row.switch < 0 and not row.guides and not row.rates]
+    jacobian = Phiq[permanent].tocsr()
+    # with structural zeros
+    ties = [jacobian.indices[jacobian.indptr[i] : jacobian.indptr[i + 1]] for i in range(len(permanent))]
     owner = {i: body.name for body in model.bodies for i in range(body.start, body.start + body.size)}
     columns_by_name: dict[str, set[int]] = {}
     for i, expression in enumerate(full):
@@ -84,17 +85,17 @@ def locked_parts(
         columns_by_name.setdefault(name, set()).update(int(new[k]) for k in expression.terms)
     ties += [np.array(sorted(columns), dtype=jacobian.indices.dtype) for columns in columns_by_name.values()]
     pattern = np.ones(sum(map(len, ties))), np.concatenate([*ties, []]), np.cumsum([0, *map(len, ties)])
-    together = sparse.csr_matrix(pattern, shape=(len(ties), jacobian.shape[1]))
-    count, group = connected_components(together.T @ together, directed=False)
+    incidence = sparse.csr_matrix(pattern, shape=(len(ties), jacobian.shape[1]))
+    count, group = connected_components(incidence.T @ incidence, directed=False)
     locked = []
     for number in range(count):
         columns = np.flatnonzero(group == number)
-        within = np.flatnonzero(np.diff(jacobian[:, columns].indptr))
-        light = not mass_diagonal[columns].any()  # an angle that is measured
+        inner_rows = np.flatnonzero(np.diff(jacobian[:, columns].indptr))
+        is_massless = not mass_diagonal[columns].any()  # a measured angle
         if (
-            light
-            or len(within) < len(columns)
-            or rank_at(jacobian[within][:, columns], mass_diagonal[columns]) != len(columns)
+            is_massless
+            or len(inner_rows) < len(columns)
+            or rank_at(jacobian[inner_rows][:, columns], mass_diagonal[columns]) != len(columns)
         ):
             continue
         locked.append([name for name, indices in columns_by_name.items() if indices and group[min(indices)] == number])
@@ -107,16 +108,15 @@ def locked_parts(
 def check_motion(
     model: Model, rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, phi_t: Array, qd: Array, mass_diagonal: Array
 ) -> None:
-    """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
+    """Raise `ModelError` for a model with drives or initial velocities that its joints do not allow.
 
-    A structure that stands, to which nothing gives a velocity, is a model too, since its joint forces may be
-    wanted: `print(system)` and every run report that nothing moves. Switched rows may be switched off again and do not
-    count.
+    A structure without these is valid: it has joint forces, and reports say that it does not move. Rows with switches
+    do not count.
     """
     nq = Phiq.shape[1]
-    lasting = [i for i, row in enumerate(rows) if row.switch < 0]
-    scleronomic = [i for i in lasting if not rows[i].guides]
-    is_driven = len(scleronomic) < len(lasting) or bool(model.body_velocities or model.coordinate_rates)
+    permanent = [i for i, row in enumerate(rows) if row.switch < 0]
+    scleronomic = [i for i in permanent if not rows[i].guides]
+    is_driven = len(scleronomic) < len(permanent) or bool(model.body_velocities or model.coordinate_rates)
     if is_driven and len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
         raise ModelError(
             f"The model '{model.name}' is locked: its joints are {nq} independent conditions on {nq} coordinates, "
@@ -125,7 +125,7 @@ def check_motion(
     size = np.sqrt(np.asarray(Phiq.multiply(Phiq).sum(axis=1)).ravel())
     open_rates = np.abs(Phiq @ qd + phi_t) / size
     prescribed = np.max(np.abs(phi_t) / size, initial=0.0)
-    if np.max(open_rates, initial=0.0) > IMPOSSIBLE * prescribed > 0.0:
+    if np.max(open_rates, initial=0.0) > MAX_OPEN_RATE * prescribed > 0.0:
         drives = ", ".join(sorted({f"'{row.name}'" for row, rate in zip(rows, phi_t, strict=True) if rate != 0.0}))
         worst = rows[int(np.argmax(open_rates))].name
         raise ModelError(

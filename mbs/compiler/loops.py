@@ -1,8 +1,7 @@
-"""Closed loops of a model: which bodies and massless rods joints tie to each other in a ring.
+"""Closed loops of a model, as rings in the graph of its bodies and joints.
 
-The graph has welded bodies as one vertex, massless rods as vertices of their own, and an edge for all joints between
-two vertices. A block is a largest set of edges of which any two lie on a ring: loops of two blocks act on each other
-only through the one vertex they may share.
+Vertices of the graph are groups of welded bodies and massless rods; an edge has all joints between two vertices. A
+block is a largest set of edges of which any two lie on a ring: two blocks share at most one vertex.
 """
 
 from __future__ import annotations
@@ -45,10 +44,10 @@ class Edge:
     point: AffineVector
     """Of the first joint."""
     axis: AffineVector | None = None
-    """Of a hinge, or of two ball joints the line through them, about which the vertices turn; of a slide its line."""
+    """Axis of a hinge, line through two ball joints, or line of a slide."""
     slides: bool = False
     line_of: Vertex | None = None
-    """Which vertex the line of a point that slides belongs to; None where it belongs to both."""
+    """Vertex that has the line on which a point slides; None if both have it."""
 
     def other(self, vertex: Vertex) -> Vertex:
         """The end that is not `vertex`."""
@@ -61,12 +60,12 @@ class Block:
 
     vertices: list[Vertex]
     edges: list[Edge]
-    held: Vertex
-    """Against which its motion is seen: the ground, else the vertex with the most edges in the model."""
+    reference: Vertex
+    """Vertex to which the motion of the block is relative: the ground, else the one with most edges in the model."""
 
 
 def blocks_of_loops(model: Model) -> list[Block]:
-    """The blocks that close a ring; joints with a switch are left out, they are not always closed."""
+    """The blocks that have a ring; joints with a switch are left out because they are not always closed."""
     blocks = []
     for edges in blocks_of({v: [(e, w) for w, e in v.edges.items()] for v in _graph(model)}):
         vertices = list(dict.fromkeys(v for e in edges for v in e.ends))
@@ -81,23 +80,24 @@ def blocks_of_loops(model: Model) -> list[Block]:
 
 
 def rings(block: Block) -> list[list[Vertex]]:
-    """The shortest ring through each edge of a block, each once, as its vertices in order: of equally short ones one of
-    bodies alone, and these first.
+    """The shortest ring through each edge of a block, as its vertices in order, without repetitions.
+
+    Of equally short rings one without rods is taken, and rings without rods come first.
     """
     block_edges = set(map(id, block.edges))
     shortest: dict[frozenset[int], list[Vertex]] = {}
     for edge in block.edges:
         start, goal = edge.ends
         before: dict[int, Vertex] = {id(start): start}
-        front = [start]
-        while front and id(goal) not in before:
-            reached = []
-            for v in front:
+        frontier = [start]
+        while frontier and id(goal) not in before:
+            next_frontier = []
+            for v in frontier:
                 for w, e in sorted(v.edges.items(), key=lambda item: item[0].is_rod):
                     if id(e) in block_edges and e is not edge and id(w) not in before:
                         before[id(w)] = v
-                        reached.append(w)
-            front = reached
+                        next_frontier.append(w)
+            frontier = next_frontier
         if id(goal) not in before:
             continue
         ring = [goal]
@@ -108,29 +108,29 @@ def rings(block: Block) -> list[list[Vertex]]:
 
 
 def _graph(model: Model) -> list[Vertex]:
-    """All vertices, with their edges."""
+    """Vertices of a model, with their edges."""
     joints = [j for j in model.joints if j.ends is not None and j.switch is None]
-    leader: dict[int, int] = {}
+    parent: dict[int, int] = {}
     numbers = {body.start: body.number for body in model.bodies}
 
     def number(body: Body) -> int:
-        """-1 for the ground; of a node or a body with ports, the body it is part of."""
+        """Number of the body, for a node or a body with ports that of the body it is part of; -1: ground."""
         return -1 if body.is_ground else numbers[body.start]
 
     def find(k: int) -> int:
-        while leader.setdefault(k, k) != k:
-            leader[k] = k = leader[leader[k]]
+        while parent.setdefault(k, k) != k:
+            parent[k] = k = parent[parent[k]]
         return k
 
     for joint in joints:
         if joint.type == "weld" and joint.ends is not None:
             a, b = (number(body) for body in joint.ends.bodies)
-            leader[find(max(a, b))] = find(min(a, b))
+            parent[find(max(a, b))] = find(min(a, b))
     vertices: dict[int, Vertex] = {}
     for body in [model.ground, *model.bodies]:
         k = find(number(body))
         vertices.setdefault(k, Vertex(body.name)).bodies.append(body)
-    listed = list(vertices.values())
+    all_vertices = list(vertices.values())
     for joint in joints:
         if joint.type == "weld" or joint.ends is None:
             continue
@@ -139,7 +139,7 @@ def _graph(model: Model) -> list[Vertex]:
             continue
         if joint.ends.rod:
             rod = Vertex(joint.name)
-            listed.append(rod)
+            all_vertices.append(rod)
             for vertex, point in zip((first, second), joint.ends.points, strict=True):
                 _join(vertex, rod, Edge((vertex, rod), [joint], point))
             continue
@@ -148,11 +148,11 @@ def _graph(model: Model) -> list[Vertex]:
             line_of = second
         point = ends.points[0]
         _join(first, second, Edge((first, second), [joint], point, ends.axis, ends.slides, line_of))
-    return listed
+    return all_vertices
 
 
 def _join(a: Vertex, b: Vertex, new: Edge) -> None:
-    """A further ball joint between the same vertices makes a hinge about the line through both points."""
+    """Add an edge between two vertices; a second ball joint between them makes a hinge about the line through both."""
     edge = a.edges.get(b)
     if edge is None:
         a.edges[b] = b.edges[a] = new

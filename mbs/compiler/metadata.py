@@ -1,4 +1,4 @@
-"""Names and units of the System: its `meta`."""
+"""Metadata of a System: names, units, descriptions and reports."""
 
 import math
 from dataclasses import asdict
@@ -12,7 +12,7 @@ from mbs.model.records import Parameter
 
 
 def _built_in_road(model: Model, parameter: Parameter) -> dict[str, int]:
-    """The road whose own form a parameter sets, so that it says nothing of a road from a file."""
+    """The road whose built-in shape a parameter sets, which has no effect on a road from a file; empty if none."""
     roads = {road for family, road, *_ in parameter.targets if family == ParameterTarget.ROAD}
     other_targets = any(
         family != ParameterTarget.ROAD or model.roads[owner].real_names[real] == "friction_factor"
@@ -29,7 +29,10 @@ def metadata(
     report: dict[str, Any],
     lengths: list[float],
 ) -> dict[str, Any]:
-    """Metadata of a System for Python, which the kernel does not read."""
+    """Metadata of a System, for Python only.
+
+    `coordinates`: their names; `lengths`: m, that one unit of each corresponds to.
+    """
     return {
         "name": model.name,
         "dimension": model.dimension,

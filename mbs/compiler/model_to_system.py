@@ -1,4 +1,4 @@
-"""From a Model to the arrays of a System, one chain of steps."""
+"""Compilation of a Model to the arrays of a System, in a chain of steps."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.consistent_start import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
-from mbs.compiler.extent import check_near, coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
+from mbs.compiler.extent import check_distance, coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
 from mbs.compiler.flexible import deformation_metric, flexible_arrays, flexible_cliques, flexible_coordinates
 from mbs.compiler.frames import frames_of
 from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row_fronts
@@ -26,9 +26,9 @@ from mbs.compiler.metadata import metadata
 from mbs.compiler.natural_coordinates import NaturalCoordinates, natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
 from mbs.compiler.ordering import clique_pattern, fill_reducing_order
-from mbs.compiler.parametric_axes import axis_arrays, axis_cliques, axis_room
+from mbs.compiler.parametric_axes import axis_arrays, axis_cliques, axis_coordinates
 from mbs.compiler.parametric_inertias import inertia_arrays, inertia_cliques
-from mbs.compiler.payloads import payload_arrays, payload_cliques, with_room
+from mbs.compiler.payloads import add_entries, payload_arrays, payload_cliques
 from mbs.compiler.polynomial import RowTerms, row_terms
 from mbs.compiler.pose import pose_arrays, pose_partners
 from mbs.compiler.row_arrays import RowArrays
@@ -40,11 +40,11 @@ from mbs.compiler.tabled_bodies import (
     Dependents,
     base_coordinates,
     carried_mass,
-    columns_of,
-    distinguish,
-    locator_of,
-    refuse_joint,
-    spread,
+    dependent_columns,
+    expand_columns,
+    joint_error,
+    locator_with_dependents,
+    separate_dependents,
     tabled_arrays,
     tabled_cliques,
     tabled_coordinates,
@@ -58,16 +58,16 @@ from mbs.system.compiled_model import CompiledModel
 Array = NDArray[np.float64]
 Tables = dict[str, Any]
 Corrections = dict[str, tuple[float, float]]
-LoopWatch = Callable[
+ModeArrays = Callable[
     [Model, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
-Trees = Callable[[Model, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
+TreeArrays = Callable[[Model, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
 NO_TREE: Tables = {name: [] for name in ARRAYS if name.startswith("tree_")}
-"""Of a System that has no open tree."""
+"""Arrays of a System without a tree."""
 
 
-def checked(model: Model) -> Model:
-    """Check that an object can be compiled: a Model with a body."""
+def check_model(model: Model) -> Model:
+    """The model; raises an error unless it is a Model with a body."""
     instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
@@ -75,74 +75,80 @@ def checked(model: Model) -> Model:
 
 
 def compiled(
-    model: Model, closed: Corrections | None = None, *, watch: LoopWatch | None = None, trees: Trees | None = None
+    model: Model,
+    corrections: Corrections | None = None,
+    *,
+    make_modes: ModeArrays | None = None,
+    make_tree: TreeArrays | None = None,
 ) -> CompiledModel:
-    """The arrays and names of a model, of which `compile` makes the System.
+    """The arrays and metadata of a model, from which `compile` makes the System.
 
-    Without `closed`, `watch` and `trees`: for those who neither step it nor have loops to close.
+    The optional arguments are needed only for steps and for closed loops.
 
     Parameters
     ----------
-    closed : dict of str to tuple of float, optional
+    corrections : dict of str to tuple of float, optional
         Corrections of joints that close the loops of the model, by name, m and rad.
-    watch : callable, optional
+    make_modes : callable, optional
         `mode_arrays`: makes the assembly modes by which steps are checked.
-    trees : callable, optional
-        `tree_arrays`: makes the tree for methods in relative coordinates; without it the report has none.
+    make_tree : callable, optional
+        `tree_arrays`: makes the tree for methods in relative coordinates; without it there is none.
     """
-    reduced = _reduced(checked(model), closed or {})
-    ordered = _ordered(model, reduced)
-    start = _start(model, reduced, ordered)
-    tables, no_tree, modes = _tables(model, reduced, ordered, start, watch, trees)
-    meta = _metadata(model, reduced, ordered, start, closed or {}, no_tree)
+    reduced = _reduce(check_model(model), corrections or {})
+    ordered = _order(model, reduced)
+    start = _solve_start(model, reduced, ordered)
+    tables, no_tree, modes = _make_tables(model, reduced, ordered, start, make_modes, make_tree)
+    meta = _make_metadata(model, reduced, ordered, start, corrections or {}, no_tree)
     frames = frames_of(model, ordered.T[:, ordered.fronts.order], ordered.z0)
     if flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
         parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
-        resting = CompiledModel(tables, meta)
-        q, y = equilibrium(resting, parameters)
-        tables.update(start_arrays(resting, parameters, y))
-        tables.update(q0=q, y0=y, qd0=np.zeros_like(q), **_pose(model, reduced, ordered, q))
+        at_rest = CompiledModel(tables, meta)
+        q, y = equilibrium(at_rest, parameters)
+        tables.update(start_arrays(at_rest, parameters, y))
+        tables.update(q0=q, y0=y, qd0=np.zeros_like(q), **_make_pose(model, reduced, ordered, q))
     return CompiledModel(tables, meta, frames, modes)
 
 
 @dataclass(frozen=True)
 class _Reduced:
-    """Coordinates z and rows that a model is reduced to."""
+    """Coordinates z and rows of a model after the elimination."""
 
     natural: NaturalCoordinates
     dependents: Dependents
     rows: list[RowTerms]
     counts: Mapping[str, int]
-    """What was eliminated, for the report."""
+    """Numbers of eliminated equations and rows, for the report."""
     length: float
-    """Of the model, m."""
+    """Length of the model, m."""
     size: float
-    """Of the model as drawn, m."""
+    """Length of the model as drawn, m."""
 
 
-def _reduced(model: Model, closed: Corrections) -> _Reduced:
-    """Eliminate linear equations; the other ones become rows, without those that follow from others."""
+def _reduce(model: Model, corrections: Corrections) -> _Reduced:
+    """Eliminate linear equations, make rows of all others and remove dependent rows."""
     linear, row_equations = _equations(model)
     natural = natural_coordinates(model)
     tabled = {*tabled_coordinates(model)}
     for equation in linear:
         if not tabled.isdisjoint(equation.linear_form().terms):
-            raise refuse_joint(equation.name)
+            raise joint_error(equation.name)
     length, size = model_length(model), drawn_length(model)
-    stay = flexible_coordinates(model) | base_coordinates(model)
-    natural, remaining, full, of_z, redundant, left = reduce_coordinates(model, natural, linear, stay, size)
-    dependents = distinguish(model, remaining, full, of_z, left)
-    error = max((max(distance / size, angle) for distance, angle in closed.values()), default=0.0)
-    candidates = [row_terms(e, j, k, dependents.seen, size, error) for j, k, e in row_equations]
-    for row in candidates:
+    retained = flexible_coordinates(model) | base_coordinates(model)
+    natural, remaining, full, of_z, redundant, remaining_equations = reduce_coordinates(
+        model, natural, linear, retained, size
+    )
+    dependents = separate_dependents(model, remaining, full, of_z, remaining_equations)
+    error = max((max(distance / size, angle) for distance, angle in corrections.values()), default=0.0)
+    candidate_rows = [row_terms(e, j, k, dependents.with_dependents, size, error) for j, k, e in row_equations]
+    for row in candidate_rows:
         if row.columns() and row.columns()[-1] >= len(dependents.remaining):
-            raise refuse_joint(row.name)
+            raise joint_error(row.name)
         switch = model.joints[row.joint].switch
         row.switch = -1 if switch is None else switch.index
-    candidates += dependents.left
-    candidates += [row for body in model.bodies for row in rigid_rows(body, dependents.full, error)]
-    check_near(model, candidates, [natural.info[k].kind for k in dependents.remaining], size)
-    rows, dependent = independent_rows(candidates, joints_of_bodies(model), size)
+    candidate_rows += dependents.remaining_equations
+    candidate_rows += [row for body in model.bodies for row in rigid_rows(body, dependents.full, error)]
+    check_distance(model, candidate_rows, [natural.info[k].kind for k in dependents.remaining], size)
+    rows, dependent = independent_rows(candidate_rows, joints_of_bodies(model), size)
     if not dependents.remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
     counts = {"linear_equations": len(linear), "redundant_equations": redundant, "dependent_rows": dependent}
@@ -160,21 +166,21 @@ class _Ordered:
     mass: sparse.csr_matrix
     fronts: Fronts
     new: NDArray[np.int64]
-    """Place of each z."""
+    """Index of each z in elimination order."""
     arrays: RowArrays
     tangent_nonzeros: int
 
 
-def _ordered(model: Model, reduced: _Reduced) -> _Ordered:
+def _order(model: Model, reduced: _Reduced) -> _Ordered:
     dependents, rows = reduced.dependents, reduced.rows
     T, z0 = transformation(dependents.full, len(dependents.remaining))
     M_full = full_mass(model)
     mass = symmetric(T.T @ M_full @ T)
-    fronts, tangent_nonzeros = _symbolic(model, rows, dependents.full, mass, dependents)
+    fronts, tangent_nonzeros = _factorise_symbolically(model, rows, dependents.full, mass, dependents)
     order = fronts.order
     new = np.argsort(order)
     mass = mass[order][:, order].tocsr()
-    mass = with_room(mass, [new[c].tolist() for c in _added_mass(model, dependents.full)])
+    mass = add_entries(mass, [new[c].tolist() for c in _parametric_mass_cliques(model, dependents.full)])
     mass.sort_indices()
     return _Ordered(T, z0, M_full, mass, fronts, new, RowArrays(rows, new), tangent_nonzeros)
 
@@ -187,69 +193,77 @@ class _Start:
     qd: Array
     guides: Array
     """Values of the guides."""
-    holding: list[RowTerms]
-    """Rows that are on."""
+    active_rows: list[RowTerms]
+    """Rows that are switched on."""
     rank: int | None
-    """Of these rows; None: it could not be computed."""
+    """Rank of these rows; None: it could not be computed."""
     contradiction: str
-    """What contradicts itself in the velocities that were given."""
+    """Sentence on given velocities that contradict each other, or empty."""
     locked: str
-    """What joints hold fast."""
+    """Sentence on gears or parts that cannot move, or empty."""
 
 
-def _start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
+def _solve_start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
     dependents, rows, new = reduced.dependents, reduced.rows, ordered.new
     T, z0, mass, order = ordered.T, ordered.z0, ordered.mass, ordered.fronts.order
     guides, guide_rates = guide_start(model)
-    holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
-    arrays = ordered.arrays if len(holding) == len(rows) else RowArrays(holding, new)
-    placing = [row for row in holding if not row.rates]
-    shape = arrays if len(placing) == len(holding) else RowArrays(placing, new)
+    active_rows = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
+    arrays = ordered.arrays if len(active_rows) == len(rows) else RowArrays(active_rows, new)
+    position_rows = [row for row in active_rows if not row.rates]
+    position_arrays = arrays if len(position_rows) == len(active_rows) else RowArrays(position_rows, new)
     stiffness = deformation_metric(model, dependents.full, new)
-    q_drawn = reference_position(model, reduced.natural, dependents.remaining, T, z0, ordered.M_full)[order]
-    fine = fineness(reduced.size)
+    q_reference = reference_position(model, reduced.natural, dependents.remaining, T, z0, ordered.M_full)[order]
+    tolerance_factor = fineness(reduced.size)
     q = close_position(
-        placing, shape, mass, stiffness, q_drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fine
+        position_rows,
+        position_arrays,
+        mass,
+        stiffness,
+        q_reference,
+        guides,
+        lambda q: joint_gaps(model, T @ q[new] + z0),
+        tolerance_factor,
     )
     qd, contradiction = velocity(
         model, dependents.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size
     )
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
-    check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
-    locked = locked_gears(model) or locked_parts(model, dependents.full, new, holding, Phiq, mass.diagonal())
-    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()), contradiction, locked)
+    check_motion(model, active_rows, Phiq, phi_t, qd, mass.diagonal())
+    locked = locked_gears(model) or locked_parts(model, dependents.full, new, active_rows, Phiq, mass.diagonal())
+    return _Start(q, qd, guides, active_rows, rank_at(Phiq, mass.diagonal()), contradiction, locked)
 
 
-def _tables(
+def _make_tables(
     model: Model,
     reduced: _Reduced,
     ordered: _Ordered,
     start: _Start,
-    watch: LoopWatch | None,
-    trees: Trees | None,
+    make_modes: ModeArrays | None,
+    make_tree: TreeArrays | None,
 ) -> tuple[Tables, str, Callable[[], Tables] | None]:
-    """All arrays of the System, with the start as it is drawn; why there is no tree; and what makes those of modes."""
+    """All arrays of the System with its start as drawn, the reason why it has no tree, and a function for modes."""
     dependents, rows, natural = reduced.dependents, reduced.rows, reduced.natural
-    remaining, full, of_z, seen = dependents.remaining, dependents.full, dependents.of_z, dependents.seen
+    remaining, full, of_z = dependents.remaining, dependents.full, dependents.of_z
+    with_dependents = dependents.with_dependents
     T, mass, fronts, new, arrays = ordered.T, ordered.mass, ordered.fronts, ordered.new, ordered.arrays
     order, q, guides, nz = fronts.order, start.q, start.guides, len(remaining)
     _, Phiq, _ = arrays.evaluate(q, guides)
-    carried = (T.multiply(T).T @ carried_mass(model))[order]
-    diagonal = np.maximum(mass.diagonal(), carried)
+    carried_masses = (T.multiply(T).T @ carried_mass(model))[order]
+    diagonal = np.maximum(mass.diagonal(), carried_masses)
     if not diagonal.any():
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate that has mass.")
-    fine = fineness(reduced.size)
-    scale, measure = row_scale(rows, Phiq, diagonal, fine)
+    tolerance_factor = fineness(reduced.size)
+    scale, measure = row_scale(rows, Phiq, diagonal, tolerance_factor)
     arrays.scale(scale)
 
     gravity = full_gravity(model)
-    behind = [[int(new[j]) for j in columns] for columns in columns_of(model, seen)]
-    columns = np.concatenate([new, np.arange(nz, nz + len(behind))])
-    signals = Signals(seen, columns, axis_room(model, seen))
+    columns_of_dependents = [[int(new[j]) for j in columns] for columns in dependent_columns(model, with_dependents)]
+    columns = np.concatenate([new, np.arange(nz, nz + len(columns_of_dependents))])
+    signals = Signals(with_dependents, columns, axis_coordinates(model, with_dependents))
     locate = locator(fronts)
-    row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
-    tree, no_tree = trees(model, signals, remaining, new) if trees else ({}, "nobody asked for one")
-    triads, modes = watch(model, start.holding, full, q[new], guides, signals) if watch else ({}, None)
+    row_numbers = {(r.joint, r.equation_number): n for n, r in enumerate(rows) if r.joint >= 0}
+    tree, no_tree = make_tree(model, signals, remaining, new) if make_tree else ({}, "nobody asked for one")
+    triads, modes = make_modes(model, start.active_rows, full, q[new], guides, signals) if make_modes else ({}, None)
     tables: Tables = {
         "q0": q,
         "qd0": start.qd,
@@ -262,21 +276,21 @@ def _tables(
         **arrays.arrays,
         "row_scale": scale,
         "row_measure": measure,
-        **({"fineness": [fine]} if fine != 1.0 else {}),
+        **({"fineness": [tolerance_factor]} if tolerance_factor != 1.0 else {}),
         "row_switch": [row.switch for row in rows],
         "switch_start": [int(s.on) for s in model.switches],
         **row_fronts(arrays, locate),
         **front_arrays(fronts),
-        **element_arrays(model, signals, locator_of(locate, behind, nz)),
-        **sensor_arrays(model, signals, row_of),
+        **element_arrays(model, signals, locator_with_dependents(locate, columns_of_dependents, nz)),
+        **sensor_arrays(model, signals, row_numbers),
         **channel_arrays(model),
         **payload_arrays(model, signals),
         **armature_arrays(model, full, new),
         **inertia_arrays(model, signals),
-        **axis_arrays(model, signals, seen, new),
+        **axis_arrays(model, signals, with_dependents, new),
         **flexible_arrays(model, full, new, locate),
-        **tabled_arrays(model, seen, new),
-        **_pose(model, reduced, ordered, q),
+        **tabled_arrays(model, with_dependents, new),
+        **_make_pose(model, reduced, ordered, q),
         **NO_TREE,
         **tree,
         **triads,
@@ -287,14 +301,14 @@ def _tables(
     return tables, no_tree, modes
 
 
-def _pose(model: Model, reduced: _Reduced, ordered: _Ordered, q: Array) -> Mapping[str, Any]:
-    """Arrays by which a pose is set, at a position."""
+def _make_pose(model: Model, reduced: _Reduced, ordered: _Ordered, q: Array) -> Mapping[str, Any]:
+    """The `pose_` arrays at a position."""
     dependents, new = reduced.dependents, ordered.new
     return pose_arrays(model, reduced.natural, dependents.remaining, dependents.of_z, q[new], ordered.fronts.order)
 
 
-def _metadata(
-    model: Model, reduced: _Reduced, ordered: _Ordered, start: _Start, closed: Corrections, no_tree: str
+def _make_metadata(
+    model: Model, reduced: _Reduced, ordered: _Ordered, start: _Start, corrections: Corrections, no_tree: str
 ) -> Tables:
     report = {
         **structure_report(model, ordered.fronts, start.rank, len(reduced.rows)),
@@ -302,7 +316,7 @@ def _metadata(
         "tangent_nonzeros": ordered.tangent_nonzeros,
         "no_tree": no_tree,
         "locked": start.locked,
-        "closed": closed,
+        "closed": corrections,
         "length": reduced.length,
         "length_stated": model.length is not None,
         **({"contradiction": start.contradiction} if start.contradiction and not model.start_in_equilibrium else {}),
@@ -314,7 +328,7 @@ def _metadata(
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
-    """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
+    """Joint equations to be eliminated, and those that become rows, with numbers of joint and equation."""
     linear, row_equations = [], []
     for j, joint in enumerate(model.joints):
         as_rows = {*(joint.force_equations if joint.as_rows else []), *joint.turning_equations}
@@ -329,32 +343,38 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     return linear, row_equations
 
 
-def _added_mass(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+def _parametric_mass_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) between which parameters change the mass matrix."""
     return payload_cliques(model, full) + inertia_cliques(model, full) + axis_cliques(model, full)
 
 
-def _symbolic(
+def _factorise_symbolically(
     model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, dependents: Dependents
 ) -> tuple[Fronts, int]:
     """Elimination order and fronts of the tangent, and the non-zeros of its lower triangle."""
     entries = mass.tocoo()
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
-    behind, nz = columns_of(model, dependents.seen), mass.shape[0]
+    columns_of_dependents, nz = dependent_columns(model, dependents.with_dependents), mass.shape[0]
     modes = flexible_cliques(model, full)
     cliques += modes + payload_cliques(model, full) + inertia_cliques(model, full)
-    cliques += tabled_cliques(model, dependents.seen)
+    cliques += tabled_cliques(model, dependents.with_dependents)
 
-    def pattern_with(room: Mapping[int, frozenset[int]]) -> sparse.csc_matrix:
+    def pattern_with(reserved: Mapping[int, frozenset[int]]) -> sparse.csc_matrix:
         return clique_pattern(
-            nz, cliques + [spread(c, behind, nz) for c in element_cliques(model, dependents.seen, room)]
+            nz,
+            cliques
+            + [
+                expand_columns(c, columns_of_dependents, nz)
+                for c in element_cliques(model, dependents.with_dependents, reserved)
+            ],
         )
 
-    pattern = pattern_with({})  # columns of modes lie side by side:
+    pattern = pattern_with({})
+    # columns of modes are contiguous
     late = {c: k for k, columns in enumerate(modes, 1) for c in columns[12:]}
     if not model.written_axes:
         return build_fronts(pattern, fill_reducing_order(pattern), late), (pattern.nnz + nz) // 2
-    cliques += axis_cliques(model, full)  # what turns the axes of wheels has room; the order is that without
-    room = pattern_with(axis_room(model, dependents.seen))
-    return build_fronts(room, fill_reducing_order(pattern), late), (pattern.nnz + nz) // 2
+    cliques += axis_cliques(model, full)  # entries for other axes of wheels do not change the order
+    padded_pattern = pattern_with(axis_coordinates(model, dependents.with_dependents))
+    return build_fronts(padded_pattern, fill_reducing_order(pattern), late), (pattern.nnz + nz) // 2

@@ -15,7 +15,7 @@ def clique_pattern(n: int, cliques: Iterable[Sequence[int]]) -> sparse.csc_matri
     blocks = [[k] for k in range(n)] + [list(clique) for clique in cliques]
     members = np.array([k for block in blocks for k in block], dtype=np.int64)
     sizes = np.array([len(block) for block in blocks], dtype=np.int64)
-    # a row of the block for each member, which has them all
+    # each member has one row of its block, with all members as columns
     lengths, first = np.repeat(sizes, sizes), np.repeat(np.cumsum(sizes) - sizes, sizes)
     i = np.repeat(members, lengths)
     j = members[np.repeat(first - np.cumsum(lengths) + lengths, lengths) + np.arange(len(i))]

@@ -1,14 +1,14 @@
-"""Overconstrained loops: the points and axes of a drawing are corrected, by as little as possible, so that loops move.
+"""Overconstrained loops: points and axes of a drawing are corrected by as little as possible so that loops move.
 
-A loop with more conditions than Kutzbach's count allows moves only if its lengths and angles are exactly right, and no
-drawing with rounded numbers is. Closing it at the drawn position would not do: the misfit comes back as soon as it
-moves. So points and axes of the joints, g, are corrected until the loops close at all positions of a motion at once.
+A loop with more conditions than Kutzbach's count allows moves only if its lengths and angles are exact, which rounded
+numbers of a drawing are not. A correction at the drawn position alone is not enough, because the misfit returns as the
+loop moves. So points and axes of the joints, g, are corrected until the loops close at all positions of a motion.
 At each position Gauss-Newton leaves the misfit U' r (`mbs.compiler.mobility`), whose derivative by the constants is
 U' Phi_g; the rows of all positions together,
 
     U_k' Phi_g dg = -U_k' r_k,     k = 1, 2, ...
 
-have the rank of the loop's hidden conditions however many they are, so dg is their shortest solution, in no more
+have the rank of the redundant conditions for any number of positions. dg is the shortest solution, in no more singular
 directions than the misfit needs.
 """
 
@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 
 from mbs.common.checks import is_number, shown
 from mbs.common.errors import ModelError
-from mbs.compiler.loop_conditions import EXACT, Condition, Loops, Places, loops_of
-from mbs.compiler.mobility import Closed, close, motion
+from mbs.compiler.loop_conditions import EXACT, Condition, Loops, Poses, loops_of
+from mbs.compiler.mobility import ClosedLoops, close_loops, trace_motion
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 
@@ -33,23 +33,23 @@ Array = NDArray[np.float64]
 
 TOLERANCE = 1e-4
 """Largest correction of a drawing, parts of its size and rad."""
-MOST_TOLERANCE = 0.01
-"""A larger correction would make another mechanism of the drawing."""
-NEAR = 0.03
-"""A singular value below this part of the largest may be that of a redundant condition drawn badly."""
-TIGHT = 1e-9
-"""A singular value below this part of the largest counts as zero."""
-MOST_BODIES = 40
-"""Loops of more bodies are taken as drawn."""
+MAX_TOLERANCE = 0.01
+"""Largest tolerance that a model may request."""
+REDUNDANT = 0.03
+"""Singular values below this part of the largest may belong to redundant conditions of an inexact drawing."""
+ZERO = 1e-9
+"""Singular values below this part of the largest count as zero."""
+MAX_BODIES = 40
+"""Largest number of bodies of loops that are corrected."""
 ITERATIONS = 25
 REMAINDER = 0.02
-"""Part of the misfit that one iteration may leave."""
-MOVES, NEARLY = 10, 2e-3
-"""Number of successive positions, and their largest misfit in parts of the size, of a loop that nearly moves."""
+"""Largest part of the misfit that remains after one iteration."""
+MIN_POSITIONS, MAX_MISFIT = 10, 2e-3
+"""Least number of successive positions of a loop that almost moves, and their largest misfit, parts of the size."""
 REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
-"""Attributes of a joint that follow from its drawing."""
-APART = 5.0
-"""Singular values that differ by this factor are of different kinds: redundant conditions, and short links."""
+"""Attributes of a joint that its drawing determines."""
+GROUP_RATIO = 5.0
+"""Least ratio of successive singular values of different groups: those of redundant conditions and of short links."""
 
 
 @dataclass(frozen=True)
@@ -78,14 +78,14 @@ class Corrected:
 
 
 def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Corrected]:
-    """The joints of overconstrained loops that move only if their drawing is corrected, with what they should be.
+    """Corrected joints of the overconstrained loops that move only with a correction.
 
-    `tolerance`: largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 takes every drawing as it
-    is. Raises `ModelError`: a loop stands still as drawn and moves with a larger correction.
+    `tolerance`: largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 corrects nothing. Raises
+    `ModelError`: a loop that is immobile as drawn moves with a larger correction.
     """
     if tolerance == 0.0:
         return []
-    return [joint for loops in loops_of(model, MOST_BODIES) for joint in _correct(loops, tolerance)]
+    return [joint for loops in loops_of(model, MAX_BODIES) for joint in _correct(loops, tolerance)]
 
 
 def closed_loops(
@@ -93,23 +93,23 @@ def closed_loops(
 ) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
     """A function that corrects the drawing of a model and returns a context in which the model has the corrections.
 
-    See `compile`. `tolerance`: see `corrected_joints`. Raises `ModelError`: the tolerance is not in its range.
+    `tolerance`: see `corrected_joints`. Raises `ModelError`: the tolerance is not in its range.
     """
-    if not is_number(tolerance) or not 0.0 <= tolerance <= MOST_TOLERANCE:
+    if not is_number(tolerance) or not 0.0 <= tolerance <= MAX_TOLERANCE:
         raise ModelError(
-            f"The tolerance of compile is {shown(tolerance)}; it must be a number from 0 to {MOST_TOLERANCE:g}."
+            f"The tolerance of compile is {shown(tolerance)}; it must be a number from 0 to {MAX_TOLERANCE:g}."
         )
     return lambda model: partial(redrawn, corrected_joints(model, float(tolerance)))
 
 
 @contextmanager
 def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]:
-    """A context in which the model has these joints with their corrected ends.
+    """A context in which joints have their corrected ends.
 
     Yields
     ------
     dict of str to (float, float)
-        By joint how far it was corrected, m and rad.
+        Correction of each joint, by name, m and rad.
     """
     bodies = {id(b): b for j in joints if j.joint.drawing for b in j.joint.drawing.bodies}.values()
     joint_geometry = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
@@ -128,85 +128,85 @@ def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]
 
 @dataclass
 class MovableConstants:
-    """Constants with which loops move, and the position of the loops that is nearest to the drawn one."""
+    """Constants with which loops move, and their closed position nearest to the drawn one."""
 
     g: Array
-    start: Closed
+    start: ClosedLoops
 
 
 def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
     _, J, _ = loops.evaluate(loops.drawn())
     values = np.linalg.svd(J, compute_uv=False)
     if J.shape[1] > loops.rows and values[-1] > 3.0 * tolerance * values[0]:
-        return []  # it moves as drawn, and no condition is redundant
-    larger: list[Corrected] | None = None
-    nearly: list[Closed] = []
-    for share in _shares(values / values[0], tolerance):
-        rank = int(np.sum(values > share * values[0]))
-        if rank == loops.rows - loops.hinges:  # no other condition is redundant, not even nearly
+        return []  # the loops move as drawn, without redundant conditions
+    larger_corrections: list[Corrected] | None = None
+    nearly_moving: list[ClosedLoops] = []
+    for limit in _redundancy_limits(values / values[0], tolerance):
+        rank = int(np.sum(values > limit * values[0]))
+        if rank == loops.rows - loops.hinges:  # all other conditions are independent
             if loops.hinges and rank < J.shape[1]:
-                return []  # it moves, and a hinge of two points closes wherever it turns
+                return []  # the loops move, and hinges of two points close in every position
             continue
-        positions = _loose_motion(loops, share)
+        positions = _reduced_motion(loops, limit)
         if not positions:
             continue
-        if max(c.open for c in positions) <= EXACT or _moves_freely(loops, positions, tolerance):
+        if max(c.largest_misfit for c in positions) <= EXACT or _moves_freely(loops, positions, tolerance):
             return []
-        # axes next to parallel first made so: there the conditions of a plane loop and of a Bennett loop cross
-        angles = (max(4.0 * tolerance, 0.2 * share), share, 0.0)
-        starts = {g.tobytes(): g for g in (_parallel(loops, positions[0], angle) for angle in angles)}.values()
-        constants = next(filter(None, (_constants(loops, positions, share, g) for g in starts)), None)
+        # almost parallel axes are made parallel first: plane loops and Bennett loops meet there
+        angles = (max(4.0 * tolerance, 0.2 * limit), limit, 0.0)
+        starts = {g.tobytes(): g for g in (_make_parallel(loops, positions[0], angle) for angle in angles)}.values()
+        constants = next(filter(None, (_constants(loops, positions, limit, g) for g in starts)), None)
         if constants is None:
-            nearly = nearly or positions
+            nearly_moving = nearly_moving or positions
             continue
-        joints = _joints(loops, constants, tolerance)
+        joints = _corrected_joints(loops, constants, tolerance)
         if _largest(loops, joints) <= tolerance:
             return joints
-        larger = larger or joints
-    if (larger or nearly) and _stands_still(loops):
-        _refuse(loops, larger, nearly, tolerance)
+        larger_corrections = larger_corrections or joints
+    if (larger_corrections or nearly_moving) and _stands_still(loops):
+        _raise_immobile(loops, larger_corrections, nearly_moving, tolerance)
     return []
 
 
-def _shares(values: Array, tolerance: float) -> list[float]:
-    """Limits below which singular values count as redundant, the smallest first, so that short links keep their
-    length: where the small values fall into groups, those between them, then two fixed ones.
+def _redundancy_limits(values: Array, tolerance: float) -> list[float]:
+    """Limits below which singular values count as those of redundant conditions, ascending: limits between groups of
+    small values, and two fixed ones.
     """
-    limits = sorted({min(20.0 * tolerance, NEAR), max(20.0 * tolerance, NEAR)})
-    small = np.maximum(values[values < limits[0]], 1e-2 * TIGHT)
-    return sorted({math.sqrt(a * b) for a, b in pairwise(small) if a > APART * b} | set(limits))
+    limits = sorted({min(20.0 * tolerance, REDUNDANT), max(20.0 * tolerance, REDUNDANT)})
+    small = np.maximum(values[values < limits[0]], 1e-2 * ZERO)
+    return sorted({math.sqrt(a * b) for a, b in pairwise(small) if a > GROUP_RATIO * b} | set(limits))
 
 
-def _loose_motion(loops: Loops, share: float) -> list[Closed]:
-    """Positions along the motion that is left without the conditions that are next to redundant; none if there is no
-    motion or nothing redundant in it.
+def _reduced_motion(loops: Loops, limit: float) -> list[ClosedLoops]:
+    """Positions along the motion without the conditions that are almost redundant; none if there is no motion or no
+    redundant condition.
     """
-    start = close(loops, loops.drawn(), share)
-    if not start.good or start.right.shape[1] == 0:
+    start = close_loops(loops, loops.drawn(), limit)
+    if not start.converged or start.right.shape[1] == 0:
         return []
-    positions = motion(loops, start, share)
+    positions = trace_motion(loops, start, limit)
     return positions if len(positions) > 1 and positions[0].rank < loops.rows else []
 
 
-def _moves_freely(loops: Loops, positions: list[Closed], tolerance: float) -> bool:
-    """Whether the loops move as drawn without a redundant condition: what looks redundant then is a short link."""
-    exact = close(loops, positions[1].places, TIGHT)
+def _moves_freely(loops: Loops, positions: list[ClosedLoops], tolerance: float) -> bool:
+    """Whether the loops move as drawn without redundant conditions: small singular values are those of short links."""
+    exact = close_loops(loops, positions[1].poses, ZERO)
     small = max(c.values[c.rank] if c.rank < len(c.values) else 0.0 for c in positions)
-    return bool(exact.good and exact.rank == loops.rows and exact.right.shape[1] > 0 and small > 3.0 * tolerance)
+    return bool(exact.converged and exact.rank == loops.rows and exact.right.shape[1] > 0 and small > 3.0 * tolerance)
 
 
 def _stands_still(loops: Loops) -> bool:
-    return int(close(loops, loops.drawn(), TIGHT).right.shape[1]) == 0
+    return int(close_loops(loops, loops.drawn(), ZERO).right.shape[1]) == 0
 
 
-def _parallel(loops: Loops, at: Closed, angle: float) -> Array:
-    """Constants that make axes parallel at a position, where they are within an angle (rad) of it."""
+def _make_parallel(loops: Loops, position: ClosedLoops, angle: float) -> Array:
+    """Constants that make axes parallel which at a position are within an angle (rad)."""
     g = np.zeros(loops.constants)
     ends = [
         (end, E[:, 0 if loops.planar else 2])
         for c in loops.conditions
         if c.joint.drawing is not None and c.joint.drawing.axes is not None
-        for end, (_, E) in zip(c.ends, loops.ends_in_space(c, at.places, None), strict=True)
+        for end, (_, E) in zip(c.ends, loops.ends_in_space(c, position.poses, None), strict=True)
     ]
     while ends:
         first = ends[0][1]
@@ -216,93 +216,96 @@ def _parallel(loops: Loops, at: Closed, angle: float) -> Array:
         mean /= np.linalg.norm(mean)
         for end, u in group:
             turn = np.cross(u, np.sign(mean @ u) * mean)
-            g[end.turn : end.turn + 3] = turn if end.body < 0 else at.places.axes[end.body].T @ turn
+            g[end.turn : end.turn + 3] = turn if end.body < 0 else position.poses.axes[end.body].T @ turn
     return g
 
 
-def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) -> MovableConstants | None:
-    """The constants next to `g` with which the loops close at all positions, also at others than these; None where the
-    iteration finds none.
-    """
-    positions = [close(loops, c.places, share, g) for c in positions]
-    positions = [c for c in positions if c.good and c.rank == positions[0].rank]
+def _constants(loops: Loops, positions: list[ClosedLoops], limit: float, g: Array) -> MovableConstants | None:
+    """Constants near `g` with which the loops close at these positions and at others; None without convergence."""
+    positions = [close_loops(loops, c.poses, limit, g) for c in positions]
+    positions = [c for c in positions if c.converged and c.rank == positions[0].rank]
     for seed in (1, 2, 3):
-        closed = _close_all(loops, positions, g, share)
+        closed = _close_all(loops, positions, g, limit)
         if closed is None:
             return None
         g, positions = closed
-        start = close(loops, loops.drawn(), share, g)
-        start = close(loops, start.places, TIGHT, g)
-        if not start.good or start.open > EXACT:
+        start = close_loops(loops, loops.drawn(), limit, g)
+        start = close_loops(loops, start.poses, ZERO, g)
+        if not start.converged or start.largest_misfit > EXACT:
             return None
-        further = motion(loops, close(loops, start.places, share, g), share, g, seed)
+        further = trace_motion(loops, close_loops(loops, start.poses, limit, g), limit, g, seed)
         if not further:
             return None
-        if max(c.open for c in further) <= EXACT:
+        if max(c.largest_misfit for c in further) <= EXACT:
             return MovableConstants(g, start)
         positions = positions + further
     return None
 
 
-def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) -> tuple[Array, list[Closed]] | None:
+def _close_all(
+    loops: Loops, positions: list[ClosedLoops], g: Array, limit: float
+) -> tuple[Array, list[ClosedLoops]] | None:
     if not positions:
         return None
-    rank, best, waited = positions[0].rank, np.inf, 0
+    rank, best, stalled = positions[0].rank, np.inf, 0
     for _ in range(ITERATIONS):
-        worst = max(c.open for c in positions)
-        waited = 0 if worst < 0.5 * best else waited + 1
+        worst = max(c.largest_misfit for c in positions)
+        stalled = 0 if worst < 0.5 * best else stalled + 1
         best = min(best, worst)
-        if worst <= 0.02 * EXACT or (waited == 3 and worst <= 0.5 * EXACT):
+        if worst <= 0.02 * EXACT or (stalled == 3 and worst <= 0.5 * EXACT):
             return g, positions
-        if waited > 6:
+        if stalled > 6:
             return None
-        C = np.vstack([c.left.T @ loops.evaluate(c.places, g, True)[2] for c in positions])
+        C = np.vstack([c.left.T @ loops.evaluate(c.poses, g, True)[2] for c in positions])
         e = np.concatenate([c.misfit for c in positions])
         U, s, Vt = np.linalg.svd(C, full_matrices=False)
         k = _explaining_count(U.T @ e, float(np.linalg.norm(e)), s)
         g = g - Vt[:k].T @ ((U[:, :k].T @ e) / s[:k])
-        if np.max(np.abs(g)) > 3.0 * NEAR:
+        if np.max(np.abs(g)) > 3.0 * REDUNDANT:
             return None
-        again = [close(loops, c.places, share, g) for c in positions]
-        positions = [c for c in again if c.good and c.rank == rank]
-        if 2 * len(positions) < len(again):
+        closed = [close_loops(loops, c.poses, limit, g) for c in positions]
+        positions = [c for c in closed if c.converged and c.rank == rank]
+        if 2 * len(positions) < len(closed):
             return None
     return None
 
 
-def _explaining_count(parts: Array, size: float, s: Array) -> int:
-    """Number of most sensitive directions that explain the misfit up to `REMAINDER`; more would fit noise."""
-    residuals = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(parts**2)))
-    enough = int(np.argmax(residuals <= max(REMAINDER * size, 3e-16 * np.sqrt(len(parts))))) + 1
-    return max(1, min(enough, int(np.sum(s > 1e-11 * s[0]))))
+def _explaining_count(components: Array, size: float, s: Array) -> int:
+    """Number of the most sensitive directions that reduce the misfit to `REMAINDER`; more would fit round-off."""
+    residuals = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(components**2)))
+    count = int(np.argmax(residuals <= max(REMAINDER * size, 3e-16 * np.sqrt(len(components))))) + 1
+    return max(1, min(count, int(np.sum(s > 1e-11 * s[0]))))
 
 
-def _joints(loops: Loops, found: MovableConstants, tolerance: float) -> list[Corrected]:
-    """The corrected joints; drawn where they meet if that is next to where the bodies are drawn, else on each body."""
-    places, drawn = found.start.places, loops.drawn()
-    moved = np.max(np.abs(places.centres - drawn.centres)) / loops.size + np.max(np.abs(places.axes - drawn.axes))
-    meets = moved <= 30.0 * max(tolerance, float(np.max(np.abs(found.g))))
+def _corrected_joints(loops: Loops, constants: MovableConstants, tolerance: float) -> list[Corrected]:
+    """The corrected joints, with equal points on both bodies if the closed position is near the drawn one."""
+    poses, drawn = constants.start.poses, loops.drawn()
+    displacement = np.max(np.abs(poses.centres - drawn.centres)) / loops.size + np.max(np.abs(poses.axes - drawn.axes))
+    joined = displacement <= 30.0 * max(tolerance, float(np.max(np.abs(constants.g))))
     points: list[Array] = []
     axes: list[Array] = []
-    return [_joint(loops, c, found.g, places if meets else drawn, meets, points, axes) for c in loops.conditions]
+    return [
+        _corrected_joint(loops, c, constants.g, poses if joined else drawn, joined, points, axes)
+        for c in loops.conditions
+    ]
 
 
-def _joint(
-    loops: Loops, c: Condition, g: Array, places: Places, meets: bool, points: list[Array], axes: list[Array]
+def _corrected_joint(
+    loops: Loops, c: Condition, g: Array, poses: Poses, joined: bool, points: list[Array], axes: list[Array]
 ) -> Corrected:
-    """A corrected joint; `points`, `axes`: of other joints, whose digits it takes over where they are the same."""
+    """A corrected joint; `points`, `axes`: of other joints, whose numbers it takes where they are equal."""
     ends = c.joint.drawing
     assert ends is not None
-    now = loops.ends_in_space(c, places, g)
-    before = loops.ends_in_space(c, loops.drawn(), None)
-    shift = max(float(np.linalg.norm(p - q)) for (p, _), (q, _) in zip(now, before, strict=True))
-    which = 0 if loops.planar else 2
-    p, u = [p for p, _ in now], [E[:, which] for _, E in now]
-    sines = [float(np.linalg.norm(np.cross(a, E[:, which]))) for a, (_, E) in zip(u, before, strict=True)]
+    corrected_ends = loops.ends_in_space(c, poses, g)
+    drawn_ends = loops.ends_in_space(c, loops.drawn(), None)
+    shift = max(float(np.linalg.norm(p - q)) for (p, _), (q, _) in zip(corrected_ends, drawn_ends, strict=True))
+    axis_column = 0 if loops.planar else 2
+    p, u = [p for p, _ in corrected_ends], [E[:, axis_column] for _, E in corrected_ends]
+    sines = [float(np.linalg.norm(np.cross(a, E[:, axis_column]))) for a, (_, E) in zip(u, drawn_ends, strict=True)]
     turn = math.asin(min(1.0, max(sines)))
-    if meets and "point" in c.conditions:
+    if joined and "point" in c.conditions:
         p = [0.5 * (p[0] + p[1])] * 2
-    if meets and {"axis", "orientation"} & set(c.conditions):
+    if joined and {"axis", "orientation"} & set(c.conditions):
         u = [0.5 * (u[0] + u[1])] * 2
     d = 2 if loops.planar else 3
     p = [_matched_vector(x, points, 1e-12 * loops.size)[:d] for x in p]
@@ -314,11 +317,11 @@ def _joint(
     return Corrected(c.joint, (p[0], p[1]), pair, length, Correction(shift, turn if pair else 0.0))
 
 
-def _matched_vector(v: Array, vectors: list[Array], near: float) -> Array:
-    """The vector of `vectors` that equals this one or its negative, with the sign of this one; a new one is added."""
+def _matched_vector(v: Array, vectors: list[Array], tolerance: float) -> Array:
+    """The vector of `vectors` that is parallel and equal in length, with the sign of `v`; a new one is appended."""
     for w in vectors:
         for sign in (1.0, -1.0):
-            if np.max(np.abs(v - sign * w)) <= near:
+            if np.max(np.abs(v - sign * w)) <= tolerance:
                 return sign * w
     vectors.append(np.where(np.abs(v) < 1e-14, 0.0, v))
     return vectors[-1]
@@ -329,7 +332,9 @@ def _largest(loops: Loops, joints: list[Corrected]) -> float:
     return max(j.correction.size(loops.size) for j in joints)
 
 
-def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], tolerance: float) -> None:
+def _raise_immobile(
+    loops: Loops, larger_corrections: list[Corrected] | None, nearly_moving: list[ClosedLoops], tolerance: float
+) -> None:
     names = ", ".join(f"'{c.joint.name}'" for c in loops.conditions)
     start = (
         f"The loop of the joints {names} has more conditions than its motion allows and stands still as drawn, "
@@ -337,22 +342,22 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
     )
     allowed = f"{tolerance * loops.size:.3g} m and {tolerance:.3g} rad are allowed. Draw it more exactly"
     stay = "; with tolerance=0 it is taken as drawn and stands still."
-    needed_tolerance = _largest(loops, larger) if larger else np.inf
-    if larger and needed_tolerance <= NEAR:
-        worst = max(larger, key=lambda j: j.correction.size(loops.size))
+    needed_tolerance = _largest(loops, larger_corrections) if larger_corrections else np.inf
+    if larger_corrections and needed_tolerance <= REDUNDANT:
+        worst = max(larger_corrections, key=lambda j: j.correction.size(loops.size))
         advice = (
             f", or allow compile more: tolerance={_round_up(needed_tolerance):g}"
-            if needed_tolerance <= MOST_TOLERANCE
+            if needed_tolerance <= MAX_TOLERANCE
             else ""
         )
         raise ModelError(
             f"{start}it would move if its joints closed, '{worst.joint.name}' by {worst.correction.distance:.3g} m and "
             f"{worst.correction.angle:.3g} rad, where {allowed}{advice}{stay}"
         )
-    if len(nearly) >= MOVES and max(c.open for c in nearly) <= NEARLY:
-        at = max(nearly, key=lambda c: c.open)
-        open_there = np.abs(loops.evaluate(at.places)[0])
-        name, value = max(zip(loops.names(), open_there.tolist(), strict=True), key=lambda item: item[1])
+    if len(nearly_moving) >= MIN_POSITIONS and max(c.largest_misfit for c in nearly_moving) <= MAX_MISFIT:
+        worst_position = max(nearly_moving, key=lambda c: c.largest_misfit)
+        errors = np.abs(loops.evaluate(worst_position.poses)[0])
+        name, value = max(zip(loops.names(), errors.tolist(), strict=True), key=lambda item: item[1])
         raise ModelError(
             f"{start}it nearly moves: along that motion its joints stay open, '{name}' by {value * loops.size:.3g} m, "
             f"where {allowed}{stay}"
@@ -360,36 +365,36 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
 
 
 def _round_up(x: float) -> float:
-    """The number rounded up to one digit."""
+    """A number rounded up to one digit."""
     power = 10.0 ** math.floor(math.log10(x))
-    return min(MOST_TOLERANCE, math.ceil(1.01 * x / power) * power)
+    return min(MAX_TOLERANCE, math.ceil(1.01 * x / power) * power)
 
 
 def _redraw(corrected: Corrected) -> None:
-    """Give a joint its new ends, and the bodies their new joint points and axes in place of the old ones."""
+    """Replace the ends of a joint, and joint points and axes of its bodies, by the corrected ones."""
     joint, ends = corrected.joint, corrected.joint.drawing
     assert ends is not None
     bodies = ends.bodies
     lists = [(b, b.joint_points, b.joint_axes) for b in bodies]
 
-    remade = []
+    redrawn_ends = []
     for drawing in ((ends.points, ends.axes, ends.length), (corrected.points, corrected.axes, corrected.length)):
         for body in bodies:
             body.joint_points, body.joint_axes = [], []
-        remade.append((ends.remake(*drawing), [(b.joint_points, b.joint_axes) for b in bodies]))
-    (_, before), (new, after) = remade
+        redrawn_ends.append((ends.remake(*drawing), [(b.joint_points, b.joint_axes) for b in bodies]))
+    (_, before), (new, after) = redrawn_ends
     if joint.turning is not None:  # a moment of it is read
         new.hold_turning()
     for (body, points, axes), (old_points, old_axes), (new_points, new_axes) in zip(lists, before, after, strict=True):
-        body.joint_points = _replaced(points, old_points, new_points)
-        body.joint_axes = _replaced(axes, old_axes, new_axes)
+        body.joint_points = _replace(points, old_points, new_points)
+        body.joint_axes = _replace(axes, old_axes, new_axes)
     for name in REDRAWN:
         setattr(joint, name, getattr(new, name))
 
 
-def _replaced(items: list[Array], old: list[Array], new: list[Array]) -> list[Array]:
+def _replace(items: list[Array], old: list[Array], new: list[Array]) -> list[Array]:
     arrays = []
     for item in items:
-        at = next((k for k, v in enumerate(old) if np.array_equal(v, item)), -1)
-        arrays.append(item if at < 0 else new[at])
+        index = next((k for k, v in enumerate(old) if np.array_equal(v, item)), -1)
+        arrays.append(item if index < 0 else new[index])
     return arrays

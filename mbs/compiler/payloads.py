@@ -1,4 +1,4 @@
-"""Payloads as the `payload_` arrays of the System, and the room they need in its mass matrix."""
+"""Payloads as the `payload_` arrays of the System, and their entries in its mass matrix."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -20,8 +20,8 @@ def payload_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     return [sorted(substitute(s, full).terms) for p in model.payloads for s in p.point.components]
 
 
-def with_room(mass: sparse.csr_matrix, cliques: Sequence[Sequence[int]]) -> sparse.csr_matrix:
-    """The matrix with entries, zero where there were none, between all coordinates of a clique."""
+def add_entries(mass: sparse.csr_matrix, cliques: Sequence[Sequence[int]]) -> sparse.csr_matrix:
+    """The mass matrix with entries, zero where there were none, between all coordinates of each clique."""
     old = mass.tocoo()
     rows = np.array([i for c in cliques for i in c for _ in c], dtype=np.int64)
     columns = np.array([j for c in cliques for _ in c for j in c], dtype=np.int64)
@@ -44,15 +44,15 @@ def payload_arrays(model: Model, signals: Signals) -> dict[str, Any]:
 
 
 def _check_ports(model: Model) -> None:
-    """A quasi-static output sees what acts at the ports; a payload beside them would be missing from it."""
+    """Refuse payloads beside the ports of a body, because quasi-static outputs contain forces at ports alone."""
     for sensor in model.sensors:
         if sensor.type != SensorType.QUASI_STATIC:
             continue
-        turning: set[int] = {i for s in sensor.signals[3:12] for i in s.terms}
+        rotation_coordinates: set[int] = {i for s in sensor.signals[3:12] for i in s.terms}
         for payload in model.payloads:
             body_coordinates = set(range(payload.body.start, payload.body.start + payload.body.size))
             on_body = {i for s in payload.point.components for i in s.terms} <= body_coordinates
-            if on_body and turning <= body_coordinates:
+            if on_body and rotation_coordinates <= body_coordinates:
                 body = payload.body.name.removesuffix(" with ports")
                 raise ModelError(
                     f"The sensor '{sensor.name}' follows the forces at the ports of body '{body}', where the payload "

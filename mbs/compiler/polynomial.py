@@ -1,4 +1,4 @@
-"""Quadratic polynomials of the coordinates z as sparse tables of monomials."""
+"""Constraint rows as quadratic polynomials of the coordinates z, by monomials."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -14,12 +14,11 @@ RateTerms = dict[tuple[int, int], float]
 """(i, j) for z_i dz_j/dt, (-1, j) for dz_j/dt."""
 
 DROP = 1e-12
-"""A coefficient smaller than this part of the largest of its row is a zero."""
+"""Coefficients below this part of the largest of their row count as zero."""
 VANISHED = 1e-10
-"""A row whose coefficients are all smaller than this part of the summed terms, or of its largest one so far, vanishes;
-far from the origin the round-off is larger."""
-OF_ERROR = 50.0
-"""Largest remainder of a row that follows from others, over the error of the drawing."""
+"""A row vanishes if its coefficients are below this part of its summed terms, or of its largest one so far."""
+ERROR_FACTOR = 50.0
+"""Largest remainder of a row that follows from others, in multiples of the error of the drawing."""
 
 
 @dataclass
@@ -28,10 +27,10 @@ class RowTerms:
 
     name: str
     kind: str
-    """`name`, `kind`: joint or body it comes from, and what it states."""
+    """`name`, `kind`: name of its joint or body, and kind of its condition."""
     joint: int
-    part: int
-    """`joint`, `part`: number of the joint and of its equation, or -1 for rigid-body rows."""
+    equation_number: int
+    """`joint`, `equation_number`: number of the joint and of its equation, or -1 for rows of rigid bodies."""
     main: Polynomial
     """Quadratic part."""
     theta: int = -1
@@ -43,11 +42,11 @@ class RowTerms:
     switch: int = -1
     """Number of the switch that turns it on and off, or -1."""
     rates: RateTerms = field(default_factory=dict)
-    """Of a condition on velocities, which has nothing else."""
+    """Terms of a condition on velocities, which has no other part."""
 
     @property
-    def plain(self) -> bool:
-        """Whether it is a quadratic alone that always holds."""
+    def is_plain(self) -> bool:
+        """Whether it has a quadratic part only and no switch."""
         return self.theta < 0 and not self.guides and self.switch < 0 and not self.rates
 
     def columns(self) -> list[int]:
@@ -60,31 +59,31 @@ class RowTerms:
 
 
 def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
-    """An expression of full coordinates as one of z."""
+    """An expression in full coordinates as one in z; `full`: full coordinates as expressions in z."""
     terms: dict[int, float] = {}
-    largest: dict[int, float] = {}  # of what was added up, where more than one was
-    constant, biggest = expression.constant, abs(expression.constant)
+    largest: dict[int, float] = {}  # largest term of each sum of several terms
+    constant, largest_constant = expression.constant, abs(expression.constant)
     for i, c in expression.terms.items():
         of_z = full[i]
         if of_z.constant:
             product = c * of_z.constant
             constant += product
-            biggest = max(biggest, abs(product))
+            largest_constant = max(largest_constant, abs(product))
         for j, v in of_z.terms.items():
             product = c * v
-            before = terms.get(j)
-            if before is None:
+            previous = terms.get(j)
+            if previous is None:
                 terms[j] = product
             else:
-                largest[j] = max(largest.get(j, abs(before)), abs(product))
-                terms[j] = before + product
+                largest[j] = max(largest.get(j, abs(previous)), abs(product))
+                terms[j] = previous + product
     if largest or 0.0 in terms.values():
         terms = {j: v for j, v in terms.items() if abs(v) > DROP * largest.get(j, 0.0)}
-    return Affine(terms, constant if abs(constant) > DROP * biggest else 0.0)
+    return Affine(terms, constant if abs(constant) > DROP * largest_constant else 0.0)
 
 
-def add_product(into: Polynomial, factor: float, a: Affine, b: Affine, largest: list[float]) -> None:
-    """Add ``factor * a * b``, expressions of z, and keep in `largest` what no added term of each degree exceeds."""
+def add_product(polynomial: Polynomial, factor: float, a: Affine, b: Affine, largest: list[float]) -> None:
+    """Add ``factor * a * b`` of expressions in z, and update bounds `largest` of added terms of degrees 0, 1, 2."""
     if factor == 0.0:
         return
     terms_a = [*a.terms.items(), (-1, a.constant)] if a.constant else list(a.terms.items())
@@ -92,7 +91,7 @@ def add_product(into: Polynomial, factor: float, a: Affine, b: Affine, largest: 
     for i, u in terms_a:
         for j, v in terms_b:
             m = (i, j) if i >= j else (j, i)
-            into[m] = into.get(m, 0.0) + factor * u * v
+            polynomial[m] = polynomial.get(m, 0.0) + factor * u * v
     p, q = (max(map(abs, e.terms.values()), default=0.0) for e in (a, b))
     degrees = abs(a.constant * b.constant), max(p * abs(b.constant), q * abs(a.constant)), p * q
     largest[:] = [max(most, abs(factor) * size) for most, size in zip(largest, degrees, strict=True)]
@@ -103,17 +102,19 @@ def cleaned(
 ) -> Polynomial:
     """The polynomial without coefficients that are round-off of the largest, at coordinates of 1 m and of `size`, m.
 
-    Next to the 1 of x^2 + y^2 - L^2, which is no length, the L^2 of a body of a micrometre is small, not round-off.
-    `largest`: largest summed term of each degree; the remainder of the sum may be round-off of it, or, in a drawing
-    that was corrected by `error`, parts of its size, a remainder of the correction.
+    Both lengths are needed because in x^2 + y^2 - L^2 of a body of a micrometre L^2 is not round-off of 1. `largest`:
+    largest summed term of each degree; a sum may be round-off of it or, in a drawing corrected by `error` (parts of its
+    size), a remainder of the correction.
     """
     significant: set[Monomial] = set()
-    vanished = max(VANISHED, OF_ERROR * error)
+    vanished = max(VANISHED, ERROR_FACTOR * error)
     for unit in {1.0, size}:
-        by_degree = (1.0, unit, unit * unit)
-        sizes = {m: abs(v) * by_degree[(m[0] >= 0) + (m[1] >= 0)] for m, v in p.items()}
+        unit_by_degree = (1.0, unit, unit * unit)
+        sizes = {m: abs(v) * unit_by_degree[(m[0] >= 0) + (m[1] >= 0)] for m, v in p.items()}
         largest_size = max(sizes.values(), default=0.0)
-        added = max(min(1.0, size) * min(by_degree), *(v * w for v, w in zip(largest, by_degree, strict=True)))
+        added = max(
+            min(1.0, size) * min(unit_by_degree), *(v * w for v, w in zip(largest, unit_by_degree, strict=True))
+        )
         if largest_size > vanished * added:
             significant.update(m for m, v in sizes.items() if v > DROP * largest_size)
     return {m: v for m, v in p.items() if m in significant}
@@ -122,7 +123,7 @@ def cleaned(
 def expand(
     products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> Polynomial:
-    """The polynomial of a sum of products and a linear part; `size`: of the model, m; `error`: see `cleaned`."""
+    """Polynomial in z of a sum of products and a linear part; `size`: of the model, m; `error`: see `cleaned`."""
     p: Polynomial = {}
     largest = [0.0, 0.0, 0.0]
     cache: dict[int, Affine] = {}
@@ -140,23 +141,23 @@ def expand(
 
 
 def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:
-    """The terms of a sum of ``c * A * dB/dt``."""
+    """Terms in z of a sum of ``c * A * dB/dt``."""
     terms: RateTerms = {}
     for factor, a, b in products:
         value, rate = substitute(a, full), substitute(b, full)
         for i, u in [*value.terms.items(), (-1, value.constant)]:
             for j, v in rate.terms.items():
                 terms[i, j] = terms.get((i, j), 0.0) + factor * u * v
-    least = DROP * max((abs(v) for v in terms.values()), default=0.0)
-    return {m: v for m, v in terms.items() if abs(v) > least}
+    tolerance = DROP * max((abs(v) for v in terms.values()), default=0.0)
+    return {m: v for m, v in terms.items() if abs(v) > tolerance}
 
 
 def row_terms(
-    equation: Equation, joint: int, part: int, full: Sequence[Affine], size: float, error: float = 0.0
+    equation: Equation, joint: int, equation_number: int, full: Sequence[Affine], size: float, error: float = 0.0
 ) -> RowTerms:
     """An equation of a joint as a row over z; `size`: of the model, m; `error`: see `cleaned`."""
     products = expand(equation.products, equation.linear, full, size, error)
-    row = RowTerms(equation.name, equation.kind, joint, part, products)
+    row = RowTerms(equation.name, equation.kind, joint, equation_number, products)
     if equation.angle is not None:
         theta = substitute(Affine({equation.angle.theta: 1.0}), full)
         row.theta = next(iter(theta.terms))  # angle coordinates are never eliminated

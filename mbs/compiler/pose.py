@@ -1,4 +1,4 @@
-"""Initial pose of a scene that is not tied to the ground."""
+"""Initial pose of a scene without joints to the ground, as the `pose_` arrays of the System."""
 
 from collections.abc import Sequence
 
@@ -25,24 +25,25 @@ def pose_arrays(
     q: Array,
     order: Index,
 ) -> dict[str, Array]:
-    """The `pose_` arrays in elimination order; empty unless the model floats.
+    """The `pose_` arrays in elimination order; empty unless the model is floating.
 
-    A coordinate is a component of a point or of a vector of a body, so that moving and turning the scene as a whole
-    is linear in cos, sin and the shift.
-
-    `q`: position of z to be moved, in the order of `remaining`.
+    A coordinate is a component of a point or of a vector of a body, so it is linear in the translation of the scene and
+    in cosine and sine of its heading. `q`: position of z to be moved, in the order of `remaining`. Raises `ModelError`:
+    a joint connects a floating model to the ground.
     """
     if not model.floating:
         return {name: np.zeros(0) for name in NAMES}
-    rolling = [joint.name for joint in model.joints if joint.type == "rolling"]
-    if rolling:
+    rolling_joints = [joint.name for joint in model.joints if joint.type == "rolling"]
+    if rolling_joints:
         raise ModelError(
-            f"The model '{model.name}' is declared floating, but '{rolling[0]}' ties it to the height of the ground."
+            f"The model '{model.name}' is declared floating, but '{rolling_joints[0]}' ties it to the height of the "
+            "ground."
         )
-    tied = [natural.info[i].name for i, e in enumerate(of_z) if abs(e.constant) > 1e-9]
-    if tied:
+    tied_coordinates = [natural.info[i].name for i, e in enumerate(of_z) if abs(e.constant) > 1e-9]
+    if tied_coordinates:
         raise ModelError(
-            f"The model '{model.name}' is declared floating, but joints tie it to the ground (coordinate '{tied[0]}')."
+            f"The model '{model.name}' is declared floating, but joints tie it to the ground (coordinate "
+            f"'{tied_coordinates[0]}')."
         )
     arrays = {name: np.zeros(len(remaining)) for name in NAMES}
     spins = {s.index: s for s in model.spins}
@@ -75,9 +76,9 @@ def pose_partners(
     signals: Signals,
     order: Index,
 ) -> Index:
-    """`pose_partner` in elimination order: of x components minus, of y ones plus the other's signal, from 1; else 0.
+    """`pose_partner` in elimination order: signal of the other horizontal component, from 1, negative at x; else 0.
 
-    With it a pose can move a scene from another position than the one the `pose_` arrays were made at.
+    With it a scene can be moved from a position other than that of the `pose_` arrays.
     """
     partners = np.zeros(len(remaining), dtype=np.int64)
     for k, i in enumerate(remaining):
@@ -90,5 +91,5 @@ def pose_partners(
 
 
 def full_values(full: Sequence[Affine], z: Array) -> Array:
-    """Values of expressions of z."""
+    """Values of expressions in z, shape (n_full,)."""
     return np.array([e.value(z) for e in full])

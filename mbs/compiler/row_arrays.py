@@ -1,6 +1,7 @@
 """Flat arrays of the constraint rows of a System, and values of the rows at a position."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,70 +14,74 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
-class RowArrays:
-    """The row arrays of the System file by name in `arrays`, with coefficients as written by the joints until `scale`.
+@dataclass
+class _TermLists:
+    """Terms of the rows by kind, row by row, with positions of coordinates in the pattern of their row."""
 
-    `rows`: over z before the elimination order; `new`: new number of each coordinate of z.
-    """
+    pointer: list[int] = field(default_factory=lambda: [0])
+    columns: list[int] = field(default_factory=list)
+    linear: list[float] = field(default_factory=list)
+    constant: list[float] = field(default_factory=list)
+    quad: list[tuple[int, int, int, float]] = field(default_factory=list)
+    angles: list[tuple[int, int]] = field(default_factory=list)
+    angle_terms: list[tuple[int, int, int, float, float]] = field(default_factory=list)
+    guide_terms: list[tuple[int, int, int, int, int, float]] = field(default_factory=list)
+    velocity_rows: list[int] = field(default_factory=list)
+    velocities: list[tuple[int, int, int, float]] = field(default_factory=list)
 
-    def __init__(self, rows: Sequence[RowTerms], new: Index) -> None:
-        self.nq = len(new)
-        self.nc = len(rows)
-        pointer, columns, linear, constant = [0], [], [], []
-        quad: list[tuple[int, int, int, float]] = []
-        angles: list[tuple[int, int]] = []
-        angle_terms: list[tuple[int, int, int, float, float]] = []
-        gterms: list[tuple[int, int, int, int, int, float]] = []
-        velocities: list[tuple[int, int, int, float]] = []
-        velocity_rows: list[int] = []
-        for r, row in enumerate(rows):
-            ordered = sorted(row.columns(), key=lambda c: int(new[c]))
-            pattern, position = [int(new[c]) for c in ordered], {c: k for k, c in enumerate(ordered)} | {-1: -1}
-            lin = [0.0] * len(pattern)
-            const = 0.0
-            for a, b, v in _terms(row.main, position):
-                if b >= 0:
-                    quad.append((r, a, b, v))
-                elif a >= 0:
-                    lin[a] += v
+    def add(self, row: RowTerms, new: Index) -> None:
+        """Add the terms of the next row; `new`: index of each z in elimination order."""
+        r = len(self.constant)
+        coordinates = sorted(row.columns(), key=lambda c: int(new[c]))
+        position = {c: k for k, c in enumerate(coordinates)} | {-1: -1}
+        linear = [0.0] * len(coordinates)
+        constant = 0.0
+        for a, b, v in _terms(row.main, position):
+            if b >= 0:
+                self.quad.append((r, a, b, v))
+            elif a >= 0:
+                linear[a] += v
+            else:
+                constant += v
+        if row.theta >= 0:
+            n = len(self.angles)
+            self.angles.append((r, position[row.theta]))
+            coefficients: dict[tuple[int, int], list[float]] = {}
+            for k, p in enumerate((row.cosine, row.sine)):
+                for a, b, v in _terms(p, position):
+                    coefficients.setdefault((a, b), [0.0, 0.0])[k] = v
+            self.angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(coefficients.items())]
+        for guide, power, p in row.guides:
+            self.guide_terms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
+        if row.rates:
+            for a, b, v in sorted((position[i], position[j], v) for (i, j), v in row.rates.items()):
+                if a >= 0:
+                    self.velocities.append((len(self.velocity_rows), a, b, v))
                 else:
-                    const += v
-            if row.theta >= 0:
-                n = len(angles)
-                angles.append((r, position[row.theta]))
-                both: dict[tuple[int, int], list[float]] = {}
-                for k, p in enumerate((row.cosine, row.sine)):
-                    for a, b, v in _terms(p, position):
-                        both.setdefault((a, b), [0.0, 0.0])[k] = v
-                angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(both.items())]
-            for guide, power, p in row.guides:
-                gterms += [(r, guide, power, a, b, v) for a, b, v in _terms(p, position)]
-            if row.rates:
-                for a, b, v in sorted((position[i], position[j], v) for (i, j), v in row.rates.items()):
-                    if a >= 0:
-                        velocities.append((len(velocity_rows), a, b, v))
-                    else:
-                        lin[b] += v
-                velocity_rows.append(r)
-            columns += pattern
-            linear += lin
-            constant.append(const)
-            pointer.append(len(columns))
-        tables = ((quad, 4), (angle_terms, 5), (gterms, 6), (velocities, 4))
+                    linear[b] += v
+            self.velocity_rows.append(r)
+        self.columns += [int(new[c]) for c in coordinates]
+        self.linear += linear
+        self.constant.append(constant)
+        self.pointer.append(len(self.columns))
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """The row arrays of the System file, by name."""
+        tables = ((self.quad, 4), (self.angle_terms, 5), (self.guide_terms, 6), (self.velocities, 4))
         q, t, g, w = (np.array(x, dtype=float).reshape(-1, k) for x, k in tables)
-        ang = np.array(angles, dtype=np.int64).reshape(-1, 2)
-        self.arrays: dict[str, NDArray[Any]] = {
-            "row_ptr": np.array(pointer, dtype=np.int64),
-            "row_col": np.array(columns, dtype=np.int64),
-            "row_lin": np.array(linear, dtype=float),
-            "row_const": np.array(constant, dtype=float),
-            "quad_ptr": _pointer(q[:, 0], self.nc),
+        angles = np.array(self.angles, dtype=np.int64).reshape(-1, 2)
+        return {
+            "row_ptr": np.array(self.pointer, dtype=np.int64),
+            "row_col": np.array(self.columns, dtype=np.int64),
+            "row_lin": np.array(self.linear, dtype=float),
+            "row_const": np.array(self.constant, dtype=float),
+            "quad_ptr": _pointer(q[:, 0], len(self.constant)),
             "quad_a": q[:, 1].astype(np.int64),
             "quad_b": q[:, 2].astype(np.int64),
             "quad_h": q[:, 3].copy(),
-            "angle_row": ang[:, 0].copy(),
-            "angle_theta": ang[:, 1].copy(),
-            "angle_ptr": _pointer(t[:, 0], len(ang)),
+            "angle_row": angles[:, 0].copy(),
+            "angle_theta": angles[:, 1].copy(),
+            "angle_ptr": _pointer(t[:, 0], len(angles)),
             "angle_a": t[:, 1].astype(np.int64),
             "angle_b": t[:, 2].astype(np.int64),
             "angle_hc": t[:, 3].copy(),
@@ -87,16 +92,31 @@ class RowArrays:
             "gterm_a": g[:, 3].astype(np.int64),
             "gterm_b": g[:, 4].astype(np.int64),
             "gterm_h": g[:, 5].copy(),
-            "velocity_row": np.array(velocity_rows, dtype=np.int64),
-            "velocity_ptr": _pointer(w[:, 0], len(velocity_rows)),
+            "velocity_row": np.array(self.velocity_rows, dtype=np.int64),
+            "velocity_ptr": _pointer(w[:, 0], len(self.velocity_rows)),
             "velocity_a": w[:, 1].astype(np.int64),
             "velocity_b": w[:, 2].astype(np.int64),
             "velocity_h": w[:, 3].copy(),
         }
-        self._row_of_entry = np.repeat(np.arange(self.nc), np.diff(self.arrays["row_ptr"]))
-        self._quad_row = q[:, 0].astype(np.int64)
-        self._angle_of_term = t[:, 0].astype(np.int64)
-        self._row_of_velocity = self.arrays["velocity_row"][w[:, 0].astype(np.int64)]
+
+
+class RowArrays:
+    """The row arrays of the System file, by name in `arrays`; coefficients are those of the joints until `scale`.
+
+    `rows`: over z before ordering; `new`: index of each z in elimination order.
+    """
+
+    def __init__(self, rows: Sequence[RowTerms], new: Index) -> None:
+        self.nq = len(new)
+        self.nc = len(rows)
+        lists = _TermLists()
+        for row in rows:
+            lists.add(row, new)
+        self.arrays = lists.arrays()
+        self._row_of_entry = _owners(self.arrays["row_ptr"])
+        self._quad_row = _owners(self.arrays["quad_ptr"])
+        self._angle_of_term = _owners(self.arrays["angle_ptr"])
+        self._row_of_velocity = self.arrays["velocity_row"][_owners(self.arrays["velocity_ptr"])]
 
     def scale(self, factor: Array) -> None:
         """Multiply every row by its factor, shape (nc,)."""
@@ -110,15 +130,15 @@ class RowArrays:
         a["velocity_h"] = a["velocity_h"] * factor[self._row_of_velocity]
 
     def cliques(self) -> list[Index]:
-        """Coordinates of each row, in the new order."""
+        """Coordinates of each row, in elimination order."""
         return np.split(self.arrays["row_col"].astype(np.int64), self.arrays["row_ptr"][1:-1]) if self.nc else []
 
     def evaluate(
         self, q: Array, guides: Array, guide_rates: Array | None = None
     ) -> tuple[Array, sparse.csr_matrix, Array]:
-        """Phi, Phi_q and Phi_t at position `q` with guide values and rates (default: at rest).
+        """Phi, shape (nc,), Phi_q, shape (nc, nq), and Phi_t, shape (nc,), at position `q`, shape (nq,).
 
-        A condition on velocities has the matrix A of its A qd in place of Phi_q, and no Phi.
+        `guide_rates`: zero by default. A condition A qd = 0 on velocities has A in place of Phi_q, and Phi = 0.
         """
         a = self.arrays
         start, col = a["row_ptr"], a["row_col"]
@@ -128,16 +148,17 @@ class RowArrays:
         phi_t = np.zeros(self.nc)
 
         def entry(row: Index, position: Index) -> tuple[Index, Array]:
-            """Indices of coordinates at positions within their rows (-1: the constant 1), and their values."""
-            at = np.where(position >= 0, start[row] + position, -1)
-            return at, padded[np.where(at >= 0, col[at], self.nq)] if len(col) else padded[np.full(len(at), self.nq)]
+            """Index in `col` of positions within rows (-1: the constant 1), and values of the coordinates there."""
+            entries = np.where(position >= 0, start[row] + position, -1)
+            coordinates = np.where(entries >= 0, col[entries], self.nq) if len(col) else np.full(len(entries), self.nq)
+            return entries, padded[coordinates]
 
-        def add(row: Index, place_a: Index, place_b: Index, h: Array) -> Array:
+        def add(row: Index, position_a: Index, position_b: Index, h: Array) -> Array:
             """Add the gradient of h q_a q_b and return the values."""
-            at_a, u = entry(row, place_a)
-            at_b, v = entry(row, place_b)
-            for at, slope in ((at_a, h * v), (at_b, h * u)):
-                np.add.at(jac, at[at >= 0], slope[at >= 0])
+            index_a, u = entry(row, position_a)
+            index_b, v = entry(row, position_b)
+            for index, derivative in ((index_a, h * v), (index_b, h * u)):
+                np.add.at(jac, index[index >= 0], derivative[index >= 0])
             return h * u * v
 
         phi += np.bincount(
@@ -182,8 +203,13 @@ def _terms(p: Polynomial, position: Mapping[int, int]) -> list[tuple[int, int, f
     return sorted((max(position[i], position[j]), min(position[i], position[j]), v) for (i, j), v in p.items())
 
 
+def _owners(pointer: Index) -> Index:
+    """Owner of each item, of the starts of the items of each owner."""
+    return np.repeat(np.arange(len(pointer) - 1), np.diff(pointer))
+
+
 def _pointer(owner: Array, n: int) -> Index:
-    """Start of each owner's items; `owner` is ascending."""
+    """Start of the items of each of `n` owners, and their total number; `owner`: of each item, ascending."""
     return np.concatenate([[0], np.cumsum(np.bincount(owner.astype(np.int64), minlength=n)[:n] if n else [])]).astype(
         np.int64
     )

@@ -1,8 +1,8 @@
-"""Rows of the System: rigidity of bodies in their shortest form, and the joint equations that are not linear.
+"""Rows of rigid bodies, in their shortest form.
 
-A body is rigid if three independent vectors of it keep their six products v_i . v_j (planar: one vector its length).
-Which vectors is free: those whose expressions in z are short give the fewest terms, for instance |B_2 - B_1|^2 = L^2
-for a link between two points that are coordinates.
+A body is rigid if the six products v_i . v_j of three independent vectors of it are constant (planar: the length of one
+vector). Vectors whose expressions in z are short give the fewest terms, for instance |B_2 - B_1|^2 = L^2 for a link
+between two points that are coordinates.
 """
 
 from collections.abc import Sequence
@@ -12,42 +12,40 @@ import numpy as np
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector
-from mbs.compiler.local_vectors import SHORT, body_length, distinct
+from mbs.compiler.local_vectors import MIN_DISTANCE, body_length, distinct
 from mbs.compiler.polynomial import Polynomial, RowTerms, add_product, cleaned, substitute
 from mbs.model.body import Body
 
 INDEPENDENT = 0.2
-"""Smallest singular value of the chosen unit vectors (1: perpendicular)."""
-MOST_POINTS = 8
-"""Differences are formed among this many joint points of a body at most."""
+"""Least singular value of the chosen unit vectors (1: perpendicular)."""
+MAX_POINTS = 8
+"""Largest number of joint points of a body whose differences are candidates."""
 
 
-def candidates(body: Body) -> list[Vector]:
-    """Local vectors a rigid-body equation may use: axes of the body and of its joints, differences of its joint
-    points.
-    """
+def candidate_vectors(body: Body) -> list[Vector]:
+    """Local vectors, m, for the rows of a body: its axes, axes of its joints, differences of its joint points."""
     if body.is_flexible:
         return list(np.eye(3))
     size = body_length(body)
     vectors: list[Vector] = [size * e for e in np.eye(body.dimension)]
     vectors += [size * u for u in body.joint_axes]
-    points = distinct([np.zeros(body.dimension), *body.joint_points])[:MOST_POINTS]
+    points = distinct([np.zeros(body.dimension), *body.joint_points])[:MAX_POINTS]
     vectors += [p - q for k, p in enumerate(points) for q in points[:k]]
-    return [w for w in vectors if hypot(*w.tolist()) > SHORT * size]
+    return [w for w in vectors if hypot(*w.tolist()) > MIN_DISTANCE * size]
 
 
 def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[RowTerms]:
-    """Rigidity of one body over z; rows that hold identically are still among them.
+    """Rows of a rigid body over z, with rows that hold identically.
 
-    `error`: of the corrected drawing, parts of its size. The remainder of a row after the correction holds in the
-    corrected motion, but its round-off would fix the motion that the other rows allow.
+    `full`: full coordinates as expressions in z; `error`: of the corrected drawing, parts of its size. A row
+    may be zero but for this error, which would lock the motion that the other rows allow.
     """
     if body.is_point:
         return []
     count = 1 if body.dimension == 2 else 3
     ranked = []
-    for order, w in enumerate(candidates(body)):
-        expression = in_z(body.vector(w), full)
+    for order, w in enumerate(candidate_vectors(body)):
+        expression = substitute_vector(body.vector(w), full)
         terms = [len(c.terms) + (c.constant != 0.0) for c in expression.components]
         ranked.append((sum(t * t for t in terms), order, w, expression))
     ranked.sort(key=lambda item: item[:2])
@@ -72,6 +70,6 @@ def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[R
     return rows
 
 
-def in_z(vector: AffineVector, full: Sequence[Affine]) -> AffineVector:
-    """A vector of full coordinates as one of z."""
+def substitute_vector(vector: AffineVector, full: Sequence[Affine]) -> AffineVector:
+    """A vector of expressions in full coordinates as one in z."""
     return AffineVector(tuple(substitute(c, full) for c in vector.components))

@@ -20,12 +20,14 @@ from mbs.model.perpendicular_vectors import perpendicular
 
 Array = NDArray[np.float64]
 
-MOST_JOINTS, MOST_CUT_ROWS = 64, 64
-"""Largest number of joints: relative coordinates have a dense matrix, and beyond it sparse methods are faster."""
-PARALLEL = 1e-9
+MAX_JOINTS, MAX_CUT_ROWS = 64, 64
+"""Largest numbers of joints and of rows of cut joints: relative coordinates have a dense matrix, and for larger models
+sparse methods are faster.
+"""
+PARALLEL_TOLERANCE = 1e-9
 """Largest sine of the angle between two axes that count as the same."""
-FORMED = ("revolute", "prismatic")
-"""Joints that the tree is made of."""
+TREE_JOINTS = ("revolute", "prismatic")
+"""Types of the joints that form the tree."""
 
 
 class NoTreeError(Exception):
@@ -34,29 +36,30 @@ class NoTreeError(Exception):
 
 @dataclass(eq=False)
 class Group:
-    """Bodies welded to each other, with one drawing."""
+    """Bodies that are welded to each other, and their common frame."""
 
     bodies: list[Body]
     number: int = 0
     """In depth-first order; 0 is the ground."""
     depth: int = 0
-    """Joints between the ground and it."""
+    """Number of joints between the ground and the group."""
     parent: Group | None = None
     children: list[Group] = field(default_factory=list)
     slides: bool = False
+    """Whether the joint to its parent is prismatic."""
     origin: Array = field(default_factory=lambda: np.zeros(3))
     axes: Array = field(default_factory=lambda: np.eye(3))
-    """`origin`, `axes`, shapes (3,) and (3, 3): the frame (columns x, y, z) in the drawing."""
+    """`origin`, `axes`: drawn origin, shape (3,), m, and axes x, y, z of the frame as columns, shape (3, 3)."""
     base: Array = field(default_factory=lambda: np.zeros(12))
     """Shape (12,): origin and columns of the joint's frame on the parent, in the frame of the parent."""
 
     @property
     def height(self) -> int:
-        """Joints between it and its farthest descendant."""
+        """Number of joints between the group and its farthest descendant."""
         return max((1 + child.height for child in self.children), default=0)
 
     def local(self, point: Array) -> Array:
-        """A drawn point in the frame."""
+        """Components of a drawn point in the frame, shape (3,), m."""
         return np.asarray(self.axes.T @ (point - self.origin))
 
 
@@ -74,8 +77,8 @@ def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
 
     Raises `NoTreeError`: with the reason.
     """
-    check(model)
-    group_of = _welded(model)
+    _check_model(model)
+    group_of = _weld_groups(model)
     ground = group_of[id(model.ground)]
     joints = [
         (joint, joint.places, _ends(joint.places, group_of))
@@ -85,45 +88,45 @@ def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
     for joint, _, (first, second) in joints:
         if first is second:
             raise NoTreeError(f"joint '{joint.name}' joins bodies that are welded to each other")
-    forming: dict[int, list[int]] = {}
+    incident_joints: dict[int, list[int]] = {}
     for n, (joint, _, ends) in enumerate(joints):
-        if joint.type in FORMED:
+        if joint.type in TREE_JOINTS:
             for group in ends:
-                forming.setdefault(id(group), []).append(n)
-    reached, formed = {id(ground)}, set()
-    measured = {frozenset(id(group_of[id(b)]) for b in j.turn.bodies) for j in model.joints if j.turn is not None}
+                incident_joints.setdefault(id(group), []).append(n)
+    reached, tree_joints = {id(ground)}, set()
+    angle_pairs = {frozenset(id(group_of[id(b)]) for b in j.turn.bodies) for j in model.joints if j.turn is not None}
     # prismatic joints first because they cannot be cut, then those whose angle is a coordinate, the others breadth
     # first: short paths, little work
     heap: list[tuple[bool, bool, int, int]] = []
 
-    def offer(group: Group) -> None:
-        for n in forming.get(id(group), ()):
+    def push_joints(group: Group) -> None:
+        for n in incident_joints.get(id(group), ()):
             joint, _, ends = joints[n]
-            angle = frozenset(map(id, ends)) in measured
+            angle = frozenset(map(id, ends)) in angle_pairs
             heapq.heappush(heap, (joint.type != "prismatic", not angle, group.depth, n))
 
-    offer(ground)
+    push_joints(ground)
     while heap:
         n = heapq.heappop(heap)[3]
         joint, places, ends = joints[n]
-        new = [side for side, group in enumerate(ends) if id(group) not in reached]
-        if not new:
+        unreached = [side for side, group in enumerate(ends) if id(group) not in reached]
+        if not unreached:
             continue
-        group, parent = ends[new[0]], ends[1 - new[0]]
-        _attach(group, parent, places, new[0], joint.type == "prismatic")
-        formed.add(n)
+        group, parent = ends[unreached[0]], ends[1 - unreached[0]]
+        _attach(group, parent, places, unreached[0], joint.type == "prismatic")
+        tree_joints.add(n)
         reached.add(id(group))
-        offer(group)
+        push_joints(group)
     for body in model.bodies:
         if id(group_of[id(body)]) not in reached:
             raise NoTreeError(f"no revolute or prismatic joints lead from the ground to body '{body.name}'")
-    cuts = [Cut(*entry) for n, entry in enumerate(joints) if n not in formed]
-    _check_size(model, len(formed), cuts)
+    cuts = [Cut(*entry) for n, entry in enumerate(joints) if n not in tree_joints]
+    _check_size(model, len(tree_joints), cuts)
     return _depth_first(ground), cuts
 
 
-def check(model: Model) -> None:
-    """Raise `NoTreeError` for what is not a matter of rigid bodies and their joints."""
+def _check_model(model: Model) -> None:
+    """Raise `NoTreeError` for a model with more than rigid bodies and joints that relative coordinates describe."""
     for body in model.bodies:
         if body.is_flexible or body.is_point:
             raise NoTreeError(f"body '{body.name}' is {'flexible' if body.is_flexible else 'a point mass'}")
@@ -137,7 +140,7 @@ def check(model: Model) -> None:
             raise NoTreeError(f"joint '{joint.name}' is neither revolute, prismatic, spherical nor a weld")
 
 
-def turning(groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
+def angle_joints(groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
 
     Raises `NoTreeError`: where a joint between its bodies turns about another axis.
@@ -154,30 +157,30 @@ def turning(groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
                 signs[group.number] = sign * float(np.sign(group.axes[:, 2] @ axis))
             group = group.parent
     for number in signs:
-        if np.linalg.norm(np.cross(groups[number].axes[:, 2], axis)) > PARALLEL:
+        if np.linalg.norm(np.cross(groups[number].axes[:, 2], axis)) > PARALLEL_TOLERANCE:
             raise NoTreeError(f"not all joints between the bodies of relative angle '{joint.name}' turn about its axis")
     return sorted(signs.items())
 
 
-def rows_of(model: Model, cut: Cut) -> tuple[int, int]:
-    """Rows of a cut joint: of points and of axes."""
+def cut_rows(model: Model, cut: Cut) -> tuple[int, int]:
+    """Numbers of rows of a cut joint: for its point and for its axis."""
     return model.dimension, 0 if cut.places.axes is None else 2
 
 
 def _check_size(model: Model, n_joints: int, cuts: list[Cut]) -> None:
-    rows = sum(sum(rows_of(model, cut)) for cut in cuts)
-    if n_joints > MOST_JOINTS or rows > MOST_CUT_ROWS:
+    rows = sum(sum(cut_rows(model, cut)) for cut in cuts)
+    if n_joints > MAX_JOINTS or rows > MAX_CUT_ROWS:
         raise NoTreeError(
-            f"there are {n_joints} joints and {rows} rows of loops; at most {MOST_JOINTS} and "
-            f"{MOST_CUT_ROWS} are possible"
+            f"there are {n_joints} joints and {rows} rows of loops; at most {MAX_JOINTS} and "
+            f"{MAX_CUT_ROWS} are possible"
         )
     for cut in cuts:
         if cut.joint.type == "prismatic":
             raise NoTreeError(f"the prismatic joint '{cut.joint.name}' closes a loop of prismatic joints")
 
 
-def _welded(model: Model) -> dict[int, Group]:
-    """The group of every body by its identity."""
+def _weld_groups(model: Model) -> dict[int, Group]:
+    """The group of each body, by the identity of the body."""
     group_of = {id(body): Group([body]) for body in (model.ground, *model.bodies)}
     for joint in model.joints:
         if joint.type != "weld" or joint.places is None:
@@ -197,17 +200,17 @@ def _ends(places: JointPlaces, group_of: dict[int, Group]) -> tuple[Group, Group
 
 
 def _attach(group: Group, parent: Group, places: JointPlaces, side: int, slides: bool) -> None:
-    """The frames of a joint on both bodies; `side` is the group's."""
+    """Attach a group to its parent by a joint; `side`: index of the group in `places`."""
     own_axis, parent_axis = (None, None) if places.axes is None else (places.axes[side], places.axes[1 - side])
     group.parent, group.depth, group.slides = parent, parent.depth + 1, slides
     group.origin, group.axes = in_space(places.points[side]), frame_along(own_axis)
-    turned = parent.axes.T @ frame_along(parent_axis)
-    group.base = np.concatenate([parent.local(in_space(places.points[1 - side])), turned.T.ravel()])
+    parent_joint_axes = parent.axes.T @ frame_along(parent_axis)
+    group.base = np.concatenate([parent.local(in_space(places.points[1 - side])), parent_joint_axes.T.ravel()])
     parent.children.append(group)
 
 
 def _depth_first(ground: Group) -> list[Group]:
-    """Paths as runs of neighbours, the longest first: what the kernel's loops over a path like."""
+    """Number the groups in depth-first order, the longest path first: groups of a path are then mostly contiguous."""
     groups: list[Group] = []
     stack = [ground]
     while stack:
@@ -219,7 +222,7 @@ def _depth_first(ground: Group) -> list[Group]:
 
 
 def frame_along(axis: ArrayLike | None) -> Array:
-    """Columns x, y and z with z along the axis, or those of the earth."""
+    """Axes x, y, z as columns, shape (3, 3), with z along the axis; earth axes if there is none."""
     if axis is None:
         return np.eye(3)
     z = in_space(axis)

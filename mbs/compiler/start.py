@@ -13,14 +13,14 @@ from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.start_velocities import GivenVelocity, contradiction, given_velocities
 from mbs.kernel.header.enumerations import GuideType
-from mbs.model.guides import of_table
+from mbs.model.guides import table_value
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-ARM = 0.1
-"""Of a mass in a given rate, parts of the model's length, at least 1 m: what moves with it weighs next to nothing."""
+RATE_ARM = 0.1
+"""Arm of the mass that weighs a given rate, parts of the model's length, at least 1 m: bodies in motion weigh less."""
 
 
 def reference_position(
@@ -31,7 +31,7 @@ def reference_position(
     z0: Array,
     M_full: sparse.csr_matrix,
 ) -> Array:
-    """z of the reference configuration; where the drawing does not close, the nearest one in the metric of the mass."""
+    """z of the reference configuration; if the drawing does not close, the nearest z in the metric of the mass."""
     reference = np.array([c.reference for c in model.coordinates])
     z = np.array([natural.info[i].reference for i in remaining])
     if np.max(np.abs(T @ z + z0 - reference)) > 1e-9:
@@ -53,7 +53,7 @@ def guide_start(model: Model) -> tuple[Array, Array]:
                 t = -breaks[k]
                 rates[g.index] = sum(p * c[k, p] * t ** (p - 1) for p in range(1, 6))
         elif g.type == GuideType.BY_TABLE:
-            rates[g.index] = of_table(g, values[g.input])[1] * rates[g.input]
+            rates[g.index] = table_value(g, values[g.input])[1] * rates[g.input]
     return values, rates
 
 
@@ -70,42 +70,44 @@ def velocity(
     guide_rates: Array,
     length: float,
 ) -> tuple[Array, str]:
-    """Start velocity in elimination order, from the velocities of bodies and coordinates, and a sentence where they
-    contradict each other; `length`: of the model, m.
+    """Start velocity in elimination order, shape (nq,), from the given velocities of bodies and rates of coordinates,
+    and a sentence if they contradict each other; `length`: of the model, m.
     """
     position = full_values(full, z)
     rates = np.zeros(len(full))
-    weights, partly = {}, False
+    weights, is_partial = {}, False
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]
         coordinates = slice(body.start, body.start + body.size)
-        none = np.zeros(model.dimension), np.zeros(1 if model.dimension == 2 else 3)
-        v, w = (at_rest if given is None else given for given, at_rest in zip((linear, angular), none, strict=True))
+        zeros = np.zeros(model.dimension), np.zeros(1 if model.dimension == 2 else 3)
+        v, w = (at_rest if given is None else given for given, at_rest in zip((linear, angular), zeros, strict=True))
         rates[coordinates] = body.velocity(v, w, position[coordinates])
         weights[k] = body.velocity_weight(linear is not None, angular is not None or body.is_point)
-        partly = partly or (linear is None) != (angular is None)
+        is_partial = is_partial or (linear is None) != (angular is None)
     M_given = full_mass(model, weights)
-    mean = float(np.mean(mass.diagonal())) * max(1.0, ARM * length) ** 2
+    mean = float(np.mean(mass.diagonal())) * max(1.0, RATE_ARM * length) ** 2
     added_mass = np.zeros(len(full))
     for i, rate in model.coordinate_rates.items():
         added_mass[i] = max(mean, model.inertias.get(i, 0.0))
         rates[i] = rate
 
-    def solved(M_given: sparse.csr_matrix, rates: Array, partly: bool) -> Array:
+    def solve(M_given: sparse.csr_matrix, rates: Array, is_partial: bool) -> Array:
         weighted_mass = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
-        aim = (T.T @ (M_given @ rates))[order]
-        near = (T.T @ (full_mass(model) @ rates))[order] if partly else None
-        return start_velocity(arrays, mass, stiffness, weighted_mass, aim, z[order], guides, guide_rates, near)
+        given_momentum = (T.T @ (M_given @ rates))[order]
+        free_momentum = (T.T @ (full_mass(model) @ rates))[order] if is_partial else None
+        return start_velocity(
+            arrays, mass, stiffness, weighted_mass, given_momentum, z[order], guides, guide_rates, free_momentum
+        )
 
     def full_rates(v: Array) -> Array:
         of_z = np.empty_like(v)
         of_z[order] = v
         return np.asarray(T @ of_z)
 
-    def alone(g: GivenVelocity) -> Array:
-        only = np.zeros(len(full))
-        only[g.part] = g.rates
-        return full_rates(solved(g.matrix(len(full)), only, False))
+    def solve_alone(g: GivenVelocity) -> Array:
+        single_rates = np.zeros(len(full))
+        single_rates[g.coordinates] = g.rates
+        return full_rates(solve(g.matrix(len(full)), single_rates, False))
 
-    qd = solved(M_given + sparse.diags(added_mass), rates, partly)
-    return qd, contradiction(model, list(given_velocities(model, position, mean)), full_rates(qd), alone)
+    qd = solve(M_given + sparse.diags(added_mass), rates, is_partial)
+    return qd, contradiction(model, list(given_velocities(model, position, mean)), full_rates(qd), solve_alone)

@@ -1,4 +1,4 @@
-"""Start velocities that were asked for and contradict each other through the joints."""
+"""Given start velocities, and those that contradict each other through the joints."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -11,7 +11,8 @@ from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
-MISSED = 1e-6  # of the largest velocity, in the metric of the masses: what is taken as reached
+MISSED = 1e-6
+"""Largest error of a velocity that is satisfied, parts of the largest velocity in the metric of the mass."""
 
 
 @dataclass(frozen=True)
@@ -20,25 +21,25 @@ class GivenVelocity:
 
     name: str
     unit: str
-    part: slice
-    """Of the full coordinates."""
+    coordinates: slice
+    """Its full coordinates."""
     weight: Array
-    """Of the rates of these, shape (n, n), kg."""
+    """Mass of the rates of these, shape (n, n), kg."""
     rates: Array
-    """That were asked for, shape (n,)."""
+    """Given rates of these, shape (n,)."""
     axes: Array
-    """Of the body, shape (m, dimension), where it is an angular velocity; else of shape (0, n): the first n rates."""
+    """Axes of the body, shape (m, dimension), for an angular velocity; else empty, shape (0, n): the first n rates."""
 
     def energy(self, rates: Array) -> float:
-        """Twice the kinetic energy of such rates, J."""
+        """Twice the kinetic energy of rates, J."""
         return float(rates @ self.weight @ rates)
 
-    def missed(self, full: Array) -> float:
-        """Twice the kinetic energy of the difference between rates of the full coordinates and those asked for, J."""
-        return self.energy(full[self.part] - self.rates)
+    def energy_of_error(self, full: Array) -> float:
+        """Twice the kinetic energy of the difference between rates of the full coordinates and the given ones, J."""
+        return self.energy(full[self.coordinates] - self.rates)
 
     def text(self, rates: Array) -> str:
-        """The velocity of such rates as it was asked for."""
+        """Numbers and unit of the velocity with these rates."""
         m, n = self.axes.shape
         moved = rates[n : n + m * n].reshape(m, n) if m else rates[:n]
         if n == 3 and m:
@@ -49,12 +50,12 @@ class GivenVelocity:
 
     def matrix(self, n: int) -> sparse.csr_matrix:
         """The weight as a matrix over all `n` full coordinates, kg."""
-        rows, columns = np.mgrid[self.part, self.part]
+        rows, columns = np.mgrid[self.coordinates, self.coordinates]
         return sparse.csr_matrix((self.weight.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
 
 
 def given_velocities(model: Model, position: Array, mass: float) -> Iterator[GivenVelocity]:
-    """Initial velocities of a model at full coordinates; `mass`: of a coordinate that has none, kg."""
+    """Given velocities of a model; `position`: full coordinates, `mass`: of a coordinate without mass, kg."""
     d, turns = model.dimension, 1 if model.dimension == 2 else 3
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]
@@ -75,19 +76,21 @@ def given_velocities(model: Model, position: Array, mass: float) -> Iterator[Giv
 
 
 def contradiction(
-    model: Model, given: list[GivenVelocity], reached: Array, alone: Callable[[GivenVelocity], Array]
+    model: Model, given: list[GivenVelocity], actual: Array, solve_alone: Callable[[GivenVelocity], Array]
 ) -> str:
-    """A sentence on velocities each of which the joints allow alone, but not together; empty where there are none.
+    """A sentence on velocities that the joints allow one by one, but not together; empty if there are none.
 
-    `reached`: rates of the full coordinates; `alone`: gives those with one of the velocities only.
+    `actual`: rates of the full coordinates; `solve_alone`: returns those with one given velocity only.
     """
-    least = MISSED**2 * max((g.energy(g.rates) for g in given), default=0.0)
-    missed = sorted((g for g in given if g.missed(reached) > least), key=lambda g: -g.missed(reached))
-    lost = [g for g in missed if g.missed(alone(g)) <= least] if len(given) > 1 else []
-    if not lost:
+    tolerance = MISSED**2 * max((g.energy(g.rates) for g in given), default=0.0)
+    missed = sorted(
+        (g for g in given if g.energy_of_error(actual) > tolerance), key=lambda g: -g.energy_of_error(actual)
+    )
+    contradicted = [g for g in missed if g.energy_of_error(solve_alone(g)) <= tolerance] if len(given) > 1 else []
+    if not contradicted:
         return ""
     contradictions = "; ".join(
-        f"{g.name} is given as {g.text(g.rates)} and is {g.text(reached[g.part])}" for g in lost[:2]
+        f"{g.name} is given as {g.text(g.rates)} and is {g.text(actual[g.coordinates])}" for g in contradicted[:2]
     )
     return (
         f"The initial velocities of '{model.name}' contradict each other through its joints: {contradictions}. Each "

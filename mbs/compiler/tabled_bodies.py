@@ -1,4 +1,4 @@
-"""Lookup-table bodies and numbers: dependent coordinates, numbered behind those of the System, and `tabled_` arrays."""
+"""Lookup-table bodies and numbers: dependent coordinates, numbered after those of the System, and `tabled_` arrays."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ from mbs.compiler.polynomial import RowTerms
 from mbs.model.model import Model
 from mbs.model.table_bodies import TabledBody, TabledNumber
 
-NONE = [-1] * 12
+NO_FRAME = [-1] * 12
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,10 @@ class Dependents:
     """As in `reduce_coordinates`, with dependents as constants, at their drawn values."""
     of_z: list[Affine]
     """As in `reduce_coordinates`, zero for dependents."""
-    seen: list[Affine]
+    with_dependents: list[Affine]
     """As `full`, with dependents as coordinates after z: for signals."""
-    left: list[RowTerms]
-    """Linear equations in z that the elimination has not removed."""
+    remaining_equations: list[RowTerms]
+    """Linear equations that the elimination has not removed, as rows over z."""
 
 
 def tabled_coordinates(model: Model) -> list[int]:
@@ -58,63 +58,65 @@ def carried_mass(model: Model) -> NDArray[np.float64]:
     return mass
 
 
-def distinguish(
-    model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
+def separate_dependents(
+    model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], remaining_equations: list[RowTerms]
 ) -> Dependents:
     """Remove the dependents from z and number them after it; arguments as in `reduce_coordinates`."""
     tabled = {i: d for d, i in enumerate(tabled_coordinates(model))}
     if not tabled:
-        return Dependents(remaining, full, of_z, full, left)
+        return Dependents(remaining, full, of_z, full, remaining_equations)
     z = [i for i in remaining if i not in tabled]
     index_in_z = {i: k for k, i in enumerate(z)}
     new_index = [index_in_z[i] if i in index_in_z else len(z) + tabled[i] for i in remaining]
 
-    def renumbered(e: Affine) -> Affine:
+    def renumber(e: Affine) -> Affine:
         return Affine({new_index[j]: c for j, c in e.terms.items()}, e.constant)
 
-    seen = [renumbered(e) for e in full]
-    drawn = [Affine({}, c.reference) if i in tabled else seen[i] for i, c in enumerate(model.coordinates)]
-    without_dependents = [Affine() if i in tabled else renumbered(e) for i, e in enumerate(of_z)]
+    with_dependents = [renumber(e) for e in full]
+    drawn = [Affine({}, c.reference) if i in tabled else with_dependents[i] for i, c in enumerate(model.coordinates)]
+    without_dependents = [Affine() if i in tabled else renumber(e) for i, e in enumerate(of_z)]
     number_of = {-1: -1} | dict(enumerate(new_index))
-    rows = [replace(r, main={(number_of[i], number_of[j]): v for (i, j), v in r.main.items()}) for r in left]
-    return Dependents(z, drawn, without_dependents, seen, rows)
+    rows = [
+        replace(r, main={(number_of[i], number_of[j]): v for (i, j), v in r.main.items()}) for r in remaining_equations
+    ]
+    return Dependents(z, drawn, without_dependents, with_dependents, rows)
 
 
-def refuse_joint(name: str) -> ModelError:
+def joint_error(name: str) -> ModelError:
     """Error for a joint on a lookup-table body."""
     return ModelError(f"The joint '{name}' is on a lookup-table body, which accepts forces and sensors but no joints.")
 
 
-def columns_of(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
+def dependent_columns(model: Model, with_dependents: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z that each dependent depends on."""
-    return [_independents(t, seen) for t in model.tabled for _ in _dependents(t)]
+    return [_table_coordinates(t, with_dependents) for t in model.tabled for _ in _dependents(t)]
 
 
-def tabled_cliques(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
+def tabled_cliques(model: Model, with_dependents: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each table couples in the tangent."""
-    return [sorted(_independents(t, seen)) for t in model.tabled]
+    return [sorted(_table_coordinates(t, with_dependents)) for t in model.tabled]
 
 
-def spread(columns: Sequence[int], of: Sequence[Sequence[int]], nz: int) -> list[int]:
-    """Coordinates of z on which columns depend; columns from nz on are dependents. `of`: as from `columns_of`."""
-    return sorted({j for c in columns for j in (of[c - nz] if c >= nz else [c])})
+def expand_columns(columns: Sequence[int], dependent_columns: Sequence[Sequence[int]], nz: int) -> list[int]:
+    """Coordinates of z on which columns depend; those from `nz` on are dependents with columns `dependent_columns`."""
+    return sorted({j for c in columns for j in (dependent_columns[c - nz] if c >= nz else [c])})
 
 
-def locator_of(locate: Locate, of: Sequence[Sequence[int]], nz: int) -> Locate:
-    """A locator that accepts dependents as columns; their local index is 0."""
+def locator_with_dependents(locate: Locate, dependent_columns: Sequence[Sequence[int]], nz: int) -> Locate:
+    """A locator that accepts dependents, which have local index 0."""
 
-    def found(columns: Sequence[int]) -> tuple[int, list[int]]:
+    def locate_expanded(columns: Sequence[int]) -> tuple[int, list[int]]:
         if all(c < nz for c in columns):
             return locate(columns)
-        expanded = spread(columns, of, nz)
+        expanded = expand_columns(columns, dependent_columns, nz)
         front, local = locate(expanded)
         local_index = dict(zip(expanded, local, strict=True))
         return front, [local_index.get(c, 0) if c < nz else 0 for c in columns]
 
-    return found
+    return locate_expanded
 
 
-def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
+def tabled_arrays(model: Model, with_dependents: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
     """The `tabled_` arrays of the System; empty if there are no lookup tables."""
     if not model.tabled:
         return {}
@@ -123,8 +125,8 @@ def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) 
         c = t.table.coefficients
         arrays["size"] += [c.shape[2], c.shape[0], c.shape[1]]
         has_base = isinstance(t, TabledBody) and not t.base.is_ground
-        columns = [int(new[j]) for j in _independents(t, seen)]
-        arrays["frame"] += columns[:12] if has_base else NONE
+        columns = [int(new[j]) for j in _table_coordinates(t, with_dependents)]
+        arrays["frame"] += columns[:12] if has_base else NO_FRAME
         arrays["param"] += [*columns[12 * has_base :], -1][:2]
         for axis in (*t.table.axes, np.array([0.0, 1.0]))[:2]:
             arrays["axis"] += [float(axis[0]), float(axis[1] - axis[0])]
@@ -147,8 +149,8 @@ def _dependents(t: TabledBody | TabledNumber) -> range:
     return range(t.start, t.start + 12) if isinstance(t, TabledBody) else range(t.index, t.index + 1)
 
 
-def _independents(t: TabledBody | TabledNumber, seen: Sequence[Affine]) -> list[int]:
-    """Coordinates of z of the base of a table, then of its parameters: none of them is eliminated."""
+def _table_coordinates(t: TabledBody | TabledNumber, with_dependents: Sequence[Affine]) -> list[int]:
+    """Coordinates of z of the base of a table, then of its parameters; none of them is eliminated."""
     base = t.base if isinstance(t, TabledBody) else None
     frame = [] if base is None or base.is_ground else list(range(base.start, base.start + 12))
-    return [next(iter(seen[i].terms)) for i in (*frame, *(c.index for c in t.parameters))]
+    return [next(iter(with_dependents[i].terms)) for i in (*frame, *(c.index for c in t.parameters))]

@@ -1,4 +1,4 @@
-"""Tables of the System other than mass and rows: signals, elements, sensors, inputs, guides, roads, parameters."""
+"""Arrays of the System for signals, elements, sensors, inputs, guides, roads and parameters."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -15,44 +15,48 @@ from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.sensor import MOST_FACTORS, Sensor
+from mbs.model.sensor import MAX_FACTORS, Sensor
 
 Arrays = dict[str, NDArray[Any]]
 
 
 class Signals:
-    """Affine signals over z in elimination order, each stored once."""
+    """Affine signals of z in elimination order, each stored once.
+
+    `full`: full coordinates as expressions in z; `new`: index of each z in elimination order; `reserved`: coordinates
+    that expressions, by identity, have as entries even where they are zero, each as a separate signal.
+    """
 
     def __init__(
-        self, full: Sequence[Affine], new: NDArray[np.int64], room: Mapping[int, frozenset[int]] | None = None
+        self, full: Sequence[Affine], new: NDArray[np.int64], reserved: Mapping[int, frozenset[int]] | None = None
     ) -> None:
         self._full = full
         self._new = new
-        self._room = room or {}  # coordinates that an expression must have, by its identity; it then is a signal alone
-        self._known: dict[tuple[Any, ...], int] = {}
-        self._seen: dict[int, tuple[Affine, int]] = {}  # by identity; kept, so that no other one gets it
+        self._reserved = reserved or {}
+        self._number_of_row: dict[tuple[Any, ...], int] = {}
+        self._numbers: dict[int, tuple[Affine, int]] = {}  # by identity, with the expression, which keeps the identity
         self.rows: list[tuple[list[int], list[float], float]] = []
 
     def number(self, expression: Affine) -> int:
-        """Number of the signal of an expression of full coordinates."""
-        entry = self._seen.get(id(expression))
+        """Number of the signal of an expression in full coordinates."""
+        entry = self._numbers.get(id(expression))
         if entry is None:
-            z, room = substitute(expression, self._full), self._room.get(id(expression))
-            number = self.number_of_z(z) if room is None else self._alone(z, room)
-            entry = self._seen[id(expression)] = expression, number
+            z, reserved = substitute(expression, self._full), self._reserved.get(id(expression))
+            number = self.number_of_z(z) if reserved is None else self._append(z, reserved)
+            entry = self._numbers[id(expression)] = expression, number
         return entry[1]
 
     def number_of_z(self, z: Affine) -> int:
-        """Number of the signal of an expression of z."""
+        """Number of the signal of an expression in z."""
         pairs = sorted((int(self._new[j]), v) for j, v in z.terms.items())
         key = (*pairs, z.constant)
-        if key not in self._known:
-            self._known[key] = len(self.rows)
+        if key not in self._number_of_row:
+            self._number_of_row[key] = len(self.rows)
             self.rows.append(([c for c, _ in pairs], [v for _, v in pairs], z.constant))
-        return self._known[key]
+        return self._number_of_row[key]
 
-    def _alone(self, z: Affine, room: frozenset[int]) -> int:
-        pairs = sorted((int(self._new[j]), z.terms.get(j, 0.0)) for j in room | set(z.terms))
+    def _append(self, z: Affine, reserved: frozenset[int]) -> int:
+        pairs = sorted((int(self._new[j]), z.terms.get(j, 0.0)) for j in reserved | set(z.terms))
         self.rows.append(([c for c, _ in pairs], [v for _, v in pairs], z.constant))
         return len(self.rows) - 1
 
@@ -67,40 +71,40 @@ class Signals:
 
 
 def pointer(counts: Sequence[int]) -> NDArray[np.int64]:
-    """Starts of consecutive groups."""
+    """First index of each of consecutive groups, and the total."""
     return np.concatenate([[0], np.cumsum(np.asarray(counts, dtype=np.int64))]).astype(np.int64)
 
 
 def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type) -> Arrays:
-    """``name_ptr`` and ``name`` of a list of lists."""
+    """Arrays ``name_ptr`` and ``name`` of a list of lists."""
     flat = [v for g in groups for v in g]
     return {f"{name}_ptr": pointer([len(g) for g in groups]), name: np.array(flat, dtype=dtype)}
 
 
-def element_cliques(model: Model, full: Sequence[Affine], room: Mapping[int, frozenset[int]]) -> list[list[int]]:
-    """Coordinates (before ordering) that each element couples in the tangent; `room` as that of `Signals`."""
+def element_cliques(model: Model, full: Sequence[Affine], reserved: Mapping[int, frozenset[int]]) -> list[list[int]]:
+    """Coordinates (before ordering) that each element couples in the tangent; `reserved`: see `Signals`."""
     cliques = []
     for element in model.elements:
         if not element.tangent:
             continue
-        cliques.append(sorted({j for s in element.signals for j in room.get(id(s)) or substitute(s, full).terms}))
+        cliques.append(sorted({j for s in element.signals for j in reserved.get(id(s)) or substitute(s, full).terms}))
     return cliques
 
 
 def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
-    """The `el_` arrays and `y0`; `front_of(columns)` returns the front and the local indices of columns."""
-    numbers, fronts, locals_ = [], [], []
+    """The `el_` arrays and `y0`."""
+    numbers, fronts, local_indices = [], [], []
     for element in model.elements:
         element_signals = [signals.number(s) for s in element.signals]
         numbers.append(element_signals)
         entries = [c for n in element_signals for c in signals.rows[n][0]]
         if not element.tangent or not entries:
             fronts.append(-1)
-            locals_.append([0] * len(entries))
+            local_indices.append([0] * len(entries))
         else:
             front, local = front_of(entries)
             fronts.append(front)
-            locals_.append(local)
+            local_indices.append(local)
     e = model.elements
     return {
         "el_type": np.array([int(x.type) for x in e], dtype=np.int64),
@@ -110,13 +114,13 @@ def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
         "el_state_ptr": pointer([len(x.states) for x in e]),
         "el_out_ptr": pointer([len(x.outputs) for x in e]),
         "el_front": np.array(fronts, dtype=np.int64),
-        **ragged("el_loc", locals_, np.int64),
+        **ragged("el_loc", local_indices, np.int64),
         "y0": np.array([v for x in e for v in x.states], dtype=float),
     }
 
 
 def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], int]) -> Arrays:
-    """The `sen_` arrays; `row_of` maps (joint, equation) to its row."""
+    """The `sen_` arrays; `row_of`: number of the row of (joint, equation)."""
     joints = {id(j): k for k, j in enumerate(model.joints)}
     ints = []
     reals: list[Sequence[float]] = []
@@ -132,11 +136,11 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
         return row_number
 
     for sensor in model.sensors:
-        # the bodies are all known only now
-        of_bodies = sensor.type == SensorType.MASS
+        # all bodies of the model are known here
+        is_mass = sensor.type == SensorType.MASS
         reals.append(
             [float(sum(b.mass for b in (*model.bodies, *model.tabled) if isinstance(b, Body)))]
-            if of_bodies
+            if is_mass
             else sensor.reals
         )
         if sensor.terms:
@@ -144,8 +148,8 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
             reals[-1] = [t.weight for t in sensor.terms]
             for t in sensor.terms:
                 factors = [signals.number(f) for f in t.factors]
-                none = [-1] * (MOST_FACTORS - len(factors))
-                ints[-1] += [row(sensor, t.joint or sensor.joint, t.equation), *factors, *none, t.guide]
+                padding = [-1] * (MAX_FACTORS - len(factors))
+                ints[-1] += [row(sensor, t.joint or sensor.joint, t.equation), *factors, *padding, t.guide]
                 if sensor.type == SensorType.REACTION_BY_TABLE:
                     ints[-1].append(t.slope)
         elif sensor.joint is not None:
@@ -162,18 +166,18 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
 
 
 def channel_arrays(model: Model) -> Arrays:
-    """Inputs, guides, roads and parameters."""
+    """Arrays of inputs, guides, roads and parameters."""
     element_start = pointer([len(e.real) for e in model.elements])
     guide_start = pointer([len(g.reals) for g in model.guides])
     road_start = pointer([len(r.real) for r in model.roads])
-    written = written_armatures(model)
+    written_numbers = written_armatures(model)
     starts = (
         element_start,
         guide_start,
         road_start,
         pointer([1] * len(model.payloads)),
         pointer([1] * len(model.switches)),
-        pointer([int(k in written) for k in range(len(model.armatures))]),
+        pointer([int(k in written_numbers) for k in range(len(model.armatures))]),
         pointer([len(body.reals) for body in model.written_inertias]),
         pointer([1 if s.type == SensorType.MASS else s.factors for s in model.sensors]),
         pointer([len(axis.reals) for axis in model.written_axes]),

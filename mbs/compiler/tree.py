@@ -14,14 +14,14 @@ from mbs.common.vectors import in_space
 from mbs.compiler.armatures import written_armatures
 from mbs.compiler.natural_coordinates import choose
 from mbs.compiler.spanning_tree import (
-    MOST_JOINTS,
+    MAX_JOINTS,
     Cut,
     Group,
     NoTreeError,
+    angle_joints,
+    cut_rows,
     frame_along,
-    rows_of,
     spanning_tree,
-    turning,
 )
 from mbs.compiler.tables import Signals
 from mbs.model.body import Body
@@ -31,8 +31,8 @@ Array = NDArray[np.float64]
 
 EQUAL_MOMENTS = 1e-12
 """Largest relative difference of two principal moments of inertia that count as equal."""
-CARRIED = 5
-"""Numbers per coordinate that the kernel's state keeps for the history of a method."""
+HISTORY_SIZE = 5
+"""Numbers that the kernel's state stores for each coordinate as the history of a method."""
 
 
 def tree_arrays(
@@ -40,25 +40,25 @@ def tree_arrays(
 ) -> tuple[dict[str, Any], str]:
     """The `tree_` arrays; none, with the reason in words, where the model has no tree.
 
-    `signals`: takes the frames of the bodies; `remaining`: natural coordinates that are z; `new`: place of each z in
-    elimination order.
+    `signals`: gets the signals of the bodies' frames; `remaining`: natural coordinates that form z; `new`: index of
+    each z in elimination order.
     """
     try:
         if model.tabled:
             raise NoTreeError(f"'{model.tabled[0].name}' moves by a table")
         groups, cuts = spanning_tree(model)
         moving = groups[1:]
-        rows = sum(sum(rows_of(model, cut)) for cut in cuts)
+        rows = sum(sum(cut_rows(model, cut)) for cut in cuts)
         angles = _angles(model, groups, remaining, new)
-        if 4 * len(moving) + 1 + rows + len(angles["angle_col"]) > CARRIED * len(remaining):
+        if 4 * len(moving) + 1 + rows + len(angles["angle_col"]) > HISTORY_SIZE * len(remaining):
             raise NoTreeError(
                 f"{len(moving)} joints and {rows} rows of loops are many for {len(remaining)} coordinates"
             )
-        _refuse_written(model)
+        _check_parameters(model)
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
             "slides": [int(g.slides) for g in moving],
-            "base": _joined([g.base for g in moving]),
+            "base": _concatenate([g.base for g in moving]),
             **_masses(moving),
             "gravity": in_space(model.gravity),
             **_coordinates(model, groups, remaining, new),
@@ -72,8 +72,8 @@ def tree_arrays(
         return {}, str(reason)
 
 
-def _refuse_written(model: Model) -> None:
-    """Refuse inertias, armatures and axes that parameters change: those of a tree are constant."""
+def _check_parameters(model: Model) -> None:
+    """Raise `NoTreeError` for parameters that change inertias, armatures or axes: those of a tree are constant."""
     for k in written_armatures(model):
         raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")
     for body in model.written_inertias:
@@ -82,8 +82,8 @@ def _refuse_written(model: Model) -> None:
         raise NoTreeError(f"parameters write the axis of '{axis.name}'")
 
 
-def _joined(parts: Sequence[Array]) -> Array:
-    return np.concatenate([np.zeros(0), *parts])
+def _concatenate(arrays: Sequence[Array]) -> Array:
+    return np.concatenate([np.zeros(0), *arrays])
 
 
 def _masses(moving: Sequence[Group]) -> dict[str, Any]:
@@ -101,19 +101,19 @@ def _masses(moving: Sequence[Group]) -> dict[str, Any]:
         masses.append(mass)
         centres.append(group.local(centre))
         inertias.append(_principal(np.trace(moments) * np.eye(3) - moments))
-    return {"mass": masses, "centre": _joined(centres), "inertia": _joined(inertias)}
+    return {"mass": masses, "centre": _concatenate(centres), "inertia": _concatenate(inertias)}
 
 
 def _principal(J: Array) -> Array:
     """j, k1, e1, k2, e2 of J = j 1 + k1 e1 e1' + k2 e2 e2'; k2 = 0 where two principal moments are equal."""
     values, vectors = np.linalg.eigh(0.5 * (J + J.T))
-    # the moment with the nearest neighbour is the isotropic part
-    alike, near, far = (0, 1, 2) if values[1] - values[0] <= values[2] - values[1] else (2, 1, 0)
-    k2 = values[near] - values[alike]
+    # the extreme moment that is nearer to the middle one is j
+    isotropic, near, far = (0, 1, 2) if values[1] - values[0] <= values[2] - values[1] else (2, 1, 0)
+    k2 = values[near] - values[isotropic]
     if abs(k2) <= EQUAL_MOMENTS * values[2]:
         k2 = 0.0
-    k1 = values[far] - values[alike]
-    return np.array([values[alike], k1, *vectors[:, far], k2, *vectors[:, near]])
+    k1 = values[far] - values[isotropic]
+    return np.array([values[isotropic], k1, *vectors[:, far], k2, *vectors[:, near]])
 
 
 def _frame_signals(group: Group, signals: Signals) -> list[int]:
@@ -124,7 +124,7 @@ def _frame_signals(group: Group, signals: Signals) -> list[int]:
 
 
 def _components(body: Body, drawn: Array, is_point: bool) -> AffineVector:
-    """Three components of a drawn point or vector of a body."""
+    """Expressions of the three components of a drawn point or vector of a body."""
     v = drawn[: body.dimension]
     vector = body.point(v) if is_point else body.vector(v)
     return AffineVector((*vector.components, *(Affine({}, float(x)) for x in drawn[body.dimension :])))
@@ -133,7 +133,7 @@ def _components(body: Body, drawn: Array, is_point: bool) -> AffineVector:
 def _coordinates(
     model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
 ) -> dict[str, Any]:
-    """The points (1) and vectors (0) whose components are coordinates of the System: body, local components, places."""
+    """Points (1) and vectors (0) whose components are coordinates of the System: body, local components, indices."""
     owner = {id(body): group for group in groups for body in group.bodies}
     index = {i: int(new[z]) for z, i in enumerate(remaining)}
     bodies, locals_, columns = [], [], []
@@ -149,45 +149,45 @@ def _coordinates(
             bodies.append(group.number)
             locals_.append(np.array([o, *(group.local(drawn_vector) if o else group.axes.T @ drawn_vector)]))
             columns += component_columns + [-1] * (3 - d)
-    return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
+    return {"out_body": bodies, "out_local": _concatenate(locals_), "out_col": columns}
 
 
 def _payloads(model: Model, groups: Sequence[Group]) -> dict[str, Any]:
-    """Bodies of the payloads and places in their frames."""
+    """Bodies of the payloads, and positions in the frames of these, m."""
     owner = {body.start: group for group in groups for body in group.bodies if not body.is_ground}
-    on = [owner[p.body.start] for p in model.payloads]
-    for payload, group in zip(model.payloads, on, strict=True):
+    payload_groups = [owner[p.body.start] for p in model.payloads]
+    for payload, group in zip(model.payloads, payload_groups, strict=True):
         if group.number == 0:
             raise NoTreeError(f"payload '{payload.name}' sits on a body that is welded to the ground")
         if payload.shared:
             raise NoTreeError(f"payload '{payload.name}' is carried by several points")
-    positions = [g.local(in_space(p.position)) for p, g in zip(model.payloads, on, strict=True)]
-    return {"payload_body": [g.number for g in on], "payload_place": _joined(positions)}
+    positions = [g.local(in_space(p.position)) for p, g in zip(model.payloads, payload_groups, strict=True)]
+    return {"payload_body": [g.number for g in payload_groups], "payload_place": _concatenate(positions)}
 
 
 def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
-    """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
+    """Relative angles: index of the coordinate, joints that add up to the angle, their signs, inertia of the angle."""
     index = {i: int(new[z]) for z, i in enumerate(remaining)}
     arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
     for joint in model.joints:
         if joint.turn is None:
             continue
-        signed_joints = turning(list(groups), joint)
+        signed_joints = angle_joints(list(groups), joint)
         inertia = model.inertias.get(joint.turn.coordinate, 0.0)
-        if inertia > 0.0 and not _one_path(groups, [number for number, _ in signed_joints]):
+        if inertia > 0.0 and not _is_one_path(groups, [number for number, _ in signed_joints]):
             raise NoTreeError(f"the armature of relative angle '{joint.name}' couples two branches of the tree")
         arrays["col"].append(index[joint.turn.coordinate])
         arrays["joint"] += [number for number, _ in signed_joints]
         arrays["sign"] += [sign for _, sign in signed_joints]
         arrays["ptr"].append(len(arrays["joint"]))
         arrays["inertia"].append(inertia)
-    if len(arrays["col"]) > MOST_JOINTS:
-        raise NoTreeError(f"there are {len(arrays['col'])} relative angles; at most {MOST_JOINTS} are possible")
+    if len(arrays["col"]) > MAX_JOINTS:
+        raise NoTreeError(f"there are {len(arrays['col'])} relative angles; at most {MAX_JOINTS} are possible")
     return {f"angle_{name}": values for name, values in arrays.items()}
 
 
-def _one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
-    """Whether the bodies are all on the path from one of them to the ground."""
+def _is_one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
+    """Whether all these groups are on the path from one of them to the ground."""
     path, group = set(), groups[max(numbers, default=0)]
     while group.parent is not None:
         path.add(group.number)
@@ -205,7 +205,7 @@ def _cut_arrays(model: Model, cuts: Sequence[Cut]) -> dict[str, Any]:
         points = [g.local(in_space(p)) for g, p in zip(cut.groups, cut.places.points, strict=True)]
         frames = [frame_along(axis) for axis in cut.places.axes or (None, None)]
         bodies += [first.number, second.number]
-        rows += rows_of(model, cut)
+        rows += cut_rows(model, cut)
         normals = (first.axes.T @ frames[0])[:, :2]
         geometry += [points[0], normals.T.ravel(), points[1], second.axes.T @ frames[1][:, 2]]
-    return {"cut_body": bodies, "cut_rows": rows, "cut_place": _joined(geometry)}
+    return {"cut_body": bodies, "cut_rows": rows, "cut_place": _concatenate(geometry)}

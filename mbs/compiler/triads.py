@@ -14,8 +14,8 @@ from mbs.compiler.loops import Block, Edge, Vertex, rings
 
 @dataclass(frozen=True)
 class Triad:
-    """Axis n, arms a and b from the joint, number of the ring; `turned` where b is a slide's axis, to which the body is
-    perpendicular.
+    """Axis n, arms a and b from the joint, and number of the ring; `turned`: b is the line of a slide, to which its
+    body is perpendicular.
     """
 
     name: str
@@ -34,26 +34,26 @@ class Triad:
 def triads(block: Block) -> list[Triad]:
     """One triad at each joint between two moving vertices of each ring.
 
-    The length of a rod is no condition on two bodies that are connected by a ring without it.
+    An edge on a ring without rods has no triads of rings with rods.
     """
     by_edges = {}
-    tied: set[int] = set()
+    rodless_edges: set[int] = set()
     for number, ring in enumerate(rings(block)):
         has_rod = any(v.is_rod for v in ring)
         for k, v in enumerate(ring):
             w = ring[(k + 1) % len(ring)]
             edge = v.edges[w]
-            if block.held in (v, w) or edge.slides:
+            if block.reference in (v, w) or edge.slides:
                 continue
             if not has_rod:
-                tied.add(id(edge))
-            elif id(edge) in tied:
+                rodless_edges.add(id(edge))
+            elif id(edge) in rodless_edges:
                 continue
             before = v.edges[ring[k - 1]]
             after = w.edges[ring[(k + 2) % len(ring)]]
-            new = _triad(edge, (v, before), (w, after), block, number)
-            if new is not None:
-                by_edges[(id(edge), id(before), id(after))] = new
+            triad = _triad(edge, (v, before), (w, after), block, number)
+            if triad is not None:
+                by_edges[(id(edge), id(before), id(after))] = triad
     return list(by_edges.values())
 
 
@@ -70,7 +70,7 @@ def _triad(
 
 
 def _arm(edge: Edge, vertex: Vertex, end: Edge) -> tuple[AffineVector, bool]:
-    """Arm from the joint along the body of `vertex`; if that slides on a line of its neighbour, that line."""
+    """Arm from the joint along the body, and False; or the line of a neighbour on which the body slides, and True."""
     if end.slides and end.line_of is not vertex and end.axis is not None:
         return end.axis, True
     return end.point - edge.point, False

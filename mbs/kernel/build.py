@@ -1,4 +1,4 @@
-"""Compiles the kernel with the C compiler that the `ziglang` package brings; no system compiler is needed."""
+"""Compilation of the kernel with the C compiler of the package `ziglang`; no system compiler is needed."""
 
 import functools
 import hashlib
@@ -29,38 +29,33 @@ FLAGS = [
     "-Wextra",
     "-Werror",
 ]
-"""No fused or reordered arithmetic: the same bits on every platform."""
-
+"""Without fused or reordered arithmetic, so that results have the same bits on all platforms."""
 NO_UNWIND_TABLES = ["-fno-asynchronous-unwind-tables", "-fno-unwind-tables"]
-"""Nothing is thrown through the kernel; Windows walks its stacks by these tables and keeps them."""
-
+"""The kernel has no exceptions; only Windows needs these tables, to unwind its stack."""
 WASM_FLAGS = [
     "-mexec-model=reactor",
     "-DALI3_ALONE",  # files and messages in memory: the module imports nothing
-    "-Wno-pass-failed",  # a loop that is asked to be vectors stays one, without simd128
-    "-Wl,-z,stack-size=1048576",  # below all data, so that an overflow is a trap
+    "-Wno-pass-failed",  # without simd128, loops cannot be vectorised
+    "-Wl,-z,stack-size=1048576",  # below all data, so that an overflow traps
 ]
-"""In place of ``-shared -fPIC`` for WebAssembly."""
-
+"""Flags for WebAssembly in place of ``-shared -fPIC``."""
 WASM_HELPERS = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
-"""Exports of a WebAssembly module for its host besides its own functions: memory, and files in it."""
-
-
+"""Exports of a WebAssembly module in addition to the kernel's functions: memory, and files in memory."""
 LANES = ("lanes", "run_many.c", "entries.c")
-"""Parts of `src/` that an FMU lacks: stepping of many instances together, and the functions that Python calls."""
+"""Folders and files of `src/` that an FMU does not have: steps of many instances, and the functions for Python."""
 
 
 def sources(lanes: bool = True, kernel: Path | None = None) -> list[Path]:
-    """C files of the kernel, sorted by room and name; without `lanes` what steps one instance.
+    """C files of the kernel, sorted by folder and name.
 
-    `kernel`: folder of it, by default that beside this file.
+    `lanes`: with those in `LANES`; `kernel`: its folder, by default that of this file.
     """
     files = sorted(((kernel or HERE) / "src").rglob("*.c"))
     return [f for f in files if lanes or not (f.parent.name in LANES or f.name in LANES)]
 
 
 def host_target() -> str:
-    """Target triple of the machine this runs on; Linux libraries ask for no newer glibc than 2.17."""
+    """Target triple of this machine; Linux libraries need glibc 2.17 or newer."""
     machine = platform.machine().lower()
     cpu = {"amd64": "x86_64", "x86_64": "x86_64", "arm64": "aarch64", "aarch64": "aarch64"}.get(machine)
     system = {"linux": "linux-gnu.2.17", "win32": "windows-gnu", "darwin": "macos"}.get(sys.platform)
@@ -87,10 +82,10 @@ def cache_directory() -> Path:
 
 
 def compiler() -> str:
-    """The program `zig` that the package `ziglang` brings.
+    """Path of the program `zig` of the package `ziglang`.
 
-    It is called by its path: ``python -m ziglang`` would look into the current folder first. Raises
-    `ModuleNotFoundError` if the package is not installed.
+    ``python -m ziglang`` would search the current folder first. Raises `ModuleNotFoundError`: the package is not
+    installed.
     """
     spec = importlib.util.find_spec("ziglang")
     if spec is None or not spec.submodule_search_locations:
@@ -102,10 +97,10 @@ def compiler() -> str:
 
 
 def compile_library(target: str | None = None, out: str | Path | None = None) -> Path:
-    """Compile the kernel, once for all folders that hold the same sources.
+    """Compile the kernel, once for equal sources, and return the path of the library.
 
-    `target`: triple as `zig cc -target` takes it; by default the platform this runs on; `out`: the library to write; by
-    default `lib/` beside this file, under the platform's usual name.
+    `target`: triple for `zig cc -target`, by default that of this machine; `out`: path of the library, by default in
+    `lib/` beside this file with the usual name of the platform.
     """
     target = target or host_target()
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)
@@ -121,7 +116,7 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
 
 
 def digest_of(command: Sequence[str], *folders: Path) -> str:
-    """A hash of the compiler's version, its options, and the C files and headers in folders: no places but options'."""
+    """Hash of the compiler's version, its options, and names and content of the C files and headers in folders."""
     digest = hashlib.sha256(repr((version("ziglang"), command[1:])).encode())
     for root, source in ((folder, file) for folder in folders for file in sorted(folder.rglob("*.[ch]"))):
         content = source.read_bytes()
@@ -130,7 +125,7 @@ def digest_of(command: Sequence[str], *folders: Path) -> str:
 
 
 def functions() -> list[str]:
-    """Functions of the kernel, as its header declares them."""
+    """Names of the kernel's functions, from its header."""
     header = (HERE / "include" / "ali3.h").read_text(encoding="utf-8")
     return re.findall(r"^ALI3_API [^;(]*?\b(ali3_\w+)\(", header, re.MULTILINE)
 
@@ -151,22 +146,22 @@ def compile_c(
     Parameters
     ----------
     target : str
-        Triple as `zig cc -target` takes it.
+        Triple for `zig cc -target`.
     path : Path
-        The file to write; an older one is replaced only when the new one is whole.
+        File to write; an existing one is replaced when the new one is complete.
     include : sequence of Path
         Folders of headers.
     what : str
-        Name for messages.
+        Name of the product in errors.
     shared : bool
-        A library; otherwise a program.
+        Make a library; otherwise a program.
     exports : sequence of str
-        Functions that a WebAssembly module exports; other libraries export by the sources.
+        Functions that a WebAssembly module exports; those of other libraries are marked in the sources.
 
     Raises
     ------
     RuntimeError
-        With the compiler's words.
+        The compiler fails; with its message.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     environment = compiler_environment()
@@ -177,15 +172,15 @@ def compile_c(
         )
         result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         if result.returncode != 0:
-            words = result.stderr.strip()
-            if not words:  # the linker ends so when it cannot write
-                words = f"the compiler ended with {result.returncode} and no message; is there room in {path.parent}?"
-            raise RuntimeError(f"{what} did not compile for {target}:\n{words}")
-        output.replace(path)  # at once, so that a program that has the old library loaded keeps it whole
+            message = result.stderr.strip()
+            if not message:  # as when the linker cannot write
+                message = f"the compiler ended with {result.returncode} and no message; is there room in {path.parent}?"
+            raise RuntimeError(f"{what} did not compile for {target}:\n{message}")
+        output.replace(path)  # atomically, because a program may have loaded the old library
 
 
 def compiler_environment() -> dict[str, str]:
-    """Environment of the compiler: that of this process with the place of the compiler's cache."""
+    """Environment of the compiler: that of this process with the folder of the compiler's cache."""
     cache = str(cache_directory())
     return os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
 
@@ -202,14 +197,14 @@ def compiler_command(
 ) -> list[str]:
     """Command line that compiles C files into `path`; the arguments are those of `compile_c`."""
     command = [compiler(), "cc", "-target", target, *FLAGS, *([] if "windows" in target else NO_UNWIND_TABLES)]
-    module = "wasm" in target
-    if module or not shared:
-        command = [part for part in command if part not in ("-shared", "-fPIC")]
-    if module:
+    is_wasm = "wasm" in target
+    if is_wasm or not shared:
+        command = [flag for flag in command if flag not in ("-shared", "-fPIC")]
+    if is_wasm:
         command += WASM_FLAGS + [f"-Wl,--export={name}" for name in exports]
     elif shared and "macos" in target:
         command.append(f"-Wl,-install_name,@rpath/{path.name}")
-    command += [f"-I{place}" for place in include] + [f"-D{name}" for name in defines]
+    command += [f"-I{folder}" for folder in include] + [f"-D{name}" for name in defines]
     command += ["-o", str(path), *map(str, files)]
     if "linux" in target:
         command += ["-lm", "-ldl"]

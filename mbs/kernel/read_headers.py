@@ -1,7 +1,7 @@
-"""Writes what the C headers say into Python: the folder `header` with the numbers and structures that
-the kernel and Python share; and into C: the functions that Python calls.
+"""Writes constants, enumerations and structures of the C headers to Python (folder `header`), and the C functions that
+Python calls.
 
-The headers are the source. After a change of theirs:
+After a change of the headers:
 
     python mbs/kernel/read_headers.py
 """
@@ -20,7 +20,7 @@ ARRAYS, ELEMENTS = "src/system_arrays.h", "src/elements/element_types.h"
 MAGIC = "src/elements/magic_formula.h"
 
 ENUMERATIONS = {
-    "Cause": (PUBLIC, "ALI3_CAUSE_CALL", "ALI3_CAUSE_", "`ali3_cause`: what a refusal comes from."),
+    "Cause": (PUBLIC, "ALI3_CAUSE_CALL", "ALI3_CAUSE_", "`ali3_cause`: cause of a refusal."),
     "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "Diagnostics of the solver."),
     "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "Target of a parameter."),
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
@@ -28,36 +28,36 @@ ENUMERATIONS = {
     "JudgedUnit": (PUBLIC, "ALI3_JUDGED_M", "ALI3_JUDGED_", "`ali3_judged.unit`."),
     "JudgedKind": (PUBLIC, "ALI3_JUDGED_PLACE", "ALI3_JUDGED_", "Bits of `ali3_judged.kind`."),
 }
-"""Per Python name: header, first item, what its items begin with, docstring."""
-OF_STEPS = {
+"""Header, first item, prefix of its items and docstring of each enumeration, by its name in Python."""
+STEP_ENUMERATIONS = {
     "Update": (PUBLIC, "ALI3_UPDATE_LINEARISED", "ALI3_UPDATE_", "`ali3_settings.update`."),
     "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
     "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
     "Balance": (PUBLIC, "ALI3_BALANCE_KEPT", "ALI3_BALANCE_", "`ali3_report.balance`."),
 }
-OF_SENSORS = {"SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "Source of the value of a sensor.")}
+SENSOR_ENUMERATIONS = {"SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "Source of the value of a sensor.")}
 LIMITS = {
-    "ALI3_OPEN": "A row that is open by less, m, is not why something failed.",
+    "ALI3_OPEN": "Least gap of a row that errors name as open, m.",
     "ALI3_FARTHEST": "Largest distance of a start, m.",
     "ALI3_FASTEST": "Largest speed of a start, m/s or rad/s, and its yaw, rad.",
     "ALI3_POSE": "Numbers of a pose.",
     "ALI3_LONGEST_SETTLING": "Longest time for which a start may settle, s.",
-    "ALI3_STILL": "Of the largest value in a unit, or of the length: a smaller range is rest.",
-    "ALI3_WRONG_ERROR": "Of the size of what is judged: above it a run is wrong.",
-    "ALI3_RESOLVED": "Missed share of all changes of velocity, h w/2 of a vibration of w, up to which steps resolve.",
-    "ALI3_AGREED": "Of what would be wrong: two motions that differ by less agree.",
-    "ALI3_MOST_PARTS": "By which the step of a second motion is longer, or half of it shorter, at most.",
-    "ALI3_SYSTEM_VERSION": "Of the System file.",
+    "ALI3_STILL": "Largest range of a quantity at rest, parts of the largest value in its unit or of the length.",
+    "ALI3_WRONG_ERROR": "Largest error of a run that is not wrong, parts of the size of the compared quantity.",
+    "ALI3_RESOLVED": "Largest missed part of the changes of velocity of resolved steps, h w/2 for a vibration of w.",
+    "ALI3_AGREED": "Largest difference of two motions that agree, parts of the error of a wrong one.",
+    "ALI3_MOST_PARTS": "Largest factor by which the step of a second motion is longer; half of it if it is shorter.",
+    "ALI3_SYSTEM_VERSION": "Version of the System file.",
 }
 ROADS = "src/roads/road_file.h"
 ROAD_LIMITS = {
-    "ALI3_ROAD_VERSION": "Of a road file.",
-    "ALI3_ROAD_SHARED": "Of a road file whose equal tiles are stored once.",
-    "ALI3_ROAD_TILE": "Points along the side of a tile of a road file.",
+    "ALI3_ROAD_VERSION": "Version of a road file.",
+    "ALI3_ROAD_SHARED": "Version of a road file whose equal tiles are stored once.",
+    "ALI3_ROAD_TILE": "Number of points along the side of a tile of a road file.",
     "ALI3_ROAD_HIGHEST": "Largest height of a road file, m.",
     "ALI3_ROAD_FARTHEST": "Largest coordinate of a road file, m.",
     "ALI3_ROAD_FRICTION": "Largest friction of a road file.",
-    "ALI3_ROAD_POINTS": "Most points of a road file.",
+    "ALI3_ROAD_POINTS": "Largest number of points of a road file.",
 }
 STRUCTURES = {
     "settings": "SettingsFields",
@@ -71,23 +71,23 @@ STRUCTURES = {
     "input_table": "InputTable",
     "input_tables": "InputTables",
 }
-"""Names in Python of the structures ``ali3_...``; those that others point to come first."""
+"""Names in Python of the structures ``ali3_...``, pointers after what they point to."""
 
 _OPAQUE = "ali3_instance"
 _TYPES = {"double": "c_double", "int32_t": "c_int32", "int64_t": "c_int64"}
 
 
-def text_of(file: str) -> str:
-    """A header without its comments."""
+def read_header(file: str) -> str:
+    """Text of a header without comments."""
     return re.sub(r"/\*.*?\*/", " ", (KERNEL / file).read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
 def enumeration(file: str, first: str, prefix: str) -> dict[str, int]:
-    """Items of the enumeration that starts with `first`, without the prefix and without its count.
+    """Items of the enumeration that starts with `first`, without their prefix and without its count.
 
-    Raises `ValueError` if the header has no such enumeration or an item has another prefix.
+    Raises `ValueError`: the header has no such enumeration, or an item has another prefix.
     """
-    match = re.search(r"enum \{\s*(" + first + r"\b[^}]*)\}", text_of(file))
+    match = re.search(r"enum \{\s*(" + first + r"\b[^}]*)\}", read_header(file))
     if match is None:
         raise ValueError(f"{file} has no enumeration that starts with {first}.")
     items: dict[str, int] = {}
@@ -103,31 +103,31 @@ def enumeration(file: str, first: str, prefix: str) -> dict[str, int]:
     return items
 
 
-_PART = re.compile(r"""\s*((?:"(?:[^"\\]|\\.)*"\s*)+|(?:[^,()"]|\([^()]*\))+)\s*([,)])""")
-"""An argument of a list macro, strings or a word with at most one pair of parentheses, and what ends it."""
+_ARGUMENT = re.compile(r"""\s*((?:"(?:[^"\\]|\\.)*"\s*)+|(?:[^,()"]|\([^()]*\))+)\s*([,)])""")
+"""An argument of a list macro, strings or a word with at most one pair of parentheses, and the delimiter after it."""
 
 
 def table(file: str, name: str) -> list[list[str]]:
-    """Entries ``X(...)`` of a list macro: the arguments as text, adjacent strings joined and without quotes."""
-    match = re.search(rf"#define {name}\(X\)((?:[^\n]*\\\n)+[^\n]*)", text_of(file))
+    """Arguments of each entry ``X(...)`` of a list macro as text, adjacent strings joined and without quotes."""
+    match = re.search(rf"#define {name}\(X\)((?:[^\n]*\\\n)+[^\n]*)", read_header(file))
     if match is None:
         raise ValueError(f"{file} has no list {name}.")
-    entries, text, at = [], match[1].replace("\\\n", " "), 0
-    while (start := text.find("X(", at)) >= 0:
-        at, end, entry = start + 2, "", []
+    entries, text, position = [], match[1].replace("\\\n", " "), 0
+    while (start := text.find("X(", position)) >= 0:
+        position, end, entry = start + 2, "", []
         while end != ")":
-            argument = _PART.match(text, at)
+            argument = _ARGUMENT.match(text, position)
             if argument is None:
                 raise ValueError(f"an entry of {name} in {file} cannot be read: {text[start : start + 60]}")
             words = argument[1].strip()
             entry.append(str(ast.literal_eval(f"({words})")) if words.startswith('"') else words)
-            at, end = argument.end(), argument[2]
+            position, end = argument.end(), argument[2]
         entries.append(entry)
     return entries
 
 
 def element_types() -> dict[str, int]:
-    """The types of force elements and their numbers. Raises `ValueError` if two have one number."""
+    """Types of force elements and their numbers; raises `ValueError` if a number is repeated."""
     types = {name.upper(): int(number) for number, name in table(ELEMENTS, "ALI3_ELEMENT_TYPES")}
     if len(set(types.values())) != len(types):
         raise ValueError(f"two types of ALI3_ELEMENT_TYPES in {ELEMENTS} have one number.")
@@ -135,7 +135,7 @@ def element_types() -> dict[str, int]:
 
 
 class SensorEntry(NamedTuple):
-    """An entry of ALI3_SENSOR_TYPES; what the letters of `integers` mean is said there."""
+    """An entry of ALI3_SENSOR_TYPES, which describes the letters of `integers`."""
 
     number: int
     name: str
@@ -145,7 +145,7 @@ class SensorEntry(NamedTuple):
 
 
 def sensor_types() -> list[SensorEntry]:
-    """The types of sensors in their order."""
+    """The types of sensors, by number."""
     entries = [
         SensorEntry(int(number), name, integers, reads, (words[0], words[1], words[2]))
         for number, name, _, integers, _, _, _, reads, *words in table(SENSORS, "ALI3_SENSOR_TYPES")
@@ -156,13 +156,13 @@ def sensor_types() -> list[SensorEntry]:
 
 
 def sensor_table() -> str:
-    """The table of sensors, as the page of the System file shows it on the site."""
+    """The table of sensors of the page of the System file, Markdown."""
     rows = (f"| {t.number} | {t.name} | {' | '.join(t.words)} |" for t in sensor_types())
     return "\n".join(["| type | name | ints | reals | value |", "| --- | --- | --- | --- | --- |", *rows])
 
 
 class ArrayEntry(NamedTuple):
-    """An entry of ALI3_SYSTEM_ARRAYS; what `length` and `values` may be is said there."""
+    """An entry of ALI3_SYSTEM_ARRAYS, which describes `length` and `values`."""
 
     items: str
     name: str
@@ -173,17 +173,17 @@ class ArrayEntry(NamedTuple):
 
 
 def arrays() -> list[ArrayEntry]:
-    """The arrays of a System in the order of their list. Raises `ValueError` if a name appears twice."""
+    """The arrays of a System in the order of their list; raises `ValueError` if a name is repeated."""
     entries = [ArrayEntry(*entry) for entry in table(ARRAYS, "ALI3_SYSTEM_ARRAYS")]
     if len({entry.name for entry in entries}) != len(entries):
         raise ValueError(f"an array appears twice in ALI3_SYSTEM_ARRAYS of {ARRAYS}.")
     return entries
 
 
-PARTS = ("flex_", "tree_", "mode_")
-"""Names of arrays that have a table of their own begin so."""
+TABLE_PREFIXES = ("flex_", "tree_", "mode_")
+"""Prefixes of the arrays that have separate tables."""
 _ITEMS = {"INTEGERS": "i", "REALS": "f", "BYTES": "bytes"}
-_SPELT = (
+_SUBSTITUTIONS = (
     (r"ANY|RELATED_LENGTH", "any"),
     (r"OR_NONE\((.+)\)", r"\1 or 0"),
     (r"IF_ANY\((.+), (.+)\)", r"\2, or 0 without \1"),
@@ -196,26 +196,28 @@ _SPELT = (
     (r"OFFSETS\((\w+)\)", r"offsets in `\1`"),
     (r"ASCENDING", "offsets"),
 )
-"""Lengths and values as the page has them; what follows from the words has none."""
+"""Texts of the page for lengths and values; empty if the meaning of the array implies them."""
 
 
-def _spelt(text: str) -> str:
-    return next((found.expand(words) for old, words in _SPELT if (found := re.fullmatch(old, text))), text)
+def _spell_out(text: str) -> str:
+    return next(
+        (found.expand(words) for pattern, words in _SUBSTITUTIONS if (found := re.fullmatch(pattern, text))), text
+    )
 
 
-def array_table(part: str = "") -> str:
-    """A table of the page of the System file: the arrays whose names begin with `part`, or those of no such table."""
+def array_table(prefix: str = "") -> str:
+    """A table of arrays of the page of the System file, Markdown: those with a prefix, or those in no such table."""
     rows = [
-        f"| `{a.name}` | {_ITEMS[a.items]} {_spelt(a.length)}{', may be missing' * (a.presence == 'MAY')} "
-        f"| {_spelt(a.values)} | {a.words.replace('|', chr(92) + '|')} |"
+        f"| `{a.name}` | {_ITEMS[a.items]} {_spell_out(a.length)}{', may be missing' * (a.presence == 'MAY')} "
+        f"| {_spell_out(a.values)} | {a.words.replace('|', chr(92) + '|')} |"
         for a in arrays()
-        if (a.name.startswith(part) if part else not a.name.startswith(PARTS))
+        if (a.name.startswith(prefix) if prefix else not a.name.startswith(TABLE_PREFIXES))
     ]
     return "\n".join(["| name | type, length | values | meaning |", "| --- | --- | --- | --- |", *rows])
 
 
 def size_table() -> str:
-    """The table of sizes of the page of the System file."""
+    """The table of sizes of the page of the System file, Markdown."""
     rows = (
         f"| `{name}` | {words} | items of `{array}`{'' if each == '1' else ' / ' + each} |"
         for name, array, each, words in table(ARRAYS, "ALI3_SYSTEM_SIZES")
@@ -224,7 +226,7 @@ def size_table() -> str:
 
 
 def status_table() -> str:
-    """The table of statuses, as a page shows it on the site."""
+    """The table of statuses of a page, Markdown."""
     statuses = enumerate(table(PUBLIC, "ALI3_STATUSES"))
     rows = (f"| {number} | {name} | {words} | {remedy} |" for number, (name, _, words, remedy) in statuses)
     return "\n".join(["| status | name | words | remedy |", "| --- | --- | --- | --- |", *rows])
@@ -232,7 +234,7 @@ def status_table() -> str:
 
 def structure(name: str) -> list[tuple[str, str]]:
     """Fields of ``ali3_name`` and their ctypes."""
-    match = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", text_of(PUBLIC))
+    match = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", read_header(PUBLIC))
     if match is None:
         raise ValueError(f"{PUBLIC} has no structure ali3_{name}.")
     fields = []
@@ -248,9 +250,9 @@ def structure(name: str) -> list[tuple[str, str]]:
     return fields
 
 
-def _defined(file: str, limits: dict[str, str]) -> list[str]:
-    """Constants of Python for the macros of a header."""
-    content, constants = text_of(file), []
+def _constants(file: str, limits: dict[str, str]) -> list[str]:
+    """Python constants for macros of a header, with their docstrings."""
+    content, constants = read_header(file), []
     for name, text in limits.items():
         value = re.search(rf"#define {name} (\S+)", content)
         if value is None:
@@ -260,8 +262,8 @@ def _defined(file: str, limits: dict[str, str]) -> list[str]:
 
 
 def entries() -> str:
-    """The C file of the functions that Python calls: each sets the processor's control around one of the kernel."""
-    declared = re.findall(r"^ALI3_API ([^;(]*?)(ali3_\w+)\(([^)]*)\);", text_of(PUBLIC), re.MULTILINE)
+    """C file of the functions that Python calls: each sets the floating-point control around one of the kernel."""
+    declared = re.findall(r"^ALI3_API ([^;(]*?)(ali3_\w+)\(([^)]*)\);", read_header(PUBLIC), re.MULTILINE)
     rows = []
     for result, name, parameters in declared:
         arguments = ", ".join(re.findall(r"(\w+)(?:\[\d+\])?\s*(?:,|$)", "" if parameters == "void" else parameters))
@@ -306,7 +308,7 @@ def header() -> dict[str, str]:
     """Texts of the files of the folder `header`, by name."""
     return {
         "limits.py": _text(
-            "Limits and versions", [], ["\n".join(_defined(PUBLIC, LIMITS) + _defined(ROADS, ROAD_LIMITS))]
+            "Limits and versions", [], ["\n".join(_constants(PUBLIC, LIMITS) + _constants(ROADS, ROAD_LIMITS))]
         ),
         "arrays.py": _text("Arrays of a System", [], [_array_names()]),
         "enumerations.py": _text("Types and codes", [_ENUM], _enumerations()),
@@ -329,26 +331,26 @@ def _text(what: str, imports: list[str], parts: Iterable[str]) -> str:
 
 def _array_names() -> str:
     rows = "\n".join(f'    "{a.name}": ("{a.items}", "{a.presence}"),' for a in arrays())
-    return f'ARRAYS = {{\n{rows}\n}}\n"""Type of the items; MUST, or MAY: a System need not have it."""'
+    return f'ARRAYS = {{\n{rows}\n}}\n"""Type of the items, and whether a System must or may have the array."""'
 
 
-def _classes(of: dict[str, tuple[str, str, str, str]]) -> Iterator[str]:
-    for name, (file, first, prefix, text) in of.items():
+def _classes(enumerations: dict[str, tuple[str, str, str, str]]) -> Iterator[str]:
+    for name, (file, first, prefix, text) in enumerations.items():
         values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
         yield _class(name, "IntEnum", text, values)
 
 
 def _steps() -> Iterator[str]:
-    yield from _classes(OF_STEPS)
+    yield from _classes(STEP_ENUMERATIONS)
     methods = table(PUBLIC, "ALI3_METHODS")
     names = (f"{name} = {number}" for number, (name, _, _) in enumerate(methods))
     yield _class("MethodNumber", "IntEnum", "`ali3_settings.method`.", names)
     orders = "\n".join(f"    MethodNumber.{name}: {order}," for name, _, order in methods)
-    yield f'\nMETHOD_ORDERS = {{\n{orders}\n}}\n"""Orders of steps that change."""'
+    yield f'\nMETHOD_ORDERS = {{\n{orders}\n}}\n"""Orders of the methods with variable steps."""'
 
 
 def _sensor_reads() -> Iterator[str]:
-    yield from _classes(OF_SENSORS)
+    yield from _classes(SENSOR_ENUMERATIONS)
     reads = "\n".join(f"    SensorType.{t.name}: SensorReads.{t.reads}," for t in sensor_types())
     yield f"\nSENSOR_READS = {{\n{reads}\n}}"
 
@@ -365,7 +367,7 @@ def _enumerations() -> Iterator[str]:
 
 def _magic() -> str:
     numbers = "\n".join(f'    "{name}": {float(value)},' for name, value in table(MAGIC, "ALI3_MAGIC_COEFFICIENTS"))
-    text = "Coefficients in the order of the element, with what holds where a file has none."
+    text = "Coefficients in the order of the element, with their values where a tyre property file has none."
     return f'MAGIC_COEFFICIENTS = {{\n{numbers}\n}}\n"""{text}"""'
 
 
@@ -375,7 +377,7 @@ def _structures() -> Iterator[str]:
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
         yield _class(name, "Structure", f"`ali3_{c_name}`.", body)
     structures = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
-    yield f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""'
+    yield f'\nSTRUCTURES = {{\n{structures}\n}}\n"""Structures by their names in C."""'
 
 
 def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mbs.model.records import Parameter as Parameter
     from mbs.model.sensor import Sensor as Sensor
 
-# imported when they are first asked for: who compiles a mechanism needs no word of it
+# imported on first use, because a run of a System needs none of them
 _LAZY = {
     "Body": "mbs.model.body",
     "Coordinate": "mbs.model.coordinate",

@@ -41,9 +41,9 @@ class AirVocabulary(BodyVocabulary):
         wind : Wind, optional
             How the air moves; by default it is still.
         """
-        at = self.owned(body, f"The drag '{name}'").point(point)
+        position = self.owned(body, f"The drag '{name}'").point(point)
         air = Drag(drag_area, air_density) if wind is None else WindDrag(drag_area, air_density, wind=wind)
-        return self._add_in_air(air.record(name, at), "drag")
+        return self._add_in_air(air.record(name, position), "drag")
 
     def lift(
         self,
@@ -78,10 +78,10 @@ class AirVocabulary(BodyVocabulary):
         ModelError
             An axis is zero.
         """
-        what = f"lift '{name}'"
-        owned = self.owned(body, f"The {what}")
+        subject = f"lift '{name}'"
+        owned = self.owned(body, f"The {subject}")
         front, top = (
-            owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
+            owned.vector(direction(axis, self.dimension, f"the {word} axis of {subject}"))
             for axis, word in ((forward, "forward"), (up, "upward"))
         )
         element = Lift(lift_area, air_density).record(name, owned.point(point), front, top, wind)

@@ -12,7 +12,7 @@ from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.equation import AnglePart, Equation, dot_products
 from mbs.model.joint_ends import different
-from mbs.model.joints.joint import Joint, Turn
+from mbs.model.joints.joint import AngleBodies, Joint
 from mbs.model.perpendicular_vectors import perpendicular
 
 
@@ -43,31 +43,31 @@ def relative_angle(
 def angle_and_joint(
     model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: ArrayLike | None, zero: float
 ) -> tuple[Coordinate, Joint]:
-    """The row ``cos(theta) S - sin(theta) C = 0`` with C = v.e1, S = v.e2; regular at every angle, and theta is not
-    wrapped.
+    """A relative angle theta, which is not wrapped, and its joint, whose row is regular at every angle.
 
-    v is a vector of body 2, e1 and e2 are perpendicular vectors of body 1, all perpendicular to the axis in the
-    reference configuration, where theta is `zero`.
+    The row is ``cos(theta) S - sin(theta) C = 0`` with C = v.e1, S = v.e2: v is a vector of body 2, e1 and e2 are
+    perpendicular vectors of body 1, all perpendicular to the axis in the reference configuration, where theta is
+    `zero`.
     """
-    what = f"relative angle '{name}'"
-    different(body_1, body_2, what)
+    subject = f"relative angle '{name}'"
+    different(body_1, body_2, subject)
     for body in (body_1, body_2):
-        if model.owned(body, f"The {what}").is_point:
-            raise ModelError(f"The {what} needs bodies with axes; '{body.name}' is a point mass.")
+        if model.owned(body, f"The {subject}").is_point:
+            raise ModelError(f"The {subject} needs bodies with axes; '{body.name}' is a point mass.")
     if model.dimension == 2:
         if axis is not None:
-            raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
+            raise ModelError(f"The {subject} has an axis; in a planar model leave it out.")
         x, y = np.eye(2)
     else:
         if axis is None:
-            raise ModelError(f"The {what} needs an axis in a spatial model.")
-        x, y = perpendicular(direction(axis, 3, f"the axis of {what}"))
-    start = number(zero, f"zero of {what}")
-    # measured from where theta would be 0: v is turned by `zero` against e1 in the reference configuration
+            raise ModelError(f"The {subject} needs an axis in a spatial model.")
+        x, y = perpendicular(direction(axis, 3, f"the axis of {subject}"))
+    start = number(zero, f"zero of {subject}")
+    # in the reference configuration v is rotated by `zero` from e1
     v = body_2.vector(np.cos(start) * x + np.sin(start) * y)
     e1, e2 = body_1.vector(x), body_1.vector(y)
     theta = model.new_coordinate(name, "angle", start)
     row = Equation(name, "angle", angle=AnglePart(theta, dot_products(v, e1), dot_products(v, e2)))
     return Coordinate(name, theta, "rad"), Joint(
-        name, "relative_angle", [row], turn=Turn((body_1, body_2), axis, theta)
+        name, "relative_angle", [row], turn=AngleBodies((body_1, body_2), axis, theta)
     )

@@ -56,16 +56,16 @@ def anti_roll_bar(
     ModelError
         The arms are the same, a body and an angle, or a spin; or bodies are given without a carrier.
     """
-    what = f"anti-roll bar '{name}'"
+    subject = f"anti-roll bar '{name}'"
     angles, joints = _arm_angles(model, name, (left, right), carrier, axis)
     first, second = angles
-    flag(mirrored, f"The mirrored of {what}")
+    flag(mirrored, f"The mirrored of {subject}")
     if first.index == second.index:
-        raise ModelError(f"The {what} joins '{first.name}' with itself; it needs two arms.")
+        raise ModelError(f"The {subject} joins '{first.name}' with itself; it needs two arms.")
     twist = first.affine + second.affine if mirrored else first.affine - second.affine
     if free_twist is None:
         free_twist = float(twist.value(model.drawn()))
-    k = positive(stiffness, f"The stiffness of the {what}")
+    k = positive(stiffness, f"The stiffness of the {subject}")
     bar = ScalarSpringDamper(k, damping, free_twist, stiffness_factor=stiffness_factor)
     record = model.add(bar.record(name, twist))
     for joint in joints:
@@ -80,18 +80,18 @@ def _arm_angles(
     carrier: Body | None,
     axis: ArrayLike | None,
 ) -> tuple[list[Coordinate], list[Joint]]:
-    """The angles of both arms, and the joints of those that are made here for arms given as bodies."""
-    what = f"anti-roll bar '{name}'"
+    """The angles of both arms, and the joints of those that are created for arms given as bodies."""
+    subject = f"anti-roll bar '{name}'"
     if all(isinstance(arm, Coordinate) for arm in arms):
         if carrier is not None or axis is not None:
-            raise ModelError(f"The {what} joins two angles; leave out its carrier and its axis.")
-        angles = [model.owned_coordinate(arm, f"The {what}") for arm in arms]  # type: ignore[arg-type]
+            raise ModelError(f"The {subject} joins two angles; leave out its carrier and its axis.")
+        angles = [model.owned_coordinate(arm, f"The {subject}") for arm in arms]  # type: ignore[arg-type]
         if any(model.coordinates[angle.index].kind == "spin" for angle in angles):
-            raise ModelError(f"The {what} needs relative angles; a spin has a rate but no angle.")
+            raise ModelError(f"The {subject} needs relative angles; a spin has a rate but no angle.")
         joints: list[Joint] = []
     elif all(isinstance(arm, Body) for arm in arms):
         if carrier is None:
-            raise ModelError(f"The {what} needs the carrier on which its arms turn.")
+            raise ModelError(f"The {subject} needs the carrier on which its arms turn.")
         ends = [
             angle_and_joint(model, f"{name}.{side}", carrier, arm, axis, 0.0)  # type: ignore[arg-type]
             for side, arm in zip(("left", "right"), arms, strict=True)
@@ -99,7 +99,7 @@ def _arm_angles(
         angles, joints = [angle for angle, _ in ends], [joint for _, joint in ends]
     else:
         raise ModelError(
-            f"The {what} needs two relative angles or two bodies as its arms, got {shown(arms[0])} and "
+            f"The {subject} needs two relative angles or two bodies as its arms, got {shown(arms[0])} and "
             f"{shown(arms[1])}."
         )
     return angles, joints

@@ -23,10 +23,10 @@ from mbs.model.inertia import inertia_matrix
 from mbs.model.joint_ends import FixedEnd, body_and_point
 from mbs.model.register import Register
 
-SIZES = (1e-12, 1e8)
-"""Radii of gyration, m."""
+GYRATION_LIMITS = (1e-12, 1e8)
+"""Least and largest radius of gyration, m."""
 ROTATION = 1e-9
-"""How far a matrix of axes may be from a rotation."""
+"""Largest error of the entries of a rotation matrix."""
 
 
 class BodyVocabulary(Register):
@@ -53,7 +53,7 @@ class BodyVocabulary(Register):
         m = positive(mass, f"The mass of body {shown(name)}")
         centre = vector(com, self.dimension, f"the centre of mass of body {shown(name)}")
         I = inertia_matrix(inertia, self.dimension, f"The inertia of body {shown(name)}")
-        _check_size(m, I, f"body {shown(name)}")
+        _check_gyration(m, I, f"body {shown(name)}")
         # second moments of mass from moments of inertia: J = tr(I)/2 - I; planar: only the polar moment counts
         J = 0.5 * np.trace(I) * np.eye(3) - I if self.dimension == 3 else np.diag([0.5 * I[2, 2], 0.5 * I[2, 2], 0.0])
         new = Body(self, self.unique("body", name), centre, len(self.coordinates))
@@ -95,26 +95,26 @@ class BodyVocabulary(Register):
         ModelError
             The body is the ground or has no such point, or `point` is drawn elsewhere.
         """
-        what = f"payload {shown(name)}"
-        self.owned(body, f"The {what}")
-        m = not_negative(mass, f"The mass of {what}")
-        location = vector(position, self.dimension, f"the position of {what}")
+        subject = f"payload {shown(name)}"
+        self.owned(body, f"The {subject}")
+        m = not_negative(mass, f"The mass of {subject}")
+        location = vector(position, self.dimension, f"the position of {subject}")
         if body.is_ground:
-            raise ModelError(f"The {what} sits on the ground, which does not move; give it to a body.")
+            raise ModelError(f"The {subject} sits on the ground, which does not move; give it to a body.")
         if body.is_tabled:
             raise ModelError(
-                f"The {what} sits on lookup-table body '{body.name}', whose mass is part of its table; give it to its "
-                "base."
+                f"The {subject} sits on lookup-table body '{body.name}', whose mass is part of its table; give it to "
+                "its base."
             )
         if point is not None:
-            drawn_point = self.expressions(point, f"The {what}").value(self.drawn())
+            drawn_point = self.expressions(point, f"The {subject}").value(self.drawn())
             if not same_place(drawn_point, location, size_about(body, location)):
                 raise ModelError(
-                    f"The {what} is at {location.tolist()}, but its point is drawn at {drawn_point.tolist()}."
+                    f"The {subject} is at {location.tolist()}, but its point is drawn at {drawn_point.tolist()}."
                 )
             carrier = point
         else:  # the origin of a floating frame is no material point, a node is
-            carrier = body.at(location, what).point(location)
+            carrier = body.at(location, subject).point(location)
         return self.enter("payload", self.payloads, Payload(name, body, location, carrier, m, point is not None))
 
     def written_inertia(
@@ -147,22 +147,22 @@ class BodyVocabulary(Register):
         inertia : array_like, shape (3,) or (3, 3)
             About the centre of mass, along these axes, kg m2.
         """
-        what = f"written inertia {shown(name)}"
+        subject = f"written inertia {shown(name)}"
         if self.dimension != 3:
-            raise ModelError(f"The {what} needs a spatial model.")
-        m = positive(mass, f"The mass of {what}")
-        tensor = inertia_matrix(inertia, 3, f"the inertia of {what}")
+            raise ModelError(f"The {subject} needs a spatial model.")
+        m = positive(mass, f"The mass of {subject}")
+        tensor = inertia_matrix(inertia, 3, f"the inertia of {subject}")
         if not isinstance(axes, (list, tuple)) or len(axes) != 3 or not all(isinstance(a, AffineVector) for a in axes):
-            raise ModelError(f"The axes of {what} are {shown(axes)}; they must be three vectors of a body.")
-        x, y, z = (self.expressions(axis, f"The {what}") for axis in axes)
+            raise ModelError(f"The axes of {subject} are {shown(axes)}; they must be three vectors of a body.")
+        x, y, z = (self.expressions(axis, f"The {subject}") for axis in axes)
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = tensor.tolist()
-        centre = vector(com, 3, f"the centre of mass of {what}").tolist()
+        centre = vector(com, 3, f"the centre of mass of {subject}").tolist()
         reals = (m, *centre, xx, yy, zz, xy, xz, yz)
-        new = WrittenInertia(name, (self.expressions(point, f"The {what}"), x, y, z), reals)
+        new = WrittenInertia(name, (self.expressions(point, f"The {subject}"), x, y, z), reals)
         return self.enter("written inertia", self.written_inertias, new)
 
-    def owned(self, body: Body, what: str) -> Body:
-        """A body, if it is one of this model.
+    def owned(self, body: Body, subject: str) -> Body:
+        """The body; raises `ModelError` if it is not of this model.
 
         Parameters
         ----------
@@ -170,32 +170,32 @@ class BodyVocabulary(Register):
             A body, a point mass, the ground, or a node of a flexible body.
         """
         if not isinstance(body, Body):
-            raise ModelError(f"{capital(what)} needs a body, got {shown(body)}.")
+            raise ModelError(f"{capital(subject)} needs a body, got {shown(body)}.")
         if body.model is not self:
             raise ModelError(
-                f"{capital(what)}: body '{body.name}' belongs to model '{body.model.name}', not to '{self.name}'."
+                f"{capital(subject)}: body '{body.name}' belongs to model '{body.model.name}', not to '{self.name}'."
             )
         return body
 
-    def anchor(self, body: Body, position: ArrayLike | None, what: str) -> AffineVector:
-        """A joint point of a body; remembered so that compile can choose short rigid-body equations.
+    def anchor(self, body: Body, position: ArrayLike | None, subject: str) -> AffineVector:
+        """Expressions of a joint point of a body, which is stored for the choice of short rows of the body.
 
         Parameters
         ----------
         position : array_like, shape (dimension,)
             In earth axes in the reference configuration, m; of a point mass None.
         """
-        self.owned(body, what)
+        self.owned(body, subject)
         if body.is_point:
             return body.point(position)  # type: ignore[arg-type]
-        local = vector(position, self.dimension, f"the point of {what} on body '{body.name}'")
+        local = vector(position, self.dimension, f"the point of {subject} on body '{body.name}'")
         self.remember(body)
         self.grounded = self.grounded or body.is_ground
         body.joint_points.append(local - body.com)
         return body.point(local)
 
-    def anchor_axis(self, body: Body, axis: ArrayLike, what: str) -> AffineVector:
-        """A unit joint axis of a body; remembered like a joint point.
+    def anchor_axis(self, body: Body, axis: ArrayLike, subject: str) -> AffineVector:
+        """Expressions of a unit joint axis of a body, which is stored like a joint point.
 
         Parameters
         ----------
@@ -212,11 +212,12 @@ class BodyVocabulary(Register):
         ModelError
             The body has no axes, or the axis is zero.
         """
-        self.owned(body, what)
-        unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")
+        self.owned(body, subject)
+        unit = direction(axis, self.dimension, f"the axis of {subject} on body '{body.name}'")
         if body.flexibility is not None:
             raise ModelError(
-                f"The {what} needs an axis of flexible body '{body.name}': name the node, {body.name}.interface(node)."
+                f"The {subject} needs an axis of flexible body '{body.name}': name the node, "
+                f"{body.name}.interface(node)."
             )
         if body.is_ground:
             self.grounded = True
@@ -225,10 +226,10 @@ class BodyVocabulary(Register):
             body.joint_axes.append(unit)
         return body.vector(unit)
 
-    def _end(self, end: FixedEnd, what: str) -> AffineVector:
+    def _end(self, end: FixedEnd, subject: str) -> AffineVector:
         """Point of a body at which a force acts."""
-        body, point = body_and_point(end, what)
-        return self.owned(body, f"The {what}").point(point)
+        body, point = body_and_point(end, subject)
+        return self.owned(body, f"The {subject}").point(point)
 
     def _register(self, body: Body) -> None:
         self.coordinates += body.coordinates()
@@ -236,11 +237,12 @@ class BodyVocabulary(Register):
         self.bodies.append(body)
 
 
-def _check_size(mass: float, inertia: NDArray[np.float64], what: str) -> None:
-    """Refuse a radius of gyration that no body has; it follows from mass and inertia together."""
+def _check_gyration(mass: float, inertia: NDArray[np.float64], subject: str) -> None:
+    """Raise `ModelError` for mass and inertia whose radius of gyration is outside `GYRATION_LIMITS`."""
     radius = float(np.sqrt(np.max(np.abs(inertia)) / mass))
-    if not SIZES[0] <= radius <= SIZES[1]:
+    if not GYRATION_LIMITS[0] <= radius <= GYRATION_LIMITS[1]:
         raise ModelError(
-            f"The inertia {np.max(np.abs(inertia)):g} kg m2 of {what} and its mass {mass:g} kg are those of something "
-            f"{radius:.1g} m in size; between {SIZES[0]:g} and {SIZES[1]:g} m were expected."
+            f"The inertia {np.max(np.abs(inertia)):g} kg m2 of {subject} and its mass {mass:g} kg are those of "
+            f"something {radius:.1g} m in size; between {GYRATION_LIMITS[0]:g} and {GYRATION_LIMITS[1]:g} m were "
+            "expected."
         )

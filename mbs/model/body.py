@@ -17,13 +17,13 @@ from mbs.model.coordinates import ModelCoordinates
 from mbs.model.flexibility import Flexibility
 
 SAME_PLACE = 1e-6
-"""A point is one of a body, such as a node or a port, if it is no farther from it, m; see `same_place`."""
+"""Largest distance of points that are one, such as a point and a node or a port, m; see `same_place`."""
 
 
 def same_place(p: Vector, place: Vector, size: float) -> bool:
-    """Whether two points are one: `SAME_PLACE` apart or less, and by that part of what is smaller than 1 m.
+    """Whether two points are one: at most `SAME_PLACE` apart, times `size` below 1 m, or apart by round-off.
 
-    `size`: of the body, m; the round-off of where the points lie is always admitted.
+    `size`: of their body, m.
     """
     round_off = 8.0 * float(np.finfo(float).eps) * max(size, float(np.abs([p, place]).max()))
     return bool(np.linalg.norm(p - place) <= max(SAME_PLACE * min(1.0, size), round_off))
@@ -60,10 +60,10 @@ class Body:
         self.com = com
         self.start = start
         self.number = -1
-        self.owner: Body = self  # whose coordinates it has
+        self.owner: Body = self  # the body that has its coordinates
         self.joint_points: list[Vector] = []
         self.joint_axes: list[Vector] = []
-        self._expressions: dict[tuple[float, ...], AffineVector] = {}  # of points and vectors that were asked for
+        self._expressions: dict[tuple[float, ...], AffineVector] = {}  # of points and vectors used so far
         # zeroth, first and second moments of mass about `com` in the body axes
         self.mass = 0.0
         self.first_moment: Vector = np.zeros(3)
@@ -87,15 +87,15 @@ class Body:
         """The rigid body whose points do not take part in a deformation."""
         return self
 
-    def at(self, position: ArrayLike, what: str) -> Body:
+    def at(self, position: ArrayLike, subject: str) -> Body:
         """Body on which a joint at a point acts: of a flexible body its node there.
 
         Parameters
         ----------
         position : array_like, shape (dimension,)
             Earth axes in the reference configuration, m.
-        what : str
-            The joint, in messages.
+        subject : str
+            The joint, for errors.
         """
         return self
 
@@ -116,7 +116,7 @@ class Body:
         return self._expression(local, 1.0)
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
-        """Origin r, axes a, b, c and place x of a point r + A x that is not an expression of coordinates.
+        """Origin r, axes a, b, c and local position x of a point r + A x that is not affine in coordinates.
 
         Parameters
         ----------
@@ -205,7 +205,7 @@ class Body:
         return np.array(np.kron(moments, np.eye(3)), dtype=float)
 
     def velocity_weight(self, linear: bool, angular: bool) -> NDArray[np.float64]:
-        """Weights of a start velocity of which these parts are given.
+        """Weights of the given parts of a start velocity.
 
         Parameters
         ----------
@@ -224,19 +224,19 @@ class Body:
             block[:d, :d] = self.mass * np.eye(d)
         if angular:
             axes = slice(d, 4 if d == 2 else 12)
-            of_axes = self.mass_block()[axes, axes]
-            block[axes, axes] = (float(np.mean(np.diag(of_axes))) or self.mass) * np.eye(len(of_axes))
+            axes_block = self.mass_block()[axes, axes]
+            block[axes, axes] = (float(np.mean(np.diag(axes_block))) or self.mass) * np.eye(len(axes_block))
         return block
 
     def coordinates(self) -> list[CoordinateInfo]:
         """Full coordinates of the body: of the position, then of each axis."""
-        parts = "r" if self.is_point else "rabc" if self.dimension == 3 else "ra"
+        vectors = "r" if self.is_point else "rabc" if self.dimension == 3 else "ra"
         values = iter(self.reference())
         return [
             CoordinateInfo(
-                f"{self.name}.{part}{'xyz'[k]}", "point" if part == "r" else "vector", k, float(next(values))
+                f"{self.name}.{vector}{'xyz'[k]}", "point" if vector == "r" else "vector", k, float(next(values))
             )
-            for part in parts
+            for vector in vectors
             for k in range(self.dimension)
         ]
 

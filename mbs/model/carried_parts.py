@@ -14,7 +14,7 @@ class Payload:
 
     name: str
     body: Body
-    """What it sits on."""
+    """Body that carries it."""
     position: Vector
     """Shape (dimension,): in earth axes in the reference configuration, m."""
     point: AffineVector
@@ -31,7 +31,7 @@ INERTIA_REALS = ("mass", "com_x", "com_y", "com_z", "xx", "yy", "zz", "xy", "xz"
 
 @dataclass(frozen=True)
 class WrittenInertia:
-    """Mass that a body has as drawn, and what carries its change; made by `Model.written_inertia`."""
+    """Drawn mass properties of a body, and vectors at which changes of them act; made by `Model.written_inertia`."""
 
     name: str
     vectors: tuple[AffineVector, AffineVector, AffineVector, AffineVector]
@@ -58,7 +58,7 @@ class Spin(Coordinate):
     spin_inertia: float
     diametral_inertia: float
     rolling_radius: float
-    """Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none."""
+    """Radius, m, from which the spin of a pose with a speed follows (positive speed along +x); 0: none."""
     drawn: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
     """f, g and axis in the drawing."""
 
@@ -74,21 +74,21 @@ class Spin(Coordinate):
 
 
 AXIS_REALS = ("azimuth", "elevation")
-"""As in the System, rad: of the axis about the vertical from y, and above the level, in the drawing."""
+"""As in the System, rad: angle of the drawn axis about the vertical from y, and its angle above the horizontal."""
 
 
 @dataclass(frozen=True)
 class WrittenAxis:
-    """Direction that the axis of a wheel has as drawn, and what turns it; made by `Model.written_axis`."""
+    """Drawn direction of the axis of a wheel, which parameters change; made by `Model.written_axis`."""
 
     name: str
     spin: Spin
     frame: tuple[AffineVector, AffineVector, AffineVector]
-    """Axes of the drawing, as vectors of the carrier."""
+    """Earth axes of the drawing as vectors of the carrier."""
     reals: tuple[float, float]
     """In the order of `AXIS_REALS`."""
     leaning: float
-    """Growth of the rolling radius by one over the cosine of the elevation, m."""
+    """Increase of the rolling radius per unit of one over the cosine of the elevation, m."""
 
     @property
     def vectors(self) -> tuple[AffineVector, AffineVector, AffineVector]:
@@ -105,4 +105,4 @@ class SlidingPoint:
     start: AffineVector
     """Point of the body."""
     ways: tuple[tuple[AffineVector, int], ...]
-    """Unit vectors of the body, at right angles, each with the number of its guide."""
+    """Perpendicular unit vectors of the body, each with the number of its guide."""

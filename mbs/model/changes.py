@@ -14,11 +14,11 @@ C = TypeVar("C", bound="Changes")
 
 
 def atomic_call(method: Callable[Concatenate[C, P], R]) -> Callable[Concatenate[C, P], R]:
-    """A method of a model that leaves the model as it was when it raises."""
+    """The method, changed so that the model is restored if it raises."""
 
     @functools.wraps(method)
     def call(self: C, /, *args: P.args, **kwargs: P.kwargs) -> R:
-        if self._undo is not None:  # part of another one
+        if self._undo is not None:  # inside another call
             return method(self, *args, **kwargs)
         with self.together():
             return method(self, *args, **kwargs)
@@ -36,12 +36,12 @@ class Changes:
 
     @contextmanager
     def together(self) -> Iterator[None]:
-        """Calls inside are parts of one: an exception leaves the model as it was before the first of them."""
+        """Context of calls of which an exception undoes all."""
         if self._undo is not None:
             yield
             return
         drawings, self._drawings = self._drawings, []
-        for reference in drawings:  # of the model as it still is
+        for reference in drawings:  # of the model before the change
             drawing = reference()
             if drawing is not None:
                 drawing()
@@ -59,7 +59,7 @@ class Changes:
             self._undo = None
 
     def put_off(self, looks: Callable[[], None]) -> None:
-        """Defer shapes until the model is drawn or changes. `looks`: adds the shapes to this model."""
+        """Defer shapes until the model is drawn or changes; `looks`: adds the shapes to this model."""
         self._looks.append(looks)
 
     def look(self) -> None:
@@ -83,23 +83,23 @@ class Changes:
             drawing()
         self._drawings = [r for r in (*self._drawings, weakref.ref(drawing)) if r() is not None]
 
-    def remember(self, thing: object) -> None:
-        """Note the attributes of what is about to change, so that a refused call can restore them.
+    def remember(self, owner: object) -> None:
+        """Store the attributes of an object before a change, to restore them if the call raises.
 
-        `thing`: the model, or a body or a joint of it.
+        `owner`: the model, or a body or a joint of it.
         """
         if self._undo is None:
             return
-        attributes = vars(thing)
-        before = attributes.copy()
-        before.update([(name, value.copy()) for name, value in attributes.items() if type(value) is dict])
-        # Lists of a register only grow: their lengths say what they were, at a cost that does not grow with them.
+        attributes = vars(owner)
+        previous = attributes.copy()
+        previous.update([(name, value.copy()) for name, value in attributes.items() if type(value) is dict])
+        # lists of a register only grow, so their lengths restore them, and a copy is not needed
         lengths = [(value, len(value)) for value in attributes.values() if type(value) is list]
 
         def restore() -> None:
-            for name in attributes.keys() - before.keys():
+            for name in attributes.keys() - previous.keys():
                 del attributes[name]
-            attributes.update(before)
+            attributes.update(previous)
             for value, length in lengths:
                 del value[length:]
 

@@ -61,8 +61,10 @@ class ChannelSensorVocabulary(SensorVocabulary):
             logs once that it was read, and which fidelities compute it.
         """
         x = number(value, f"The value of sensor '{name}'")
-        one = [Affine({}, 1.0)]
-        return self._sense(name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed)
+        unit_signal = [Affine({}, 1.0)]
+        return self._sense(
+            name, unit, description, SensorType.SIGNAL, unit_signal, reals=[x], whole=whole, computed=computed
+        )
 
     def sense_input(
         self, name: str, input: Input, *, scale: float = 1.0, unit: str = "", description: str = ""
@@ -115,16 +117,16 @@ class ChannelSensorVocabulary(SensorVocabulary):
         ModelError
             The guide has no limits, or none of the joints follows it.
         """
-        what = f"sensor '{name}'"
-        one_of(kind, GUIDE_READINGS, f"The kind of {what}")
-        motion, factor = owned_guide(self, guide, f"The {what}"), number(scale, f"The scale of {what}")
-        k = order_number(order, 2 if kind == "motion" else 0, what)
+        subject = f"sensor '{name}'"
+        one_of(kind, GUIDE_READINGS, f"The kind of {subject}")
+        motion, factor = owned_guide(self, guide, f"The {subject}"), number(scale, f"The scale of {subject}")
+        k = order_number(order, 2 if kind == "motion" else 0, subject)
         if kind == "force":
             return _guide_force(self, name, motion, joints, factor, unit, description)
         if joints is not None:
-            raise ModelError(f"The {what} reads the {kind} of a guide; joints are for its force.")
+            raise ModelError(f"The {subject} reads the {kind} of a guide; joints are for its force.")
         if kind == "excess" and motion.type != GuideType.OF_TWO_INPUTS:
-            raise ModelError(f"The guide '{motion.name}' of {what} has no limits; those of guide_inputs have.")
+            raise ModelError(f"The guide '{motion.name}' of {subject} has no limits; those of guide_inputs have.")
         integers = [motion.index, k] if kind == "motion" else [motion.index]
         unit = self._unit(unit, RATE_UNITS.get(motion.unit, (motion.unit,) * 3)[k])
         return self._sense(name, unit, description, GUIDE_READINGS[kind], integers=integers, reals=[factor])

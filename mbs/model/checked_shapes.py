@@ -1,4 +1,4 @@
-"""Checked shapes of a model, with looks that turn or slide relative to their body."""
+"""Checked shapes of a model, and drawn parts that turn about an axis of a body."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from mbs.model.carried_parts import Spin
 
 @dataclass(frozen=True)
 class Turning:
-    """Something that turns about an axis of a body without being one itself, such as a steering wheel."""
+    """A drawn part that turns about an axis of a body, such as a steering wheel; it is no body of the model."""
 
     name: str
     carrier: Body | Turning
-    """On which it turns."""
+    """The body or turning part on which it turns."""
     centre: Vector
     """Shape (3,): from the origin of the carrier, along the earth axes as drawn, m."""
     axis_reference: tuple[float, ...]
     """Unit vector, earth axes as drawn."""
     angle: Affine | str
-    """Angle of the turn, rad: an expression of coordinates, or the name of a sensor."""
+    """Rotation angle, rad: an expression of coordinates, or the name of a sensor."""
 
     @property
     def body(self) -> Body:
-        """The body that carries it in the end."""
+        """The body that carries it, directly or through other turning parts."""
         return self.carrier.body if isinstance(self.carrier, Turning) else self.carrier
 
 
@@ -37,15 +37,15 @@ Owner: TypeAlias = "Body | Spin | Turning"
 
 @dataclass(frozen=True)
 class Shape:
-    """A shape as `Model.shape` checked it."""
+    """A checked shape; made by `Model.shape`."""
 
     kind: str
     owner: Owner
-    """What it is of."""
+    """The body, spin or turning part that it belongs to."""
     fields: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers and texts of the shape; places are from the origin of the owner, along the earth axes as drawn."""
+    """Numbers and texts of the shape; positions are from the origin of the owner, along the earth axes as drawn, m."""
     anchors: Sequence[tuple[Owner, Vector]] = ()
-    """Points of tubes, plates, springs and dampers: of what, and where from its origin, m."""
+    """Points of tubes, plates, springs and dampers: owner, and position from its origin, m."""
 
     @property
     def name(self) -> str:

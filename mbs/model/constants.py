@@ -1,4 +1,4 @@
-"""Numbers that only the users of a System need."""
+"""Constants of a model for the users of its System."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from mbs.model.register import Register
 
 
 class ConstantVocabulary(Register):
-    """Constants."""
+    """Vocabulary of constants."""
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
         """A number about the model that its users need and its equations do not, such as a wheelbase.
@@ -24,11 +24,11 @@ class ConstantVocabulary(Register):
         unit : str
             SI unit.
         """
-        what = f"constant {shown(name)}"
+        subject = f"constant {shown(name)}"
         constant = Constant(
             name,
-            number(value, f"The value of {what}"),
-            text(unit, f"The unit of {what}"),
-            text(description, f"The description of {what}", lines=True),
+            number(value, f"The value of {subject}"),
+            text(unit, f"The unit of {subject}"),
+            text(description, f"The description of {subject}", lines=True),
         )
         return self.enter("constant", self.constants, constant)

@@ -19,7 +19,7 @@ from mbs.model.records import Role
 
 
 class ContactVocabulary(BodyVocabulary):
-    """Answers on roads, and contact with them."""
+    """Vocabulary of answers on roads, and of contact with roads."""
 
     def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
         """Seven inputs with which another program gives position and friction of the road at a point, for a `PortRoad`.
@@ -42,22 +42,22 @@ class ContactVocabulary(BodyVocabulary):
         int
             The number of the first input.
         """
-        what = f"road answer '{named(name, 'a road answer')}'"
-        grip = not_negative(friction, f"The friction of {what}")
-        text(near, f"The near of {what}")
-        up, roles = ("normal_x", "normal_y", "normal_z"), {"x": Role.ANSWER, "normal_x": Role.NORMAL}
-        starts = {"normal_z": 1.0, "friction": grip}
-        limits = {"friction": (0.0, 10.0)} | dict.fromkeys(up, (-1.1, 1.1))
-        units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
+        subject = f"road answer '{named(name, 'a road answer')}'"
+        start_friction = not_negative(friction, f"The friction of {subject}")
+        text(near, f"The near of {subject}")
+        normals, roles = ("normal_x", "normal_y", "normal_z"), {"x": Role.ANSWER, "normal_x": Role.NORMAL}
+        starts = {"normal_z": 1.0, "friction": start_friction}
+        limits = {"friction": (0.0, 10.0)} | dict.fromkeys(normals, (-1.1, 1.1))
+        units, names = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
         first = len(self.inputs)
         for component in ANSWER:
-            at = (
+            location = (
                 "of the point that the answer on the road holds for, earth"
                 if component in "xy"
                 else "of the road there"
             )
-            word = words.get(
-                component, f"{component[-1]} of the unit normal, earth, upwards," if component in up else component
+            quantity = names.get(
+                component, f"{component[-1]} of the unit normal, earth, upwards," if component in normals else component
             )
             new_input(
                 self,
@@ -65,12 +65,12 @@ class ContactVocabulary(BodyVocabulary):
                 starts.get(component, 0.0),
                 *limits.get(component, (-math.inf, math.inf)),
                 units.get(component, "1"),
-                f"{word} {at}",
+                f"{quantity} {location}",
                 False,
                 True,
                 roles.get(component, Role.NONE),
                 near if component == "x" else "",
-                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * grip}.get(component, 0.02),
+                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * start_friction}.get(component, 0.02),
             )
         return first
 
@@ -88,15 +88,15 @@ class ContactVocabulary(BodyVocabulary):
         contact : ContactPoints
             How they touch; `ContactPoints.for_mass` chooses numbers.
         """
-        what = f"contact points '{name}'"
-        self.owned(body, f"The {what}")
+        subject = f"contact points '{name}'"
+        self.owned(body, f"The {subject}")
         if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
-            raise ModelError(f"The {what} need a rigid body in space, not '{body.name}'.")
-        instance_of(ContactPoints, contact, f"The contact of {what}", "ContactPoints")
-        k = whole(road, f"The road of {what}", 0)
+            raise ModelError(f"The {subject} need a rigid body in space, not '{body.name}'.")
+        instance_of(ContactPoints, contact, f"The contact of {subject}", "ContactPoints")
+        k = whole(road, f"The road of {subject}", 0)
         if k >= len(self.roads):
-            raise ModelError(f"The {what} ask for road {k}; the model has {len(self.roads)}.")
-        positions = array(points, (None, 3), f"the places of {what}")
+            raise ModelError(f"The {subject} ask for road {k}; the model has {len(self.roads)}.")
+        positions = array(points, (None, 3), f"the places of {subject}")
         axes = [body.vector(v) for v in np.eye(3)]
         return self.add(contact.record(name, body.point(body.com), axes, positions - body.com, k))
 

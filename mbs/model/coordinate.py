@@ -10,18 +10,18 @@ class CoordinateInfo:
     """Name, kind and reference value of a full coordinate."""
 
     name: str
-    """For messages and for the list of coordinates."""
+    """For errors and for the list of coordinates."""
     kind: str
-    """What it is a component of: "point", "vector", "angle", "spin" or "mode"."""
+    """Kind of the quantity: "point", "vector", "angle", "spin" or "mode"."""
     component: int
-    """0, 1 or 2: along which earth axis."""
+    """Number of the earth axis of the component: 0, 1 or 2."""
     reference: float
-    """Its value in the reference configuration; m, rad or without unit."""
+    """Value in the reference configuration; m, rad or without unit."""
 
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A scalar coordinate a model added: an unwrapped relative angle or a spin."""
+    """A scalar coordinate of a model: an unwrapped relative angle or a spin."""
 
     name: str
     index: int

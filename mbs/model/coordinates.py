@@ -15,20 +15,20 @@ from mbs.model.coordinate import Coordinate, CoordinateInfo
 
 
 class ModelCoordinates(Changes):
-    """The coordinates of a `Model`, which describes the arguments; all that bodies know of their model."""
+    """The full coordinates of a `Model` (see there for the arguments), as an interface for bodies."""
 
     def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
         super().__init__()
         self.name = named(name, "a model")
-        what = f"model '{self.name}'"
-        self.dimension = whole(dimension, f"The dimension of {what}", 2, 3)
-        fall = np.array([0.0, -9.81]) if self.dimension == 2 else np.array([0.0, 0.0, -9.81])
-        self.gravity = fall if gravity is None else gravity
-        self.length = None if length is None else positive(length, f"The length of {what}")
+        subject = f"model '{self.name}'"
+        self.dimension = whole(dimension, f"The dimension of {subject}", 2, 3)
+        default_gravity = np.array([0.0, -9.81]) if self.dimension == 2 else np.array([0.0, 0.0, -9.81])
+        self.gravity = default_gravity if gravity is None else gravity
+        self.length = None if length is None else positive(length, f"The length of {subject}")
         self.coordinates: list[CoordinateInfo] = []
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
-        # Functions in joints and looks would go on writing into the model they were made for.
+        # functions in joints and deferred shapes change the model for which they were made
         raise TypeError(
             f"Model '{self.name}' cannot be copied or pickled: its parts hold functions of this one model. Build it "
             "again by the function that made it, or copy the System that compile(model) gives."
@@ -40,8 +40,8 @@ class ModelCoordinates(Changes):
         return self._gravity
 
     @gravity.setter
-    def gravity(self, given: ArrayLike) -> None:
-        self._gravity: Vector = vector(given, self.dimension, f"the gravity of model '{self.name}'")
+    def gravity(self, value: ArrayLike) -> None:
+        self._gravity: Vector = vector(value, self.dimension, f"the gravity of model '{self.name}'")
 
     def new_coordinate(self, name: str, kind: str, reference: float, component: int = 0) -> int:
         """Add a scalar full coordinate.
@@ -58,35 +58,35 @@ class ModelCoordinates(Changes):
         """Full coordinates in the reference configuration, shape (n,), in the order of `coordinates`."""
         return np.array([c.reference for c in self.coordinates])
 
-    def owned_coordinate(self, coordinate: Coordinate, what: str) -> Coordinate:
-        """A relative angle or a spin, if it is one of this model."""
+    def owned_coordinate(self, coordinate: Coordinate, subject: str) -> Coordinate:
+        """The coordinate; raises `ModelError` unless it is a relative angle or a spin of this model."""
         if not isinstance(coordinate, Coordinate):
-            raise ModelError(f"{what} needs a relative angle or a spin, got {shown(coordinate)}.")
+            raise ModelError(f"{subject} needs a relative angle or a spin, got {shown(coordinate)}.")
         i = coordinate.index
         if i >= len(self.coordinates) or self.coordinates[i].name != coordinate.name:
-            raise ModelError(f"{what}: the coordinate '{coordinate.name}' is not one of model '{self.name}'.")
+            raise ModelError(f"{subject}: the coordinate '{coordinate.name}' is not one of model '{self.name}'.")
         return coordinate
 
-    def expression(self, given: Coordinate | Affine, what: str) -> Affine:
-        """A coordinate or an expression of coordinates, as an expression."""
+    def expression(self, given: Coordinate | Affine, subject: str) -> Affine:
+        """The expression of a coordinate or an expression; raises `ModelError` if it is not of this model."""
         if isinstance(given, Coordinate):
-            return self.owned_coordinate(given, what).affine
+            return self.owned_coordinate(given, subject).affine
         if not isinstance(given, Affine):
-            raise ModelError(f"{what} needs a coordinate or an expression, got {shown(given)}.")
+            raise ModelError(f"{subject} needs a coordinate or an expression, got {shown(given)}.")
         if max(given.terms, default=0) >= max(len(self.coordinates), 1):
-            raise ModelError(f"{what} has an expression of coordinates that model '{self.name}' does not have.")
+            raise ModelError(f"{subject} has an expression of coordinates that model '{self.name}' does not have.")
         return given
 
-    def expressions(self, given: AffineVector, what: str) -> AffineVector:
-        """A point or vector of bodies, such as ``body.point((0, 0, 1))``, if its coordinates are those of this
-        model.
-        """
+    def expressions(self, given: AffineVector, subject: str) -> AffineVector:
+        """A point or vector, such as ``body.point((0, 0, 1))``; raises `ModelError` if it is not of this model."""
         if not isinstance(given, AffineVector):
             raise ModelError(
-                f"{what} needs a point or a vector of a body, such as body.point(...), got {shown(given)}."
+                f"{subject} needs a point or a vector of a body, such as body.point(...), got {shown(given)}."
             )
         if len(given) != self.dimension:
-            raise ModelError(f"{what} has a point or a vector of {len(given)} components; it needs {self.dimension}.")
+            raise ModelError(
+                f"{subject} has a point or a vector of {len(given)} components; it needs {self.dimension}."
+            )
         for component in given.components:
-            self.expression(component, what)
+            self.expression(component, subject)
         return given

@@ -19,7 +19,7 @@ ENERGIES = ("kinetic", "gravity", "elastic", "total")
 
 
 @dataclass(frozen=True)
-class _WorkFrom(Sequence[int]):
+class _WorkIntegers(Sequence[int]):
     """Integers of a work sensor of all elements from number `first` on, including elements that are added later."""
 
     elements: Sequence[ElementRecord]
@@ -54,7 +54,7 @@ class EnergySensorVocabulary(SensorVocabulary):
         added = super().add(element)
         if self.book_of_added is not None:
             (name, description), self.book_of_added = self.book_of_added, None
-            work = _WorkFrom(self.elements, len(self.elements) - 1)
+            work = _WorkIntegers(self.elements, len(self.elements) - 1)
             self._sense(name, "J", description, SensorType.WORK, integers=work)
         return added
 
@@ -105,9 +105,9 @@ class EnergySensorVocabulary(SensorVocabulary):
             elements = ()
         if not isinstance(elements, (ElementRecord, str, list, tuple)):
             raise ModelError(f"The sensor '{name}' needs force elements or their names, got {shown(elements)}.")
-        chosen = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
+        requested = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
         index_of = {record.name: k for k, record in enumerate(self.elements)}
-        names = [e.name if isinstance(e, ElementRecord) else e for e in chosen]
+        names = [e.name if isinstance(e, ElementRecord) else e for e in requested]
         for element in names:
             if not isinstance(element, str) or element not in index_of:
                 raise ModelError(

@@ -1,4 +1,4 @@
-"""Constraint equations over the full coordinates, as the joints write them."""
+"""Constraint equations of joints over the full coordinates."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -32,15 +32,15 @@ class Equation:
     """``sum c * A * B + linear + guide terms + angle part = 0``, or on velocities ``sum c * A * dB/dt = 0``."""
 
     name: str
-    """Name of the joint, or of its part, for messages and the list of rows."""
+    """Name of the joint, or of its part, for errors and the list of rows."""
     kind: str
-    """What the equation states: point, axis, distance, angle ..."""
+    """Kind of the condition: point, axis, distance, angle and others."""
     products: Sequence[Product] = ()
     linear: Affine = field(default_factory=Affine)
     guides: Sequence[GuideTerm] = ()
     angle: AnglePart | None = None
     rates: Sequence[Product] = ()
-    """Of a condition on velocities, which has nothing else."""
+    """Terms of a condition on velocities, which has no other terms."""
 
     @property
     def is_linear(self) -> bool:

@@ -23,7 +23,8 @@ from mbs.model.flexibility import Flexibility
 from mbs.model.joints.joint import Joint
 from mbs.model.register import Register
 
-ON_A_LINE = 1e-12  # second moment of mass across, share of that along
+ON_A_LINE = 1e-12
+"""Largest second moment of mass across a line on which all mass lies, parts of that along the line."""
 NO_MOTION = 1e-12
 """Displacements per unit amplitude below this part of the largest are round-off."""
 
@@ -57,10 +58,10 @@ class FlexibleBody(Body):
         start: int,
     ) -> None:
         super().__init__(model, name, origin + axes @ reduced.origin, start)
-        _check_turning_inertia(name, reduced.mass_positions @ axes.T, reduced.masses)
+        _check_rotational_inertia(name, reduced.mass_positions @ axes.T, reduced.masses)
         self.reduced = reduced
         self.axes = axes
-        self.integrals = _turned(shape_integrals(reduced), axes)
+        self.integrals = _rotate_integrals(shape_integrals(reduced), axes)
         self.mass = self.integrals.mass
         self.first_moment = self.integrals.S0
         self.second_moment = self.integrals.J0
@@ -130,26 +131,26 @@ class FlexibleBody(Body):
             self._interfaces[number] = Interface(self, number)
         return self._interfaces[number]
 
-    def at(self, position: ArrayLike, what: str) -> Body:
+    def at(self, position: ArrayLike, subject: str) -> Body:
         """See `Body.at`."""
-        return self.interface_at(position, what)
+        return self.interface_at(position, subject)
 
-    def interface_at(self, position: ArrayLike, what: str) -> Interface:
+    def interface_at(self, position: ArrayLike, subject: str) -> Interface:
         """The node at a place. `position`: earth axes in the reference configuration, m, shape (3,).
 
         Raises `ModelError`: no node is there.
         """
-        location = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
+        location = vector(position, 3, f"the point of {subject} on flexible body '{self.name}'")
         gaps = np.linalg.norm(self.node_positions - location, axis=1)
-        near = [*self._named(), int(np.argmin(gaps))]  # nodes may coincide: interfaces first
-        coincident = [k for k in near if self.at_place(location, self.node_positions[k])]
-        best = coincident[0] if coincident else near[-1]
+        candidates = [*self._interface_nodes(), int(np.argmin(gaps))]  # nodes may coincide: interfaces first
+        coincident = [k for k in candidates if self.at_place(location, self.node_positions[k])]
+        nearest = coincident[0] if coincident else candidates[-1]
         if not coincident:
             raise ModelError(
-                f"Flexible body '{self.name}' has no node at {location.tolist()} for {what}; "
-                f"the nearest is '{self.reduced.node_names[best]}', {gaps[best]:.3g} m away."
+                f"Flexible body '{self.name}' has no node at {location.tolist()} for {subject}; "
+                f"the nearest is '{self.reduced.node_names[nearest]}', {gaps[nearest]:.3g} m away."
             )
-        return self.interface(best)
+        return self.interface(nearest)
 
     def point(self, position: ArrayLike) -> AffineVector:
         """The node at a place, or the origin of the frame.
@@ -198,7 +199,7 @@ class FlexibleBody(Body):
         return np.concatenate([super().reference(), np.zeros(self.n_modes)])
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        # of the undeformed body
+        # those of the undeformed body
         arm = position[3:12].reshape(3, 3).T @ self.first_moment / self.mass
         rigid = super().velocity(linear - np.cross(angular, arm), angular, position)
         return np.concatenate([rigid, np.zeros(self.n_modes)])
@@ -223,7 +224,7 @@ class FlexibleBody(Body):
             raise ModelError(f"Flexible body '{self.name}' has the nodes 0 to {len(names) - 1}, not {shown(node)}.")
         return int(node)
 
-    def _named(self) -> list[int]:
+    def _interface_nodes(self) -> list[int]:
         return [i.node for i in self.reduced.interfaces.values()]
 
 
@@ -248,9 +249,9 @@ class Interface(Body):
         R, reduced = owner.axes, owner.reduced
         self.translation = _without_round_off(R @ reduced.node_translations[node])  # (3, modes), m per amplitude
         self.rotation = _without_round_off(R @ reduced.node_rotations[node])  # (3, modes), rad per amplitude
-        self.bends = bool(np.any(self.rotation))  # it turns against the floating frame
+        self.bends = bool(np.any(self.rotation))  # whether it rotates relative to the floating frame
         self._point: AffineVector | None = None
-        self._turn: AffineVector | None = None  # rotation against the frame, earth axes, rad
+        self._rotation_vector: AffineVector | None = None  # rotation against the frame, earth axes, rad
         self._vectors: dict[tuple[float, ...], AffineVector] = {}
 
     def point(self, position: ArrayLike | None = None) -> AffineVector:
@@ -259,8 +260,8 @@ class Interface(Body):
         `position`: earth axes in the reference configuration, m, shape (3,); by default the node.
         """
         if self._point is None:
-            # from the origin of the frame, so that the rows lose no digits far from that of the earth
-            self._point = self._frame(0) + self._moved("", self.com - self.owner.com, self.translation)
+            # from the origin of the frame, so that rows keep their accuracy far from the origin of the earth
+            self._point = self._frame(0) + self._new_vector("", self.com - self.owner.com, self.translation)
         location = self.com if position is None else vector(position, 3, f"a point of interface '{self.name}'")
         return (
             self._point if self.owner.at_place(location, self.com) else self._point + self.vector(location - self.com)
@@ -271,8 +272,8 @@ class Interface(Body):
         location = vector(position, 3, f"a point of interface '{self.name}'")
         if self._point is not None or not self.owner.at_place(location, self.com) or not np.any(self.translation):
             return None
-        bent = self._bent(self.com - self.owner.com, self.translation)
-        return *(self._frame(i) for i in range(4)), AffineVector(tuple(bent))
+        deformed = self._deformed(self.com - self.owner.com, self.translation)
+        return *(self._frame(i) for i in range(4)), AffineVector(tuple(deformed))
 
     def vector(self, components: ArrayLike) -> AffineVector:
         """A vector that turns with the node.
@@ -286,33 +287,36 @@ class Interface(Body):
         carried = self.owner.vector(v)
         if not self.bends:
             return carried
-        if self._turn is None:
-            self._turn = self._moved(".rotation", np.zeros(3), self.rotation)
+        if self._rotation_vector is None:
+            self._rotation_vector = self._new_vector(".rotation", np.zeros(3), self.rotation)
         key = tuple(np.round(v, 12).tolist())
         if key not in self._vectors:
             vector_name = f"{self.name}.vector {len(self._vectors) + 1}"
-            new = self._new(vector_name, "vector", v)
-            middle = (carried + new) * 0.5
+            rotated = self._new_coordinates(vector_name, "vector", v)
+            middle = (carried + rotated) * 0.5
             rows = []
             for k in range(3):
                 i, j = (k + 1) % 3, (k + 2) % 3
-                products: list[Product] = [(-1.0, self._turn[i], middle[j]), (1.0, self._turn[j], middle[i])]
-                rows.append(Equation(vector_name, "interface", products, new[k] - carried[k]))
+                products: list[Product] = [
+                    (-1.0, self._rotation_vector[i], middle[j]),
+                    (1.0, self._rotation_vector[j], middle[i]),
+                ]
+                rows.append(Equation(vector_name, "interface", products, rotated[k] - carried[k]))
             self.model.joints.append(Joint(vector_name, "interface", rows))
-            self._vectors[key] = new
+            self._vectors[key] = rotated
         return self._vectors[key]
 
-    def _moved(self, part: str, local: Vector, motion: NDArray[np.float64]) -> AffineVector:
-        """``A (local + motion eta)``; new coordinates and rows where eta takes part."""
+    def _new_vector(self, part: str, local: Vector, motion: NDArray[np.float64]) -> AffineVector:
+        """``A (local + motion eta)``, as new coordinates with rows unless `motion` is zero."""
         owner, frame = self.owner, self.owner.start
         if not np.any(motion):
             return owner.vector(local)
         vector_name = f"{self.name}{part}"
-        new = self._new(vector_name, "vector", local)
-        bent = self._bent(local, motion)
+        new = self._new_coordinates(vector_name, "vector", local)
+        deformed = self._deformed(local, motion)
         rows = []
         for k in range(3):
-            products = [(-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), bent[i]) for i in range(3)]
+            products = [(-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), deformed[i]) for i in range(3)]
             rows.append(Equation(vector_name, "interface", products, new[k]))
         self.model.joints.append(Joint(vector_name, "interface", rows))
         return new
@@ -321,7 +325,7 @@ class Interface(Body):
         """Origin of the floating frame (0) or one of its axes."""
         return AffineVector(tuple(Affine({self.owner.start + 3 * i + k: 1.0}) for k in range(3)))
 
-    def _bent(self, local: Vector, motion: NDArray[np.float64]) -> list[Affine]:
+    def _deformed(self, local: Vector, motion: NDArray[np.float64]) -> list[Affine]:
         """``local + motion eta``"""
         eta = self.owner.start + 12
         return [
@@ -329,10 +333,10 @@ class Interface(Body):
             for i in range(3)
         ]
 
-    def _new(self, what: str, kind: str, drawn: Vector) -> AffineVector:
+    def _new_coordinates(self, name: str, kind: str, drawn: Vector) -> AffineVector:
         """Three coordinates without mass."""
-        self.model.unique("joint", what)
-        numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", kind, float(drawn[k]), k) for k in range(3)]
+        self.model.unique("joint", name)
+        numbers = [self.model.new_coordinate(f"{name}.{'xyz'[k]}", kind, float(drawn[k]), k) for k in range(3)]
         return AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
 
 
@@ -340,8 +344,8 @@ def _without_round_off(X: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where(np.abs(X) > NO_MOTION * np.max(np.abs(X), initial=0.0), X, 0.0)
 
 
-def _turned(s: ShapeIntegrals, R: NDArray[np.float64]) -> ShapeIntegrals:
-    """The integrals in other axes."""
+def _rotate_integrals(s: ShapeIntegrals, R: NDArray[np.float64]) -> ShapeIntegrals:
+    """The integrals in axes that are the columns of R."""
     return ShapeIntegrals(
         mass=s.mass,
         S0=R @ s.S0,
@@ -352,10 +356,10 @@ def _turned(s: ShapeIntegrals, R: NDArray[np.float64]) -> ShapeIntegrals:
     )
 
 
-def _check_turning_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:
-    """Refuse a body whose mass lies on a line: nothing resists its turning about that line.
+def _check_rotational_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:
+    """Raise `ModelError` for a body whose mass lies on a line, about which it has no inertia.
 
-    `positions`: mass points, m, shape (n, 3); `masses`: in kg, shape (n,).
+    `positions`: of the mass points, m, shape (n, 3); `masses`: kg, shape (n,).
     """
     x = positions - masses @ positions / masses.sum()
     moments, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", masses, x, x))

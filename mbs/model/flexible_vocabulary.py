@@ -52,17 +52,17 @@ class FlexibleVocabulary(SensorVocabulary):
         ModelError
             The model is planar, the axes are no rotation, or all mass lies on a line.
         """
-        what = f"flexible body {shown(name)}"
+        subject = f"flexible body {shown(name)}"
         if self.dimension != 3:
-            raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
+            raise ModelError(f"The {subject} needs a spatial model; this one has dimension 2.")
         value: object = reduced
         if not isinstance(value, ModalBody):
             kind = type(value).__name__
-            raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(value)}.")
-        position = vector(origin, 3, f"the origin of {what}")
-        R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {what}")
+            raise ModelError(f"The {subject} needs a ReducedBody, got {kind}: the argument reduced is {shown(value)}.")
+        position = vector(origin, 3, f"the origin of {subject}")
+        R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {subject}")
         if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
-            raise ModelError(f"The axes of {what} must be the columns of a rotation matrix.")
+            raise ModelError(f"The axes of {subject} must be the columns of a rotation matrix.")
         new = FlexibleBody(self, self.unique("body", name), reduced, position, R, len(self.coordinates))
         self._register(new)
         return new
@@ -121,14 +121,14 @@ class FlexibleVocabulary(SensorVocabulary):
         ModelError
             The body has no ports, or the matrices have other ports or no such row.
         """
-        what = f"sensor '{name}'"
-        if not isinstance(self.owned(body, f"The {what}"), PortedBody):
-            raise ModelError(f"The {what} needs a body with ports, not '{body.name}'.")
-        instance_of(InertiaRelief, relief, f"The relief of {what}", "an InertiaRelief")
-        n, row = len(body.ports), whole(output, f"The output of {what}", 0)
+        subject = f"sensor '{name}'"
+        if not isinstance(self.owned(body, f"The {subject}"), PortedBody):
+            raise ModelError(f"The {subject} needs a body with ports, not '{body.name}'.")
+        instance_of(InertiaRelief, relief, f"The relief of {subject}", "an InertiaRelief")
+        n, row = len(body.ports), whole(output, f"The output of {subject}", 0)
         if relief.forces.shape[1] != 3 * n or not row < len(relief.forces):
             raise ModelError(
-                f"The {what} needs matrices of {n} interfaces and a row of them; they have "
+                f"The {subject} needs matrices of {n} interfaces and a row of them; they have "
                 f"{relief.forces.shape[1] // 3} and {len(relief.forces)} rows, the row is {shown(output)}."
             )
         signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]

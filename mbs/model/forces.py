@@ -47,13 +47,13 @@ class ForceVocabulary(BodyVocabulary):
         axes : {"earth", "body"}
             Axes of the components.
         """
-        what = f"force '{name}'"
-        self.owned(body, f"The {what}")
-        p = self._end((body, body.com if point is None else point), what)
+        subject = f"force '{name}'"
+        self.owned(body, f"The {subject}")
+        p = self._end((body, body.com if point is None else point), subject)
         e = np.eye(self.dimension)[: 3 if self.dimension == 3 else 1]
-        one_of(axes, ("earth", "body"), f"The axes of {what}")
+        one_of(axes, ("earth", "body"), f"The axes of {subject}")
         frame = [AffineVector.constant(u) if axes == "earth" else body.vector(u) for u in e]
-        return self.add(BodyForce(self._numbers(inputs, self.dimension, what)).record(name, p, frame))
+        return self.add(BodyForce(self._numbers(inputs, self.dimension, subject)).record(name, p, frame))
 
     def torque(
         self, name: str, body: Body, *, inputs: Sequence[Input | None] | Input, axes: Literal["earth", "body"] = "earth"
@@ -74,14 +74,14 @@ class ForceVocabulary(BodyVocabulary):
         ModelError
             The body is the ground or a point mass.
         """
-        what = f"torque '{name}'"
-        self.owned(body, f"The {what}")
+        subject = f"torque '{name}'"
+        self.owned(body, f"The {subject}")
         if body.is_ground or body.is_point:
-            raise ModelError(f"The {what} needs a rigid body, not '{body.name}'.")
+            raise ModelError(f"The {subject} needs a rigid body, not '{body.name}'.")
         channels = [inputs] if isinstance(inputs, Input) else inputs
         count = 3 if self.dimension == 3 else 1
-        numbers = self._numbers(channels, count, what)
-        one_of(axes, ("earth", "body"), f"The axes of {what}")
+        numbers = self._numbers(channels, count, subject)
+        one_of(axes, ("earth", "body"), f"The axes of {subject}")
         frame = [body.vector(u) for u in np.eye(self.dimension)[:count]]
         return self.add(BodyTorque(numbers, axes).record(name, frame))
 
@@ -96,18 +96,18 @@ class ForceVocabulary(BodyVocabulary):
         gain : float
             The torque is ``gain * input``, N m.
         """
-        what = f"torque '{name}'"
-        expression = self.expression(angle, f"The {what}")
-        channel = owned_input(self, input, f"The {what}")
-        factor = number(gain, f"The gain of {what}")
+        subject = f"torque '{name}'"
+        expression = self.expression(angle, f"The {subject}")
+        channel = owned_input(self, input, f"The {subject}")
+        factor = number(gain, f"The gain of {subject}")
         if isinstance(angle, Spin):
             return self.add(SpinTorque(channel.index, factor).record(name, angle.f, angle.g, angle.affine))
         return self.add(InputForce(channel.index, (factor,)).record(name, [expression]))
 
-    def _numbers(self, inputs: Sequence[Input | None], count: int, what: str) -> list[int | None]:
+    def _numbers(self, inputs: Sequence[Input | None], count: int, subject: str) -> list[int | None]:
         """Numbers of the inputs, one per component."""
         if not isinstance(inputs, (list, tuple)):
-            raise ModelError(f"The inputs of {what} must be {count} inputs or None, not {shown(inputs)}.")
+            raise ModelError(f"The inputs of {subject} must be {count} inputs or None, not {shown(inputs)}.")
         if len(inputs) != count:
-            raise ModelError(f"The {what} has {len(inputs)} inputs; it needs {count}, None where there is none.")
-        return [None if i is None else owned_input(self, i, f"The {what}").index for i in inputs]
+            raise ModelError(f"The {subject} has {len(inputs)} inputs; it needs {count}, None where there is none.")
+        return [None if i is None else owned_input(self, i, f"The {subject}").index for i in inputs]

@@ -20,15 +20,15 @@ from mbs.model.records import Guide, Input
 from mbs.model.register import Register
 
 
-def pair(given: object, what: str) -> tuple[Any, Any]:
+def pair(value: object, subject: str) -> tuple[Any, Any]:
     """The two items of a tuple or list."""
-    if not isinstance(given, (tuple, list)) or len(given) != 2:
-        raise ModelError(f"{what} must be two, as (first, second), not {shown(given)}.")
-    return given[0], given[1]
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        raise ModelError(f"{subject} must be two, as (first, second), not {shown(value)}.")
+    return value[0], value[1]
 
 
-def of_table(guide: Guide, u: float) -> tuple[float, float]:
-    """Value and slope of a guide by a table at the value `u` of the guide that it is over."""
+def table_value(guide: Guide, u: float) -> tuple[float, float]:
+    """Value and slope of a guide by a table, at the value `u` of the guide that it follows."""
     x, y, m = np.reshape(guide.reals, (3, -1))
     if u < x[0] or u >= x[-1]:
         k = 0 if u < x[0] else -1
@@ -37,19 +37,19 @@ def of_table(guide: Guide, u: float) -> tuple[float, float]:
     return float(hermite(u)), float(hermite(u, 1))
 
 
-def at_right_angles(directions: object, count: int, dimension: int, what: str) -> NDArray[np.float64]:
-    """Rows (count, dimension) of directions that are at right angles to each other, of any length."""
-    rows = array(directions, (count, dimension), f"the direction of {what}")
+def perpendicular_rows(directions: object, count: int, dimension: int, subject: str) -> NDArray[np.float64]:
+    """Directions of any length as rows, shape (count, dimension); raises `ModelError` if they are not perpendicular."""
+    rows = array(directions, (count, dimension), f"the direction of {subject}")
     sizes = np.linalg.norm(rows, axis=1)
     if np.abs(rows @ rows.T - np.diag(sizes**2)).max() > 1e-9 * sizes.max() ** 2:
-        raise ModelError(f"The directions of {what}, {rows.tolist()}, are not at right angles to each other.")
+        raise ModelError(f"The directions of {subject}, {rows.tolist()}, are not at right angles to each other.")
     return rows
 
 
-def owned_guide(model: Register, guide: Guide, what: str) -> Guide:
-    """`guide` if it is one of this model."""
+def owned_guide(model: Register, guide: Guide, subject: str) -> Guide:
+    """The guide; raises `ModelError` if it is not of this model."""
     if not isinstance(guide, Guide) or guide.index >= len(model.guides) or model.guides[guide.index] is not guide:
-        raise ModelError(f"{what} needs a guide made by model '{model.name}', got {shown(guide)}.")
+        raise ModelError(f"{subject} needs a guide made by model '{model.name}', got {shown(guide)}.")
     return guide
 
 
@@ -63,7 +63,7 @@ def new_guide(
     unit: str,
     second: int = -1,
 ) -> Guide:
-    """A guide, noted in the model."""
+    """Register a guide; `reals` as in the System file."""
     text(unit, f"The unit of guide {shown(name)}")
     checked = tuple(number(r, f"A number of guide {shown(name)}") for r in reals)
     guide = Guide(name, len(model.guides), type, input, checked, start, unit, second)
@@ -71,7 +71,7 @@ def new_guide(
 
 
 class GuideVocabulary(BodyVocabulary):
-    """The guides of a model, and what they slide."""
+    """Vocabulary of guides and of the points that they slide."""
 
     def guide_inputs(
         self,
@@ -102,13 +102,15 @@ class GuideVocabulary(BodyVocabulary):
         ModelError
             The limits are the wrong way round, or the frequency is not positive.
         """
-        what = f"guide '{name}'"
-        first, second = (owned_input(self, u, f"The {what}") for u in pair(inputs, f"The inputs of {what}"))
-        w = 2.0 * np.pi * positive(frequency, f"The frequency of {what}")
-        k_1, k_2 = (number(k, f"A gain of {what}") for k in pair(gains, f"The gains of {what}"))
-        low, high = (number(k, f"A limit of {what}") for k in pair(limits, f"The limits of {what}"))
+        subject = f"guide '{name}'"
+        first, second = (owned_input(self, u, f"The {subject}") for u in pair(inputs, f"The inputs of {subject}"))
+        w = 2.0 * np.pi * positive(frequency, f"The frequency of {subject}")
+        k_1, k_2 = (number(k, f"A gain of {subject}") for k in pair(gains, f"The gains of {subject}"))
+        low, high = (number(k, f"A limit of {subject}") for k in pair(limits, f"The limits of {subject}"))
         if low > high:
-            raise ModelError(f"The {what} has the limits {low:g} and {high:g}; the first must not be above the second.")
+            raise ModelError(
+                f"The {subject} has the limits {low:g} and {high:g}; the first must not be above the second."
+            )
         unlimited = k_1 * first.start + k_2 * second.start
         start = min(max(unlimited, low), high)
         reals = [w, k_1, start, k_2, low, high]
@@ -146,13 +148,15 @@ class GuideVocabulary(BodyVocabulary):
         ModelError
             Directions are not at right angles, or there are not as many as guides.
         """
-        what = f"slide '{name}'"
-        several: Any = guide if isinstance(guide, (list, tuple)) else [guide]
-        guides = [owned_guide(self, g, f"The {what}") for g in several]
-        start = self.anchor(body, point, what)
-        turning = body.frame
-        rows = at_right_angles(direction, len(guides), self.dimension, what) if several is guide else [direction]
+        subject = f"slide '{name}'"
+        requested: Any = guide if isinstance(guide, (list, tuple)) else [guide]
+        guides = [owned_guide(self, g, f"The {subject}") for g in requested]
+        start = self.anchor(body, point, subject)
+        frame_body = body.frame
+        rows = (
+            perpendicular_rows(direction, len(guides), self.dimension, subject) if requested is guide else [direction]
+        )
         axes_and_guides = tuple(
-            (self.anchor_axis(turning, row, what), g.index) for row, g in zip(rows, guides, strict=True)
+            (self.anchor_axis(frame_body, row, subject), g.index) for row, g in zip(rows, guides, strict=True)
         )
         return SlidingPoint(self.unique("slide", name), body, start, axes_and_guides)

@@ -39,31 +39,32 @@ def new_input(
         )
     if flag(whole, f"The whole of input '{name}'"):
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
-    as_port = flag(port, f"The port of input '{name}'")
+    is_port = flag(port, f"The port of input '{name}'")
     limits = value, low, high, unit, description
-    channel = Input(name, len(model.inputs), *limits, bool(whole), bool(as_port), role, near, tried, figures)
+    channel = Input(name, len(model.inputs), *limits, bool(whole), bool(is_port), role, near, tried, figures)
     return model.enter("input", model.inputs, channel)
 
 
 def _check_whole(name: str, numbers: dict[str, float], unit: str) -> None:
-    """Check an integer input against FMI: 32 bits, and no unit."""
-    for which, value in numbers.items():
+    """Raise `ModelError` for an integer input that FMI does not allow: 32 bits, no unit."""
+    for limit_name, value in numbers.items():
         if math.isfinite(value) and not (value == round(value) and -MOST - 1 <= value <= MOST):
             raise ModelError(
-                f"The {which} of input '{name}' is {value:g}; a whole-number input needs whole numbers, at most {MOST}."
+                f"The {limit_name} of input '{name}' is {value:g}; a whole-number input needs whole numbers, "
+                f"at most {MOST}."
             )
     if unit != "1":
         raise ModelError(f"The input '{name}' is a whole number in {shown(unit)}; whole numbers have the unit '1'.")
 
 
-def owned_input(model: Register, channel: Input, what: str) -> Input:
-    """`channel` if it is one of this model."""
+def owned_input(model: Register, channel: Input, subject: str) -> Input:
+    """The input; raises `ModelError` if it is not of this model."""
     if (
         not isinstance(channel, Input)
         or channel.index >= len(model.inputs)
         or model.inputs[channel.index] is not channel
     ):
-        raise ModelError(f"{what} needs an input made by model '{model.name}', got {shown(channel)}.")
+        raise ModelError(f"{subject} needs an input made by model '{model.name}', got {shown(channel)}.")
     return channel
 
 

@@ -14,30 +14,30 @@ from mbs.model.carried_parts import SlidingPoint
 FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | Body"
 """A point of a body, earth axes in the reference configuration, m; or a body for its centre of mass."""
 End: TypeAlias = "tuple[Body, ArrayLike] | Body | SlidingPoint"
-"""The same, or a point that a guide slides."""
+"""A fixed end, or a point that a guide slides."""
 PointPair: TypeAlias = "ArrayLike | tuple[ArrayLike, ArrayLike]"
 """A point, or one per body where the drawing does not close."""
 
 
 def body_and_point(
-    end: End | FixedEnd, what: str, wanted: str = "(body, point) or a point mass"
+    end: End | FixedEnd, subject: str, expected: str = "(body, point) or a point mass"
 ) -> tuple[Body, ArrayLike]:
-    """The body and the place of an end that does not slide.
+    """Body and point of an end that does not slide; a body alone is its centre of mass.
 
-    `end`: a body alone stands for its centre of mass. Result: not looked at yet: it may be of another model. Raises
-    `ModelError`: the end is something else.
+    Neither is checked to be of the model. Raises `ModelError`: the end is something else; `expected`: description of a
+    valid one.
     """
     if isinstance(end, Body):
         return end, end.com
     if isinstance(end, (tuple, list)) and len(end) == 2 and isinstance(end[0], Body):
         return end[0], end[1]
-    raise ModelError(f"An end of {what} must be {wanted}; got {shown(end)}.")
+    raise ModelError(f"An end of {subject} must be {expected}; got {shown(end)}.")
 
 
 def on_one_body(body_1: Body, body_2: Body) -> bool:
-    """Whether two bodies are the same rigid body, or both the ground, so that nothing can move between them.
+    """Whether two bodies are the same rigid body, with or without ports, or both the ground.
 
-    `body_1`, `body_2`: a body with ports is the body that has them; two nodes of a flexible body are two.
+    Two nodes of a flexible body are different.
     """
     if body_1.model is not body_2.model:
         return False
@@ -47,11 +47,11 @@ def on_one_body(body_1: Body, body_2: Body) -> bool:
     return rigid and body_1.start == body_2.start
 
 
-def different(body_1: Body, body_2: Body, what: str) -> None:
-    """Refuse a joint or a force of a body with itself. Raises `ModelError`: they are the same body."""
+def different(body_1: Body, body_2: Body, subject: str) -> None:
+    """Raise `ModelError` for a joint or a force between a body and itself."""
     for body in (body_1, body_2):
         if not isinstance(body, Body):
-            raise ModelError(f"The {what} needs a body, got {shown(body)}.")
+            raise ModelError(f"The {subject} needs a body, got {shown(body)}.")
     if on_one_body(body_1, body_2):
         name = body_1.name if body_1 is body_2 else f"{body_1.name}' and '{body_2.name}"
-        raise ModelError(f"The {what} joins body '{name}' with itself; it needs two bodies.")
+        raise ModelError(f"The {subject} joins body '{name}' with itself; it needs two bodies.")

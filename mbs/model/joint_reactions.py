@@ -1,20 +1,20 @@
 """Forces and moments of joints and rods on their bodies, as terms of `mbs.model.reactions`.
 
-A row u . v of vectors of both bodies turns the first one with the moment -lam u x v.
+A row u . v of vectors of both bodies exerts the moment -lam u x v on the first.
 """
 
 import numpy as np
 
 from mbs.common.affine import AffineVector
 from mbs.model.body import Body
-from mbs.model.joint_rotation import Turning
+from mbs.model.joint_rotation import RotationConditions
 from mbs.model.joints.joint import Joint
-from mbs.model.reactions import folded
+from mbs.model.reactions import fold_constants
 from mbs.model.sensor import Term
 
 
 def force_on_first(joint: Joint) -> list[tuple[int, float, AffineVector]]:
-    """Equation, weight and direction in earth axes of each part: the force is the sum of weight lam direction."""
+    """Equation, weight and direction (earth axes) of each term of the force: the sum of weight lam direction."""
     rows = joint.force_equations
     if joint.normals:
         return [(row, -1.0, normal) for row, normal in zip(rows, joint.normals, strict=True)]
@@ -23,30 +23,31 @@ def force_on_first(joint: Joint) -> list[tuple[int, float, AffineVector]]:
 
 
 def moment_terms(
-    joint: Joint, turning: Turning, axis: AffineVector, about: AffineVector | None, on_first: bool
+    joint: Joint, turning: RotationConditions, axis: AffineVector, about: AffineVector | None, on_first: bool
 ) -> list[Term]:
-    """Moment of a joint on one of its bodies, about a point (None: of the joint), along an axis of three components or,
-    in the plane, about z (axis of one).
+    """Terms of the moment of a joint on one of its bodies about a point (None: of the joint).
+
+    `axis`: three components; in the plane one, about z.
     """
     sign = 1.0 if on_first else -1.0
     terms = []
     for row, (u, v, _) in zip(joint.turning_equations, turning.pairs, strict=True):
-        terms += _cross(row, -sign, u, v, axis)
+        terms += _cross_terms(row, -sign, u, v, axis)
     if about is None and (on_first or not joint.normals):
         return terms
     arm = turning.points[0] - (turning.points[1] if about is None else about)
     for row, weight, direction in force_on_first(joint):
-        terms += _cross(row, sign * weight, arm, direction, axis)
+        terms += _cross_terms(row, sign * weight, arm, direction, axis)
     return terms
 
 
-def _cross(row: int, weight: float, a: AffineVector, b: AffineVector, axis: AffineVector) -> list[Term]:
+def _cross_terms(row: int, weight: float, a: AffineVector, b: AffineVector, axis: AffineVector) -> list[Term]:
     """Terms of ``weight * lam * axis . (a x b)``; in the plane a x b is a number."""
     permutations = [(0, 0, 1)] if len(a) == 2 else [(k, (k + 1) % 3, (k + 2) % 3) for k in range(3)]
     terms = []
     for k, i, j in permutations:
         for first, second, sign in ((i, j, 1.0), (j, i, -1.0)):
-            terms += folded(Term(sign * weight, row, (axis[k], a[first], b[second])))
+            terms += fold_constants(Term(sign * weight, row, (axis[k], a[first], b[second])))
     return terms
 
 
@@ -56,4 +57,4 @@ def rod_terms(rod: Joint, body: Body, along: AffineVector) -> list[Term]:
     first, second = rod.ends.points
     sign = 1.0 if rod.ends.bodies[1] is body else -1.0
     gap = first - second
-    return [t for k in range(len(gap)) for t in folded(Term(sign, 0, (gap[k], along[k]), -1, rod))]
+    return [t for k in range(len(gap)) for t in fold_constants(Term(sign, 0, (gap[k], along[k]), -1, rod))]

@@ -8,14 +8,14 @@ from mbs.model.equation import Equation, dot_products
 
 
 @dataclass(frozen=True)
-class Turning:
+class RotationConditions:
     """Constraints on the relative rotation of the bodies of a joint."""
 
     points: tuple[AffineVector, AffineVector]
-    """Of the first and the second body, where the joint is."""
+    """Points of the joint on the first and the second body."""
     pairs: Sequence[tuple[AffineVector, AffineVector, float]]
-    """Vectors of the first and the second body whose product keeps the value."""
+    """Vectors of the first and the second body, and the value of their scalar product."""
 
     def equations(self, name: str) -> list[Equation]:
-        """One equation per pair."""
+        """An equation for each pair."""
         return [Equation(name, "turning", dot_products(u, v), Affine({}, -value)) for u, v, value in self.pairs]

@@ -15,7 +15,7 @@ from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.joint_reactions import force_on_first, moment_terms, rod_terms
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
-from mbs.model.reactions import folded
+from mbs.model.reactions import fold_constants
 from mbs.model.sensor import Sensor, Term
 from mbs.model.sensor_arguments import component_number, sensed_joint, sensed_joints
 from mbs.model.sensors import SensorVocabulary
@@ -107,61 +107,63 @@ class JointSensorVocabulary(SensorVocabulary):
         ModelError
             One of them is not a rod or ends elsewhere, or the axis is zero.
         """
-        what = f"The sensor '{name}'"
-        along = self.anchor_axis(self.owned(body, what), axis, f"sensor '{name}'")
+        subject = f"The sensor '{name}'"
+        along = self.anchor_axis(self.owned(body, subject), axis, f"sensor '{name}'")
         factor = number(scale, f"The scale of sensor '{name}'")
         terms = []
         for joint in sensed_joints(self, name, "rods", rods):
             if joint.ends is None or not joint.ends.rod or body not in joint.ends.bodies:
                 raise ModelError(
-                    f"{what} needs rods that end on '{body.name}'; '{joint.name}' ({joint.type}) does not."
+                    f"{subject} needs rods that end on '{body.name}'; '{joint.name}' ({joint.type}) does not."
                 )
             terms += [replace(t, weight=factor * t.weight) for t in rod_terms(joint, body, along)]
         return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, terms=terms)
 
 
 def _sense_terms(
-    m: SensorVocabulary, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]
+    model: SensorVocabulary, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]
 ) -> Sensor:
     joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
-    return m._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
+    return model._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
 
 
-def _joint_force(m: SensorVocabulary, name: str, found: Joint, component: str, unit: str, description: str) -> Sensor:
-    rows = found.force_equations
+def _joint_force(
+    model: SensorVocabulary, name: str, joint: Joint, component: str, unit: str, description: str
+) -> Sensor:
+    rows = joint.force_equations
     if not rows:
         raise ModelError(
-            f"The joint '{found.name}' ({found.type}) has no readable force; shared points, lines, distances, "
+            f"The joint '{joint.name}' ({joint.type}) has no readable force; shared points, lines, distances, "
             "drop links, drives, gears, racks and screws have one."
         )
-    unit = m._unit(unit, "N m" if found.type == "gear" else "N")
-    if found.equations[rows[0]].kind == "driven_distance":
-        return _driven_distance(m, name, found, component, unit, description)
-    if found.normals:
-        k = component_number(component, m.dimension, f"sensor '{name}'")
-        if any(n[k].terms for n in found.normals):  # the line turns with its body
-            terms = [t for row, w, n in force_on_first(found) for t in folded(Term(w, row, (n[k],)))]
-            return _sense_terms(m, name, unit, description, found, terms)
-        rows, weights = list(rows), [-n[k].constant for n in found.normals]
-    elif found.type in SCALAR_FORCES:
-        expected = SCALAR_FORCES[found.type]
+    unit = model._unit(unit, "N m" if joint.type == "gear" else "N")
+    if joint.equations[rows[0]].kind == "driven_distance":
+        return _driven_distance_force(model, name, joint, component, unit, description)
+    if joint.normals:
+        k = component_number(component, model.dimension, f"sensor '{name}'")
+        if any(n[k].terms for n in joint.normals):  # the line turns with its body
+            terms = [t for row, w, n in force_on_first(joint) for t in fold_constants(Term(w, row, (n[k],)))]
+            return _sense_terms(model, name, unit, description, joint, terms)
+        rows, weights = list(rows), [-n[k].constant for n in joint.normals]
+    elif joint.type in SCALAR_FORCES:
+        expected = SCALAR_FORCES[joint.type]
         if component not in (expected, "x"):
             raise ModelError(
-                f"The component of sensor '{name}' is {shown(component)}; for a {found.type} it must be '{expected}'."
+                f"The component of sensor '{name}' is {shown(component)}; for a {joint.type} it must be '{expected}'."
             )
         sign = 1.0 if expected == "tension" else -1.0
-        rows, weights = rows[:1], [sign * found.rows_weight]
+        rows, weights = rows[:1], [sign * joint.rows_weight]
     else:
-        k = component_number(component, m.dimension, f"sensor '{name}'")
-        rows, weights = rows[k : k + 1], [-found.rows_weight]
-    found.as_rows = True
-    return m._sense(name, unit, description, SensorType.REACTION, integers=rows, reals=weights, joint=found)
+        k = component_number(component, model.dimension, f"sensor '{name}'")
+        rows, weights = rows[k : k + 1], [-joint.rows_weight]
+    joint.as_rows = True
+    return model._sense(name, unit, description, SensorType.REACTION, integers=rows, reals=weights, joint=joint)
 
 
-def _driven_distance(
-    m: SensorVocabulary, name: str, joint: Joint, component: str, unit: str, description: str
+def _driven_distance_force(
+    model: SensorVocabulary, name: str, joint: Joint, component: str, unit: str, description: str
 ) -> Sensor:
-    """(|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""
+    """Force of the row (|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""
     signs = {"tension": 1.0, "drive": -1.0, "x": -1.0}
     if not isinstance(component, str) or component not in signs:
         raise ModelError(
@@ -170,13 +172,13 @@ def _driven_distance(
         )
     (row,) = joint.force_equations
     term = Term(signs[component], row, (), joint.equations[row].guides[0].guide)
-    return _sense_terms(m, name, unit, description, joint, [term])
+    return _sense_terms(model, name, unit, description, joint, [term])
 
 
 def _joint_moment(
-    m: SensorVocabulary,
+    model: SensorVocabulary,
     name: str,
-    found: Joint,
+    joint: Joint,
     component: str,
     on: str,
     axes: Body | str,
@@ -184,30 +186,30 @@ def _joint_moment(
     unit: str,
     description: str,
 ) -> Sensor:
-    axis = _axis(m, name, component, axes)
+    axis = _moment_axis(model, name, component, axes)
     about = None
-    if not found.turns:
+    if not joint.turns:
         raise ModelError(
-            f"The joint '{found.name}' ({found.type}) transmits no moment; revolute, cylindrical, universal and "
+            f"The joint '{joint.name}' ({joint.type}) transmits no moment; revolute, cylindrical, universal and "
             "prismatic joints, welds and drives of an angle do."
         )
     if point is not None:
-        if found.places is None:
-            raise ModelError(f"The moment of joint '{found.name}' ({found.type}) is taken at its own point only.")
-        about = found.places.bodies[on == "second"].point(point)
-    terms = moment_terms(found, found.hold_turning(), axis, about, on == "first")
-    return _sense_terms(m, name, m._unit(unit, "N.m"), description, found, terms)
+        if joint.places is None:
+            raise ModelError(f"The moment of joint '{joint.name}' ({joint.type}) is taken at its own point only.")
+        about = joint.places.bodies[on == "second"].point(point)
+    terms = moment_terms(joint, joint.hold_turning(), axis, about, on == "first")
+    return _sense_terms(model, name, model._unit(unit, "N.m"), description, joint, terms)
 
 
-def _axis(m: SensorVocabulary, name: str, component: str, axes: Body | str) -> AffineVector:
-    """Three components of the axis of a moment; in the plane one."""
-    if m.dimension == 2:
+def _moment_axis(model: SensorVocabulary, name: str, component: str, axes: Body | str) -> AffineVector:
+    """Axis of a moment, three components; in the plane one."""
+    if model.dimension == 2:
         if component != "z":
             raise ModelError(f"The component of sensor '{name}' is {shown(component)}; in the plane it must be 'z'.")
         return AffineVector.constant([1.0])
     e = np.eye(3)[component_number(component, 3, f"sensor '{name}'")]
     if isinstance(axes, Body):
-        return m.owned(axes, f"The sensor '{name}'").vector(e)
+        return model.owned(axes, f"The sensor '{name}'").vector(e)
     if not isinstance(axes, str) or axes != "earth":
         raise ModelError(f"The axes of sensor '{name}' are {shown(axes)}; they must be 'earth' or a body.")
     return AffineVector.constant(e)

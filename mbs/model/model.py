@@ -30,7 +30,7 @@ from mbs.model.parameters import ParameterVocabulary
 from mbs.model.point_mass import PointMass
 from mbs.model.road_vocabulary import RoadVocabulary
 from mbs.model.sliding_shapes import SlidingVocabulary
-from mbs.model.special_guides import MoreGuidesVocabulary
+from mbs.model.special_guides import SpecialGuideVocabulary
 from mbs.model.spin import SpinVocabulary
 from mbs.model.springs import SpringVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
@@ -49,7 +49,7 @@ class Model(
     TableVocabulary,
     FlexibleVocabulary,
     InputVocabulary,
-    MoreGuidesVocabulary,
+    SpecialGuideVocabulary,
     ParameterVocabulary,
     ConstantVocabulary,
     MotionSensorVocabulary,
@@ -154,23 +154,23 @@ class Model(
         angular : float or array_like, shape (3,), optional
             Angular velocity, earth axes, rad/s; planar a number.
         """
-        what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
-        self.owned(body, f"The {what}")
+        subject = f"initial velocity of body {shown(getattr(body, 'name', body))}"
+        self.owned(body, f"The {subject}")
         if body.is_ground or body.is_tabled or body.is_node:
             raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
         d, size = self.dimension, 1 if self.dimension == 2 else 3
         if linear is None and angular is None:
             linear, angular = np.zeros(d), np.zeros(size)
-        v = None if linear is None else vector(linear, d, f"the linear {what}")
-        w = None if angular is None else _angular(angular, size, f"the angular {what}")
+        v = None if linear is None else vector(linear, d, f"the linear {subject}")
+        w = None if angular is None else _angular(angular, size, f"the angular {subject}")
         if body.is_point and v is None:
-            raise ModelError(f"The {what} is angular; a point mass has a linear one only.")
+            raise ModelError(f"The {subject} is angular; a point mass has a linear one only.")
         self.body_velocities[body.number] = (v, w)
 
 
-def _angular(value: ArrayLike, size: int, what: str) -> Vector:
-    """Angular velocity, shape (size,); in the plane a number will do."""
-    return vector([value] if size == 1 and is_number(value) else value, size, what)
+def _angular(value: ArrayLike, size: int, subject: str) -> Vector:
+    """Angular velocity, shape (size,), rad/s; in the plane a number is accepted."""
+    return vector([value] if size == 1 and is_number(value) else value, size, subject)
 
 
 @plausibility_of.register

@@ -49,23 +49,23 @@ class MotionSensorVocabulary(SensorVocabulary):
         order : {0, 1, 2}
             Position, velocity or acceleration.
         """
-        what = f"sensor '{name}'"
-        k = order_number(order, 2, what)
+        subject = f"sensor '{name}'"
+        k = order_number(order, 2, subject)
         unit = self._unit(unit, RATE_UNITS["m"][k])
-        owner, position = self.owned(body, f"The {what}"), body.com if point is None else point
+        owner, position = self.owned(body, f"The {subject}"), body.com if point is None else point
         carried = owner.carried(position)
         type = SensorType.COMPONENT if carried is None else SensorType.CARRIED
         vectors = (owner.point(position),) if carried is None else carried
-        i = component_number(component, self.dimension, what)
+        i = component_number(component, self.dimension, subject)
         along = np.eye(self.dimension)[i]
         if isinstance(axes, str) and axes == "earth":
             if carried is None:
                 return self._sense(name, unit, description, SIGNALS[k], [vectors[0][i]], reals=[1.0])
             axis = AffineVector(tuple(Affine({}, v) for v in along.tolist()))
         elif isinstance(axes, Body) or (isinstance(axes, str) and axes == "body"):
-            axis = (self.owned(axes, f"The {what}") if isinstance(axes, Body) else body).vector(along)
+            axis = (self.owned(axes, f"The {subject}") if isinstance(axes, Body) else body).vector(along)
         else:
-            raise ModelError(f"The axes of {what} are {shown(axes)}; they must be 'earth', 'body' or a body.")
+            raise ModelError(f"The axes of {subject} are {shown(axes)}; they must be 'earth', 'body' or a body.")
         signals = [s for vector in (*vectors, axis) for s in spatial(vector)]
         return self._sense(name, unit, description, type, signals, integers=[k])
 

@@ -37,18 +37,18 @@ class OrientationSensorVocabulary(SensorVocabulary):
         ModelError
             The body has no axes.
         """
-        what = f"sensor '{name}'"
-        rate = order_number(order, 1, what)
-        self.owned(body, f"The {what}")
+        subject = f"sensor '{name}'"
+        rate = order_number(order, 1, subject)
+        self.owned(body, f"The {subject}")
         e = np.eye(self.dimension)
         if rate:
             if self.dimension == 2 and component != "z":
-                raise ModelError(f"The component of {what} is {shown(component)}; in the plane it must be 'z'.")
-            k = component_number(component, 3, what)
+                raise ModelError(f"The component of {subject} is {shown(component)}; in the plane it must be 'z'.")
+            k = component_number(component, 3, subject)
             signals = [s for i in (k + 1, k + 2) for s in spatial(body.vector(e[i % 3]))]
             unit = self._unit(unit, "rad/s")
             return self._sense(name, unit, description, SensorType.ANGULAR_RATE, signals, reals=[1.0])
-        one_of(component, ("w", "x", "y", "z"), f"The component of {what}")
+        one_of(component, ("w", "x", "y", "z"), f"The component of {subject}")
         axes = [s for axis in e for s in spatial(body.vector(axis))]
         if self.dimension == 2:
             axes += [Affine(), Affine(), Affine({}, 1.0)]
@@ -86,13 +86,13 @@ class OrientationSensorVocabulary(SensorVocabulary):
         ModelError
             The body has no axes, or this angle does not exist for it.
         """
-        what = f"The sensor '{name}'"
+        subject = f"The sensor '{name}'"
         if isinstance(of, Body):
             return self._cardan(name, of, kind, unit, description)
         if not isinstance(kind, str) or kind:
-            raise ModelError(f"{what} asks for {shown(kind)} of {shown(of)}; only bodies have yaw, pitch and roll.")
+            raise ModelError(f"{subject} asks for {shown(kind)} of {shown(of)}; only bodies have yaw, pitch and roll.")
         if isinstance(of, Spin):
-            self.owned_coordinate(of, what)
+            self.owned_coordinate(of, subject)
             element = f"{of.name}.angle"
             element_names = [record.name for record in self.elements]
             if element not in element_names:
@@ -101,8 +101,8 @@ class OrientationSensorVocabulary(SensorVocabulary):
             integers = [element_names.index(element), 0]
             return self._sense(name, unit, description, SensorType.ELEMENT_OUTPUT, integers=integers, reals=[1.0])
         if not isinstance(of, (list, tuple)) or len(of) != 3:
-            raise ModelError(f"{what} needs a body, a spin or three vectors, got {shown(of)}.")
-        signals = [s for v in of for s in spatial(self.expressions(v, what))]
+            raise ModelError(f"{subject} needs a body, a spin or three vectors, got {shown(of)}.")
+        signals = [s for v in of for s in spatial(self.expressions(v, subject))]
         return self._sense(name, unit, description, SensorType.ANGLE_ABOUT, signals)
 
     def _cardan(self, name: str, body: Body, kind: str, unit: str, description: str) -> Sensor:

@@ -6,9 +6,7 @@ from mbs.common.checks import Vector
 
 
 def perpendicular(axis: Vector) -> tuple[Vector, Vector]:
-    """Unit vectors e1, e2 with e1 x e2 = axis; e1 along an earth axis where `axis` allows, so that equations stay
-    short.
-    """
+    """Unit vectors e1, e2 with e1 x e2 = axis; e1 along an earth axis if `axis` allows it, for short equations."""
     k = int(np.argmin(np.abs(axis)))
     e1 = -axis[k] * axis
     e1[k] += 1.0

@@ -1,7 +1,7 @@
-"""Rigid body whose joints at selected points have rows of their own, so that forces there can be read.
+"""Rigid bodies with ports: points at which the total force of joints and springs can be sensed.
 
-Joints and springs at a port share three coordinates without mass, its place from the centre of mass, which three linear
-rows tie to the body. Their multipliers are the whole force on the body at the port, whatever acts there.
+Joints and springs at a port share three coordinates without mass, its position from the centre of mass, which three
+linear rows tie to the body. The multipliers of these rows are the total force on the body at the port.
 """
 
 from collections.abc import Mapping
@@ -31,24 +31,24 @@ class PortedBody(Body):
         self._points: list[tuple[Vector, AffineVector]] = []
         for name, position in places.items():
             port_name = f"{owner.name}.{name}"
-            # from the centre of mass, so that the rows lose no digits far from the origin of the earth
+            # from the centre of mass, so that rows keep their accuracy far from the origin of the earth
             arm = position - owner.com
             numbers = [model.new_coordinate(f"{port_name}.{'xyz'[k]}", "vector", float(arm[k]), k) for k in range(3)]
-            free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
+            arm_vector = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
             joint = Joint(
-                port_name, "port", equal_vectors(port_name, "point", free, owner.vector(arm)), rows_weight=1.0
+                port_name, "port", equal_vectors(port_name, "point", arm_vector, owner.vector(arm)), rows_weight=1.0
             )
             joint.as_rows = True
             self.ports[name] = model._join(joint)
-            self._points.append((position, owner.point(owner.com) + free))
+            self._points.append((position, owner.point(owner.com) + arm_vector))
 
     def point(self, position: ArrayLike) -> AffineVector:
-        """The port at a place, else the point of the body.
+        """The port at a position, else the point of the body.
 
         `position`: earth axes in the reference configuration, m, shape (3,).
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
-        for port_position, free in self._points:
+        for port_position, arm_vector in self._points:
             if same_place(p, port_position, size_about(self, port_position)):
-                return free
+                return arm_vector
         return super().point(p)

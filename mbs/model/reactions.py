@@ -9,8 +9,8 @@ from mbs.model.joints.joint import Joint
 from mbs.model.sensor import Term
 
 
-def folded(term: Term) -> list[Term]:
-    """The term with its constant factors in the weight; none where it vanishes."""
+def fold_constants(term: Term) -> list[Term]:
+    """The term with its constant factors moved to the weight; an empty list if it is zero."""
     weight, factors = term.weight, []
     for factor in term.factors:
         if factor.terms:
@@ -33,6 +33,6 @@ def guide_terms(joint: Joint, guide: int) -> list[Term]:
                 continue
             weight, square = (1.0, -1) if term.power == 1 else (2.0, guide)
             for c, a, b in term.products:
-                terms += folded(Term(weight * c, row, (a, b), square, joint))
-            terms += folded(Term(weight, row, (term.linear,), square, joint))
+                terms += fold_constants(Term(weight * c, row, (a, b), square, joint))
+            terms += fold_constants(Term(weight, row, (term.linear,), square, joint))
     return terms

@@ -26,7 +26,7 @@ class Role(IntEnum):
     NORMAL = 1
     """x of the unit normal of a road, whose y and z follow it."""
     ANSWER = 2
-    """x of the point of an answer on a road; `near` is the sensor of the x of what meets the road there."""
+    """x of the point of an answer on a road; `near`: sensor of x of the part that meets the road there."""
     HUB = 3
     """x of the force of a tyre; `near` is the sensor of the velocity of the hub along x, `figures` are settling time of
     its carcass at rest, s, how that goes with speed, s2/m2, settling time by speed, s2/m, and stiffness over inertia of
@@ -35,10 +35,10 @@ class Role(IntEnum):
 
 @dataclass(frozen=True)
 class Input:
-    """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port.
+    """A number that a host sets; `index`: in the System, `port`: whether another program sets it at every step.
 
-    An FMU watches inputs with a `role`, by the sensor `near` and those after it; its trials move it by `tried` from its
-    start.
+    An FMU checks inputs with a `role` by the sensor `near` and those after it; its trial runs change them by `tried`
+    from the start.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Input:
 
 @dataclass(frozen=True)
 class Ahead:
-    """An output of FMUs alone: what a sensor will read some communication steps later, by the sensor of its rate."""
+    """An output of FMUs only: the sensor `value` extrapolated by communication steps with the sensor `rate`."""
 
     name: str
     unit: str
@@ -69,7 +69,7 @@ class Ahead:
 
 @dataclass(frozen=True)
 class Switch:
-    """A switch by name; `index` is its place in the System."""
+    """A switch of constraint rows; `index`: in the System, `on`: whether it is on at the start."""
 
     name: str
     index: int
@@ -84,13 +84,13 @@ class Armature:
     coordinate: Affine
     """The angle as an expression, rad."""
     inertia: float
-    """Of what turns, about its own axis, kg m2."""
+    """Inertia of the rotor about its own axis, kg m2."""
     ratio: float
 
 
 @dataclass(frozen=True)
 class Guide:
-    """A prescribed motion; `reals` as in the System file, `second` the number of a second input or -1."""
+    """A prescribed motion; `reals`: as in the System file, `second`: number of a second input or -1."""
 
     name: str
     index: int
@@ -110,7 +110,7 @@ class Parameter:
     value: float
     min: float
     max: float
-    """`value`, `min`, `max`: as compiled, and its limits."""
+    """`value`, `min`, `max`: compiled value and limits, in `unit`."""
     unit: str
     description: str
     targets: tuple[tuple[int, int, int, float, float, bool], ...]
@@ -118,12 +118,12 @@ class Parameter:
     tunable: bool = True
     """Whether it may be set while the model moves."""
     works: tuple[float, float] | None = None
-    """Least and largest value with which the model does what it is made for."""
+    """Least and largest value in the range for which the model is intended."""
 
     @property
     def whole(self) -> bool:
-        """Whether its values are whole numbers: it turns a switch."""
-        return any(where[0] == ParameterTarget.SWITCH for where in self.targets)
+        """Whether its values are whole numbers, because it sets a switch."""
+        return any(target[0] == ParameterTarget.SWITCH for target in self.targets)
 
 
 @dataclass(frozen=True)
@@ -133,11 +133,11 @@ class RoadFileParameter:
     name: str
     road: int
     start: str
-    """Path of the file; empty: none, the road of the model."""
+    """Path of the file; empty: the road of the model."""
 
     @property
     def description(self) -> str:
-        """Description of the quantity in one sentence, for hosts."""
+        """Description of the parameter, for hosts."""
         return (
             "File of the road (made by ali3 road, or a table .csv with coordinates) in place of the built-in one, "
             "which an empty text means: a path, or the name of one in the folder roads of the resources"

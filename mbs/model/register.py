@@ -1,4 +1,4 @@
-"""Register of a model: lists of its parts by kind, in the order of their addition, and by name."""
+"""Register of a model: lists of its objects by kind, in the order of their addition."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from mbs.model.table_bodies import TabledBody, TabledNumber
 
 
 class Named(Protocol):
-    """Base of everything that is registered by a name."""
+    """An object that is registered by its name."""
 
     @property
     def name(self) -> str:
@@ -37,10 +37,10 @@ TIME = "time"
 
 
 class Register(ModelCoordinates):
-    """Lists of all parts of a model, filled by the vocabulary and read by `compile`.
+    """Lists of all objects of a model, filled by the vocabulary and read by `compile`.
 
-    A list a kind; the place of a thing in its list is its number in the System. A public method of a model either does
-    all it says or raises and changes nothing: every class of the vocabulary is made so when it is defined.
+    There is one list for each kind; the index of an object in its list is its number in the System. A public method of
+    a model that raises changes nothing: `atomic_call` wraps those of each vocabulary class when it is defined.
     """
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -53,7 +53,7 @@ class Register(ModelCoordinates):
         self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
     ) -> None:
         super().__init__(name, dimension, gravity, length)
-        self._names: set[tuple[str, str]] = set()  # of each kind, those that are taken
+        self._names: set[tuple[str, str]] = set()  # kind and name of each registered object
         # bodies and coordinates
         self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
         self.bodies: list[Body] = []
@@ -69,7 +69,7 @@ class Register(ModelCoordinates):
         self.elements: list[ElementRecord] = []
         self.roads: list[Road] = []
         self.switches: list[Switch] = []
-        self.grounded = False  # a joint ties something to the ground
+        self.grounded = False  # whether a joint is connected to the ground
         # inputs and outputs
         self.inputs: list[Input] = []
         self.guides: list[Guide] = []
@@ -79,15 +79,15 @@ class Register(ModelCoordinates):
         self.sensors: list[Sensor] = []
         self.ahead: list[Ahead] = []
         self.with_ports = None
-        # how it starts and runs
+        # start and run
         self.floating = False
-        self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: left to the joints
+        self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: determined by the joints
         self.coordinate_rates: dict[int, float] = {}
         self.start_in_equilibrium = False
-        self.equilibrium_parameters: dict[str, float] = {}  # values that hold only while it is sought
+        self.equilibrium_parameters: dict[str, float] = {}  # values during its solution
         self.stop_time = 10.0
         self.step = 0.01
-        # how it looks
+        # drawing
         self.default_shapes = True
         self._shapes: list[Shape] = []
         self._turnings: list[Turning] = []
@@ -95,7 +95,7 @@ class Register(ModelCoordinates):
         self.flexible_scene: list[dict[str, Any]] = []
 
     def unique(self, family: str, name: str) -> str:
-        """Claim a name among the things of a family, such as body, joint, element or sensor.
+        """Register a name in a family, such as body, joint, element or sensor, and return it.
 
         Raises
         ------
@@ -112,16 +112,16 @@ class Register(ModelCoordinates):
             self._undo.append(lambda: self._names.discard(key))
         return key[1]
 
-    def enter(self, family: str, things: list[N], thing: N) -> N:
-        """Add to the `things` of a family one whose name is new there."""
-        self.unique(family, thing.name)
-        things.append(thing)
-        return thing
+    def enter(self, family: str, items: list[N], item: N) -> N:
+        """Add an item with a unique name to the list of a family, and return it."""
+        self.unique(family, item.name)
+        items.append(item)
+        return item
 
     @staticmethod
-    def place_of(things: Sequence[Named], name: object) -> int | None:
-        """Index of a named thing in the list of its family, or None."""
-        return next((k for k, thing in enumerate(things) if isinstance(name, str) and thing.name == name), None)
+    def place_of(items: Sequence[Named], name: object) -> int | None:
+        """Index of the item of a name in the list of its family, or None."""
+        return next((k for k, item in enumerate(items) if isinstance(name, str) and item.name == name), None)
 
     @property
     def shapes(self) -> list[Shape]:
@@ -131,22 +131,22 @@ class Register(ModelCoordinates):
 
     @property
     def turnings(self) -> list[Turning]:
-        """Shapes that only turn or slide in the drawing."""
+        """Drawn parts that turn or slide."""
         self.look()
         return self._turnings
 
     @property
     def with_ports(self) -> Callable[[], Self] | None:
-        """Function that makes the same model with ports; None if it was not set or this model has grown since."""
-        return self._with_ports if self._size() == self._size_with_ports else None
+        """Function that makes the same model with ports; None if it was not set or the model has changed since."""
+        return self._with_ports if self._counts() == self._size_with_ports else None
 
     @with_ports.setter
     def with_ports(self, make: Callable[[], Self] | None) -> None:
-        self._with_ports, self._size_with_ports = make, self._size()
+        self._with_ports, self._size_with_ports = make, self._counts()
 
-    def _size(self) -> tuple[int, ...]:
-        """Counts of what moves and what acts."""
-        parts = (
+    def _counts(self) -> tuple[int, ...]:
+        """Numbers of bodies, joints, forces and other objects on which the equations depend."""
+        lists = (
             self.bodies,
             self.tabled,
             self.inertias,
@@ -159,7 +159,7 @@ class Register(ModelCoordinates):
             self.written_inertias,
             self.written_axes,
         )
-        return tuple(len(part) for part in parts)
+        return tuple(len(objects) for objects in lists)
 
     @atomic_call
     def add(self, element: ElementRecord) -> ElementRecord:

@@ -12,7 +12,7 @@ from mbs.model.records import RoadFileParameter
 
 
 class RoadVocabulary(BodyVocabulary):
-    """Roads."""
+    """Vocabulary of roads."""
 
     def road(self, road: Road | RoadOfFile, *, file: str | None = None) -> int:
         """Add a road.
@@ -47,7 +47,7 @@ class RoadVocabulary(BodyVocabulary):
             start = str(Path(road.path).absolute())
             file = file or ("road.file" if k == 0 else f"road_{k}.file")
             road = road.road
-        _ = road.real  # its numbers are looked at
+        _ = road.real  # checks its numbers
         if isinstance(road, PortRoad) and max(road.first) + len(ANSWER) > len(self.inputs):
             raise ModelError(
                 f"A road at ports has its first inputs {list(road.first)}, but the model '{self.name}' has "

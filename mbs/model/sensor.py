@@ -7,7 +7,7 @@ from mbs.common.affine import Affine
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.joints.joint import Joint
 
-MOST_FACTORS = 3
+MAX_FACTORS = 3
 
 
 @dataclass(frozen=True)
@@ -35,25 +35,25 @@ class Sensor:
     type: SensorType
     """Sensor type of the System file."""
     signals: Sequence[Affine] = ()
-    """Its signals; their numbers are put after `integers`."""
+    """Its signals, whose numbers follow `integers`."""
     integers: Sequence[int] = ()
     reals: Sequence[float] = ()
     joint: Joint | None = None
-    """For joint forces: the joint whose rows are weighted; ``integers`` are then numbers of its equations."""
+    """The joint of a joint force; ``integers`` are then numbers of its equations."""
     joints: Sequence[Joint] = ()
-    """Joints whose three rows each come last among the integers."""
+    """Joints whose rows, three each, are the last integers."""
     terms: Sequence[Term] = ()
-    """Products with multipliers of `joint`, which make up all integers and reals."""
+    """Products with multipliers of `joint`, which determine all integers and reals."""
     whole: bool = False
     """Whether its values are whole numbers."""
     display_unit: str = ""
-    """What engineers read it in, if that is not `unit`."""
+    """Customary unit in engineering, if it is not `unit`."""
     notice: str = ""
-    """What a run reports when the value is not zero; empty: nothing."""
+    """Sentence that a run reports if the value is not zero; empty: none."""
     computed: bool = True
-    """False for a number that only stands for one that the same scene computes at another fidelity."""
+    """False for a placeholder of a number that the scene computes at another fidelity."""
 
     @property
     def factors(self) -> int:
-        """Number of its reals, the mass of all bodies left out."""
+        """Number of its reals, without the mass of all bodies."""
         return len(self.terms) or len(self.reals)

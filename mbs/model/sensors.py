@@ -16,13 +16,13 @@ from mbs.model.sensor import Sensor, Term
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
 
 
-def order_number(order: int, most: int, what: str) -> int:
-    """Order of a rate: 0 for the value, 1 for its rate, 2 for its second rate."""
-    return whole(order, f"The order of {what}", 0, most)
+def order_number(order: int, max_order: int, subject: str) -> int:
+    """Checked order of a rate: 0 for the value, 1 for its rate, 2 for its second rate."""
+    return whole(order, f"The order of {subject}", 0, max_order)
 
 
 def spatial(v: AffineVector) -> list[Affine]:
-    """Three components; a planar vector gets z = 0."""
+    """Three components of a vector; z = 0 in the plane."""
     return [*v.components, *([Affine()] * (3 - len(v)))]
 
 
@@ -35,7 +35,7 @@ class SensorVocabulary(BodyVocabulary):
     """
 
     def _unit(self, unit: str, default: str) -> str:
-        """The unit that was given, else the default."""
+        """The given unit, else the default."""
         return default if isinstance(unit, str) and not unit else unit
 
     def _sense(
@@ -54,11 +54,11 @@ class SensorVocabulary(BodyVocabulary):
         display_unit: str = "",
         computed: bool = True,
     ) -> Sensor:
-        what = f"sensor {shown(name)}"
+        subject = f"sensor {shown(name)}"
         sensor = Sensor(
             name,
-            text(unit, f"The unit of {what}"),
-            text(description, f"The description of {what}", lines=True),
+            text(unit, f"The unit of {subject}"),
+            text(description, f"The description of {subject}", lines=True),
             type,
             signals,
             integers,
@@ -66,9 +66,9 @@ class SensorVocabulary(BodyVocabulary):
             joint,
             joints,
             terms,
-            flag(whole, f"The whole of {what}"),
-            text(display_unit, f"The display unit of {what}"),
-            computed=flag(computed, f"The computed of {what}"),
+            flag(whole, f"The whole of {subject}"),
+            text(display_unit, f"The display unit of {subject}"),
+            computed=flag(computed, f"The computed of {subject}"),
         )
         return self.enter("sensor", self.sensors, sensor)
 
@@ -148,14 +148,14 @@ class SensorVocabulary(BodyVocabulary):
         order : {0, 1, 2}
             The vector itself, its rate in the earth or, along one axis only, its second rate.
         """
-        what = f"sensor '{name}'"
+        subject = f"sensor '{name}'"
         if not isinstance(axes, (list, tuple)) or len(axes) > 2:
-            raise ModelError(f"The axes of {what} must be a list of at most two vectors, not {shown(axes)}.")
-        v, *along = (self.expressions(given, f"The {what}") for given in (vector, *axes))
-        k = order_number(order, 2 if len(along) == 1 else 1, what)
-        unit = self._unit(unit, "rad" if len(along) == 2 else RATE_UNITS["m"][k])
-        if not along:
+            raise ModelError(f"The axes of {subject} must be a list of at most two vectors, not {shown(axes)}.")
+        v, *unit_axes = (self.expressions(given, f"The {subject}") for given in (vector, *axes))
+        k = order_number(order, 2 if len(unit_axes) == 1 else 1, subject)
+        unit = self._unit(unit, "rad" if len(unit_axes) == 2 else RATE_UNITS["m"][k])
+        if not unit_axes:
             return self._sense(name, unit, description, SensorType.NORM, v.components, integers=[k, len(v)])
-        type = SensorType.COMPONENT if len(along) == 1 else SensorType.DIRECTION
-        signals = [s for part in (v, *along) for s in spatial(part)]
+        type = SensorType.COMPONENT if len(unit_axes) == 1 else SensorType.DIRECTION
+        signals = [s for part in (v, *unit_axes) for s in spatial(part)]
         return self._sense(name, unit, description, type, signals, integers=[k])

@@ -46,8 +46,8 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 class _Kind:
     """Required and optional properties of a kind of shape."""
 
-    needs: tuple[str, ...]
-    takes: tuple[str, ...] = ()
+    required: tuple[str, ...]
+    optional: tuple[str, ...] = ()
 
 
 KINDS: Mapping[str, _Kind] = {
@@ -66,11 +66,11 @@ KINDS: Mapping[str, _Kind] = {
 
 
 Place: TypeAlias = "ArrayLike | tuple[Owner, ArrayLike]"
-"""A point of the body of a shape, or (body, point) on another one; earth axes in the reference configuration, m."""
+"""A point of the body of a shape, or (body, point) of another one; earth axes in the reference configuration, m."""
 
 
 class ShapeVocabulary(BodyVocabulary):
-    """The looks of a model."""
+    """Vocabulary of shapes."""
 
     def shape(
         self,
@@ -169,11 +169,11 @@ class ShapeVocabulary(BodyVocabulary):
             if value is not None
         }  # fmt: skip
         one_of(kind, tuple(KINDS), "The kind of a shape")
-        what = f"{kind} of {_owner_text(body)}" if name is None else f"shape '{named(name, 'a shape')}'"
-        owner = _owner(self, body, what)
-        _check_arguments(kind, arguments, what)
+        subject = f"{kind} of {_owner_text(body)}" if name is None else f"shape '{named(name, 'a shape')}'"
+        owner = _owner(self, body, subject)
+        _check_arguments(kind, arguments, subject)
         looks = {} if name is None else {"name": name}
-        new = _new_shape(self, kind, owner, arguments, what, looks | _looks(color, material, opacity, what))
+        new = _new_shape(self, kind, owner, arguments, subject, looks | _looks(color, material, opacity, subject))
         self._shapes.append(new)
         return new
 
@@ -198,114 +198,114 @@ class ShapeVocabulary(BodyVocabulary):
             Its angle, rad: a coordinate or an expression, or the name of a sensor.
         """
         self.unique("spin", self.unique("body", name))
-        what = f"turning '{name}'"
-        owner = _owner(self, body, what)
+        subject = f"turning '{name}'"
+        owner = _owner(self, body, subject)
         if isinstance(owner, Spin):
-            raise ModelError(f"The {what} needs a body to turn on, not {shown(body)}.")
-        centre = local_place(self, owner, at, f"the point of {what}")
-        unit = direction(axis, 3, f"the axis of {what}")
+            raise ModelError(f"The {subject} needs a body to turn on, not {shown(body)}.")
+        centre = local_place(self, owner, at, f"the point of {subject}")
+        unit = direction(axis, 3, f"the axis of {subject}")
         if isinstance(angle, str):
             if angle not in [sensor.name for sensor in self.sensors]:
-                raise ModelError(f"The {what} follows the sensor {shown(angle)}, which the model does not have.")
-            turned: Affine | str = angle
+                raise ModelError(f"The {subject} follows the sensor {shown(angle)}, which the model does not have.")
+            angle_or_sensor: Affine | str = angle
         else:
-            turned = self.expression(angle, f"The {what}")
-        shape = Turning(name, owner, centre, tuple(unit.tolist()), turned)
+            angle_or_sensor = self.expression(angle, f"The {subject}")
+        shape = Turning(name, owner, centre, tuple(unit.tolist()), angle_or_sensor)
         self._turnings.append(shape)
         return shape
 
 
-def _owner(model: BodyVocabulary, owner: object, what: str) -> Owner:
-    """The body whose frame carries a shape, or the spin or turning."""
+def _owner(model: BodyVocabulary, owner: object, subject: str) -> Owner:
+    """The owner of a shape: the body of the model whose frame carries it, the spin or the turning part."""
     if isinstance(owner, Spin):
-        model.owned_coordinate(owner, f"The {what}")
+        model.owned_coordinate(owner, f"The {subject}")
         return owner
     if isinstance(owner, Turning):
         if not any(owner is turning for turning in model._turnings):
-            raise ModelError(f"The {what}: '{owner.name}' turns in another model than '{model.name}'.")
+            raise ModelError(f"The {subject}: '{owner.name}' turns in another model than '{model.name}'.")
         return owner
-    body = model.owned(owner, f"The {what}")  # type: ignore[arg-type]
-    return body if body.is_ground or body in model.bodies else _member(model, body)
+    body = model.owned(owner, f"The {subject}")  # type: ignore[arg-type]
+    return body if body.is_ground or body in model.bodies else _model_body(model, body)
 
 
-def _member(model: BodyVocabulary, body: Body) -> Body:
-    """The body of the model that has the coordinates of another one, as a node, a frame or a body with ports."""
+def _model_body(model: BodyVocabulary, body: Body) -> Body:
+    """The body of the model that has the coordinates of a node, a frame or a body with ports."""
     return next(b for b in model.bodies if b.start == body.start)
 
 
-def local_place(model: BodyVocabulary, owner: Owner, place: ArrayLike, what: str) -> Vector:
-    """A place from the origin of its owner, three components."""
+def local_place(model: BodyVocabulary, owner: Owner, point: ArrayLike, subject: str) -> Vector:
+    """A point of the drawing from the origin of its owner, shape (3,), m."""
     origin = origin_of(owner)
-    position = place_of(place, model.dimension, what)
+    position = place_of(point, model.dimension, subject)
     return np.asarray(position - origin)
 
 
 def _anchors(
-    model: BodyVocabulary, owner: Owner, places: object, key: str, count: tuple[int, int], what: str
+    model: BodyVocabulary, owner: Owner, places: object, key: str, count: tuple[int, int], subject: str
 ) -> list[tuple[Owner, Vector]]:
     least, most = count
-    words = f"{least} points" if least == most else f"{least} points or more"
+    expected = f"{least} points" if least == most else f"{least} points or more"
     if not isinstance(places, (list, tuple, np.ndarray)) or not least <= len(places) <= most:
-        raise ModelError(f"The {key} of {what} must be {words}, not {shown(places)}.")
+        raise ModelError(f"The {key} of {subject} must be {expected}, not {shown(places)}.")
     points = []
-    for number_, point in enumerate(places, start=1):
-        at = f"number {number_} of the {key} of {what}"
+    for k, point in enumerate(places, start=1):
+        point_subject = f"number {k} of the {key} of {subject}"
         if isinstance(point, (tuple, list)) and len(point) == 2 and not is_number(point[0]):
-            of = _owner(model, point[0], at)
-            points.append((of, local_place(model, of, point[1], at)))
+            anchor_owner = _owner(model, point[0], point_subject)
+            points.append((anchor_owner, local_place(model, anchor_owner, point[1], point_subject)))
         elif isinstance(point, Body):
-            of = _owner(model, point, at)
-            points.append((of, np.zeros(3)))
+            anchor_owner = _owner(model, point, point_subject)
+            points.append((anchor_owner, np.zeros(3)))
         else:
-            points.append((owner, local_place(model, owner, point, at)))
+            points.append((owner, local_place(model, owner, point, point_subject)))
     return points
 
 
 def _new_shape(
-    model: BodyVocabulary, kind: str, owner: Owner, arguments: Mapping[str, Any], what: str, looks: Mapping[str, Any]
+    model: BodyVocabulary, kind: str, owner: Owner, arguments: Mapping[str, Any], subject: str, looks: Mapping[str, Any]
 ) -> Shape:
     fields = dict(looks)
     anchors: list[tuple[Owner, Vector]] = []
     for key in ("radius", "thickness", "width", "rim", "wire", "seat", "scale"):
         if key in arguments:
-            fields[key] = positive(arguments[key], f"The {key} of {what}")
+            fields[key] = positive(arguments[key], f"The {key} of {subject}")
     if "coils" in arguments:
-        fields["coils"] = whole(arguments["coils"], f"The coils of {what}", 1, 1000)
+        fields["coils"] = whole(arguments["coils"], f"The coils of {subject}", 1, 1000)
     if "points" in arguments:
-        anchors = _anchors(model, owner, arguments["points"], "points", (3 if kind == "plate" else 2, 10_000), what)
+        anchors = _anchors(model, owner, arguments["points"], "points", (3 if kind == "plate" else 2, 10_000), subject)
     if "ends" in arguments:
-        anchors = _anchors(model, owner, arguments["ends"], "ends", (2, 2), what)
-    if kind == "cylinder" and any(of is not owner for of, _ in anchors):
-        raise ModelError(f"The {what} is of one body; through points of several bodies goes a tube.")
+        anchors = _anchors(model, owner, arguments["ends"], "ends", (2, 2), subject)
+    if kind == "cylinder" and any(anchor_owner is not owner for anchor_owner, _ in anchors):
+        raise ModelError(f"The {subject} is of one body; through points of several bodies goes a tube.")
     if kind == "cylinder" and np.array_equal(anchors[0][1], anchors[1][1]):
-        raise ModelError(f"The ends of {what} are one point; a cylinder has a length.")
+        raise ModelError(f"The ends of {subject} are one point; a cylinder has a length.")
     if kind in ("box", "sphere", "mesh", "wheel", "steering_wheel"):
         default = np.zeros(3) - origin_of(owner) if kind == "mesh" else np.zeros(3)
         fields["at"] = (
-            local_place(model, owner, arguments["at"], f"the middle of {what}") if "at" in arguments else default
+            local_place(model, owner, arguments["at"], f"the middle of {subject}") if "at" in arguments else default
         )
     if "size" in arguments:
-        fields["size"] = _size(arguments["size"], model.dimension, what)
+        fields["size"] = _edges(arguments["size"], model.dimension, subject)
     if "axes" in arguments:
-        fields["axes"] = _axes(arguments["axes"], model.dimension, what)
+        fields["axes"] = _axes(arguments["axes"], model.dimension, subject)
     if kind in ("wheel", "steering_wheel"):
-        fields["axis"] = _axle(model, owner, arguments.get("axis"), what)
+        fields["axis"] = _axle_direction(model, owner, arguments.get("axis"), subject)
     if "rim" in fields and not fields["rim"] < fields["radius"]:
         raise ModelError(
-            f"The rim {fields['rim']:g} m of {what} must be smaller than its radius {fields['radius']:g} m."
+            f"The rim {fields['rim']:g} m of {subject} must be smaller than its radius {fields['radius']:g} m."
         )
     if kind == "mesh":
         if not isinstance(arguments["file"], (str, Path)):
-            raise ModelError(f"The file of {what} must be the path of a file, not {shown(arguments['file'])}.")
+            raise ModelError(f"The file of {subject} must be the path of a file, not {shown(arguments['file'])}.")
         scale = fields.pop("scale", 1.0)
         fields["positions"], fields["triangles"] = read_mesh(arguments["file"], scale)
         fields["file"] = Path(arguments["file"]).name
     return Shape(kind, owner, fields, anchors)
 
 
-def _axle(model: BodyVocabulary, owner: Owner, axis: ArrayLike | None, what: str) -> Vector:
+def _axle_direction(model: BodyVocabulary, owner: Owner, axis: ArrayLike | None, subject: str) -> Vector:
     if axis is not None:
-        return direction(axis, 3, f"the axis of {what}")
+        return direction(axis, 3, f"the axis of {subject}")
     if not isinstance(owner, Body):
         return np.array(owner.axis_reference)
     return np.array([0.0, 1.0, 0.0]) if model.dimension == 3 else np.array([0.0, 0.0, 1.0])
@@ -322,10 +322,10 @@ def origin_of(owner: Owner) -> Vector:
     return in_space(owner.com)
 
 
-def place_of(place: ArrayLike, dimension: int, what: str) -> Vector:
+def place_of(position: ArrayLike, dimension: int, subject: str) -> Vector:
     """A place of the drawing, three components; in the plane two numbers or three."""
-    length = len(place) if dimension == 2 and isinstance(place, (list, tuple, np.ndarray)) else 0
-    return in_space(array(place, (3 if length == 3 else dimension,), what))
+    length = len(position) if dimension == 2 and isinstance(position, (list, tuple, np.ndarray)) else 0
+    return in_space(array(position, (3 if length == 3 else dimension,), subject))
 
 
 def _owner_text(owner: object) -> str:
@@ -333,48 +333,48 @@ def _owner_text(owner: object) -> str:
     return f"'{name}'" if isinstance(name, str) else shown(owner)
 
 
-def _check_arguments(kind: str, arguments: Mapping[str, Any], what: str) -> None:
+def _check_arguments(kind: str, arguments: Mapping[str, Any], subject: str) -> None:
     allowed = KINDS[kind]
-    for key in allowed.needs:
+    for key in allowed.required:
         if key not in arguments:
-            raise ModelError(f"The {what} needs {key}=...; a {kind} has {_listed(allowed)}.")
+            raise ModelError(f"The {subject} needs {key}=...; a {kind} has {_property_names(allowed)}.")
     for key in arguments:
-        if key not in allowed.needs + allowed.takes:
-            raise ModelError(f"The {what} takes no {key}; a {kind} has {_listed(allowed)}.")
+        if key not in allowed.required + allowed.optional:
+            raise ModelError(f"The {subject} takes no {key}; a {kind} has {_property_names(allowed)}.")
 
 
-def _listed(kind: _Kind) -> str:
-    names = [*kind.needs, *kind.takes]
+def _property_names(kind: _Kind) -> str:
+    names = [*kind.required, *kind.optional]
     return ", ".join(names) if names else "nothing to say"
 
 
-def _looks(color: object, material: object, opacity: object, what: str) -> dict[str, Any]:
+def _looks(color: object, material: object, opacity: object, subject: str) -> dict[str, Any]:
     looks: dict[str, Any] = {}
     if color is not None:
         if not isinstance(color, str) or not _COLOUR.fullmatch(color):
-            raise ModelError(f"The color of {what} is {shown(color)}; it must read '#rrggbb', such as '#c03020'.")
+            raise ModelError(f"The color of {subject} is {shown(color)}; it must read '#rrggbb', such as '#c03020'.")
         looks["color"] = color.lower()
     if material is not None:
-        looks["material"] = one_of(material, MATERIALS, f"The material of {what}")
-    share = number(opacity, f"The opacity of {what}")
-    if not 0.0 <= share <= 1.0:
-        raise ModelError(f"The opacity of {what} is {share:g}; it must be from 0 to 1.")
-    return looks | ({"opacity": share} if share < 1.0 else {})
+        looks["material"] = one_of(material, MATERIALS, f"The material of {subject}")
+    value = number(opacity, f"The opacity of {subject}")
+    if not 0.0 <= value <= 1.0:
+        raise ModelError(f"The opacity of {subject} is {value:g}; it must be from 0 to 1.")
+    return looks | ({"opacity": value} if value < 1.0 else {})
 
 
-def _size(size: object, dimension: int, what: str) -> Vector:
+def _edges(size: object, dimension: int, subject: str) -> Vector:
     length = len(size) if dimension == 2 and isinstance(size, (list, tuple, np.ndarray)) else 3
-    edges = array(size, (2 if length == 2 else 3,), f"the size of {what}")
+    edges = array(size, (2 if length == 2 else 3,), f"the size of {subject}")
     if not np.all(edges > 1.0 / LARGEST):
-        raise ModelError(f"The size of {what} is {edges.tolist()}; all edges must be greater than zero.")
+        raise ModelError(f"The size of {subject} is {edges.tolist()}; all edges must be greater than zero.")
     return edges if len(edges) == 3 else np.array([*edges, 0.5 * float(np.min(edges))])
 
 
-def _axes(axes: object, dimension: int, what: str) -> NDArray[np.float64]:
-    small = dimension == 2 and isinstance(axes, (list, tuple, np.ndarray)) and len(axes) == 2
-    matrix = array(axes, (2, 2) if small else (3, 3), f"the axes of {what}")
+def _axes(axes: object, dimension: int, subject: str) -> NDArray[np.float64]:
+    is_planar = dimension == 2 and isinstance(axes, (list, tuple, np.ndarray)) and len(axes) == 2
+    matrix = array(axes, (2, 2) if is_planar else (3, 3), f"the axes of {subject}")
     R = np.eye(3)
     R[: len(matrix), : len(matrix)] = matrix
     if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
-        raise ModelError(f"{capital(f'the axes of {what}')} must be the columns of a rotation matrix.")
+        raise ModelError(f"{capital(f'the axes of {subject}')} must be the columns of a rotation matrix.")
     return R

@@ -1,4 +1,4 @@
-"""Shapes that slide along a body, and computed meshes."""
+"""Drawn parts that slide along a line of a body, and computed meshes."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from mbs.model.shapes import ShapeVocabulary, local_place
 
 @dataclass(frozen=True)
 class Sliding(Turning):
-    """Something that slides along a line of a body without being one itself, such as a rack.
+    """A drawn part that slides along a line of a body, such as a rack; it is no body of the model.
 
     Attributes
     ----------
     axis_reference : tuple of float
         Direction of the line.
     angle : str
-        The sensor of the way along it, m.
+        Name of the sensor of the displacement along the line, m.
     """
 
 
 class SlidingVocabulary(ShapeVocabulary):
-    """Vocabulary of shapes that slide on a body, and of computed meshes."""
+    """Vocabulary of sliding parts and of computed meshes."""
 
     def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
         """Something that is only drawn as sliding along a line of a body, such as a rack that a guide moves.
@@ -45,10 +45,10 @@ class SlidingVocabulary(ShapeVocabulary):
         """
         if not isinstance(way, str):
             raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
-        shape = ShapeVocabulary.turning(self, name, body, at=at, axis=direction, angle=way)
-        slides = Sliding(shape.name, shape.carrier, shape.centre, shape.axis_reference, way)
-        self._turnings[-1] = slides
-        return slides
+        turning_part = ShapeVocabulary.turning(self, name, body, at=at, axis=direction, angle=way)
+        part = Sliding(turning_part.name, turning_part.carrier, turning_part.centre, turning_part.axis_reference, way)
+        self._turnings[-1] = part
+        return part
 
     def mesh_shape(
         self,
@@ -75,23 +75,23 @@ class SlidingVocabulary(ShapeVocabulary):
         cover : bool
             Whether it hides what is within, and pages can make it see-through.
         """
-        what = f"mesh '{named(name, 'a mesh')}'"
-        vertices = array(positions, (None, 3), f"the positions of {what}")
-        indices = array(triangles, (None, 3), f"the triangles of {what}")
+        subject = f"mesh '{named(name, 'a mesh')}'"
+        vertices = array(positions, (None, 3), f"the positions of {subject}")
+        indices = array(triangles, (None, 3), f"the triangles of {subject}")
         corners = indices.astype(np.int64)
         if len(corners) and (np.any(corners != indices) or corners.min() < 0 or corners.max() >= len(vertices)):
             raise ModelError(
-                f"The triangles of {what} must be numbers of its {len(vertices)} positions, from 0; they go from "
+                f"The triangles of {subject} must be numbers of its {len(vertices)} positions, from 0; they go from "
                 f"{indices.min():g} to {indices.max():g}."
             )
-        ball = ShapeVocabulary.shape(
+        checked_shape = ShapeVocabulary.shape(
             self, body, "sphere", radius=1.0, name=name, color=color, material=material, opacity=opacity
         )
         self._shapes.pop()
-        looks = {k: v for k, v in ball.fields.items() if k not in ("radius", "at")}
-        at = local_place(self, ball.owner, np.zeros(self.dimension), f"the origin of {what}")
-        if flag(cover, f"the cover of {what}"):
+        looks = {k: v for k, v in checked_shape.fields.items() if k not in ("radius", "at")}
+        at = local_place(self, checked_shape.owner, np.zeros(self.dimension), f"the origin of {subject}")
+        if flag(cover, f"the cover of {subject}"):
             looks["cover"] = True
         mesh: dict[str, Any] = {"at": at, "positions": vertices, "triangles": corners, "file": name}
-        self._shapes.append(Shape("mesh", ball.owner, looks | mesh))
+        self._shapes.append(Shape("mesh", checked_shape.owner, looks | mesh))
         return self._shapes[-1]

@@ -1,4 +1,4 @@
-"""Guides that few models need: in time, of one input, by a table from another guide."""
+"""Guides in time, of one input, and by a table from another guide."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 from mbs.common.checks import LARGEST, array, number, positive, shown
 from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import GuideType
-from mbs.model.guides import GuideVocabulary, new_guide, of_table, owned_guide
+from mbs.model.guides import GuideVocabulary, new_guide, owned_guide, table_value
 from mbs.model.inputs import owned_input
 from mbs.model.records import Guide, Input
 
 
-class MoreGuidesVocabulary(GuideVocabulary):
-    """Prescribed motions in time, of one input and by tables."""
+class SpecialGuideVocabulary(GuideVocabulary):
+    """Vocabulary of prescribed motions in time, of one input and by tables."""
 
     def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
         """A prescribed motion in time; it stands still outside its pieces, so it should begin and end with zero rates.
@@ -90,37 +90,39 @@ class MoreGuidesVocabulary(GuideVocabulary):
         ModelError
             Fewer than two rows, the first column does not rise, or not as many slopes as rows.
         """
-        what = f"guide '{name}'"
-        u = owned_guide(self, source, f"The {what}")
+        subject = f"guide '{name}'"
+        u = owned_guide(self, source, f"The {subject}")
         if u.type == GuideType.BY_TABLE:
-            raise ModelError(f"The {what} is over guide '{u.name}', which is by a table too; give one table of both.")
-        rows = array(table, (None, 2), f"the table of {what}")
+            raise ModelError(
+                f"The {subject} is over guide '{u.name}', which is by a table too; give one table of both."
+            )
+        rows = array(table, (None, 2), f"the table of {subject}")
         if len(rows) < 2:
-            raise ModelError(f"The table of {what} has {len(rows)} rows; it needs two at least.")
+            raise ModelError(f"The table of {subject} has {len(rows)} rows; it needs two at least.")
         if not np.all(np.diff(rows[:, 0]) > 0.0):
             k = int(np.argmin(np.diff(rows[:, 0])))
             raise ModelError(
-                f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
-                "from row to row."
+                f"The table of {subject} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must "
+                "rise from row to row."
             )
-        given_slopes = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
+        given_slopes = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {subject}")
         m = PchipInterpolator(*rows.T).derivative()(rows[:, 0]) if given_slopes is None else given_slopes
         reals = [float(x) for x in np.concatenate([*rows.T, m])]
         guide = new_guide(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
-        value, _ = of_table(guide, u.start)
+        value, _ = table_value(guide, u.start)
         self.guides[-1] = replace(guide, start=value)
         return self.guides[-1]
 
 
-def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
+def _spline(motion: tuple[ArrayLike, ArrayLike], subject: str) -> CubicSpline:
     """A spline through points that begins and ends at rest."""
     if not isinstance(motion, (tuple, list)) or len(motion) != 2:
-        raise ModelError(f"The motion of {what} must be a PPoly or (times, values), not {shown(motion)}.")
-    times = array(motion[0], (None,), f"the times of {what}")
-    values = array(motion[1], (None,), f"the values of {what}")
+        raise ModelError(f"The motion of {subject} must be a PPoly or (times, values), not {shown(motion)}.")
+    times = array(motion[0], (None,), f"the times of {subject}")
+    values = array(motion[1], (None,), f"the values of {subject}")
     if len(times) < 2 or len(times) != len(values) or not np.all(np.diff(times) > 0.0):
         raise ModelError(
-            f"The motion of {what} has {len(times)} times and {len(values)} values; it needs two or more rising times "
-            "and a value for each."
+            f"The motion of {subject} has {len(times)} times and {len(values)} values; it needs two or more rising "
+            "times and a value for each."
         )
     return CubicSpline(times, values, bc_type="clamped")

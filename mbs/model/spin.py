@@ -1,4 +1,4 @@
-"""Axisymmetric wheels reduced to one coordinate, their absolute axial rate, and their axes, which parameters turn."""
+"""Axisymmetric wheels with their absolute axial rate as coordinate, and their axes, which parameters change."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from mbs.model.body import Body
 from mbs.model.carried_parts import Spin, WrittenAxis
 from mbs.model.perpendicular_vectors import perpendicular
 
-STEEPEST = 1.4
-"""rad of elevation, as in `mbs/kernel/src/system/parametric_axes.c`."""
+MAX_ELEVATION = 1.4
+"""Largest elevation of an axis, rad, as in `mbs/kernel/src/system/parametric_axes.c`."""
 
 
-def _own_components(vector: AffineVector) -> AffineVector:
-    """A copy with components of its own: vectors of the carrier that are equal now do not turn with the axis."""
+def _copy(vector: AffineVector) -> AffineVector:
+    """A copy of a vector, so that equal vectors of the carrier do not change with the axis."""
     return AffineVector(tuple(Affine(c.terms, c.constant) for c in vector.components))
 
 
 class SpinVocabulary(BodyVocabulary):
-    """Wheels of a model that are one coordinate each."""
+    """Vocabulary of wheels with one coordinate each."""
 
     def spin(
         self,
@@ -64,23 +64,23 @@ class SpinVocabulary(BodyVocabulary):
         ModelError
             The model is planar, the carrier is not rigid, or no wheel has these inertias.
         """
-        what = f"spin '{name}'"
+        subject = f"spin '{name}'"
         if self.dimension == 2:
-            raise ModelError(f"The {what} needs a spatial model; in the plane a wheel is a body.")
-        self.owned(carrier, f"The {what}")
+            raise ModelError(f"The {subject} needs a spatial model; in the plane a wheel is a body.")
+        self.owned(carrier, f"The {subject}")
         if carrier.is_ground or carrier.is_point or carrier.is_flexible:
-            raise ModelError(f"The carrier of {what} must be a rigid body, not '{carrier.name}'.")
-        m = positive(mass, f"The mass of {what}")
-        I_s = positive(spin_inertia, f"The spin inertia of {what}")
-        I_d = not_negative(diametral_inertia, f"The diametral inertia of {what}")
+            raise ModelError(f"The carrier of {subject} must be a rigid body, not '{carrier.name}'.")
+        m = positive(mass, f"The mass of {subject}")
+        I_s = positive(spin_inertia, f"The spin inertia of {subject}")
+        I_d = not_negative(diametral_inertia, f"The diametral inertia of {subject}")
         if I_s > 2.0 * I_d * (1.0 + 1e-9):
             raise ModelError(
-                f"The spin inertia {I_s:g} of {what} is more than twice its diametral inertia {I_d:g}; no wheel has "
+                f"The spin inertia {I_s:g} of {subject} is more than twice its diametral inertia {I_d:g}; no wheel has "
                 "that."
             )
-        radius = not_negative(rolling_radius, f"The rolling radius of {what}")
-        e = direction(axis, 3, f"the axis of {what}")
-        c = vector(centre, 3, f"the centre of {what}")
+        radius = not_negative(rolling_radius, f"The rolling radius of {subject}")
+        e = direction(axis, 3, f"the axis of {subject}")
+        c = vector(centre, 3, f"the centre of {subject}")
         x, y = perpendicular(e)
         self.remember(carrier)
         carrier.joint_axes.append(e)
@@ -88,16 +88,16 @@ class SpinVocabulary(BodyVocabulary):
         carrier.add_mass(m, c, I_d * np.outer(e, e))
         index = self.new_coordinate(self.unique("spin", name), "spin", 0.0)
         self.inertias[index] = I_s
-        along, across, aside = (_own_components(carrier.vector(v)) for v in (e, x, y))
+        axis_vector, f, g = (_copy(carrier.vector(v)) for v in (e, x, y))
         new = Spin(
             name,
             index,
             "rad",
             carrier,
             carrier.point(c),
-            along,
-            across,
-            aside,
+            axis_vector,
+            f,
+            g,
             I_s,
             I_d,
             radius,
@@ -126,14 +126,14 @@ class SpinVocabulary(BodyVocabulary):
         ModelError
             The axis stands upright.
         """
-        what = "wheel of Model.written_axis"
-        wheel = instance_of(Spin, spin, f"The {what}", "what Model.spin returned")
+        subject = "wheel of Model.written_axis"
+        wheel = instance_of(Spin, spin, f"The {subject}", "what Model.spin returned")
         if not any(wheel is other for other in self.spins):
-            raise ModelError(f"The {what}, {shown(wheel.name)}, is not of this model.")
-        grows = number(leaning, f"The leaning of the {what}")
+            raise ModelError(f"The {subject}, {shown(wheel.name)}, is not of this model.")
+        growth = number(leaning, f"The leaning of the {subject}")
         x, y, z = wheel.axis_reference
-        if abs(asin(min(max(z, -1.0), 1.0))) > STEEPEST:
-            raise ModelError(f"The axis of the {what} '{wheel.name}' stands upright; its azimuth is not known.")
+        if abs(asin(min(max(z, -1.0), 1.0))) > MAX_ELEVATION:
+            raise ModelError(f"The axis of the {subject} '{wheel.name}' stands upright; its azimuth is not known.")
         frame = tuple(wheel.carrier.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
-        new = WrittenAxis(wheel.name, wheel, (frame[0], frame[1], frame[2]), (atan2(-x, y), asin(z)), grows)
+        new = WrittenAxis(wheel.name, wheel, (frame[0], frame[1], frame[2]), (atan2(-x, y), asin(z)), growth)
         return self.enter("written axis", self.written_axes, new)

@@ -43,13 +43,13 @@ class SpringVocabulary(BodyVocabulary):
         ModelError
             Both ends are on the same body.
         """
-        what = f"spring-damper '{name}'"
-        p1, p2 = self._end(end_1, what), self._end(end_2, what)
-        first, second = body_and_point(end_1, what)[0], body_and_point(end_2, what)[0]
+        subject = f"spring-damper '{name}'"
+        p1, p2 = self._end(end_1, subject), self._end(end_2, subject)
+        first, second = body_and_point(end_1, subject)[0], body_and_point(end_2, subject)[0]
         if first.flexibility is None:  # which has many nodes
-            different(first, second, what)
+            different(first, second, subject)
         if stops is not None:
-            instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
+            instance_of(EndStops, stops, f"The stops of {subject}", "EndStops")
         gap = p2 - p1
         if free_length is None:
             free_length = float(np.linalg.norm(gap.value(self.drawn())))

@@ -1,9 +1,9 @@
 """Lookup-table bodies and numbers: their motion is a table of one or two coordinates.
 
-They bring no coordinates of their own to the equations and no rows: place on the base and axes, Y p(a, b) and Y R(a, b)
-with the axes Y of the base, are dependent coordinates that forces and sensors see like those of any body. Functions are
-uniform cubic B-splines through the points of the table, twice continuously differentiable; their error falls with the
-fourth power of the spacing. Beyond the table they go on along their tangent; a step from there is refused.
+They add no coordinates and no rows to the equations: position on the base and axes, Y p(a, b) and Y R(a, b) with the
+axes Y of the base, are dependent coordinates, which forces and sensors use like those of other bodies. The functions
+are uniform cubic B-splines through the points of the table; their error is of fourth order in the spacing. Outside the
+table they continue along their tangents; a step that starts there is refused.
 """
 
 from dataclasses import dataclass
@@ -20,33 +20,33 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class SmoothTable:
-    """Functions of one or two variables at equally spaced points, smooth between them."""
+    """Functions of one or two variables as uniform cubic B-splines."""
 
     axes: tuple[Array, ...]
     """Points along each variable."""
     coefficients: Array
     """Shape (n0 + 2, n1 + 2, k), or (n0 + 2, 1, k) of one variable: control points of the cubic B-splines."""
 
-    def value(self, *at: float) -> Array:
-        """The functions at a place, shape (k,)."""
+    def value(self, *point: float) -> Array:
+        """The functions at a point of the variables, shape (k,)."""
         values = self.coefficients
-        for axis, x in zip(self.axes, at, strict=True):
+        for axis, x in zip(self.axes, point, strict=True):
             values = np.tensordot(_weights(axis, x), values, axes=1)
         return np.asarray(values if len(self.axes) == 2 else values[0])
 
 
 def _weights(axis: Array, x: float) -> Array:
-    """Weights of the control points of a cubic B-spline at `x`; beyond the ends it goes on along the tangent."""
+    """Weights of the control points of a cubic B-spline at `x`; outside the table it continues along its tangent."""
     step = float(axis[1] - axis[0])
     position = (x - axis[0]) / step
     clamped = min(max(position, 0.0), len(axis) - 1.0)
     cell = min(int(clamped), len(axis) - 2)
-    s, beyond = clamped - cell, position - clamped
+    s, excess = clamped - cell, position - clamped
     r = 1.0 - s
     value = np.array([r**3, 4.0 - 6.0 * s**2 + 3.0 * s**3, 4.0 - 6.0 * r**2 + 3.0 * r**3, s**3]) / 6.0
     slope = np.array([-0.5 * r * r, s * (1.5 * s - 2.0), r * (2.0 - 1.5 * r), 0.5 * s * s])
     weights = np.zeros(len(axis) + 2)
-    weights[cell : cell + 4] = value + beyond * slope
+    weights[cell : cell + 4] = value + excess * slope
     return weights
 
 
@@ -54,7 +54,14 @@ class TabledBody(Body):
     """A rigid body that a table places on another (`Model.tabled_body`); it takes forces and sensors, no joints."""
 
     is_tabled = True
-    outputs: tuple[str, ...] = ()  # sensors that place its wheel in drawings: centre, the body's quaternion, angle
+    outputs: tuple[str, ...] = ()
+    """Sensors of the wheel in drawings: of its centre, of the quaternion of the body, of its angle."""
+    base: Body
+    """Body on which the table places it."""
+    parameters: tuple[Coordinate, ...]
+    """Variables of its table."""
+    table: SmoothTable
+    """Along the axes of the base: p, the position of `com` from that of the base, then the columns of R, its axes."""
 
     def coordinates(self) -> list[CoordinateInfo]:
         """Dependent coordinates of the body: of the position, then of each axis."""
@@ -67,13 +74,6 @@ class TabledBody(Body):
     def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
         offset = super()._affine_point(local, origin)
         return self.base.point(self.base.com) + offset if origin else offset
-
-    base: Body
-    """What it is placed on."""
-    parameters: tuple[Coordinate, ...]
-    """Variables of its table."""
-    table: SmoothTable
-    """Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes."""
 
 
 @dataclass(frozen=True)

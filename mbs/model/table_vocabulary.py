@@ -1,4 +1,4 @@
-"""Bodies and numbers by table: the vocabulary."""
+"""Vocabulary of lookup-table bodies and numbers."""
 
 from __future__ import annotations
 
@@ -63,23 +63,23 @@ class TableVocabulary(BodyVocabulary):
         ModelError
             Axes or values are not so, or the table does not give the drawing where its coordinates are 0.
         """
-        what = f"tabled body {shown(name)}"
-        self.owned(base, f"The {what}")
+        subject = f"tabled body {shown(name)}"
+        self.owned(base, f"The {subject}")
         if self.dimension != 3 or base.is_point or base.is_flexible or base.is_tabled:
-            raise ModelError(f"The {what} needs a rigid body or the ground in space as its base, not '{base.name}'.")
-        coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
-        m, centre = positive(mass, f"The mass of {what}"), vector(com, 3, f"the centre of mass of {what}")
-        I = inertia_matrix(inertia, 3, f"The inertia of {what}")
-        matrices = array(rotations, (*[None] * len(coordinates), 3, 3), f"the rotations of {what}")
+            raise ModelError(f"The {subject} needs a rigid body or the ground in space as its base, not '{base.name}'.")
+        coordinates = tuple(self.owned_coordinate(c, f"The {subject}") for c in checked_parameters(parameters, subject))
+        m, centre = positive(mass, f"The mass of {subject}"), vector(com, 3, f"the centre of mass of {subject}")
+        I = inertia_matrix(inertia, 3, f"The inertia of {subject}")
+        matrices = array(rotations, (*[None] * len(coordinates), 3, 3), f"the rotations of {subject}")
         if np.max(np.abs(matrices @ np.swapaxes(matrices, -1, -2) - np.eye(3))) > 1e3 * ROTATION or np.any(
             np.linalg.det(matrices) < 0.0
         ):
-            raise ModelError(f"The rotations of {what} must be rotation matrices.")
-        where = array(places, (*matrices.shape[:-2], 3), f"the places of {what}")
-        table = smooth_table(axes, pose_functions(base, where, matrices), (12,), what)
-        _same_axes(len(table.axes), len(coordinates), what)
+            raise ModelError(f"The rotations of {subject} must be rotation matrices.")
+        positions = array(places, (*matrices.shape[:-2], 3), f"the places of {subject}")
+        table = smooth_table(axes, pose_functions(base, positions, matrices), (12,), subject)
+        _check_axis_count(len(table.axes), len(coordinates), subject)
         drawn_pose = pose_functions(base, centre, np.eye(3))
-        check_drawn(table.value(*[0.0] * len(coordinates)), drawn_pose, what)
+        check_drawn(table.value(*[0.0] * len(coordinates)), drawn_pose, subject)
         new = TabledBody(self, self.unique("body", name), centre, len(self.coordinates))
         new.add_mass(m, centre, 0.5 * np.trace(I) * np.eye(3) - I)
         new.base, new.parameters, new.table = base, coordinates, table
@@ -112,10 +112,10 @@ class TableVocabulary(BodyVocabulary):
         unit : str
             As rad of an angle.
         """
-        what = f"tabled number {shown(name)}"
-        coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
-        table = smooth_table(axes, values, (), what)
-        _same_axes(len(table.axes), len(coordinates), what)
+        subject = f"tabled number {shown(name)}"
+        coordinates = tuple(self.owned_coordinate(c, f"The {subject}") for c in checked_parameters(parameters, subject))
+        table = smooth_table(axes, values, (), subject)
+        _check_axis_count(len(table.axes), len(coordinates), subject)
         drawn_value = float(table.value(*[0.0] * len(coordinates))[0])
         index = self.new_coordinate(self.unique("tabled number", name), "tabled", drawn_value)
         new = TabledNumber(name, index, named(unit, "a unit"), coordinates, table)
@@ -123,6 +123,6 @@ class TableVocabulary(BodyVocabulary):
         return new
 
 
-def _same_axes(axes: int, parameters: int, what: str) -> None:
+def _check_axis_count(axes: int, parameters: int, subject: str) -> None:
     if axes != parameters:
-        raise ModelError(f"The {what} has {axes} axes for {parameters} coordinates; there must be one for each.")
+        raise ModelError(f"The {subject} has {axes} axes for {parameters} coordinates; there must be one for each.")

@@ -23,7 +23,7 @@ ENTRY = struct.Struct("<40sIIQQ")
 INT32, FLOAT64, BYTES = 1, 2, 3
 
 FLOATS, INTEGERS, TEXTS = (
-    frozenset(name for name, (items, _) in ARRAYS.items() if items == of) for of in ("REALS", "INTEGERS", "BYTES")
+    frozenset(name for name, (items, _) in ARRAYS.items() if items == kind) for kind in ("REALS", "INTEGERS", "BYTES")
 )
 OPTIONAL = frozenset(name for name, (_, presence) in ARRAYS.items() if presence == "MAY") - TEXTS
 """Names of the arrays; the optional ones may be missing."""
@@ -35,7 +35,7 @@ class SystemFileError(ValueError):
 
 
 class CompiledModel:
-    """The arrays and names of a System, without what is drawn; immutable.
+    """The arrays and metadata of a System without its drawing; immutable.
 
     `arrays`, `meta` and `frames`: as of `mbs.System`.
     """
@@ -67,7 +67,7 @@ class CompiledModel:
         return float(self.arrays["fineness"][0]) if len(self.arrays["fineness"]) else 1.0
 
     def kernel_bytes(self, *, modes: bool = True) -> bytes:
-        """The System file without what is drawn, which the kernel does not read.
+        """The System file without the drawing, which the kernel does not read.
 
         `modes`: whether to include the assembly modes, by which steps are checked.
         """
@@ -95,24 +95,24 @@ class CompiledModel:
 
 
 class Arrays(Mapping[str, NDArray[Any]]):
-    """Arrays by name, read-only; those of the assembly modes are computed by `modes` when they are first read."""
+    """Read-only arrays by name; those of the assembly modes are computed by `modes` when first read."""
 
     def __init__(
         self, arrays: Mapping[str, ArrayLike], modes: Callable[[], Mapping[str, ArrayLike]] | None = None
     ) -> None:
-        self._arrays = {name: _frozen(name, arrays.get(name, ())) for name in sorted(FLOATS | INTEGERS)}
+        self._arrays = {name: _freeze(name, arrays.get(name, ())) for name in sorted(FLOATS | INTEGERS)}
         self._modes = modes
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if self._modes is not None and name in MODES:
-            self._arrays |= {mode: _frozen(mode, values) for mode, values in self._modes().items()}
+            self._arrays |= {mode: _freeze(mode, values) for mode, values in self._modes().items()}
             self._modes = None
         return self._arrays[name]
 
     def changed(self, arrays: Mapping[str, ArrayLike]) -> Arrays:
         """A copy with the values of some arrays replaced."""
         copied = copy.copy(self)
-        copied._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
+        copied._arrays = self._arrays | {name: _freeze(name, values) for name, values in arrays.items()}
         return copied
 
     def __iter__(self) -> Iterator[str]:
@@ -122,7 +122,7 @@ class Arrays(Mapping[str, NDArray[Any]]):
         return len(self._arrays)
 
 
-def _frozen(name: str, values: ArrayLike) -> NDArray[Any]:
+def _freeze(name: str, values: ArrayLike) -> NDArray[Any]:
     array = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
     array.setflags(write=False)
     return array

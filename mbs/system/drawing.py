@@ -1,4 +1,4 @@
-"""Drawing data of a System: its scene, and how its coordinates place the frames of the scene."""
+"""Drawing data of a System: its scene, and poses of the frames of the scene as functions of its coordinates."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ class BodyPlace:
 
     name: str
     kind: str
-    """What its full coordinates are: position, then axes, of "rigid", "planar", "point" and "planar point"; or "pose",
-    the seven parts of the pose themselves."""
+    """Kind of its full coordinates: "rigid", "planar", "point" and "planar point" have position, then axes; "pose" has
+    the seven parts of the pose."""
     row: int
-    """First of them."""
+    """Row of the first full coordinate."""
     columns: tuple[str, ...]
     """Names of the seven parts of its pose in recordings."""
 
@@ -40,13 +40,12 @@ class TurnPlace:
 
     name: str
     row: int
-    """The coordinate."""
+    """Row of the coordinate."""
     carrier: str
     axis: tuple[float, ...]
-    """Unit vector of the carrier."""
+    """Unit vector in the frame of the carrier."""
     absolute: bool
-    """Whether the coordinate counts from the earth, as that of a spin, so that the turning of the carrier about the
-    axis is taken off."""
+    """Whether the coordinate is relative to the earth, as a spin angle; the rotation of the carrier is subtracted."""
     column: str
     """Name in recordings."""
 
@@ -58,14 +57,14 @@ class AmplitudePlace:
     body: str
     modes: tuple[str, ...]
     row: int
-    """The first amplitude; the others follow."""
+    """Row of the first amplitude."""
     columns: tuple[str, ...]
     """Names in recordings."""
 
 
 @dataclass(frozen=True)
 class Places:
-    """Full coordinates ``matrix q + constant`` that place bodies."""
+    """Full coordinates ``matrix q + constant`` of the bodies that are drawn."""
 
     matrix: sparse.csr_matrix
     """Shape (rows, nq)."""
@@ -85,7 +84,7 @@ class Places:
         return self._pose(self.rows(q, body.row, _SIZES[body.kind]), body.kind)
 
     def poses(self, q: Array) -> list[Array]:
-        """Poses of all bodies."""
+        """Positions and quaternions of all bodies, shapes (n, 7), at coordinates (n, nq)."""
         full = self.rows(q, 0, len(self.constant))
         return [self._pose(full[:, b.row : b.row + _SIZES[b.kind]], b.kind) for b in self.bodies]
 
@@ -105,7 +104,7 @@ class Places:
         return pose
 
     def to_json(self) -> dict[str, Any]:
-        """The drawing as the System file has it."""
+        """The data as JSON values, for the System file."""
         m = self.matrix
         return {
             "shape": [int(n) for n in m.shape],
@@ -120,7 +119,7 @@ class Places:
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Places:
-        """Drawing from the data that `to_json` returned."""
+        """Places from the data that `to_json` returned; raises `ValueError` if they are inconsistent."""
         matrix = sparse.csr_matrix((data["val"], data["col"], data["ptr"]), shape=tuple(data["shape"]), dtype=float)
         constant = np.array(data["constant"], float)
         if matrix.shape[0] != len(constant):
@@ -141,21 +140,20 @@ class Places:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A scene and the places of its frames."""
+    """A scene and the poses of its frames."""
 
     base: Mapping[str, Any]
-    """The scene in the format of `docs/animation.md`, without what is made late."""
+    """The scene in the format of `docs/animation.md`, without entries that are made on demand."""
     places: Places
     shared: Sequence[tuple[str, Sequence[float], str, Sequence[float]]] = ()
-    """Points that two frames share by their joint, each with its place in both, m."""
+    """Points that two frames share at a joint: names of the frames, and the point in each, m."""
     late: tuple[Callable[[], list[dict[str, Any]]], ...] = ()
-    """Each makes entries of the scene's ``flexible``, which takes as long as compiling a model and is not always
-    wanted."""
+    """Functions that return entries of ``flexible`` of the scene; on demand, as they take as long as a compilation."""
 
     @cached_property
     def scene(self) -> dict[str, Any]:
         """The scene."""
-        return {**self.base, "flexible": [*self.base["flexible"], *(part for make in self.late for part in make())]}
+        return {**self.base, "flexible": [*self.base["flexible"], *(entry for make in self.late for entry in make())]}
 
     def to_bytes(self) -> bytes:
         """The array `drawing` of a System file: JSON, UTF-8."""
@@ -166,7 +164,7 @@ class Drawing:
     def from_bytes(cls, data: bytes, nq: int) -> Drawing:
         """Drawing of a System with `nq` coordinates from the bytes that `to_bytes` returned.
 
-        Raises `ValueError`, `KeyError` or `TypeError`: it is something else.
+        Raises `ValueError`, `KeyError` or `TypeError`: the bytes are no such drawing.
         """
         content = json.loads(data)
         places = Places.from_json(content["places"])
@@ -188,7 +186,7 @@ def matrices(quaternions: Array) -> Array:
 
 
 def twist(quaternions: Array, axis: Array) -> Array:
-    """Angle by which a body has turned about an axis of its own, shape (n,), from its quaternions (n, 4)."""
+    """Angle, rad, by which a body has turned about a body-fixed axis, shape (n,), from its quaternions (n, 4)."""
     if len(quaternions) < 2:
         return np.zeros(len(quaternions))
     turns = Rotation.from_quat(quaternions[:, [1, 2, 3, 0]])

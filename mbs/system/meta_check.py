@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-# Lists of entries and what each entry has: key and type.
 _TEXTS: dict[str, type] = {"name": str, "unit": str, "description": str}
 _LISTS: dict[str, dict[str, type]] = {
     "rows": {"name": str, "kind": str},
@@ -16,16 +15,17 @@ _LISTS: dict[str, dict[str, type]] = {
     "ahead": _TEXTS | {"value": str, "rate": str},
     "road_files": {"name": str, "road": int, "start": str, "description": str},
 }
-# Of files written before there were any.
+"""Keys and types of the entries of each list."""
 _OPTIONAL = ("constants", "road_files", "ahead")
-# Where the arrays say how many entries there are.
+"""Lists that older files do not have."""
 _COUNTED = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type", "parameters": "par_value"}
+"""Arrays whose lengths are the numbers of entries."""
 
 
-def problem_of(meta: Any, lengths: Mapping[str, int]) -> str:
-    """Fault in the metadata, as the end of a sentence; empty if there is none.
+def meta_problem(meta: Any, lengths: Mapping[str, int]) -> str:
+    """Fault in metadata, as the end of a sentence; empty if there is none.
 
-    `meta`: as read; `lengths`: lengths of the arrays of the System.
+    `meta`: read from JSON; `lengths`: of the arrays of the System.
     """
     if not isinstance(meta, dict):
         return "they are not a table"
@@ -34,7 +34,7 @@ def problem_of(meta: Any, lengths: Mapping[str, int]) -> str:
             return f"'{key}' is missing or of another kind"
     for key in ("step_s", "stop_time_s"):
         value = meta["experiment"].get(key)
-        if not (_fits(value, float) and value > 0.0):
+        if not (_is_kind(value, float) and value > 0.0):
             return f"'experiment.{key}' is missing or no positive number"
     for key in ("coordinates", "guides"):
         if not (isinstance(meta.get(key), list) and all(isinstance(name, str) for name in meta[key])):
@@ -53,16 +53,16 @@ def _list_problem(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
         return f"'{key}' names {len(entries)} of {lengths[_COUNTED[key]]}"
     for k, entry in enumerate(entries):
         for field, kind in _LISTS[key].items():
-            if not (isinstance(entry, dict) and _fits(entry.get(field), kind)):
+            if not (isinstance(entry, dict) and _is_kind(entry.get(field), kind)):
                 return f"entry {k} of '{key}' has no '{field}', or one of another kind"
         if key == "inputs" and not all(
-            end in entry and (entry[end] is None or _fits(entry[end], float)) for end in ("min", "max")
+            end in entry and (entry[end] is None or _is_kind(entry[end], float)) for end in ("min", "max")
         ):
             return f"entry {k} of '{key}' has a range of another kind"
     return ""
 
 
-def _fits(value: Any, kind: type) -> bool:
+def _is_kind(value: Any, kind: type) -> bool:
     if kind is float:
         return isinstance(value, int | float) and not isinstance(value, bool)
     return isinstance(value, kind)

@@ -34,7 +34,7 @@ from mbs.system.compiled_model import (
     SystemFileError,
 )
 from mbs.system.drawing import Drawing
-from mbs.system.meta_check import problem_of
+from mbs.system.meta_check import meta_problem
 from mbs.system.text import system_text
 
 _LARGEST = 4_000_000_000  # bytes of a file
@@ -141,7 +141,7 @@ class System(CompiledModel):
         """
         changed = copy.copy(self)
         changed.arrays = self.arrays.changed(arrays)
-        changed.ported = changed.native = None  # they would not have them
+        changed.ported = changed.native = None  # they belong to the unchanged arrays
         return changed
 
     def __reduce__(self) -> tuple[Callable[..., System], tuple[bytes, Frames | None, Path | None]]:
@@ -182,7 +182,7 @@ class System(CompiledModel):
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
             meta = json_of(arrays.pop("meta"), SystemFileError, "The array 'meta' of the System file", finite=False)
-            problem = problem_of(meta, {name: len(values) for name, values in arrays.items()})
+            problem = meta_problem(meta, {name: len(values) for name, values in arrays.items()})
             if problem:
                 raise SystemFileError(f"The names in the System file were altered: {problem}.")
             drawn = arrays.pop("drawing", None)
@@ -232,7 +232,7 @@ class System(CompiledModel):
 def _unpickled(data: bytes, frames: Frames | None, native: Path | None) -> System:
     system = System.from_bytes(data)
     system.frames = frames
-    # without its code on another machine: the same bits
+    # on another machine it runs without generated code, with the same bits
     system.native = native if native is not None and native.is_file() else None
     return system
 

@@ -5,7 +5,7 @@ from typing import Any
 
 
 def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
-    """The report as lines of text."""
+    """Report of a System as lines of text."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
     space = "planar" if dimension == 2 else "spatial"
     still = "   (nothing can move)" if dofs == 0 else ""
@@ -33,8 +33,8 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
 
 
 def notices_before(meta: Mapping[str, Any]) -> list[str]:
-    """Notes on a model, by its metadata: that nothing or a part of it can not move, that
-    initial velocities contradict each other.
+    """Notes on a model from its metadata: that it or parts of it cannot move, or that initial velocities contradict
+    each other.
     """
     report = meta["report"]
     notices = [report.get("locked"), report.get("contradiction")]

@@ -21,7 +21,7 @@ from fmu_src.geometry.geometry import geometry
 from fmu_src.native.package import NativeContents
 from fmu_src.native.reference import reference_runs, with_other_names
 from fmu_src.variables.variables import Variable, by_name_in_system, variable_table
-from mbs.compiler.ports import following
+from mbs.compiler.ports import map_followers
 from mbs.scenes import cart_pole, prototype_car
 from tests import kinds
 from tests.fmu.scenes import spaced
@@ -158,7 +158,7 @@ def test_the_reference_results_repeat(build: Callable[..., Path], kind: str) -> 
 @pytest.mark.slow
 def test_the_reference_results_of_a_car_have_stresses() -> None:
     cars = [mbs.compile(prototype_car.build(fidelity=fidelity)) for fidelity in (0, 1)]
-    systems, (follower, _) = following(cars)
+    systems, (follower, _) = map_followers(cars)
     default, in_turn = reference_runs(systems[0], systems[follower])
     for run in (default, in_turn):
         assert np.abs(run.columns["stress.SG1"]).min() > 1e3

@@ -13,7 +13,7 @@ from fmpy.fmi3 import FMU3Slave
 
 from hosts.fmu.fmu import Fmu
 from mbs import Simulation, System, compile, simulate
-from mbs.compiler.ports import following, with_ports_of
+from mbs.compiler.ports import map_followers, with_ports_of
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.scenes import kerb_test, pendulum, prototype_car
@@ -204,8 +204,8 @@ def test_only_the_same_model_is_followed(prototypes: Pair) -> None:
     assert with_ports_of(ported, other) is None
     assert with_ports_of(without, ported) is None
     assert with_ports_of(System.from_bytes(ported.to_bytes()), without) is None  # a file has no full coordinates
-    assert following([without, ported])[1] == [1, -1]
-    assert following([without])[1] == [-1]
+    assert map_followers([without, ported])[1] == [1, -1]
+    assert map_followers([without])[1] == [-1]
     rigid, alone = loaded(without), loaded(other)
     with pytest.raises(KernelError, match="must be initialised first"):
         loaded(follower).follow(rigid)

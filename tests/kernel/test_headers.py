@@ -29,7 +29,7 @@ def test_every_method_of_the_kernel_has_an_entry_with_its_order():
 def test_the_tables_of_sensors_and_arrays_have_a_row_for_each():
     rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", read_headers.sensor_table(), re.MULTILINE)
     assert [(int(number), name) for number, name in rows] == [(t.value, t.name) for t in SensorType]
-    tables = [read_headers.array_table(part) for part in ("", *read_headers.PARTS)]
+    tables = [read_headers.array_table(part) for part in ("", *read_headers.TABLE_PREFIXES)]
     names = [name for table in tables for name in re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)]
     assert sorted(names) == sorted(ARRAYS)
     assert not re.search(r"\b(ANY|ANY_IF|IF_ANY|OR_NONE|BELOW|WITHIN|OFFSETS|RELATED|FINITE)\b", "\n".join(tables))

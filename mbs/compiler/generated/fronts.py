@@ -1,4 +1,4 @@
-"""Factor and solve, a function for each shape of a front; L, D and their order are those of the kernel's fronts."""
+"""C code of the factorisation, a function for each shape of a front, with sums in the order of the kernel."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ from mbs.compiler.generated.pattern import Front, Pattern
 from mbs.compiler.generated.text import function
 
 PANEL = 4
+"""Largest number of pivots that are eliminated together."""
 ELIMINATE = (
     "APART int eliminate_{0}_{1}(double *restrict A, const double *restrict floor, int32_t *restrict negative, "
     "double *restrict pivot)"
@@ -19,7 +20,7 @@ FACTORISE = (
 
 @dataclass(frozen=True)
 class Piece:
-    """Rows of a column that are one variable: four side by side, counted from the end of the column, or one."""
+    """Rows of a column in one variable: four neighbours, counted from the end of the column, or one."""
 
     first: int
     wide: bool
@@ -47,7 +48,7 @@ def pieces(first: int, size: int) -> list[Piece]:
 
 
 def factorise(pattern: Pattern) -> list[str]:
-    """Elimination functions of all shapes of fronts, and the function that factorises front by front."""
+    """C functions that eliminate fronts of each shape, and the function that factorises all fronts."""
     lines: list[str] = []
     for size, pivots in sorted({(f.size, f.pivots) for f in pattern.fronts}):
         lines += _Shape(size, pivots).eliminate()
@@ -66,13 +67,13 @@ def _assemble(front: Front, parent: Front) -> list[str]:
     """C that adds the Schur complement of a front to its parent."""
     lines = ["  {", f"  const double *from = F + {front.offset};", f"  double *to = F + {parent.offset};"]
     for j in range(front.pivots, front.size):
-        source, target = j * front.size, front.place[j] * parent.size
+        source, target = j * front.size, front.parent_index[j] * parent.size
         i = j
         while i < front.size:
             length = 1
-            while i + length < front.size and front.place[i + length] == front.place[i] + length:
+            while i + length < front.size and front.parent_index[i + length] == front.parent_index[i] + length:
                 length += 1
-            lines += _add(target + front.place[i], source + i, length)
+            lines += _add(target + front.parent_index[i], source + i, length)
             i += length
     return [*lines, "  }"]
 
@@ -89,14 +90,14 @@ def _add(to: int, source: int, length: int) -> list[str]:
 
 
 class _Shape:
-    """The pivots of fronts of one size: whole panels of four, then up to three one after the other."""
+    """Elimination in fronts of one shape, in panels of four pivots and a last one of up to three."""
 
     def __init__(self, size: int, pivots: int) -> None:
         self.size, self.pivots = size, pivots
         self.panels = [(s, min(PANEL, pivots - s)) for s in range(0, pivots, PANEL)]
 
     def eliminate(self) -> list[str]:
-        """C that returns the first bad pivot, or -1."""
+        """C function that returns the first bad pivot, or -1."""
         lines = []
         for q, (start, count) in enumerate(self.panels):
             for j in range(start, start + count):
@@ -111,7 +112,7 @@ class _Shape:
         return pieces(start + count, self.size)
 
     def _column(self, j: int, panels: int) -> list[str]:
-        """Column j loses the panels before it."""
+        """Subtract the panels before column j from it."""
         if panels == 0:
             return []
         column_pieces, lines = pieces(j, self.size), ["  {", f"  double *restrict c = A + {j * self.size};"]
@@ -119,15 +120,15 @@ class _Shape:
         for q in range(panels):
             start, count = self.panels[q]
             f = [f"f{q}_{k}" for k in range(count)]
-            of = ", ".join(f"{name} = A[{(start + k) * self.size + j}]" for k, name in enumerate(f))
-            lines.append(f"  const double {of};")
+            factors = ", ".join(f"{name} = A[{(start + k) * self.size + j}]" for k, name in enumerate(f))
+            lines.append(f"  const double {factors};")
             for p in column_pieces:
-                lines.append(f"  t{p.first} = {self._less(f't{p.first}', q, p, f)};")
+                lines.append(f"  t{p.first} = {self._subtract_panel(f't{p.first}', q, p, f)};")
         lines += [p.store("c", f"t{p.first}") for p in column_pieces]
         return [*lines, "  }"]
 
-    def _less(self, value: str, q: int, piece: Piece, f: Sequence[str]) -> str:
-        """The C expression of a value less the part of panel q."""
+    def _subtract_panel(self, value: str, q: int, piece: Piece, f: Sequence[str]) -> str:
+        """C expression of a value minus the products with panel q."""
         u = [f"u{q}_{k}_{piece.first}" for k in range(len(f))]
         if len(f) == PANEL:
             return f"{value} - (({f[0]} * {u[0]} + {f[1]} * {u[1]}) + ({f[2]} * {u[2]} + {f[3]} * {u[3]}))"
@@ -153,7 +154,7 @@ class _Shape:
         return lines
 
     def _columns_below(self, q: int, start: int, count: int) -> list[str]:
-        """The columns of the panel below its pivots: u unscaled, L in their place."""
+        """Columns of a panel below its pivots: unscaled as C variables u, and L in storage."""
         n, lines = self.size, []
         for p in range(count):
             column = f"(A + {(start + p) * n})"

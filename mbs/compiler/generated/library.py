@@ -1,4 +1,4 @@
-"""Library of the generated code of a System, compiled once for the same content."""
+"""Library of the generated code of a System, compiled once for equal content."""
 
 import hashlib
 from pathlib import Path
@@ -14,13 +14,13 @@ HEADERS = build.HERE / "src"
 
 
 def code_of(system: System, avx2: bool | None = None) -> str:
-    """C source of the algebra of a System; `avx2`: as of `source`, by default that of this processor."""
+    """C source of the algebra of a System; `avx2`: see `source`, by default whether this processor has it."""
     loaded = LoadedSystem(system.kernel_bytes(modes=False))
     return source(system.arrays, loaded.structure, avx2=loaded.has_avx2 if avx2 is None else avx2)
 
 
 def named_code_of(system: System) -> tuple[str, str]:
-    """Name of the table of functions, unique to its content, and C source that compiles for any processor."""
+    """Name of the table of functions, unique to the code, and C source that compiles for any processor."""
     text = code_of(system, avx2=True)
     name = f"{TABLE}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     return name, text.replace(TABLE, name)

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 from mbs.compiler.generated.fronts import Piece, pieces
 from mbs.compiler.generated.pattern import Front, Pattern
-from mbs.compiler.generated.text import follow, function
+from mbs.compiler.generated.text import are_consecutive, function, literal
 
-LARGE, FOUR_SUMS = 12, 16  # sizes of a front from which pivots are eliminated in fours, and sums are made in four parts
+LARGE, FOUR_SUMS = 12, 16
+"""Sizes of a front from which pivots are eliminated in fours, and sums have four parts."""
 
 FORWARD = "APART void forward_{0}(const double *restrict A, double *restrict b)"
 BACK = "APART void back_{0}(const double *restrict A, double *restrict b)"
@@ -14,7 +15,7 @@ SOLVE = "APART void solve(const double *restrict F, double *restrict b)"
 
 
 def solve(pattern: Pattern) -> list[str]:
-    """Functions for the forward and the back substitution in each front, and the function that calls them."""
+    """C functions of the forward and the back substitution in each front, and the function that calls them."""
     lines: list[str] = []
     body = []
     for front in pattern.fronts:
@@ -29,21 +30,21 @@ def _gather(front: Front, piece: Piece) -> str:
     """Expression that reads the unknowns of a piece from b."""
     if not piece.wide:
         return f"b[{front.coordinates[piece.first]}]"
-    at = front.coordinates[piece.first : piece.first + 4]
-    if follow(at):
-        return f"V(b + {at[0]})"
-    return "(four){" + ", ".join(f"b[{c}]" for c in at) + "}"
+    coordinates = front.coordinates[piece.first : piece.first + 4]
+    if are_consecutive(coordinates):
+        return f"V(b + {coordinates[0]})"
+    return literal([f"b[{c}]" for c in coordinates])
 
 
 def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:
     """Statements that write the unknowns of a piece from index `first` on back to b."""
-    at = front.coordinates
+    coordinates = front.coordinates
     if not piece.wide:
-        return [f"  b[{at[piece.first]}] = {value};"] if piece.first >= first else []
+        return [f"  b[{coordinates[piece.first]}] = {value};"] if piece.first >= first else []
     rows = [i for i in range(piece.first, piece.first + 4) if i >= first]
-    if len(rows) == 4 and follow([at[i] for i in rows]):
-        return [f"  PUT(b + {at[rows[0]]}, {value});"]
-    return [f"  b[{at[i]}] = {value}[{i - piece.first}];" for i in rows]
+    if len(rows) == 4 and are_consecutive([coordinates[i] for i in rows]):
+        return [f"  PUT(b + {coordinates[rows[0]]}, {value});"]
+    return [f"  b[{coordinates[i]}] = {value}[{i - piece.first}];" for i in rows]
 
 
 def _forward(front: Front) -> list[str]:
@@ -65,26 +66,28 @@ def _forward(front: Front) -> list[str]:
     return lines
 
 
-def _scalars(front: Front, parts: Sequence[Piece], p: int, count: int) -> list[str]:
+def _scalars(front: Front, column_pieces: Sequence[Piece], p: int, count: int) -> list[str]:
     """Statements for the unknowns of `count` pivots from p on, minus the products with earlier pivots of the group."""
 
-    def at(i: int) -> str:
-        piece = next(x for x in parts if x.first <= i < x.first + (4 if x.wide else 1))
+    def element(i: int) -> str:
+        piece = next(x for x in column_pieces if x.first <= i < x.first + (4 if x.wide else 1))
         return f"x{piece.first}[{i - piece.first}]" if piece.wide else f"x{piece.first}"
 
-    def a(k: int, i: int) -> str:
+    def factor(k: int, i: int) -> str:
         return f"A[{(p + k) * front.size + p + i}]"
 
     y = [f"y{p + k}" for k in range(count)]
-    words = [at(p)]
+    values = [element(p)]
     if count > 1:
-        words.append(f"{at(p + 1)} - {a(0, 1)} * {y[0]}")
+        values.append(f"{element(p + 1)} - {factor(0, 1)} * {y[0]}")
     if count > 2:
-        words.append(f"{at(p + 2)} - ({a(0, 2)} * {y[0]} + {a(1, 2)} * {y[1]})")
-        words.append(f"({at(p + 3)} - ({a(0, 3)} * {y[0]} + {a(1, 3)} * {y[1]})) - {a(2, 3)} * {y[2]}")
+        values.append(f"{element(p + 2)} - ({factor(0, 2)} * {y[0]} + {factor(1, 2)} * {y[1]})")
+        values.append(
+            f"({element(p + 3)} - ({factor(0, 3)} * {y[0]} + {factor(1, 3)} * {y[1]})) - {factor(2, 3)} * {y[2]}"
+        )
     first = front.coordinates[p]
-    return [line for k, (name, word) in enumerate(zip(y, words, strict=True))
-            for line in (f"  const double {name} = {word};", f"  b[{first + k}] = {name};")]  # fmt: skip
+    return [line for k, (name, value) in enumerate(zip(y, values, strict=True))
+            for line in (f"  const double {name} = {value};", f"  b[{first + k}] = {name};")]  # fmt: skip
 
 
 def _subtracted(piece: Piece, p: int, count: int, n: int) -> str:
@@ -99,55 +102,55 @@ def _subtracted(piece: Piece, p: int, count: int, n: int) -> str:
 
 
 def _back(front: Front) -> list[str]:
-    return _many_back(front) if front.size >= FOUR_SUMS else _few_back(front)
+    return _back_large(front) if front.size >= FOUR_SUMS else _back_small(front)
 
 
-def _few_back(front: Front) -> list[str]:
+def _back_small(front: Front) -> list[str]:
     """Back substitution of a small front: products are added to two sums alternately."""
-    n, at = front.size, front.coordinates
-    lines = [f"  const double y{i} = b[{at[i]}];" for i in range(front.pivots, n)]
+    n, coordinates = front.size, front.coordinates
+    lines = [f"  const double y{i} = b[{coordinates[i]}];" for i in range(front.pivots, n)]
     for p in range(front.pivots - 1, -1, -1):
         sums = ["0.0", "0.0"]
         for i in range(p + 1, n):
-            turn = (i - p - 1) % 2
-            sums[turn] = f"({sums[turn]} + A[{p * n + i}] * y{i})"
-        lines.append(f"  const double y{p} = b[{at[p]}] * A[{p * n + p}] - ({sums[0]} + {sums[1]});")
-        lines.append(f"  b[{at[p]}] = y{p};")
+            k = (i - p - 1) % 2
+            sums[k] = f"({sums[k]} + A[{p * n + i}] * y{i})"
+        lines.append(f"  const double y{p} = b[{coordinates[p]}] * A[{p * n + p}] - ({sums[0]} + {sums[1]});")
+        lines.append(f"  b[{coordinates[p]}] = y{p};")
     return lines
 
 
-def _many_back(front: Front) -> list[str]:
+def _back_large(front: Front) -> list[str]:
     """Back substitution of a large front with four sums from the last entry back.
 
     Pivots whose blocks of four begin at the same entry are done together.
     """
-    n, pivots, at = front.size, front.pivots, front.coordinates
+    n, pivots, coordinates = front.size, front.pivots, front.coordinates
     lines = []
-    whole = 0  # blocks of four from the end that are known
+    known_blocks = 0  # blocks of four from the end that are known
     for p in range(pivots - 1, -1, -1):
         blocks = (n - p - 1) // 4
-        for m in range(whole, blocks):
+        for m in range(known_blocks, blocks):
             lines += _block(front, n - 4 * (m + 1))
-        whole = max(whole, blocks)
+        known_blocks = max(known_blocks, blocks)
         begin = n - 4 * blocks
         if p == pivots - 1 or (n - p - 1) % 4 == 0:
             lines += _sums(front, p, blocks)
         text = f"s{p}"
         for i in range(begin - 1, p, -1):
-            value = f"y{i}" if i < pivots else f"b[{at[i]}]"
+            value = f"y{i}" if i < pivots else f"b[{coordinates[i]}]"
             text = f"({text} + A[{p * n + i}] * {value})"
-        lines.append(f"  const double y{p} = b[{at[p]}] * A[{p * n + p}] - {text};")
-        lines.append(f"  b[{at[p]}] = y{p};")
+        lines.append(f"  const double y{p} = b[{coordinates[p]}] * A[{p * n + p}] - {text};")
+        lines.append(f"  b[{coordinates[p]}] = y{p};")
     return lines
 
 
 def _block(front: Front, first: int) -> list[str]:
     """Statement that declares four solved unknowns as a vector."""
-    at, rows = front.coordinates, range(first, first + 4)
+    coordinates, rows = front.coordinates, range(first, first + 4)
     if all(i >= front.pivots for i in rows):
         return [f"  const four x{first} = {_gather(front, Piece(first, True))};"]
-    words = [f"y{i}" if i < front.pivots else f"b[{at[i]}]" for i in rows]
-    return [f"  const four x{first} = {{{', '.join(words)}}};"]
+    values = [f"y{i}" if i < front.pivots else f"b[{coordinates[i]}]" for i in rows]
+    return [f"  const four x{first} = {{{', '.join(values)}}};"]
 
 
 def _sums(front: Front, p: int, blocks: int) -> list[str]:

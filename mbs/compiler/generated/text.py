@@ -1,4 +1,4 @@
-"""Words of generated C: numbers that lie side by side are read and written as vectors of four."""
+"""Text of generated C: neighbouring numbers are read and written as vectors of four."""
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
@@ -16,7 +16,7 @@ VECTORS = """\
 #define AVX2 0
 #endif
 """
-"""Vectors of four are one instruction from here on, where the processor can have them."""
+"""Enables AVX2 for the following functions, where the target may have it."""
 NO_VECTORS = "#define AVX2 0\n"
 END = """\
 #if AVX2 && defined(__clang__)
@@ -72,32 +72,36 @@ HELPER double sum(four a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 """
 
 
-def follow(places: Sequence[int | None]) -> bool:
-    """Whether places lie side by side."""
-    return None not in places and all(b == a + 1 for a, b in pairwise(places))  # type: ignore[operator]
+def are_consecutive(indices: Sequence[int | None]) -> bool:
+    """Whether each index is the previous one plus 1."""
+    return None not in indices and all(b == a + 1 for a, b in pairwise(indices))  # type: ignore[operator]
 
 
-def vector(array: str, places: Sequence[int | None], most: int | None = None) -> str:
-    """Numbers of an array at three or four places as one vector, or the one; None is 0.
+def vector(array: str, indices: Sequence[int | None], end: int | None = None) -> str:
+    """C expression of the entries of an array at three or four indices as a vector, or of one entry; None: zero.
 
-    `most`: number from which on nothing may be read.
+    `end`: number of entries that may be read.
     """
-    if len(places) == 1:
-        return "0.0" if places[0] is None else f"{array}[{places[0]}]"
-    first = places[0]
-    if follow(places) and first is not None and (most is None or first + 4 <= most):
+    if len(indices) == 1:
+        return "0.0" if indices[0] is None else f"{array}[{indices[0]}]"
+    first = indices[0]
+    if are_consecutive(indices) and first is not None and (end is None or first + 4 <= end):
         return f"V({array} + {first})"
-    if all(p == first for p in places) and first is not None:
+    if all(i == first for i in indices) and first is not None:
         return f"{array}[{first}]"
-    words = ["0.0" if p is None else f"{array}[{p}]" for p in places]
-    return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"
+    return literal(["0.0" if i is None else f"{array}[{i}]" for i in indices])
 
 
-def room(name: str, numbers: int) -> str:
+def literal(numbers: Sequence[str]) -> str:
+    """C vector of up to four numbers, zero after them."""
+    return "(four){" + ", ".join([*numbers, *["0.0"] * (4 - len(numbers))]) + "}"
+
+
+def declare_array(name: str, numbers: int) -> str:
     """C declaration of an array; an empty one gets one unused number with a value, as compilers demand."""
     return f"  double {name}[{numbers}];" if numbers else f"  double {name}[1] = {{0.0}};"
 
 
 def function(head: str, lines: Iterable[str]) -> list[str]:
-    """A function of the file."""
+    """Lines of a C function."""
     return [f"{head} {{", *lines, "}", ""]

@@ -1,8 +1,8 @@
-"""The kernel through ctypes. This package and `header` need nothing but the standard library, so that an FMU can
-carry them.
+"""Binding of the kernel through ctypes.
 
-A library is loaded once per path; a `LoadedSystem` may be shared by threads, an `instance.Instance` belongs to one
-at a time. Names and units: `include/ali3.h`.
+This package and `header` import only the standard library, because an FMU can contain them. A library is loaded once
+for each path. Threads may share a `LoadedSystem`; only one at a time may use an `instance.Instance`. Names and units:
+`include/ali3.h`.
 """
 
 from ..header.enumerations import Status

@@ -4,27 +4,27 @@ from ctypes import c_double
 from typing import Any
 
 
-def numbers(values: Any, count: int, what: str) -> Any:
-    """A C array of `count` doubles from a sequence or buffer; None stays None (null pointer)."""
+def numbers(values: Any, count: int, name: str) -> Any:
+    """A C array of `count` doubles from a sequence or buffer; None, a null pointer, is returned as such."""
     if values is None:
         return None
     if hasattr(values, "tolist"):
         values = values.tolist()
     flat = list(values)
     if len(flat) != count:
-        raise ValueError(f"{what} has {len(flat)} values; this System needs {count}.")
+        raise ValueError(f"{name} has {len(flat)} values; this System needs {count}.")
     return (c_double * count)(*flat)
 
 
-def buffer(values: Any, count: int, what: str, *, writable: bool) -> Any:
-    """The memory of a contiguous float64 buffer as a C array, copied only where it is read-only."""
+def buffer(values: Any, count: int, name: str, *, writable: bool) -> Any:
+    """The memory of a contiguous float64 buffer as a C array, copied only if it is read-only."""
     if values is None:
         return None
     view = memoryview(values)
     if view.nbytes != 8 * count or (view.format or "").lstrip("<=@") != "d" or not view.c_contiguous:
-        raise ValueError(f"{what} must be a contiguous buffer of {count} float64 values.")
+        raise ValueError(f"{name} must be a contiguous buffer of {count} float64 values.")
     if view.readonly and writable:
-        raise ValueError(f"{what} must be writable.")
+        raise ValueError(f"{name} must be writable.")
     if count == 0:
         return (c_double * 0)()
     kind = c_double * count

@@ -1,4 +1,4 @@
-"""Error of a refused call of the kernel, with its status."""
+"""Errors of refused calls of the kernel, and sentences for their statuses."""
 
 import ctypes
 import math
@@ -27,7 +27,7 @@ class KernelError(RuntimeError):
 
 
 def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
-    """Name and gap of the row farthest from closed; empty where it is closed or there is no finite figure of it."""
+    """Name and gap of the row with the largest violation; empty if it is closed or its violation is not finite."""
     row, violation = int(report["worst_row"]), report["violation"]
     if not (0 <= row < len(names) and OPEN < violation < math.inf):
         return ""
@@ -40,14 +40,14 @@ def status_text(library: ctypes.CDLL, status: int) -> str:
 
 
 def status_remedy(status: int) -> str:
-    """The kernel's sentence of what helps against a status."""
+    """The kernel's remedy for a status, a sentence; may be empty."""
     remedy: bytes = load_library().ali3_status_remedy(status)
     return remedy.decode()
 
 
-def refused_new(library: ctypes.CDLL, status: int, what: str, reason: str = "") -> KernelError:
-    """Error for an object that could not be created: `what`, the reason, by default by the status, and the remedy."""
-    return KernelError(status, f"{what}: {reason or status_text(library, status)} {status_remedy(status)}")
+def creation_error(library: ctypes.CDLL, status: int, failed_call: str, reason: str = "") -> KernelError:
+    """Error for an object that could not be created; `reason`: by default the sentence of the status."""
+    return KernelError(status, f"{failed_call}: {reason or status_text(library, status)} {status_remedy(status)}")
 
 
 def status_cause(status: int) -> Cause:

@@ -1,4 +1,4 @@
-"""Binding of one kernel instance: a state of a System, its inputs and parameters, and the calls that step it."""
+"""Binding of one kernel instance: state of a System, inputs, parameters, and the calls that make steps."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLE
 
 
 class Instance(StandingInstance):
-    """A State of a System and the work space to step it."""
+    """State of a System with the work space for its steps."""
 
     def __init__(self, system: LoadedSystem) -> None:
         self._input_error: BaseException | None = None
@@ -39,7 +39,7 @@ class Instance(StandingInstance):
         super()._check(status)
 
     def reset(self) -> None:
-        """Back to the values of the System file; settings, inputs and parameters too."""
+        """Reset state, settings, inputs and parameters to the values of the System file."""
         self._check(self._library.ali3_reset(self._handle))
 
     def settings(self) -> dict[str, float | int]:
@@ -49,7 +49,7 @@ class Instance(StandingInstance):
         return {name: getattr(fields, name) for name, _ in SettingsFields._fields_}
 
     def set_settings(self, **values: float) -> None:
-        """Change the settings named; the others stay."""
+        """Change settings, by field name."""
         fields = SettingsFields()
         self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
         field_types = dict(SettingsFields._fields_)
@@ -70,13 +70,13 @@ class Instance(StandingInstance):
         return value.value
 
     def set_input_function(self, function: Callable[[float, bool, Any], None] | None) -> None:
-        """Compute inputs by a function of time, called at every time at which a method evaluates them; None removes it.
+        """Compute inputs by a function of time, called at each time at which a method evaluates them; None removes it.
 
-        `function`: called with the time, s, whether the value after a jump is meant, and a writable array of all inputs
-        with their present values. An exception ends the step and is raised by `step` or `run`.
+        `function`: called with the time, s, whether values after a jump at this time are requested, and a writable
+        array of all inputs with their present values. An exception ends the step and is raised by `step` or `run`.
         """
 
-        def ask(_: Any, t: float, after: int, values: Any) -> int:
+        def evaluate_inputs(_: Any, t: float, after: int, values: Any) -> int:
             try:
                 function(t, bool(after), values)  # type: ignore[misc]
             except BaseException as error:
@@ -84,15 +84,15 @@ class Instance(StandingInstance):
                 return 1
             return 0
 
-        self._inputs = _INPUT_FUNCTION(ask) if function is not None else None
+        self._inputs = _INPUT_FUNCTION(evaluate_inputs) if function is not None else None
         address = ctypes.cast(self._inputs, c_void_p) if function is not None else None
         self._check(self._library.ali3_set_input_function(self._handle, address, None))
 
     def set_input_tables(self, tables: Mapping[int, tuple[Any, Any]], tolerance: float) -> None:
-        """Inputs as functions of time given by tables, which the kernel reads without calling Python.
+        """Set inputs as functions of time by tables, which the kernel reads without calling Python.
 
-        `tables`: per number of an input two contiguous float64 buffers, times and values; times do not decrease;
-        `tolerance`: times this near to a jump are at it, s.
+        `tables`: times, s, not decreasing, and values of an input, contiguous float64 buffers, by number of the input;
+        `tolerance`: largest distance from a jump at which a time counts as that of the jump, s.
         """
         buffers = {
             i: [buffer(x, len(table[0]), "a table", writable=False) for x in table] for i, table in tables.items()
@@ -104,7 +104,7 @@ class Instance(StandingInstance):
         self._inputs = (context, buffers)
 
     def set_input_breaks(self, times: Any) -> None:
-        """Set the times, s, ascending, at which the present function or tables jump: steps are divided there."""
+        """Set the times, s, ascending, of jumps of the present function or tables, at which steps are divided."""
         self._breaks = buffer(times, len(times), "the breaks", writable=False)
         self._check(self._library.ali3_set_input_breaks(self._handle, self._breaks, len(times)))
 
@@ -115,9 +115,9 @@ class Instance(StandingInstance):
         return value.value
 
     def set_road(self, index: int, path: str | os.PathLike[str] | None) -> None:
-        """Replace a road of the System by a road file, from the next `initialise` on; None: the System's own again.
+        """Replace a road of the System by a road file, from the next `initialise` on; None: the road of the System.
 
-        Raises `KernelError`: the file is refused; the road stays as it was.
+        Raises `KernelError`: the file is refused; the road does not change.
         """
         message = ctypes.create_string_buffer(512)
         text = "" if path is None else os.fspath(path)
@@ -132,13 +132,13 @@ class Instance(StandingInstance):
         return bytes(self._library.ali3_road_lost(self._handle)).decode(errors="replace")
 
     def beyond_table(self) -> tuple[int, float, float, float]:
-        """Coordinate farthest outside its table, its value and both ends of the table; -1 if none is outside."""
+        """Coordinate farthest outside its table (-1: none), its value and both ends of the table."""
         column, numbers = c_int32(-1), (c_double * 3)()
         self._library.ali3_beyond_table(self._handle, byref(column), numbers)
         return column.value, *numbers
 
     def wheel_in_road(self) -> tuple[int, str]:
-        """Element whose wheel centre is below a grid road, and a description; -1 and an empty text if there is none."""
+        """Element whose wheel centre is below a grid road (-1: none), and a description."""
         element, text = c_int32(-1), ctypes.create_string_buffer(512)
         self._library.ali3_wheel_in_road(self._handle, byref(element), text, len(text))
         return element.value, text.value.decode(errors="replace")
@@ -153,12 +153,12 @@ class Instance(StandingInstance):
         lateral_speed: float = 0.0,
         yaw_rate: float = 0.0,
     ) -> None:
-        """Set the start of a scene that is not fixed to the ground (m, rad, m/s, rad/s); before `initialise`."""
+        """Set the start of a floating scene (m, rad, m/s, rad/s); before `initialise`."""
         pose = (x, y, z, yaw, speed, lateral_speed, yaw_rate)
         self._check(self._library.ali3_set_pose(self._handle, numbers(pose, POSE, "pose")))
 
     def set_q(self, q: Sequence[float] | None, qd: Sequence[float] | None = None) -> None:
-        """Set start values of coordinates (nq,) and rates (nq,); before `initialise`."""
+        """Set start values of coordinates, shape (nq,), and rates, shape (nq,); before `initialise`."""
         nq = self.system.sizes.nq
         self._check(self._library.ali3_set_q(self._handle, numbers(q, nq, "q"), numbers(qd, nq, "qd")))
 
@@ -173,9 +173,9 @@ class Instance(StandingInstance):
         return bool(on.value)
 
     def settle(self, duration: float, h: float) -> float:
-        """Hold the horizontal motion of a start while all else settles; after `initialise`.
+        """Settle all motion of a start but the horizontal one, which is held; after `initialise`.
 
-        `duration`: in s, at most `LONGEST_SETTLING`; `h`: step, s. Returns the largest remaining speed relative to the
+        `duration`: s, at most `LONGEST_SETTLING`; `h`: step, s. Returns the largest remaining speed relative to the
         held motion, m/s.
         """
         self._start(self._library.ali3_settle(self._handle, duration, h))
@@ -186,20 +186,20 @@ class Instance(StandingInstance):
         return self._text(self._library.ali3_start_text)
 
     def start_excess(self) -> tuple[float, int, str]:
-        """Why a start was refused with `START_REFUSED`.
+        """Reason of a start that was refused with `START_REFUSED`.
 
         Returns
         -------
         float
             Height by which the scene must be raised so that no element refuses it, m.
         int
-            Element that refuses the start by the largest excess; -1: none does.
+            Element with the largest excess; -1: none.
         str
-            Reason of that element, to be put after its name.
+            Reason of that element, the continuation of a sentence that begins with its name.
         """
-        element, words = c_int32(), c_char_p()
-        height = self._library.ali3_start_excess(self._handle, byref(element), byref(words))
-        return float(height), element.value, (words.value or b"").decode()
+        element, reason = c_int32(), c_char_p()
+        height = self._library.ali3_start_excess(self._handle, byref(element), byref(reason))
+        return float(height), element.value, (reason.value or b"").decode()
 
     def method_excludes(self) -> str:
         """Property of Systems that the method of the settings does not accept; empty if it accepts all."""
@@ -230,7 +230,7 @@ class Instance(StandingInstance):
         Returns
         -------
         int
-            Number of steps made, `n` unless a `KernelError` is raised.
+            Number of steps made.
         """
         sizes = self.system.sizes
         records = n // every if every > 0 else 0
@@ -249,7 +249,7 @@ class Instance(StandingInstance):
         control: ControlFields,
         scale: Any,
         t_end: float,
-        most_steps: int,
+        max_steps: int,
         times: Any,
         sensors: Any,
         positions: Any,
@@ -260,7 +260,7 @@ class Instance(StandingInstance):
         Parameters
         ----------
         control : ControlFields
-            Changed in place.
+            Settings and counters, changed in place.
         scale : buffer of float64, shape (nq,)
             Length, m, that corresponds to one unit of each coordinate.
         t_end : float
@@ -289,7 +289,7 @@ class Instance(StandingInstance):
         written = c_int64(done)
         lengths = buffer(scale, sizes.nq, "scale", writable=False)
         status = self._library.ali3_control_run(
-            self._handle, byref(control), lengths, t_end, most_steps, byref(record), byref(written)
+            self._handle, byref(control), lengths, t_end, max_steps, byref(record), byref(written)
         )
         self._check(status)
         return written.value
@@ -299,14 +299,14 @@ class Instance(StandingInstance):
         self._check(self._library.ali3_refresh(self._handle))
 
     def follow(self, other: Instance) -> None:
-        """Take over the state of the same model without ports, and compute the forces at the ports, for `sensors`.
+        """Set the state from that of the same model without ports, and compute the forces at the ports, for `sensors`.
 
-        `other`: initialised, not changed. This System has the map of `mbs.compiler.ports.with_ports_of`.
+        `other`: initialised, not changed. This System has the maps of `mbs.compiler.ports.with_ports_of`.
         """
         self._check(self._library.ali3_ports_follow(self._handle, other._handle))
 
     def balance_wrong(self) -> bool:
-        """Whether the energy balance shows that the run is wrong; see `ali3_report.balance`."""
+        """Whether the run is wrong by its energy balance; see `ali3_report.balance`."""
         return bool(self._report().balance == Balance.WRONG)
 
     def branch_text(self) -> str:
@@ -314,7 +314,7 @@ class Instance(StandingInstance):
         return self._text(self._library.ali3_branch_text)
 
     def rim_text(self) -> tuple[int, str]:
-        """Element whose rim was deepest in a road, and a sentence about it; -1 and an empty text if none was."""
+        """Element whose rim was deepest in a road (-1: none), and a sentence about it."""
         element, text = c_int32(-1), ctypes.create_string_buffer(1024)
         self._library.ali3_rim_text(self._handle, byref(element), text, len(text))
         return element.value, text.value.decode(errors="replace")
@@ -347,13 +347,13 @@ class Instance(StandingInstance):
 
     @contextmanager
     def at(self, snapshot: Any) -> Iterator[None]:
-        """Context in which this instance is in the state of a snapshot; afterwards its present state is restored."""
-        now = self.snapshot()
+        """Context in which the instance is in the state of a snapshot; its present state is restored at the end."""
+        present = self.snapshot()
         self._library.ali3_snapshot_restore(self._handle, snapshot)
         try:
             yield
         finally:
-            self._library.ali3_snapshot_restore(self._handle, now)
+            self._library.ali3_snapshot_restore(self._handle, present)
 
     def evaluate(
         self, q: Sequence[float], qd: Sequence[float], y: Sequence[float] | None = None, t: float | None = None

@@ -1,4 +1,4 @@
-"""The shared library of the kernel: where it is, its functions, whether it is of this version."""
+"""The shared library of the kernel: its path, the signatures of its functions, the check of its version."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ _libraries: dict[str, ctypes.CDLL] = {}
 
 
 def library_path() -> Path:
-    """The library in `lib/` of this package, or what the environment variable ALI3_KERNEL_LIBRARY names."""
+    """Path of the library: the environment variable ALI3_KERNEL_LIBRARY, else in `lib/` of this package."""
     override = os.environ.get("ALI3_KERNEL_LIBRARY")
     if override:
         return Path(override)
@@ -129,19 +129,18 @@ def library_path() -> Path:
 
 
 def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
-    """Load the kernel. `path`: the library; by default `library_path()`.
+    """Load the kernel and set the types of arguments and results; `path`: by default `library_path()`.
 
-    Result: with argument and result types set. Raises `OSError` if the library is not there, not for this platform, or
-    made from other sources than this package.
+    Raises `OSError`: there is no such library, or it is for another platform or from other sources than this package.
     """
     key = str(Path(path) if path is not None else library_path())
     if key in _libraries:
         return _libraries[key]
-    if Path(key).name != key and not Path(key).is_file():  # a bare name is sought by the system
+    if Path(key).name != key and not Path(key).is_file():  # the system searches for a bare name
         raise OSError(f"There is no kernel {key}. Compile it: python -m ali3 build --kernel")
     library = ctypes.CDLL(key)
     for name, (result, arguments) in _SIGNATURES.items():
-        function = getattr(library, f"entry_{name}", None)  # the same whatever this process has the processor do
+        function = getattr(library, f"entry_{name}", None)  # with the floating-point control of the kernel
         if function is None:
             raise OSError(f"The kernel {key} has no function {name}{_OTHER_SOURCES}")
         function.restype = result

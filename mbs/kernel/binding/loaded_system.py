@@ -1,20 +1,20 @@
-"""A System in the kernel's memory."""
+"""A System in the memory of the kernel."""
 
 import ctypes
 import os
 from ctypes import byref, c_void_p
 
 from ..header.structures import Sizes
-from .errors import KernelError, refused_new
+from .errors import KernelError, creation_error
 from .kernel_memory import KernelMemory
 from .library import load_library
 
 
 class LoadedSystem(KernelMemory):
-    """A System in the kernel's memory, immutable and shared by its instances.
+    """A System in the memory of the kernel, immutable and shared by its instances.
 
-    `sizes`: numbers of coordinates, rows, inputs, sensors and so on; `state_size`, `snapshot_size`, `instance_size`:
-    bytes of a saved state and of an instance.
+    `sizes`: numbers of coordinates, rows, inputs, sensors and others; `state_size`, `snapshot_size`, `instance_size`:
+    bytes of a saved state, of a snapshot and of an instance.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -26,7 +26,7 @@ class LoadedSystem(KernelMemory):
         status = self._library.ali3_system_load(bytes(data), len(data), byref(handle), message, len(message))
         if status:
             reason = f"{message.value.decode(errors='replace')}." if message.value else ""
-            raise refused_new(self._library, status, "the System file was refused", reason)
+            raise creation_error(self._library, status, "the System file was refused", reason)
         self._handle = handle
         self.sizes: Sizes = self._library.ali3_system_sizes(handle)
         self.state_size: int = self._library.ali3_state_size(handle)
@@ -35,7 +35,7 @@ class LoadedSystem(KernelMemory):
 
     @property
     def structure(self) -> int:
-        """A hash of all that code generated for this System depends on."""
+        """Hash of all data that code generated for this System depends on."""
         return int(self._library.ali3_system_structure(self._handle))
 
     @property
@@ -45,14 +45,14 @@ class LoadedSystem(KernelMemory):
 
     @property
     def has_code(self) -> bool:
-        """Whether generated code does the work of the kernel."""
+        """Whether generated code is attached."""
         return self._code is not None
 
     def attach(self, library: str | os.PathLike[str]) -> None:
-        """Code of a library, generated for this System, does the work of the kernel from now on.
+        """Use the code of a library that was generated for this System; before the first instance is created.
 
-        It comes before the first instance, and stays in memory. Raises `KernelError`: the code is of another System,
-        kernel or processor; `OSError`: the library cannot be loaded.
+        Raises `KernelError`: the code is for another System, kernel or processor; `OSError`: the library cannot be
+        loaded.
         """
         message = ctypes.create_string_buffer(256)
         code = ctypes.CDLL(os.fspath(library))
@@ -60,7 +60,7 @@ class LoadedSystem(KernelMemory):
         status = self._library.ali3_system_attach(self._handle, address, message, len(message))
         if status:
             raise KernelError(status, f"the generated code was refused: {message.value.decode(errors='replace')}.")
-        self._code = code  # what is called stays
+        self._code = code  # keeps the library loaded
 
     def __del__(self) -> None:
         if self._handle is not None:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from ..header.structures import LaneFields
 from .buffers import buffer
-from .errors import KernelError, refused_new, status_text
+from .errors import KernelError, creation_error, status_text
 from .instance import Instance
 from .kernel_memory import KernelMemory
 from .library import load_library
@@ -20,22 +20,22 @@ class RunEnd(NamedTuple):
     """End of the run of one instance."""
 
     done: int
-    """Accepted steps."""
+    """Number of accepted steps."""
     alone: int
-    """Steps that it made alone."""
+    """Number of steps made without the other instances."""
     error: KernelError | None
-    """Why it stopped."""
+    """Error that ended the run; None if it was complete."""
 
 
 def widest_lanes() -> int:
-    """The most instances that this processor advances together: 2, 4 or 8."""
+    """Largest number of instances that this processor advances together: 2, 4 or 8."""
     return int(load_library().ali3_widest_lanes())
 
 
 class Many(KernelMemory):
-    """Memory to advance several instances of a System together, a lane each.
+    """Memory to advance several instances of a System together, each in a lane.
 
-    `width`: lanes: 2, 4 or 8, at most `widest_lanes`.
+    `width`: number of lanes, 2, 4 or 8, at most `widest_lanes`.
     """
 
     def __init__(self, system: LoadedSystem, width: int) -> None:
@@ -44,7 +44,7 @@ class Many(KernelMemory):
         self._library = system._library
         handle = c_void_p()
         if status := self._library.ali3_many_new(system._handle, width, byref(handle)):
-            raise refused_new(self._library, status, "instances cannot be advanced together")
+            raise creation_error(self._library, status, "instances cannot be advanced together")
         self._handle = handle
 
     def __del__(self) -> None:
@@ -64,10 +64,10 @@ class Many(KernelMemory):
     def run(
         self, instances: Sequence[Instance], h: float, n: int, every: int, out: Sequence[Any], positions: Sequence[Any]
     ) -> list[RunEnd]:
-        """`n` steps of `h` seconds of each instance, as `Instance.run` makes them.
+        """Make `n` steps of `h` seconds of each instance, with the results of `Instance.run`.
 
-        `instances`: at most `width`, with the same settings; `out`, `positions`: per instance, as of `Instance.run`.
-        Result: per instance; one that stopped leaves the others as they are.
+        `instances`: at most `width`, with the same settings; `out`, `positions`: for each instance those of
+        `Instance.run`. An instance that stops does not change the others.
         """
         sizes, lanes = self.system.sizes, (LaneFields * len(instances))()
         buffers = []

@@ -6,13 +6,13 @@ from typing import Any
 
 from ..header.limits import OPEN
 from ..header.structures import ReportFields
-from .errors import KernelError, refused_new, status_text
+from .errors import KernelError, creation_error, status_text
 from .kernel_memory import KernelMemory
 from .loaded_system import LoadedSystem
 
 
 class StandingInstance(KernelMemory):
-    """A State of a System, for those who make no steps from its start. A refused call leaves the last accepted state.
+    """State of a System without steps. A refused call keeps the last accepted state.
 
     `system`: kept alive by the instance.
     """
@@ -23,9 +23,9 @@ class StandingInstance(KernelMemory):
         self._library = system._library
         handle = c_void_p()
         if status := self._library.ali3_instance_new(system._handle, byref(handle)):
-            raise refused_new(self._library, status, "the instance cannot be made")
+            raise creation_error(self._library, status, "the instance cannot be made")
         self._handle = handle
-        # Bound once: an attribute of the library costs more than the call of a small step.
+        # bound once, because an attribute of the library takes longer than a small step
         self._sensors = self._library.ali3_sensors
 
     def __del__(self) -> None:
@@ -38,15 +38,18 @@ class StandingInstance(KernelMemory):
             raise KernelError(status, status_text(self._library, status))
 
     def set_parameter(self, index: int, value: float) -> None:
-        """Value of a parameter from now on; refused outside its range, of a fixed one after the start too."""
+        """Set a parameter; refused outside its range, and after the start if the parameter is fixed."""
         self._check(self._library.ali3_set_parameter(self._handle, index, value))
 
     def initialise(self, t0: float = 0.0) -> None:
-        """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
+        """Solve position and velocity problem, accelerations and multipliers of a start at time `t0`, s."""
         self._start(self._library.ali3_initialise(self._handle, t0))
 
     def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
-        """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""
+        """Find an equilibrium near the present position and set rates to zero.
+
+        `t0`: time, s; `tolerance`: largest unbalanced force, N or N m.
+        """
         self._start(self._library.ali3_static_equilibrium(self._handle, t0, tolerance, max_iterations))
 
     def _start(self, status: int) -> None:
@@ -77,7 +80,7 @@ class StandingInstance(KernelMemory):
         return fields
 
     def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
-        """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""
+        """Copies of q, qd, qdd (nq,), multipliers of the rows (nc,) and states of the elements y (ny,)."""
         sizes = self.system.sizes
         arrays = tuple((c_double * n)() for n in (sizes.nq, sizes.nq, sizes.nq, sizes.nc, sizes.ny))
         self._check(self._library.ali3_get_state(self._handle, *arrays))

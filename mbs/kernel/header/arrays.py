@@ -178,4 +178,4 @@ ARRAYS = {
     "mode_name_ptr": ("INTEGERS", "MAY"),
     "mode_name": ("INTEGERS", "MAY"),
 }
-"""Type of the items; MUST, or MAY: a System need not have it."""
+"""Type of the items, and whether a System must or may have the array."""

@@ -36,7 +36,7 @@ class Status(IntEnum):
 
 
 class Cause(IntEnum):
-    """`ali3_cause`: what a refusal comes from."""
+    """`ali3_cause`: cause of a refusal."""
 
     CALL = 0
     START = 1

@@ -1,7 +1,7 @@
 """Limits and versions from the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 OPEN = 1e-9
-"""A row that is open by less, m, is not why something failed."""
+"""Least gap of a row that errors name as open, m."""
 FARTHEST = 1e8
 """Largest distance of a start, m."""
 FASTEST = 1e6
@@ -11,23 +11,23 @@ POSE = 7
 LONGEST_SETTLING = 10.0
 """Longest time for which a start may settle, s."""
 STILL = 1e-4
-"""Of the largest value in a unit, or of the length: a smaller range is rest."""
+"""Largest range of a quantity at rest, parts of the largest value in its unit or of the length."""
 WRONG_ERROR = 0.05
-"""Of the size of what is judged: above it a run is wrong."""
+"""Largest error of a run that is not wrong, parts of the size of the compared quantity."""
 RESOLVED = 0.5
-"""Missed share of all changes of velocity, h w/2 of a vibration of w, up to which steps resolve."""
+"""Largest missed part of the changes of velocity of resolved steps, h w/2 for a vibration of w."""
 AGREED = 0.1
-"""Of what would be wrong: two motions that differ by less agree."""
+"""Largest difference of two motions that agree, parts of the error of a wrong one."""
 MOST_PARTS = 8
-"""By which the step of a second motion is longer, or half of it shorter, at most."""
+"""Largest factor by which the step of a second motion is longer; half of it if it is shorter."""
 SYSTEM_VERSION = 3
-"""Of the System file."""
+"""Version of the System file."""
 ROAD_VERSION = 1
-"""Of a road file."""
+"""Version of a road file."""
 ROAD_SHARED = 2
-"""Of a road file whose equal tiles are stored once."""
+"""Version of a road file whose equal tiles are stored once."""
 ROAD_TILE = 32
-"""Points along the side of a tile of a road file."""
+"""Number of points along the side of a tile of a road file."""
 ROAD_HIGHEST = 1e5
 """Largest height of a road file, m."""
 ROAD_FARTHEST = 1e8
@@ -35,4 +35,4 @@ ROAD_FARTHEST = 1e8
 ROAD_FRICTION = 10.0
 """Largest friction of a road file."""
 ROAD_POINTS = 1e12
-"""Most points of a road file."""
+"""Largest number of points of a road file."""

@@ -56,4 +56,4 @@ METHOD_ORDERS = {
     MethodNumber.SEMI_RECURSIVE_4: 4,
     MethodNumber.RADAU_5: 5,
 }
-"""Orders of steps that change."""
+"""Orders of the methods with variable steps."""

@@ -215,4 +215,4 @@ STRUCTURES = {
     "ali3_input_table": InputTable,
     "ali3_input_tables": InputTables,
 }
-"""By their names in C."""
+"""Structures by their names in C."""

@@ -47,26 +47,26 @@ def coupled_slides(
     ModelError
         The ratio is zero, both bodies are one, a carrier is a point mass, or a body is the ground or its carrier.
     """
-    what = f"coupled slides '{name}'"
+    subject = f"coupled slides '{name}'"
     if body_1 is body_2:
-        raise ModelError(f"The {what} couple '{body_1.name}' with itself; they need two bodies that slide.")
-    i = not_zero(ratio, f"The ratio of {what}")
-    products = _travel_products(model, body_1, carrier_1, axis_1, 1.0, what) + _travel_products(
-        model, body_2, carrier_2, axis_2, -i, what
+        raise ModelError(f"The {subject} couple '{body_1.name}' with itself; they need two bodies that slide.")
+    i = not_zero(ratio, f"The ratio of {subject}")
+    products = _travel_products(model, body_1, carrier_1, axis_1, 1.0, subject) + _travel_products(
+        model, body_2, carrier_2, axis_2, -i, subject
     )
     joint = Joint(name, "rack", [Equation(name, "rack", products)], rows_weight=1.0)
-    joint.as_rows = True  # where both axes are the ground's the row is linear, and its force is asked for all the same
+    joint.as_rows = True  # between axes of the ground the row is linear, but its force is still needed
     return joint
 
 
 def _travel_products(
-    model: BodyVocabulary, body: Body, carrier: Body, axis: ArrayLike, factor: float, what: str
+    model: BodyVocabulary, body: Body, carrier: Body, axis: ArrayLike, factor: float, subject: str
 ) -> list[Product]:
     """Travel of a body along an axis of its carrier, times a factor."""
-    different(body, carrier, what)
-    if model.owned(carrier, f"The {what}").is_point:
-        raise ModelError(f"A carrier of {what} needs axes; '{carrier.name}' is a point mass.")
-    if model.owned(body, f"The {what}").is_ground:
-        raise ModelError(f"A sliding body of {what} is the ground; it must move, with the ground as its carrier.")
-    gap = model.anchor(body, body.com, what) - model.anchor(carrier, body.com, what)
-    return dot_products(gap, model.anchor_axis(carrier, axis, what), factor)
+    different(body, carrier, subject)
+    if model.owned(carrier, f"The {subject}").is_point:
+        raise ModelError(f"A carrier of {subject} needs axes; '{carrier.name}' is a point mass.")
+    if model.owned(body, f"The {subject}").is_ground:
+        raise ModelError(f"A sliding body of {subject} is the ground; it must move, with the ground as its carrier.")
+    gap = model.anchor(body, body.com, subject) - model.anchor(carrier, body.com, subject)
+    return dot_products(gap, model.anchor_axis(carrier, axis, subject), factor)

@@ -18,18 +18,18 @@ from mbs.model.joints.joint import Drawing, Joint, JointEnds
 ENDS = "(body, point), a point mass or a sliding point"
 
 
-def end_point(model: BodyVocabulary, end: End, what: str) -> tuple[AffineVector, SlidingPoint | None]:
-    """The point at an end, at guide value zero if it slides."""
+def end_point(model: BodyVocabulary, end: End, subject: str) -> tuple[AffineVector, SlidingPoint | None]:
+    """The point of an end, at guide value zero if it slides, and the sliding point."""
     if isinstance(end, SlidingPoint):
-        model.owned(end.body, what)
+        model.owned(end.body, subject)
         return end.start, end
-    body, point = body_and_point(end, what, ENDS)
-    return model.anchor(body, point, what), None
+    body, point = body_and_point(end, subject, ENDS)
+    return model.anchor(body, point, subject), None
 
 
-def end_body(end: End, what: str) -> Body:
-    """The body at an end."""
-    return end.body if isinstance(end, SlidingPoint) else body_and_point(end, what, ENDS)[0]
+def end_body(end: End, subject: str) -> Body:
+    """The body of an end."""
+    return end.body if isinstance(end, SlidingPoint) else body_and_point(end, subject, ENDS)[0]
 
 
 def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length: float | None = None) -> Joint:
@@ -55,23 +55,23 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length
     ModelError
         Both ends are on the same body, or the length is not positive.
     """
-    what = f"distance '{name}'"
-    bodies = end_body(end_1, what), end_body(end_2, what)
-    p1, slide_1 = end_point(model, end_1, what)
-    p2, slide_2 = end_point(model, end_2, what)
+    subject = f"distance '{name}'"
+    bodies = end_body(end_1, subject), end_body(end_2, subject)
+    p1, slide_1 = end_point(model, end_1, subject)
+    p2, slide_2 = end_point(model, end_2, subject)
     if slide_1 is not None and slide_2 is not None:
-        raise ModelError(f"Both ends of {what} slide; only one end may be a sliding point.")
+        raise ModelError(f"Both ends of {subject} slide; only one end may be a sliding point.")
     gap = p1 - p2
     if not any(c.terms for c in gap.components):
-        raise ModelError(f"The {what} joins two points of the ground; one end must be able to move.")
+        raise ModelError(f"The {subject} joins two points of the ground; one end must be able to move.")
     if slide_1 is None and slide_2 is None and bodies[0].flexibility is None:  # which has many nodes
-        different(*bodies, what)
+        different(*bodies, subject)
     drawn_length = float(np.linalg.norm(gap.value(model.drawn())))
     if length is None:
         if drawn_length <= 0.0:
-            raise ModelError(f"The {what} has zero length; use a spherical joint for points that coincide.")
+            raise ModelError(f"The {subject} has zero length; use a spherical joint for points that coincide.")
         length = drawn_length
-    length = positive(length, f"The length of {what}")
+    length = positive(length, f"The length of {subject}")
     constant = Affine({}, -0.5 * length * length)
     slide, sign = (slide_1, 1.0) if slide_1 is not None else (slide_2, -1.0)
     guides: list[GuideTerm] = []
@@ -95,11 +95,11 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length
 
 
 def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: float) -> Drawing:
-    """The bodies and points of a rod."""
+    """Drawing of a rod with fixed ends."""
     first, second = (body_and_point(end, name) for end in (end_1, end_2))
     return Drawing(
         (first[0], second[0]),
-        (_end_point(*first), _end_point(*second)),
+        (_drawn_end_point(*first), _drawn_end_point(*second)),
         None,
         ("distance",),
         lambda p, _, rod: distance(model, name, (first[0], p[0]), (second[0], p[1]), length=rod),
@@ -107,6 +107,6 @@ def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
     )
 
 
-def _end_point(body: Body, point: ArrayLike | None) -> ArrayLike:
-    """Point of an end of the joint; for a particle its own position."""
+def _drawn_end_point(body: Body, point: ArrayLike | None) -> ArrayLike:
+    """The point of an end; None: the centre of mass."""
     return body.com if point is None else point

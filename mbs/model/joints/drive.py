@@ -55,17 +55,17 @@ def drive(
 
 
 def _drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide) -> Joint:
-    what = f"drive '{name}'"
-    g = owned_guide(model, guide, f"The {what}").index
+    subject = f"drive '{name}'"
+    g = owned_guide(model, guide, f"The {subject}").index
     minus_one = Affine({}, -1.0)
     if isinstance(driven, tuple) and len(driven) == 2:
         if guide.start <= 0.0:
             raise ModelError(
-                f"The guide of {what} starts at {guide.start:g} m; a driven distance must be greater than zero."
+                f"The guide of {subject} starts at {guide.start:g} m; a driven distance must be greater than zero."
             )
         rod = distance(model, name, driven[0], driven[1], length=guide.start)
         if rod.equations[0].guides:
-            raise ModelError(f"An end of {what} slides; only fixed points may have a driven distance.")
+            raise ModelError(f"An end of {subject} slides; only fixed points may have a driven distance.")
         row = Equation(
             name, "driven_distance", rod.equations[0].products, guides=[GuideTerm(g, 2, linear=minus_one * 0.5)]
         )
@@ -74,10 +74,10 @@ def _drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple
         return joint
     if not isinstance(driven, (Coordinate, Affine)):
         raise ModelError(
-            f"The {what} needs a coordinate, a component of a point or two ends of a distance, got {shown(driven)}."
+            f"The {subject} needs a coordinate, a component of a point or two ends of a distance, got {shown(driven)}."
         )
-    expression = model.expression(driven, f"The {what}")
+    expression = model.expression(driven, f"The {subject}")
     if not expression.terms:
-        raise ModelError(f"The {what} drives something that cannot move: it depends on no coordinate.")
+        raise ModelError(f"The {subject} drives something that cannot move: it depends on no coordinate.")
     row = Equation(name, "drive", linear=expression, guides=[GuideTerm(g, 1, linear=minus_one)])
     return Joint(name, "drive", [row], rows_weight=1.0)

@@ -16,7 +16,7 @@ from mbs.model.joint_ends import different
 from mbs.model.joints.joint import Joint
 
 DEAD_POINT = 0.1
-"""Smallest sine between lever and rod as drawn, and smallest part of the lever that is square to its axis."""
+"""Least sine of the angle between lever and rod as drawn, and least part of the lever perpendicular to its axis."""
 
 
 def drop_link(
@@ -59,30 +59,30 @@ def drop_link(
         The bodies are the same, the lever lies along its axis, or the rod pulls along the lever or across its plane
         and could not turn it.
     """
-    what = f"drop link '{name}'"
-    different(carrier, body, what)
-    for each in (carrier, body):
-        if model.owned(each, f"The {what}").is_point:
-            raise ModelError(f"The {what} needs bodies with axes; '{each.name}' is a point mass.")
+    subject = f"drop link '{name}'"
+    different(carrier, body, subject)
+    for link_body in (carrier, body):
+        if model.owned(link_body, f"The {subject}").is_point:
+            raise ModelError(f"The {subject} needs bodies with axes; '{link_body.name}' is a point mass.")
     if model.dimension != 3:
-        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-    a = direction(axis, 3, f"the axis of {what}")
+        raise ModelError(f"The {subject} needs a spatial model; this one has dimension 2.")
+    a = direction(axis, 3, f"the axis of {subject}")
     c, e, p = (
-        vector(point, 3, f"the {label} of {what}")
+        vector(point, 3, f"the {label} of {subject}")
         for point, label in ((pivot, "pivot"), (lever_end, "end of the lever"), (link_end, "end of the rod"))
     )
     along = float(np.dot(e - c, a))
     u = e - c - along * a
     lever, rod = float(np.linalg.norm(u)), float(np.linalg.norm(p - e))
     if lever <= DEAD_POINT * float(np.linalg.norm(e - c)) or rod <= 0.0:
-        raise ModelError(f"The lever of {what} lies along its axis, or its rod has no length; nothing could turn.")
+        raise ModelError(f"The lever of {subject} lies along its axis, or its rod has no length; nothing could turn.")
     w = np.cross(a, u)
     if abs(float(np.dot(p - e, w))) < DEAD_POINT * lever * rod:
-        raise ModelError(f"The {what} is drawn at a dead point: its rod goes along the lever or across its plane.")
-    # from the point of the axis that is level with the end of the lever
+        raise ModelError(f"The {subject} is drawn at a dead point: its rod goes along the lever or across its plane.")
+    # from the foot of the perpendicular from the end of the lever to its axis
     centre = c + along * a
-    gap = model.anchor(body, p, what) - model.anchor(carrier, centre, what)
-    model.anchor_axis(carrier, a, what)
+    gap = model.anchor(body, p, subject) - model.anchor(carrier, centre, subject)
+    model.anchor_axis(carrier, a, subject)
     theta = model.new_coordinate(name, "angle", 0.0)
     row = Equation(
         name,

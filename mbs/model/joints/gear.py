@@ -9,7 +9,7 @@ from mbs.model.carried_parts import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint
-from mbs.model.joints.transmission import turned, turning_rate, wheel
+from mbs.model.joints.transmission import rotation_from_drawn, turning_rate, wheel
 
 
 def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
@@ -36,15 +36,15 @@ def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordin
     ModelError
         The ratio is zero, or the wheels are the same.
     """
-    what = f"gear '{name}'"
-    a, b = wheel(model, wheel_1, what), wheel(model, wheel_2, what)
+    subject = f"gear '{name}'"
+    a, b = wheel(model, wheel_1, subject), wheel(model, wheel_2, subject)
     if a.index == b.index:
-        raise ModelError(f"The {what} couples '{a.name}' with itself; it needs two wheels.")
-    i = not_zero(ratio, f"The ratio of {what}")
+        raise ModelError(f"The {subject} couples '{a.name}' with itself; it needs two wheels.")
+    i = not_zero(ratio, f"The ratio of {subject}")
     if isinstance(a, Spin) or isinstance(b, Spin):
         equation = Equation(name, "gear", rates=[*turning_rate(a, 1.0), *turning_rate(b, -i)])
     else:
-        equation = Equation(name, "gear", linear=turned(model, a) - turned(model, b) * i)
+        equation = Equation(name, "gear", linear=rotation_from_drawn(model, a) - rotation_from_drawn(model, b) * i)
     joint = Joint(name, "gear", [equation], rows_weight=1.0)
     joint.as_rows, joint.couples = True, (a.index, b.index, i)  # angles are never eliminated
     return joint

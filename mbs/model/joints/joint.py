@@ -16,11 +16,11 @@ from mbs.model.body import Body
 from mbs.model.carried_parts import SlidingPoint, Spin
 from mbs.model.equation import Equation
 from mbs.model.joint_ends import PointPair
-from mbs.model.joint_rotation import Turning
+from mbs.model.joint_rotation import RotationConditions
 from mbs.model.records import Switch
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
-"""Kinds of equations whose multipliers are a force or a torque that can be read."""
+"""Kinds of equations whose multipliers are a force or a torque for sensors."""
 SCALAR_FORCES = {
     "distance": "tension",
     "drop_link": "tension",
@@ -29,7 +29,7 @@ SCALAR_FORCES = {
     "rack": "force",
     "screw": "force",
 }
-"""What the one force or torque of a type of joint is called."""
+"""Component of the only force or torque of a type of joint."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class JointPlaces:
 
 @dataclass(frozen=True)
 class Drawing:
-    """Conditions of a joint on a point and an axis of each of two rigid bodies; compile may move these a little."""
+    """Conditions of a joint on a point and an axis of each of two rigid bodies, which compile may correct."""
 
     bodies: tuple[Body, Body]
     points: tuple[ArrayLike, ArrayLike]
@@ -51,18 +51,18 @@ class Drawing:
     axes: tuple[ArrayLike, ArrayLike] | None
     """As drawn, earth axes."""
     conditions: tuple[str, ...]
-    """Of these: "point" (the points coincide), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
-    (the first point on the second axis), "angle" (between the axes), "distance" (between the points)."""
+    """"point" (the points coincide), "axis" (the axes are parallel), "orientation" (no relative rotation), "line" (the
+    first point is on the second axis), "angle" (of the axes is constant), "distance" (of the points is constant)."""
     remake: Callable[[tuple[ArrayLike, ArrayLike], tuple[ArrayLike, ArrayLike] | None, float], Joint] = field(
         repr=False
     )
-    """``remake(points, axes, length)`` is the joint with other ends."""
+    """``remake(points, axes, length)`` returns the joint with other ends."""
     length: float = 0.0
-    """Of a distance, m."""
+    """Length of a distance, m."""
 
 
 @dataclass(frozen=True)
-class Turn:
+class AngleBodies:
     """Bodies and axis of a relative angle: of body 2 against body 1 (axis as drawn, earth axes; None in the plane)."""
 
     bodies: tuple[Body, Body]
@@ -72,22 +72,22 @@ class Turn:
 
 @dataclass(frozen=True)
 class JointEnds:
-    """Ends of a joint for closing loops: its bodies (the ground, a body or a node), its point on each, its axis."""
+    """Ends of a joint for the search of closed loops: its bodies (the ground, a body or a node), points and axis."""
 
     bodies: tuple[Body, Body]
     points: tuple[AffineVector, AffineVector]
-    """On the first and on the second body."""
+    """Point of the joint on the first and on the second body."""
     axis: AffineVector | None = None
-    """About which the bodies turn, or along which the point of the first slides on a line of the second."""
+    """Axis about which the bodies turn, or line of the second body along which the point of the first slides."""
     slides: bool = False
     """Whether the bodies slide along the axis."""
     rod: bool = False
-    """Whether a massless rod joins the points, which then are apart."""
+    """Whether a massless rod connects the points, which then do not coincide."""
 
 
 @dataclass(frozen=True)
 class RollingBody:
-    """A body that rolls on a level plane as a wheel: its centre and axis as drawn."""
+    """A body that rolls on a horizontal plane as a wheel: radius and height of the plane, m, drawn centre and axis."""
 
     radius: float
     level: float
@@ -98,7 +98,7 @@ class RollingBody:
 
 @dataclass(frozen=True)
 class RollingSpin:
-    """A spin that rolls on a level plane."""
+    """A spin that rolls on a horizontal plane: radius and height of the plane, m."""
 
     radius: float
     level: float
@@ -111,32 +111,32 @@ class Joint:
     Attributes
     ----------
     as_rows : bool
-        Its force equations are rows, never eliminated, so that their multipliers (the joint force) exist; a joint-force
-        sensor sets it.
+        Whether its force equations are rows and not eliminated, so that their multipliers (the joint force) exist; set
+        by sensors of joint forces.
     switch : Switch or None
         Switches its rows on and off; None: they are always on.
     rows_weight : float
-        Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
+        Factor of the force on the first body along equation k, ``-rows_weight * lam_k``; 0 without such a force.
     normals : sequence of AffineVector
-        Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
-    turning : Turning or None
-        Vectors whose products keep the bodies from turning; `hold_turning` makes it.
+        Unit vectors of the second body along which ``-lam_k`` of the line equations act on the first.
+    turning : RotationConditions or None
+        Conditions on the relative rotation as products of vectors, made by `hold_turning`.
     places : JointPlaces or None
-        Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
+        Points and axes of joints of spanning trees: revolute, prismatic, spherical and weld.
     drawing : Drawing or None
-        Of joints between two rigid bodies whose drawing can be corrected.
-    turn : Turn or None
-        Of a relative angle.
+        Conditions of a joint between two rigid bodies whose drawing can be corrected.
+    turn : AngleBodies or None
+        Bodies of a relative angle.
     ends : JointEnds or None
-        Of joints that can be part of a closed loop.
+        Ends of a joint that can be part of a closed loop.
     rolls : RollingBody, RollingSpin or None
-        Of a wheel that rolls.
+        The wheel of a rolling joint.
     couples : (int, int, float) or None
-        Of a gear: the coordinates of its wheels, and the turns of the first for one turn of the second.
+        Coordinates of the wheels of a gear, and turns of the first for one turn of the second.
     actuator : JointEnds or None
-        Of a driven distance: its ends.
+        Ends of a driven distance.
     slide : (int, SlidingPoint) or None
-        Of a distance: the number of the end that a guide slides, and that sliding point.
+        Number of the end of a distance that a guide slides, and the sliding point.
     """
 
     def __init__(
@@ -147,8 +147,8 @@ class Joint:
         rows_weight: float = 0.0,
         normals: Sequence[AffineVector] = (),
         places: JointPlaces | None = None,
-        turning: Callable[[], Turning] | None = None,
-        turn: Turn | None = None,
+        turning: Callable[[], RotationConditions] | None = None,
+        turn: AngleBodies | None = None,
     ) -> None:
         self.name = name
         self.type = type
@@ -158,7 +158,7 @@ class Joint:
         self.places = places
         self.turn = turn
         self.as_rows = False
-        self.turning: Turning | None = None
+        self.turning: RotationConditions | None = None
         self._make_turning = turning
         self.switch: Switch | None = None
         self.ends: JointEnds | None = None
@@ -170,12 +170,13 @@ class Joint:
 
     @property
     def turns(self) -> bool:
-        """Whether a moment of it can be read."""
+        """Whether it transmits a moment."""
         return self._make_turning is not None
 
-    def hold_turning(self) -> Turning:
-        """Keep the conditions on turning as rows whose multipliers are the moment of the joint: products of vectors
-        square to each other take the place of equal vectors, which would state a unit length twice.
+    def hold_turning(self) -> RotationConditions:
+        """Keep the conditions on relative rotation as rows, whose multipliers are the moment of the joint.
+
+        Products of perpendicular vectors replace equal vectors, which would repeat a condition of unit length.
         """
         if self._make_turning is None:
             raise ModelError(f"The joint '{self.name}' ({self.type}) transmits no moment.")
@@ -191,7 +192,7 @@ class Joint:
 
     @property
     def replaced_equations(self) -> list[int]:
-        """Numbers of the equations that those take the place of."""
+        """Numbers of the equations that the turning equations replace."""
         return [] if self.turning is None else [k for k, e in enumerate(self.equations) if e.kind in ("axis", "axes")]
 
     def __repr__(self) -> str:
@@ -204,22 +205,22 @@ class Joint:
 
 
 def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> list[Equation]:
-    """The equations ``a - b = 0``, one per component."""
+    """Equations ``a - b = 0``, one for each component."""
     return [Equation(name, kind, linear=x - y) for x, y in zip(a.components, b.components, strict=True)]
 
 
-def point_pair(point: PointPair, dimension: int, what: str, thing: str = "point") -> tuple[Vector, Vector]:
+def point_pair(point: PointPair, dimension: int, subject: str, kind: str = "point") -> tuple[Vector, Vector]:
     """A point, or an axis, of each body of a joint.
 
-    `point`: a pair where the drawing does not close, shape (dimension,); `dimension`: 2 or 3.
+    `point`: shape (dimension,), or a pair where the drawing does not close; `kind`: "point" or "axis".
 
     Returns
     -------
     pair of ndarray, shape (dimension,)
         Of the first and of the second body.
     """
-    expected = f"{dimension} numbers, or a pair of {'points' if thing == 'point' else 'axes'}, one per body"
-    name = f"the {thing} of {what}"
+    expected = f"{dimension} numbers, or a pair of {'points' if kind == 'point' else 'axes'}, one per body"
+    name = f"the {kind} of {subject}"
     value: Any = point
     if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 2 and not any(is_number(p) for p in value):
         return array(value[0], (dimension,), name, wanted=expected), array(

@@ -1,4 +1,4 @@
-"""A point that can be held where it is at the moment, and let go: rows that are switched at run time."""
+"""Pin: holds a point of a body at its present position, switched on and off at run time."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def pin(model: BodyVocabulary, name: str, body: Body, point: ArrayLike | None = 
     ModelError
         The body is the ground.
     """
-    what = f"pin '{name}'"
-    if model.owned(body, f"The {what}").is_ground:
-        raise ModelError(f"The {what} holds a point of the ground; it needs a body that can move.")
+    subject = f"pin '{name}'"
+    if model.owned(body, f"The {subject}").is_ground:
+        raise ModelError(f"The {subject} holds a point of the ground; it needs a body that can move.")
     position = body.com if point is None else point
-    held_point = model.anchor(body, position, what)
-    equations = equal_vectors(name, "point", held_point, model.anchor(model.ground, position, what))
+    held_point = model.anchor(body, position, subject)
+    equations = equal_vectors(name, "point", held_point, model.anchor(model.ground, position, subject))
     joint = Joint(name, "pin", equations, rows_weight=1.0)
     joint.as_rows = True
     joint.switch = new_switch(model, name, on)

@@ -1,4 +1,4 @@
-"""Joints with a common point: their equations, and the spherical joint."""
+"""Equations of joints with a shared point or axis, and the spherical joint."""
 
 from __future__ import annotations
 
@@ -10,48 +10,54 @@ from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joint_ends import PointPair, different
-from mbs.model.joint_rotation import Turning
+from mbs.model.joint_rotation import RotationConditions
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.perpendicular_vectors import perpendicular
 
 
 def shared_point(
-    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, what: str
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, subject: str
 ) -> list[Equation]:
-    """Equations by which the point of body 1 is the point of body 2."""
-    p1, p2 = point_pair(point, model.dimension, what)
-    return equal_vectors(name, "point", model.anchor(body_1, p1, what), model.anchor(body_2, p2, what))
+    """Equations of a point that both bodies share."""
+    p1, p2 = point_pair(point, model.dimension, subject)
+    return equal_vectors(name, "point", model.anchor(body_1, p1, subject), model.anchor(body_2, p2, subject))
 
 
 def shared_axis(
-    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: PointPair, what: str
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: PointPair, subject: str
 ) -> list[Equation]:
-    """Equations by which both bodies share a unit vector, or its direction where a node bends."""
-    a1, a2 = point_pair(axis, model.dimension, what, "axis")
-    if may_share(body_1, body_2):
-        return equal_vectors(name, "axis", model.anchor_axis(body_1, a1, what), model.anchor_axis(body_2, a2, what))
+    """Equations of a unit vector that both bodies share, or of its direction where a node bends."""
+    a1, a2 = point_pair(axis, model.dimension, subject, "axis")
+    if can_share_vectors(body_1, body_2):
+        return equal_vectors(
+            name, "axis", model.anchor_axis(body_1, a1, subject), model.anchor_axis(body_2, a2, subject)
+        )
     if body_2.bends and not body_1.bends:
         body_1, body_2, a1, a2 = body_2, body_1, a2, a1
-    along = model.anchor_axis(body_1, a1, what)
-    across = perpendicular(direction(a2, 3, f"the axis of {what} on body '{body_2.name}'"))
-    return [Equation(name, "axis", dot_products(along, model.anchor_axis(body_2, e, what))) for e in across]
+    along = model.anchor_axis(body_1, a1, subject)
+    normals = perpendicular(direction(a2, 3, f"the axis of {subject} on body '{body_2.name}'"))
+    return [Equation(name, "axis", dot_products(along, model.anchor_axis(body_2, e, subject))) for e in normals]
 
 
-def points_of(body_1: Body, p1: ArrayLike, body_2: Body, p2: ArrayLike) -> tuple[AffineVector, AffineVector]:
+def joint_points(body_1: Body, p1: ArrayLike, body_2: Body, p2: ArrayLike) -> tuple[AffineVector, AffineVector]:
     """Points of the joint on both bodies."""
     return body_1.point(p1), body_2.point(p2)
 
 
-def turning_about(body_1: Body, p1: ArrayLike, a1: ArrayLike, body_2: Body, p2: ArrayLike, a2: ArrayLike) -> Turning:
-    """Rotation that keeps the axis of body 1 perpendicular to two vectors of body 2, perpendicular to its own axis."""
+def axis_conditions(
+    body_1: Body, p1: ArrayLike, a1: ArrayLike, body_2: Body, p2: ArrayLike, a2: ArrayLike
+) -> RotationConditions:
+    """Conditions that keep the axis of body 1 perpendicular to two normals of the axis of body 2."""
     u = body_1.vector(direction(a1, 3, "an axis"))
-    across = perpendicular(direction(a2, 3, "an axis"))
-    return Turning(points_of(body_1, p1, body_2, p2), [(u, body_2.vector(e), 0.0) for e in across])
+    normals = perpendicular(direction(a2, 3, "an axis"))
+    return RotationConditions(joint_points(body_1, p1, body_2, p2), [(u, body_2.vector(e), 0.0) for e in normals])
 
 
-def may_share(body_1: Body, body_2: Body) -> bool:
-    """Whether vectors of one body may become those of the other: not where a node bends or a flexible frame meets the
-    ground or another one, because their unit length, which stays a condition of its own, would be stated twice.
+def can_share_vectors(body_1: Body, body_2: Body) -> bool:
+    """Whether linear equations may make vectors of two bodies equal.
+
+    Not where a node bends, or a flexible frame meets the ground or another frame: their unit length is a separate row,
+    which would be repeated.
     """
     if not (body_1.is_flexible or body_2.is_flexible):
         return True
@@ -69,11 +75,11 @@ def spherical(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, *, p
     point : array_like, shape (dimension,), or pair of them
         Earth axes in the reference configuration, m; a pair is one point per body.
     """
-    what = f"spherical joint '{name}'"
-    different(body_1, body_2, what)
-    p1, p2 = point_pair(point, model.dimension, what)
-    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
-    equations = shared_point(model, name, body_1, body_2, point, what)
+    subject = f"spherical joint '{name}'"
+    different(body_1, body_2, subject)
+    p1, p2 = point_pair(point, model.dimension, subject)
+    body_1, body_2 = body_1.at(p1, subject), body_2.at(p2, subject)
+    equations = shared_point(model, name, body_1, body_2, point, subject)
     joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
     joint.drawing = Drawing(

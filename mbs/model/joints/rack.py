@@ -13,7 +13,7 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joint_ends import different
 from mbs.model.joints.joint import Joint
-from mbs.model.joints.transmission import turned, turning_rate, wheel
+from mbs.model.joints.transmission import rotation_from_drawn, turning_rate, wheel
 
 
 def rack(
@@ -53,22 +53,24 @@ def rack(
     ModelError
         The radius is zero, the carrier is a point mass, or the rack is the ground or the carrier.
     """
-    what = f"rack '{name}'"
-    turns = wheel(model, pinion, what)
-    different(body, carrier, what)
-    if model.owned(carrier, f"The {what}").is_point:
-        raise ModelError(f"The carrier of {what} needs axes; '{carrier.name}' is a point mass.")
-    if model.owned(body, f"The {what}").is_ground:
-        raise ModelError(f"The rack of {what} is the ground; it must be a moving body, with the ground as its carrier.")
-    r = not_zero(radius, f"The radius of {what}")
+    subject = f"rack '{name}'"
+    wheel_coordinate = wheel(model, pinion, subject)
+    different(body, carrier, subject)
+    if model.owned(carrier, f"The {subject}").is_point:
+        raise ModelError(f"The carrier of {subject} needs axes; '{carrier.name}' is a point mass.")
+    if model.owned(body, f"The {subject}").is_ground:
+        raise ModelError(
+            f"The rack of {subject} is the ground; it must be a moving body, with the ground as its carrier."
+        )
+    r = not_zero(radius, f"The radius of {subject}")
     position = body.com if point is None else point
-    gap = model.anchor(body, position, what) - model.anchor(carrier, position, what)
-    e = model.anchor_axis(carrier, axis, what)
-    if isinstance(turns, Spin):
-        rates = [*dot_products(e, gap), *dot_products(gap, e), *turning_rate(turns, -r)]
+    gap = model.anchor(body, position, subject) - model.anchor(carrier, position, subject)
+    e = model.anchor_axis(carrier, axis, subject)
+    if isinstance(wheel_coordinate, Spin):
+        rates = [*dot_products(e, gap), *dot_products(gap, e), *turning_rate(wheel_coordinate, -r)]
         equation = Equation(name, "rack", rates=rates)
     else:
-        equation = Equation(name, "rack", dot_products(gap, e), turned(model, turns) * -r)
+        equation = Equation(name, "rack", dot_products(gap, e), rotation_from_drawn(model, wheel_coordinate) * -r)
     joint = Joint(name, "rack", [equation], rows_weight=1.0)
     joint.as_rows = True  # angles are never eliminated
     return joint

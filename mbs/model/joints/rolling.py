@@ -29,8 +29,10 @@ from mbs.model.joints.joint import Joint, RollingBody, RollingSpin
 from mbs.model.perpendicular_vectors import perpendicular
 from mbs.model.switches import new_switch
 
-GAP = 1e-3  # of the radius: a drawing that misses the plane by less is closed by compile
-FLAT = 0.05  # s below which a wheel lies rather than stands
+MAX_GAP = 1e-3
+"""Largest gap between wheel and plane as drawn, parts of the radius, which compile closes."""
+FLAT = 0.05
+"""Least s of a wheel that stands."""
 
 
 def rolling(
@@ -67,26 +69,26 @@ def rolling(
         The model is planar, the wheel is not rigid or lies flat, or it misses the plane by more than a thousandth
         of its radius.
     """
-    what = f"rolling joint '{name}'"
+    subject = f"rolling joint '{name}'"
     if model.dimension == 2:
-        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-    R, z = positive(radius, f"The radius of {what}"), number(level, f"The level of {what}")
+        raise ModelError(f"The {subject} needs a spatial model; this one has dimension 2.")
+    R, z = positive(radius, f"The radius of {subject}"), number(level, f"The level of {subject}")
     if isinstance(wheel, Spin):
         if centre is not None or axis is not None:
-            raise ModelError(f"The {what} takes centre and axis from the spin '{wheel.name}'; leave them out.")
-        model.owned_coordinate(wheel, f"The {what}")
+            raise ModelError(f"The {subject} takes centre and axis from the spin '{wheel.name}'; leave them out.")
+        model.owned_coordinate(wheel, f"The {subject}")
         c, n = wheel.centre, wheel.axis
         model.remember(wheel.carrier)
-        wheel.carrier.joint_points.append(_at_reference(model, c) - wheel.carrier.com)
+        wheel.carrier.joint_points.append(_drawn_value(model, c) - wheel.carrier.com)
     else:
-        body = model.owned(wheel, f"The {what}")
+        body = model.owned(wheel, f"The {subject}")
         if body.is_ground or body.is_point or body.is_flexible:
-            raise ModelError(f"The {what} needs a rigid body or a spin, not '{body.name}'.")
+            raise ModelError(f"The {subject} needs a rigid body or a spin, not '{body.name}'.")
         if centre is None or axis is None:
-            raise ModelError(f"The {what} needs the centre and the axis of the wheel on body '{body.name}'.")
-        c, n = model.anchor(body, centre, what), model.anchor_axis(body, axis, what)
-        square = perpendicular(unit_vector(axis, 3, f"The axis of {what}"))
-    _touches(_at_reference(model, c)[2] - z, _at_reference(model, n)[2], R, what)
+            raise ModelError(f"The {subject} needs the centre and the axis of the wheel on body '{body.name}'.")
+        c, n = model.anchor(body, centre, subject), model.anchor_axis(body, axis, subject)
+        normals = perpendicular(unit_vector(axis, 3, f"The axis of {subject}"))
+    _check_contact(_drawn_value(model, c)[2] - z, _drawn_value(model, n)[2], R, subject)
     height = Affine({}, -z) + c[2]
     touch = [(0.5 / R, height, height), (0.5 * R, n[2], n[2])]
     equations = [Equation(name, "touch", touch, Affine({}, -0.5 * R))]
@@ -96,7 +98,7 @@ def rolling(
         across = [(1.0, n[0], c[0]), (1.0, n[1], c[1]), (R, scaled, n[2])]
         equations += [Equation(name, "roll", rates=along), Equation(name, "track", rates=across)]
     else:
-        f, g = (model.anchor_axis(body, e, what) for e in square)
+        f, g = (model.anchor_axis(body, e, subject) for e in normals)
         equations += [
             Equation(name, "roll", rates=[(1.0 / R, height, c[i]), (-R, f[2], f[i]), (-R, g[2], g[i])]) for i in (0, 1)
         ]
@@ -104,7 +106,7 @@ def rolling(
     if isinstance(wheel, Spin):
         joint.rolls = RollingSpin(R, z, wheel)
     else:
-        joint.rolls = RollingBody(R, z, body, _at_reference(model, c), _at_reference(model, n))
+        joint.rolls = RollingBody(R, z, body, _drawn_value(model, c), _drawn_value(model, n))
     return joint
 
 
@@ -132,33 +134,35 @@ def skate(
     ModelError
         The direction is vertical, or the body is not rigid.
     """
-    what = f"skate '{name}'"
-    owned = model.owned(body, f"The {what}")
+    subject = f"skate '{name}'"
+    owned = model.owned(body, f"The {subject}")
     if owned.is_ground or owned.is_point or owned.is_flexible:
-        raise ModelError(f"The {what} needs a rigid body, not '{owned.name}'.")
-    unit = unit_vector(direction, model.dimension, f"The direction of {what}")
+        raise ModelError(f"The {subject} needs a rigid body, not '{owned.name}'.")
+    unit = unit_vector(direction, model.dimension, f"The direction of {subject}")
     if np.linalg.norm(unit[:2]) < FLAT:
-        raise ModelError(f"The {what} has the direction {unit.tolist()}, which is upright; it must lie in the plane.")
-    p, d = model.anchor(body, point, what), model.anchor_axis(body, unit, what)
+        raise ModelError(
+            f"The {subject} has the direction {unit.tolist()}, which is upright; it must lie in the plane."
+        )
+    p, d = model.anchor(body, point, subject), model.anchor_axis(body, unit, subject)
     joint = Joint(name, "skate", [Equation(name, "skate", rates=[(1.0, d[0], p[1]), (-1.0, d[1], p[0])])])
     if switch is not None:
         joint.switch = new_switch(model, name, switch)
     return joint
 
 
-def _at_reference(model: BodyVocabulary, v: AffineVector) -> Vector:
+def _drawn_value(model: BodyVocabulary, v: AffineVector) -> Vector:
     return v.value(model.drawn())
 
 
-def _touches(height: float, n_z: float, R: float, what: str) -> None:
-    """Refuse a wheel that lies, or that is drawn off the plane."""
-    standing = float(np.sqrt(max(0.0, 1.0 - n_z**2)))
-    if standing < FLAT:
-        raise ModelError(f"The wheel of {what} lies flat, its axle is upright; it rolls only where it stands.")
-    gap = float(height - R * standing)
-    if abs(gap) > GAP * R:
-        where = f"{gap:.4g} m above" if gap > 0.0 else f"{-gap:.4g} m below"
+def _check_contact(height: float, n_z: float, R: float, subject: str) -> None:
+    """Raise `ModelError` for a wheel that lies flat, or that does not touch the plane as drawn."""
+    height_ratio = float(np.sqrt(max(0.0, 1.0 - n_z**2)))
+    if height_ratio < FLAT:
+        raise ModelError(f"The wheel of {subject} lies flat, its axle is upright; it rolls only where it stands.")
+    gap = float(height - R * height_ratio)
+    if abs(gap) > MAX_GAP * R:
+        position = f"{gap:.4g} m above" if gap > 0.0 else f"{-gap:.4g} m below"
         raise ModelError(
-            f"The wheel of {what} does not touch the plane: its lowest point is {where} it. "
-            f"With the radius {R:g} m its centre must be {R * standing:.6g} m above the plane."
+            f"The wheel of {subject} does not touch the plane: its lowest point is {position} it. "
+            f"With the radius {R:g} m its centre must be {R * height_ratio:.6g} m above the plane."
         )

@@ -15,7 +15,7 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.sliding import cylindrical
-from mbs.model.joints.transmission import turned
+from mbs.model.joints.transmission import rotation_from_drawn
 
 
 class Screw(Joint):
@@ -52,15 +52,15 @@ def screw(
     ModelError
         The model is planar, the pitch is zero, or the bodies are the same.
     """
-    what = f"screw joint '{name}'"
+    subject = f"screw joint '{name}'"
     if model.dimension == 2:
-        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-    lead = not_zero(pitch, f"The pitch of {what}")
+        raise ModelError(f"The {subject} needs a spatial model; this one has dimension 2.")
+    lead = not_zero(pitch, f"The pitch of {subject}")
     shaft = cylindrical(model, name, body_1, body_2, point=point, axis=axis)
     angle, angle_joint = angle_and_joint(model, f"{name}.angle", body_2, body_1, axis, 0.0)
-    gap = model.anchor(body_1, point, what) - model.anchor(body_2, point, what)
-    thread = dot_products(gap, model.anchor_axis(body_2, axis, what))
-    row = Equation(name, "thread", thread, turned(model, angle) * (-lead / (2.0 * math.pi)))
+    gap = model.anchor(body_1, point, subject) - model.anchor(body_2, point, subject)
+    thread = dot_products(gap, model.anchor_axis(body_2, axis, subject))
+    row = Equation(name, "thread", thread, rotation_from_drawn(model, angle) * (-lead / (2.0 * math.pi)))
     joint = Screw(name, "screw", [row, *shaft.equations], rows_weight=1.0)
     joint.angle, joint.as_rows = angle, True  # angles are never eliminated
     model._join(joint)

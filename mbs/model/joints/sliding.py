@@ -1,4 +1,4 @@
-"""Joints that slide along a line: common equations, point on line and cylindrical joint."""
+"""Equations of joints that slide along a line, the point-on-line and the cylindrical joint."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from mbs.model.body import Body
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joint_ends import PointPair, body_and_point, different
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, point_pair
-from mbs.model.joints.points import shared_axis, turning_about
+from mbs.model.joints.points import axis_conditions, shared_axis
 from mbs.model.perpendicular_vectors import perpendicular
 
 
-def _normals(model: BodyVocabulary, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:
+def _normals(model: BodyVocabulary, body: Body, axis: ArrayLike, subject: str) -> list[AffineVector]:
     """Vectors of `body` that are perpendicular to the axis: one in the plane, two in space."""
     if model.dimension == 2:
-        u = direction(axis, 2, f"the axis of {what}")
-        return [model.anchor_axis(body, np.array([-u[1], u[0]]), what)]
-    return [model.anchor_axis(body, e, what) for e in perpendicular(direction(axis, 3, f"the axis of {what}"))]
+        u = direction(axis, 2, f"the axis of {subject}")
+        return [model.anchor_axis(body, np.array([-u[1], u[0]]), subject)]
+    return [model.anchor_axis(body, e, subject) for e in perpendicular(direction(axis, 3, f"the axis of {subject}"))]
 
 
 def on_line(
@@ -31,26 +31,28 @@ def on_line(
     end_1: tuple[Body, ArrayLike],
     end_2: tuple[Body, ArrayLike],
     axis: ArrayLike,
-    what: str,
+    subject: str,
 ) -> tuple[list[Equation], list[AffineVector]]:
-    """The point of body 1 stays on the line through the point of body 2 along an axis fixed in body 2; also the
-    normals of the line.
+    """Equations that keep the point of body 1 on the line through the point of body 2 along an axis of body 2, and
+    the normals of the line.
     """
-    body_2 = model.owned(end_2[0], f"The {what}")
+    body_2 = model.owned(end_2[0], f"The {subject}")
     if body_2.is_point:
-        raise ModelError(f"The line of {what} needs a body with axes; '{body_2.name}' is a point mass.")
-    gap = model.anchor(end_1[0], end_1[1], what) - model.anchor(body_2, end_2[1], what)
-    normals = _normals(model, body_2, axis, what)
+        raise ModelError(f"The line of {subject} needs a body with axes; '{body_2.name}' is a point mass.")
+    gap = model.anchor(end_1[0], end_1[1], subject) - model.anchor(body_2, end_2[1], subject)
+    normals = _normals(model, body_2, axis, subject)
     return [Equation(name, "line", dot_products(gap, n)) for n in normals], normals
 
 
-def sliding_ends(end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], axis: ArrayLike, what: str) -> JointEnds:
-    """The point of body 1 slides along the axis of body 2."""
+def sliding_ends(
+    end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], axis: ArrayLike, subject: str
+) -> JointEnds:
+    """Ends of a joint whose point of body 1 slides along an axis of body 2."""
     (body_1, p1), (body_2, p2) = end_1, end_2
-    # a vector of a node that bends would bring rows of its own
-    turning = body_2.owner if body_2.bends else body_2
-    along = turning.vector(direction(axis, body_2.dimension, f"the axis of {what}"))
-    return JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), along, slides=True)
+    # a vector of a node that bends would need additional rows
+    axis_body = body_2.owner if body_2.bends else body_2
+    axis_vector = axis_body.vector(direction(axis, body_2.dimension, f"the axis of {subject}"))
+    return JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), axis_vector, slides=True)
 
 
 def point_on_line(
@@ -72,12 +74,12 @@ def point_on_line(
     ModelError
         The bodies are the same, or body 2 is a point mass.
     """
-    what = f"point-on-line joint '{name}'"
-    end_1, end_2 = (body_and_point(end, what, "(body, point)") for end in (end_1, end_2))
-    different(end_1[0], end_2[0], what)
-    line, normals = on_line(model, name, end_1, end_2, axis, what)
+    subject = f"point-on-line joint '{name}'"
+    end_1, end_2 = (body_and_point(end, subject, "(body, point)") for end in (end_1, end_2))
+    different(end_1[0], end_2[0], subject)
+    line, normals = on_line(model, name, end_1, end_2, axis, subject)
     joint = Joint(name, "point_on_line", line, normals=normals)
-    joint.ends = sliding_ends(end_1, end_2, axis, what)
+    joint.ends = sliding_ends(end_1, end_2, axis, subject)
     joint.drawing = Drawing(
         (end_1[0], end_2[0]),
         (end_1[1], end_2[1]),
@@ -107,19 +109,19 @@ def cylindrical(
     ModelError
         The model is planar, or the bodies are the same.
     """
-    what = f"cylindrical joint '{name}'"
+    subject = f"cylindrical joint '{name}'"
     if model.dimension == 2:
-        raise ModelError(f"The {what} needs a spatial model; in the plane use point_on_line.")
-    different(body_1, body_2, what)
-    p1, p2 = point_pair(point, 3, what)
-    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
-    equations = shared_axis(model, name, body_1, body_2, axis, what)
-    axes = point_pair(axis, 3, what, "axis")
+        raise ModelError(f"The {subject} needs a spatial model; in the plane use point_on_line.")
+    different(body_1, body_2, subject)
+    p1, p2 = point_pair(point, 3, subject)
+    body_1, body_2 = body_1.at(p1, subject), body_2.at(p2, subject)
+    equations = shared_axis(model, name, body_1, body_2, axis, subject)
+    axes = point_pair(axis, 3, subject, "axis")
     a1, a2 = axes
-    line, normals = on_line(model, name, (body_1, p1), (body_2, p2), a2, what)
-    turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
+    line, normals = on_line(model, name, (body_1, p1), (body_2, p2), a2, subject)
+    turning = lambda: axis_conditions(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
     joint = Joint(name, "cylindrical", equations + line, normals=normals, turning=turning)
-    joint.ends = sliding_ends((body_1, p1), (body_2, p2), a2, what)
+    joint.ends = sliding_ends((body_1, p1), (body_2, p2), a2, subject)
     joint.drawing = Drawing(
         (body_1, body_2),
         (p1, p2),

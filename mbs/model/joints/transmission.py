@@ -9,13 +9,13 @@ from mbs.model.equation import Product
 ONE = Affine({}, 1.0)
 
 
-def wheel(model: BodyVocabulary, given: Coordinate, what: str) -> Coordinate:
-    """`given` if it is a relative angle or a spin of this model."""
-    return model.owned_coordinate(given, f"The {what}")
+def wheel(model: BodyVocabulary, coordinate: Coordinate, subject: str) -> Coordinate:
+    """The coordinate; raises `ModelError` unless it is a relative angle or a spin of this model."""
+    return model.owned_coordinate(coordinate, f"The {subject}")
 
 
-def turned(model: BodyVocabulary, angle: Coordinate) -> Affine:
-    """A relative angle from where it is drawn."""
+def rotation_from_drawn(model: BodyVocabulary, angle: Coordinate) -> Affine:
+    """A relative angle minus its drawn value."""
     return angle.affine - model.coordinates[angle.index].reference
 
 

@@ -12,11 +12,12 @@ from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joint_ends import PointPair, different
-from mbs.model.joint_rotation import Turning
+from mbs.model.joint_rotation import RotationConditions
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, point_pair
-from mbs.model.joints.points import points_of, shared_point
+from mbs.model.joints.points import joint_points, shared_point
 
-_BIG = 1.0 - 1e-12
+_PARALLEL = 1.0 - 1e-12
+"""Cosine of the angle from which axes are parallel."""
 
 
 def universal(
@@ -45,24 +46,24 @@ def universal(
     ModelError
         The model is planar, the bodies are the same, or the axes are parallel.
     """
-    what = f"universal joint '{name}'"
+    subject = f"universal joint '{name}'"
     if model.dimension == 2:
-        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-    different(body_1, body_2, what)
-    p1, p2 = point_pair(point, model.dimension, what)
-    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
-    u1, u2 = direction(axis_1, 3, f"axis_1 of {what}"), direction(axis_2, 3, f"axis_2 of {what}")
+        raise ModelError(f"The {subject} needs a spatial model; this one has dimension 2.")
+    different(body_1, body_2, subject)
+    p1, p2 = point_pair(point, model.dimension, subject)
+    body_1, body_2 = body_1.at(p1, subject), body_2.at(p2, subject)
+    u1, u2 = direction(axis_1, 3, f"axis_1 of {subject}"), direction(axis_2, 3, f"axis_2 of {subject}")
     cosine = float(np.dot(u1, u2))
-    if abs(cosine) > _BIG:
-        raise ModelError(f"The axes of {what} are parallel; a universal joint needs two different directions.")
-    a1, a2 = model.anchor_axis(body_1, u1, what), model.anchor_axis(body_2, u2, what)
-    equations = shared_point(model, name, body_1, body_2, point, what)
+    if abs(cosine) > _PARALLEL:
+        raise ModelError(f"The axes of {subject} are parallel; a universal joint needs two different directions.")
+    a1, a2 = model.anchor_axis(body_1, u1, subject), model.anchor_axis(body_2, u2, subject)
+    equations = shared_point(model, name, body_1, body_2, point, subject)
     equations.append(Equation(name, "axes", dot_products(a1, a2), Affine({}, -cosine)))
-    turning = lambda: Turning(points_of(body_1, p1, body_2, p2), [(a1, a2, cosine)])  # noqa: E731
+    turning = lambda: RotationConditions(joint_points(body_1, p1, body_2, p2), [(a1, a2, cosine)])  # noqa: E731
     joint = Joint(name, "universal", equations, rows_weight=1.0, turning=turning)
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
 
-    def remade(point: PointPair, axes: tuple[ArrayLike, ArrayLike] | None, _: float) -> Joint:
+    def remake(point: PointPair, axes: tuple[ArrayLike, ArrayLike] | None, _: float) -> Joint:
         first, second = axes or (u1, u2)
         return universal(model, name, body_1, body_2, point=point, axis_1=first, axis_2=second)
 
@@ -71,6 +72,6 @@ def universal(
         (p1, p2),
         (u1, u2),
         ("point", "angle"),
-        remade,
+        remake,
     )
     return joint

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ali3.tables import TextTable
-from mbs.model.smooth_table import FEWEST, UNIFORM
+from mbs.model.smooth_table import MIN_POINTS, SPACING_TOLERANCE
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 
@@ -245,8 +245,8 @@ def _points(values: Array) -> Array:
 
 def _check_axis(what: str, name: str, points: Array) -> None:
     steps = np.diff(points)
-    if len(points) < FEWEST:
-        raise CarFileError(f"{what} has {len(points)} values of {name}; there must be {FEWEST} or more.")
+    if len(points) < MIN_POINTS:
+        raise CarFileError(f"{what} has {len(points)} values of {name}; there must be {MIN_POINTS} or more.")
     if not np.all(steps > SAME):
         k = int(np.argmin(steps > SAME))
         raise CarFileError(f"{what} has a {name} of {points[k + 1]:g} m after {points[k]:g} m; it must rise.")
@@ -268,7 +268,7 @@ def _even(points: Array, coarsest: float) -> Array:
     """
     steps = np.diff(points)
     zero = int(np.argmin(np.abs(points)))
-    if np.ptp(steps) <= UNIFORM * steps.max() and abs(points[zero]) < SAME and len(steps) <= FINEST:
+    if np.ptp(steps) <= SPACING_TOLERANCE * steps.max() and abs(points[zero]) < SAME and len(steps) <= FINEST:
         count = math.ceil(steps.max() / coarsest)
         step = steps.mean() / count
         return points if count == 1 else step * np.arange(-zero * count, (len(points) - 1 - zero) * count + 1)
@@ -276,7 +276,7 @@ def _even(points: Array, coarsest: float) -> Array:
     step = max(min(float(steps.min()), coarsest), span / FINEST, SAME)
     step = -points[0] / max(1, round(-points[0] / step))
     low, high = round(-points[0] / step), math.floor(points[-1] / step + 1e-9)
-    while low + high + 1 < FEWEST or high < 1:
+    while low + high + 1 < MIN_POINTS or high < 1:
         step *= 0.5
         low, high = 2 * low, math.floor(points[-1] / step + 1e-9)
     return np.asarray(step * np.arange(-low, high + 1), float)
