@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.car import lanes, manoeuvres, rig
-from benchmarks.shared.command import Part, run, say_missing, watched
+from benchmarks.shared.command import Part, report_missing, run, watched
 from benchmarks.shared.pages import Row, table
 from mbs import Trajectory, compile, simulate
 from mbs.scenes import prototype_car
@@ -40,7 +40,7 @@ PEERS = {"MuJoCo": ("mujoco",), "Exudyn": ("exudyn",), "CommonRoad": ("numba", "
 def _rows(options: Namespace) -> list[dict[str, Any]]:
     missing = [car for car, needs in PEERS.items() if not all(importlib.util.find_spec(module) for module in needs)]
     for car in missing:
-        say_missing(f"{car}'s car: {' and '.join(PEERS[car])} not installed (python -m pip install 'ali3[peers]')")
+        report_missing(f"{car}'s car: {' and '.join(PEERS[car])} not installed (python -m pip install 'ali3[peers]')")
     installed = [car for car in PEERS if car not in missing]
     return [row for scene in watched(SCENES) for row in measure(*scene, peers=installed)]
 

@@ -49,7 +49,7 @@ PARTS = {
         pages=("accuracy.md",),
         blocks=random_honesty.random_blocks,
         words=random_honesty.words,
-        meant=True,
+        is_default=True,
     ),
     "scenes": Part(
         "every scene, method and manoeuvre of the prototype",

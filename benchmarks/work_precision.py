@@ -12,7 +12,7 @@ from benchmarks.methods import dissipative, error_control, free_runs, unreduced_
 from benchmarks.methods.work_precision_chart import LOST, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.coarse_runs import expected_errors
-from benchmarks.shared.command import Part, run, say_missing, watched
+from benchmarks.shared.command import Part, report_missing, run, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
 from mbs.settings.methods import METHOD_TABLE
@@ -22,7 +22,7 @@ from mbs.settings.methods import METHOD_TABLE
 def _charts(options: Namespace) -> list[dict[str, Any]]:
     engines, missing = peers.available()
     for name in missing:
-        say_missing(f"{name} is not installed (python -m pip install 'ali3[peers]')")
+        report_missing(f"{name} is not installed (python -m pip install 'ali3[peers]')")
     repeats = 1 if options.quick else options.repeats
     return [row for scene in options.only for row in work_precision.measure(scene, options.quick, engines, repeats)]
 

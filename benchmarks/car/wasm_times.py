@@ -14,7 +14,7 @@ import fmpy
 from fmpy.fmi2 import fmi2Real, fmi2ValueReference
 from fmpy.simulation import instantiate_fmu
 
-from benchmarks.shared.command import say_missing, watched
+from benchmarks.shared.command import report_missing, watched
 from benchmarks.shared.fmu_module import FmuModule
 from benchmarks.shared.fmu_page import ChromiumPage, NotHereError, in_node, job_of, resources_of
 from benchmarks.shared.pages import Row, crossed
@@ -48,7 +48,7 @@ def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Mea
         versions["Chromium"] = chromium.version
         hosts["Chromium"] = lambda plan: chromium.run(_CLOCK, job_of(fmu, {**plan, "outputs": outputs}))
     except NotHereError as error:
-        say_missing(str(error))
+        report_missing(str(error))
     return hosts, versions
 
 
