@@ -160,7 +160,7 @@ def _least(row: Row) -> float:
     return 0.01 * float(row["asked"].split()[1]) if "tol" in row["asked"] else NOTHING
 
 
-def words(rows: Sequence[Row]) -> str:
+def text_of(rows: Sequence[Row]) -> str:
     """Cases against the rule, and counts per family."""
     shown = [row for row in rows if row["verdict"] in TOLD]
     cases = table(shown, COLUMNS) if shown else "none against the rule"

@@ -32,7 +32,7 @@ OTHERS = {
 """Colour, line, and the marks of the methods of each family."""
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
 """Runs to a tolerance: the same colours, dash-dotted with open marks."""
-LOST = 0.5  # of the motion's extent: beyond it a run has no point
+LARGEST_ERROR = 0.5  # of the motion's extent: beyond it a run has no point
 PANELS = {"wall_s": ("kernel", "drake", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
 """What is compared: times of compiled programs, factorizations of the methods that count them."""
 
