@@ -19,7 +19,7 @@ from scipy.interpolate import PPoly
 import mbs
 from benchmarks.methods import random_cars, random_machines, random_mechanisms
 from benchmarks.references import boxes, masses_on_a_line, newton_euler
-from benchmarks.references.newton_euler import INSTANTS, Drawing, Joint
+from benchmarks.references.newton_euler import INSTANTS, Joint, Mechanism
 from fmu_src.build.build import build_fmu
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu, StepRefusedError
@@ -79,26 +79,26 @@ def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory
     return {"system": system, "span": span, "run": case_run}
 
 
-def _drawn(kind: str, drawing: Drawing) -> Case:
-    names = [f"tip{i}.{c}" for i in range(len(drawing.links)) for c in "xyz"[: drawing.dimension]]
-    motion = newton_euler.motion(drawing)
+def _mechanism_case(kind: str, mechanism: Mechanism) -> Case:
+    names = [f"tip{i}.{c}" for i in range(len(mechanism.links)) for c in "xyz"[: mechanism.dimension]]
+    motion = newton_euler.motion(mechanism)
     truth = dict(zip(names, motion.reshape(len(motion), -1).T, strict=True))
-    return Case(kind, truth=truth, **simulated(mbs.compile(random_mechanisms.model_of(drawing)), drawing.span))
+    return Case(kind, truth=truth, **simulated(mbs.compile(random_mechanisms.model_of(mechanism)), mechanism.span))
 
 
 def planar(rng: np.random.Generator) -> Case:
     """Closed loops and chains in the plane."""
-    return _drawn(*random_mechanisms.drawing(rng, 2))
+    return _mechanism_case(*random_mechanisms.random_mechanism(rng, 2))
 
 
 def spatial(rng: np.random.Generator) -> Case:
     """A random spatial mechanism."""
-    return _drawn(*random_mechanisms.drawing(rng, 3))
+    return _mechanism_case(*random_mechanisms.random_mechanism(rng, 3))
 
 
 def machines(rng: np.random.Generator) -> Case:
     """Masses on a line with belts, brakes, plays, cams, impacts and stops."""
-    kind, machine = random_machines.machine(rng)
+    kind, machine = random_machines.random_machine(rng)
     positions = masses_on_a_line.motion(machine)
     truth = {f"x{i}": positions[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
     return Case(kind, truth=truth, **simulated(mbs.compile(random_machines.model_of(machine)), machine.span))
@@ -106,7 +106,7 @@ def machines(rng: np.random.Generator) -> Case:
 
 def cars(rng: np.random.Generator) -> Case:
     """Cars over kerbs and drops, with each spring and tyre force."""
-    drive = random_cars.drive(rng)
+    drive = random_cars.random_drive(rng)
     kind = f"{drive.car} {drive.step:g} m, {drive.speed:.1f} m/s"
 
     def run(h: float | None = None, **more: Any) -> mbs.Trajectory:
@@ -140,44 +140,46 @@ def box(rng: np.random.Generator) -> Case:
     return Case("box", truth=truth, **simulated(mbs.compile(m), falling_box.span))
 
 
-def _swinging(rng: np.random.Generator) -> tuple[str, Drawing]:
+def _swinging(rng: np.random.Generator) -> tuple[str, Mechanism]:
     """A chain of two or three links, or a four-bar with a pendulum."""
     while True:
         kind = str(rng.choice(["chain", "spatial chain", "four-bar with pendulum"]))
-        drawing = random_mechanisms.KINDS[kind](rng)
-        if len(drawing.links) > 1:
-            return kind, drawing
+        mechanism = random_mechanisms.KINDS[kind](rng)
+        if len(mechanism.links) > 1:
+            return kind, mechanism
 
 
 def jumps(rng: np.random.Generator) -> Case:
     """Mechanisms whose first link is driven at a rate, or by an acceleration, that jumps two to four times."""
-    kind, drawing = _swinging(rng)
-    t = np.concatenate([[0.0], np.sort(rng.uniform(0.1, drawing.span, int(rng.integers(2, 5)))), [2.0 * drawing.span]])
-    scale, jumping = np.sqrt(9.81 / drawing.size), rng.random() < 0.7
+    kind, mechanism = _swinging(rng)
+    t = np.concatenate(
+        [[0.0], np.sort(rng.uniform(0.1, mechanism.span, int(rng.integers(2, 5)))), [2.0 * mechanism.span]]
+    )
+    scale, jumping = np.sqrt(9.81 / mechanism.size), rng.random() < 0.7
     angle, rate, coefficients = 0.0, float(rng.normal(0.0, 1.0) * scale), []
     for length in np.diff(t):
         bend = 0.0 if jumping else float(rng.normal(0.0, 1.0) * scale**2)
         coefficients.append((bend, rate, angle))
         angle += (rate + bend * length) * length
         rate = float(rng.normal(0.0, 1.0) * scale) if jumping else rate + 2.0 * bend * length
-    driven_drawing = replace(drawing, drive=PPoly(np.array(coefficients).T, t), torque=0.0)
-    return _drawn(f"{kind}, its {'rate' if jumping else 'acceleration'} jumps", driven_drawing)
+    driven_drawing = replace(mechanism, drive=PPoly(np.array(coefficients).T, t), torque=0.0)
+    return _mechanism_case(f"{kind}, its {'rate' if jumping else 'acceleration'} jumps", driven_drawing)
 
 
 def switches(rng: np.random.Generator) -> Case:
     """Chains whose tips pins hold for a while, switched between the parts of `Simulation.run`."""
-    kind, drawing = _swinging(rng)
-    link = int(rng.integers(1, len(drawing.links)))
-    on, off = (drawing.span / INSTANTS * k for k in np.sort(rng.choice(np.arange(5, INSTANTS - 5), 2, replace=False)))
-    pin = Joint("pin", link, newton_euler.GROUND, drawing.tips[link], drawing.joints[0].axis, (on, off))
-    drawing = replace(drawing, joints=[*drawing.joints, pin])
-    case = _drawn(f"{kind} with a pin", drawing)
-    name = f"j{len(drawing.joints) - 1}"
+    kind, mechanism = _swinging(rng)
+    link = int(rng.integers(1, len(mechanism.links)))
+    on, off = (mechanism.span / INSTANTS * k for k in np.sort(rng.choice(np.arange(5, INSTANTS - 5), 2, replace=False)))
+    pin = Joint("pin", link, newton_euler.GROUND, mechanism.tips[link], mechanism.joints[0].axis, (on, off))
+    mechanism = replace(mechanism, joints=[*mechanism.joints, pin])
+    case = _mechanism_case(f"{kind} with a pin", mechanism)
+    name = f"j{len(mechanism.joints) - 1}"
 
     def run(h: float, every: int) -> CaseRun:
         simulation = mbs.Simulation(case.system)
         parts, errors = [], []
-        for end, closed in ((on, False), (off, True), (drawing.span, False)):
+        for end, closed in ((on, False), (off, True), (mechanism.span, False)):
             simulation.set_switch(name, closed)
             parts.append(simulation.run(end, h, every=every, progress=False))
             errors.append(parts[-1].accuracy.error if parts[-1].accuracy else None)
@@ -228,7 +230,7 @@ def flexible(rng: np.random.Generator) -> Case:
 def gears(rng: np.random.Generator) -> Case:
     """Two eccentric wheels that a pair of gears couples, or a four-bar through its flat position."""
     if rng.random() < 0.5:
-        return _drawn("change point", random_mechanisms.four_bar(rng, NEARLY_FLAT))
+        return _mechanism_case("change point", random_mechanisms.four_bar(rng, NEARLY_FLAT))
     masses, inertias, arms = (
         10.0 ** rng.uniform(-0.5, 0.5, 2),
         10.0 ** rng.uniform(-2.0, 0.0, 2),
@@ -262,19 +264,19 @@ def tumbling(rng: np.random.Generator) -> Case:
     """Motions of which only rates and the torque of a motor are sensed, beside sensors that rest or are prescribed."""
     if rng.random() < 0.4:
         return _tumbling_body(rng)
-    drawing = random_mechanisms.chain(rng, int(rng.choice([2, 3])))
-    while len(drawing.links) < 2:
-        drawing = random_mechanisms.chain(rng, 2)
+    mechanism = random_mechanisms.chain(rng, int(rng.choice([2, 3])))
+    while len(mechanism.links) < 2:
+        mechanism = random_mechanisms.chain(rng, 2)
     driven = rng.random() < 0.5
     rate = float(rng.uniform(1.0, 6.0))
-    drive = PPoly(np.array([[0.2], [rate], [0.0]]), [0.0, 2.0 * drawing.span]) if driven else None
-    drawing = replace(drawing, drive=drive, torque=0.0)
-    rates = newton_euler.motion(drawing, rates=True)
-    names = [f"rate{i}.{c}" for i in range(len(drawing.links)) for c in ("z" if drawing.dimension == 2 else "xyz")]
+    drive = PPoly(np.array([[0.2], [rate], [0.0]]), [0.0, 2.0 * mechanism.span]) if driven else None
+    mechanism = replace(mechanism, drive=drive, torque=0.0)
+    rates = newton_euler.motion(mechanism, rates=True)
+    names = [f"rate{i}.{c}" for i in range(len(mechanism.links)) for c in ("z" if mechanism.dimension == 2 else "xyz")]
     truth = dict(zip([*names, "motor.torque"] if driven else names, rates.T, strict=False))
-    kind = f"chain in {'the plane' if drawing.dimension == 2 else 'space'}, {'driven' if driven else 'free'}"
-    system = mbs.compile(random_mechanisms.model_of(drawing, rates=True))
-    return Case(kind, truth=truth, **simulated(system, drawing.span), tolerances=())
+    kind = f"chain in {'the plane' if mechanism.dimension == 2 else 'space'}, {'driven' if driven else 'free'}"
+    system = mbs.compile(random_mechanisms.model_of(mechanism, rates=True))
+    return Case(kind, truth=truth, **simulated(system, mechanism.span), tolerances=())
 
 
 def _tumbling_body(rng: np.random.Generator) -> Case:
@@ -326,10 +328,10 @@ def fmus(rng: np.random.Generator) -> Case:
 
 def fmu_mechanisms(rng: np.random.Generator) -> Case:
     """The mechanisms of `planar` and `spatial` for up to 10 s through FMPy."""
-    kind, drawing = random_mechanisms.drawing(rng)
+    kind, mechanism = random_mechanisms.random_mechanism(rng)
     span = float(round(rng.uniform(2.0, 10.0), 1))
-    drive = None if drawing.drive is None else PPoly(drawing.drive.c, [0.0, 2.0 * span])
-    case = _drawn(kind, replace(drawing, drive=drive, span=span))
+    drive = None if mechanism.drive is None else PPoly(mechanism.drive.c, [0.0, 2.0 * span])
+    case = _mechanism_case(kind, replace(mechanism, drive=drive, span=span))
 
     @cache
     def built() -> Path:

@@ -62,7 +62,7 @@ class Drive:
         return agreed(self.system, lambda method, h: self.run(method, h, estimate_error=False))
 
 
-def drive(rng: np.random.Generator) -> Drive:
+def random_drive(rng: np.random.Generator) -> Drive:
     """A drive over a kerb, or a fall."""
     car = str(rng.choice(CARS))
     falls = rng.random() < 0.3

@@ -14,7 +14,7 @@ from mbs.elements import CoordinateFriction, EndStops, SpringDamper
 Array = NDArray[np.float64]
 
 
-def machine(rng: np.random.Generator) -> tuple[str, Machine]:
+def random_machine(rng: np.random.Generator) -> tuple[str, Machine]:
     """A machine with its kind."""
     kind = str(rng.choice(list(KINDS)))
     return kind, KINDS[kind](rng)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 import mbs
-from benchmarks.references.newton_euler import GROUND, Drawing, Joint, Link, Spring
+from benchmarks.references.newton_euler import GROUND, Joint, Link, Mechanism, Spring
 
 Array = NDArray[np.float64]
 ACROSS = np.array([0.0, 0.0, 1.0])
@@ -16,14 +16,14 @@ NEARLY_EQUAL = 0.3  # share of loops whose arms are drawn so that they all but l
 NEAR = (1e-3, 0.05)  # by which they differ, of their length
 
 
-def drawing(rng: np.random.Generator, dimension: int | None = None) -> tuple[str, Drawing]:
+def drawing(rng: np.random.Generator, dimension: int | None = None) -> tuple[str, Mechanism]:
     """A mechanism with its kind, in the plane (2), in space (3), or either."""
     kinds = [kind for kind in KINDS if dimension is None or dimension == (3 if "spatial" in kind else 2)]
     kind = str(rng.choice(kinds))
     return kind, KINDS[kind](rng)
 
 
-def model_of(d: Drawing, rates: bool = False) -> mbs.Model:
+def model_of(d: Mechanism, rates: bool = False) -> mbs.Model:
     """The mechanism in the vocabulary of the engine; with `rates` these are sensed, the torque of its drive, and what
     rests or is prescribed, in place of its tips.
     """
@@ -85,7 +85,7 @@ def _bar(rng: np.random.Generator, a: Array, b: Array) -> Link:
     return Link(0.5 * (a + b), mass, transverse * np.eye(3) + (axial - transverse) * np.outer(along, along))
 
 
-def _moved(rng: np.random.Generator, d: Drawing) -> Drawing:
+def _moved(rng: np.random.Generator, d: Mechanism) -> Mechanism:
     """With what moves it: a drive, a torque or a start, springs, dampers."""
     values = {f: getattr(d, f) for f in d.__dataclass_fields__}
     size = d.size
@@ -108,11 +108,11 @@ def _moved(rng: np.random.Generator, d: Drawing) -> Drawing:
     drive = (float(rng.uniform(-2.0, 2.0) * scale), float(rng.uniform(-0.3, 0.3) * scale**2)) if driven else ()
     values["span"] = span = float(rng.uniform(1.0, 3.0))
     values["drive"] = PPoly(np.array([*drive[::-1], 0.0])[:, None], [0.0, 2.0 * span]) if driven else None
-    return Drawing(**values)
+    return Mechanism(**values)
 
 
-def _drawing(dimension: int, links: list[Link], joints: list[Joint], tips: list[Array]) -> Drawing:
-    return Drawing(dimension, links, joints, [], tips, 0.0, 0.0, None, 1.0)
+def _drawing(dimension: int, links: list[Link], joints: list[Joint], tips: list[Array]) -> Mechanism:
+    return Mechanism(dimension, links, joints, [], tips, 0.0, 0.0, None, 1.0)
 
 
 def _meet(a: Array, ra: float, b: Array, rb: float, side: float) -> Array | None:
@@ -159,13 +159,13 @@ def _loop(
     return links, joints, [b, c, c], b, c
 
 
-def four_bar(rng: np.random.Generator, near: tuple[float, float] | None = None) -> Drawing:
+def four_bar(rng: np.random.Generator, near: tuple[float, float] | None = None) -> Mechanism:
     """Of all of Grashof's kinds; `near`: by which its arms differ where they come into line, of their length."""
     links, joints, tips, _, _ = _loop(rng, near)
     return _moved(rng, _drawing(2, links, joints, tips))
 
 
-def hung(rng: np.random.Generator) -> Drawing:
+def hung(rng: np.random.Generator) -> Mechanism:
     """A pendulum on the coupler of a four-bar."""
     links, joints, tips, b, c = _loop(rng)
     hook = b + rng.uniform(0.2, 1.2) * (c - b)
@@ -175,7 +175,7 @@ def hung(rng: np.random.Generator) -> Drawing:
     return _moved(rng, _drawing(2, links, joints, [*tips, end]))
 
 
-def six_bar(rng: np.random.Generator) -> Drawing:
+def six_bar(rng: np.random.Generator) -> Mechanism:
     """A four-bar and a dyad between its coupler and the ground (Stephenson's third kind)."""
     while True:
         links, joints, tips, b, c = _loop(rng)
@@ -193,7 +193,7 @@ def six_bar(rng: np.random.Generator) -> Drawing:
     return _moved(rng, _drawing(2, links, joints, [*tips, f, f]))
 
 
-def slider_crank(rng: np.random.Generator) -> Drawing:
+def slider_crank(rng: np.random.Generator) -> Mechanism:
     """With an offset or none; some whose rod is all but as long as the crank."""
     crank = float(10.0 ** rng.uniform(-0.7, 0.0))
     near = rng.random() < NEARLY_EQUAL
@@ -217,7 +217,7 @@ def _direction(rng: np.random.Generator, d: int) -> Array:
     return np.asarray(v / np.linalg.norm(v))
 
 
-def chain(rng: np.random.Generator, d: int) -> Drawing:
+def chain(rng: np.random.Generator, d: int) -> Mechanism:
     """One to three links, each hung on the one before."""
     at, links, joints, tips = np.zeros(d), [], [], []
     for i in range(int(rng.integers(1, 4))):
@@ -237,7 +237,7 @@ def _spatial_crank(rng: np.random.Generator) -> tuple[Array, Array]:
     return axis, np.asarray(rng.uniform(0.1, 0.5) * arm / np.linalg.norm(arm))
 
 
-def spatial_four_bar(rng: np.random.Generator) -> Drawing:
+def spatial_four_bar(rng: np.random.Generator) -> Mechanism:
     """Two cranks about skew axes and a rod with two balls."""
     (u, arm), (v, other) = _spatial_crank(rng), _spatial_crank(rng)
     a, d = np.zeros(3), rng.normal(0.0, 0.7, 3)
@@ -252,7 +252,7 @@ def spatial_four_bar(rng: np.random.Generator) -> Drawing:
     return _moved(rng, _drawing(3, links, joints, [b, 0.5 * (b + c), c]))
 
 
-def spatial_slider_crank(rng: np.random.Generator) -> Drawing:
+def spatial_slider_crank(rng: np.random.Generator) -> Mechanism:
     """A crank, a rod with two balls and a particle on a line."""
     axis, arm = _spatial_crank(rng)
     c = rng.normal(0.0, 0.8, 3)
@@ -266,7 +266,7 @@ def spatial_slider_crank(rng: np.random.Generator) -> Drawing:
     return _moved(rng, _drawing(3, links, joints, [arm, 0.5 * (arm + c), c]))
 
 
-KINDS: dict[str, Callable[[np.random.Generator], Drawing]] = {
+KINDS: dict[str, Callable[[np.random.Generator], Mechanism]] = {
     "four-bar": four_bar,
     "slider-crank": slider_crank,
     "six-bar": six_bar,

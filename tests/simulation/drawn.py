@@ -10,6 +10,6 @@ def drawn(kind: str, seed: int, number: int) -> tuple[mbs.System, float]:
     """A mechanism, and its duration, s. `kind`: what its kind must have in its name."""
     rng = np.random.default_rng([seed, number])
     rng.random()
-    result, drawing = random_mechanisms.drawing(rng)
+    result, mechanism = random_mechanisms.random_mechanism(rng)
     assert kind in result
-    return mbs.compile(random_mechanisms.model_of(drawing)), drawing.span
+    return mbs.compile(random_mechanisms.model_of(mechanism)), mechanism.span
