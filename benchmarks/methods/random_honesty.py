@@ -114,7 +114,7 @@ def _verdict(
     return row | {
         "verdict": verdict,
         "error": error,
-        "told": result.told,
+        "told": result.reported_error,
         "warnings": messages,
         "method": result.method,
         "steps": result.cost,
