@@ -227,7 +227,7 @@ def flexible(rng: np.random.Generator) -> Case:
             system, span, span / INSTANTS / n, every=n, method=method, estimate_error=False, progress=False
         )
 
-    truth = random_cars.agreed(system, simulate)
+    truth = random_cars.reference_by_two_methods(system, simulate)
     return Case("beam", truth=truth, **simulation_fields(system, span), tolerances=())  # finer than the reference
 
 
@@ -325,7 +325,7 @@ def fmus(rng: np.random.Generator) -> Case:
             pose=mbs.Pose(**pose), estimate_error=False, progress=False,
         )  # fmt: skip
 
-    truth = random_cars.agreed(system, simulate)
+    truth = random_cars.reference_by_two_methods(system, simulate)
     start = {f"initial.{name}": value for name, value in pose.items()} | road | inputs
     run = partial(_through_fmpy, lambda: fmu_of_car(car, lambda _: None), list(truth), span, start)
     return Case(f"{car}, {'falls' if falls else 'kerb'}", system, truth, span, run, (step,), ())

@@ -1,4 +1,4 @@
-"""The true error of a run beside its estimate, and a summary of right, wrong and warned runs."""
+"""True errors of runs beside their estimates, and a summary of right, wrong and warned runs."""
 
 import time
 import warnings
@@ -13,10 +13,10 @@ from benchmarks.methods.kernel_methods import TITLES
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
 
-LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
+LONG = 12.0  # s of processor time from which a method is not run with smaller steps
 QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}
-HOLDS = 1e-3  # of the range: a smaller error needs no estimate
-FACTOR = 10.0  # by which an error may be larger than its estimate
+NEGLIGIBLE = 1e-3  # error over the range below which estimates are not compared
+FACTOR = 10.0  # largest ratio of an error to its estimate
 VERDICTS = ("right, no warning", "false alarm", "wrong, warned", "wrong, missed")
 SUMMARY = {
     "method": "",
@@ -33,23 +33,23 @@ SUMMARY = {
 
 
 def measure(name: str, method: str, h: float) -> dict[str, Any]:
-    """A run of a scene in steps of h s: true error, estimate and verdict."""
+    """Row of a run with steps of h, s: true error, estimate and verdict."""
     scene = SCENES[name]
     row: dict[str, Any] = {"scene": name, "method": method, "h_s": h, "ended": "refused", "verdict": "refused"}
     row |= dict.fromkeys(("error", "estimate", "balance", "halvings_per_step", "warning"))
     row["repeated"] = ""
     begin = time.process_time()
     try:
-        with warnings.catch_warnings(record=True) as caught:
+        with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always", mbs.AccuracyWarning)
             result = scene.run(method, h)
-    except mbs.SimulationError as refused:
-        return row | {"reason": str(refused), "cpu_s": time.process_time() - begin}
+    except mbs.SimulationError as simulation_error:
+        return row | {"reason": str(simulation_error), "cpu_s": time.process_time() - begin}
     accuracy = result.accuracy
     assert accuracy is not None
     row["cpu_s"] = time.process_time() - begin
     error, estimate = scene.error(result)
-    wrong, warned = not error <= WRONG_ERROR, bool(caught)
+    wrong, warned = not error <= WRONG_ERROR, bool(caught_warnings)
     return row | {
         "ended": "finished",
         "error": error,
@@ -63,24 +63,24 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
 
 
 def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """Per method: wrong runs caught and missed, right ones disturbed."""
+    """Counts by method: wrong runs with and without a warning, right runs with one."""
     lines = []
     for method in dict.fromkeys(r["method"] for r in rows):
-        part = [r for r in rows if r["method"] == method]
-        done = [r for r in part if r["ended"] == "finished"]
-        right = [r for r in done if r["error"] <= WRONG_ERROR]
+        method_rows = [r for r in rows if r["method"] == method]
+        finished = [r for r in method_rows if r["ended"] == "finished"]
+        right = [r for r in finished if r["error"] <= WRONG_ERROR]
         once = sum(r["repeated"] == "no" for r in right)
-        estimated = [r for r in done if r["estimate"] is not None and r["error"] > HOLDS]
+        estimated = [r for r in finished if r["estimate"] is not None and r["error"] > NEGLIGIBLE]
         lines.append(
             {
                 "method": TITLES[method],
-                "runs": len(part),
-                "refused": len(part) - len(done),
+                "runs": len(method_rows),
+                "refused": len(method_rows) - len(finished),
                 "right": len(right),
-                "false alarms": sum(r["verdict"] == VERDICTS[1] for r in done),
-                "wrong": len(done) - len(right),
-                "missed": sum(r["verdict"] == VERDICTS[3] for r in done),
-                "found by the balance": sum((r["balance"] or 0.0) > WRONG_ERROR for r in done),
+                "false alarms": sum(r["verdict"] == VERDICTS[1] for r in finished),
+                "wrong": len(finished) - len(right),
+                "missed": sum(r["verdict"] == VERDICTS[3] for r in finished),
+                "found by the balance": sum((r["balance"] or 0.0) > WRONG_ERROR for r in finished),
                 "right without a repeat": once / len(right) if right else None,
                 "above the estimate": sum(r["error"] > FACTOR * r["estimate"] for r in estimated),
             }
@@ -89,19 +89,19 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Wrong runs caught and right ones disturbed, and by name those that went against the rule."""
+    """Summary by method, list of false alarms, missed runs and low estimates, and table of the crank-slider."""
     reported = []
     for verdict in (VERDICTS[3], VERDICTS[1]):
         results = [r for r in rows if r["verdict"] == verdict]
         for method in dict.fromkeys(r["method"] for r in results):
             runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in results if r["method"] == method)
             reported.append(f"- {TITLES[method]}, {verdict.replace('wrong, ', '')}: {'; '.join(runs)}.")
-    short = [
+    low_estimates = [
         f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, estimate {r['estimate']:.1e}"
         for r in rows
-        if r["estimate"] is not None and r["error"] > max(HOLDS, FACTOR * r["estimate"])
+        if r["estimate"] is not None and r["error"] > max(NEGLIGIBLE, FACTOR * r["estimate"])
     ]
-    reported += [f"- More than {FACTOR:g} times the estimate: {'; '.join(short) or 'none'}."]
+    reported += [f"- More than {FACTOR:g} times the estimate: {'; '.join(low_estimates) or 'none'}."]
     return {
         "honesty": table(summary(rows), SUMMARY),
         "honesty exceptions": "\n".join(reported),
@@ -110,7 +110,7 @@ def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 
 def crank_table(rows: Sequence[Row]) -> str:
-    """The crank-slider of the modelling page with the default method, by step."""
+    """Table of the crank-slider of the modelling page with the default method, by step."""
     crank = [r for r in rows if r["scene"] == "printed_crank_slider" and r["method"] == "ali3p"]
     columns = {"h_s": "g", "ended": "", "error": ".1e", "estimate": ".1e", "balance": ".1e", "halvings_per_step": ".2g"}
     return table(crank, columns | {"verdict": ""})

@@ -1,4 +1,4 @@
-"""The scenes of `benchmarks.honesty`, each with the sensors that are judged and their true values."""
+"""The scenes of `benchmarks.honesty`, each with the exact values of its compared sensors."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -19,10 +19,10 @@ from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
 CLOSE = 1e-3
-"""In parts of the extent: how near a fine run, which stands for sensors without an exact motion, is to the others'."""
+"""Largest relative difference of a fine run from exact motions; the run replaces them for other sensors."""
 CRANK_ANGLE = 758.62661  # rad after 2 s: its one degree of freedom under DOP853 at 1e-12
-TUMBLING = np.diag([0.1, 0.2, 0.3]), np.array([0.01, 5.0, 0.01])  # kg m2, rad/s: about the middle axis, slightly off
-TUMBLES = 20.0  # s
+TUMBLING = np.diag([0.1, 0.2, 0.3]), np.array([0.01, 5.0, 0.01])  # kg m2, rad/s: near the axis of intermediate inertia
+TUMBLING_TIME = 20.0  # s
 CAR_STEP = 2.5e-4  # s
 BEST = {
     "pendulum": ("runge_kutta_8", 40),
@@ -38,39 +38,41 @@ BEST = {
     "bicycle": ("runge_kutta_8", 20),
     "spatial_chain": ("semi_recursive", 40),
 }
-"""Method, and steps from one sample to the next, that come nearest to the exact motion: for sensors that it lacks."""
+"""Most accurate method, and steps between samples, for sensors without an exact motion."""
 
 
 @dataclass(frozen=True)
 class Scene:
-    """A model with the true values of sensors at equal instants."""
+    """A model with the exact values of sensors at equal instants."""
 
     run: Callable[..., mbs.Trajectory]
-    """Trajectory of a method and a step, recorded at the instants; further arguments as of `mbs.simulate`."""
+    """Returns the trajectory of a method with a step, s, recorded at the instants; further arguments of
+    `mbs.simulate`.
+    """
     truth: Callable[[], Mapping[str, Array]]
-    """Values by sensor."""
+    """Returns exact values by sensor."""
     system: Callable[[], mbs.System]
-    """Its length is the scale of what counts as rest."""
+    """Returns the System, whose length is the scale of sensors at rest."""
     methods: Callable[[], list[str]]
-    """Names of the methods that can run it."""
+    """Returns the names of the methods that can simulate it."""
     steps: tuple[float, ...]
-    """From coarse to fine, s."""
+    """Steps in descending order, s."""
 
-    def error(self, found: mbs.Trajectory) -> tuple[float, float]:
-        """Largest error of a sensor relative to its size, and its estimated error relative to that (nan: none)."""
+    def error(self, trajectory: mbs.Trajectory) -> tuple[float, float]:
+        """Largest error of a sensor over its size, and the estimate for that sensor over its size (NaN: none)."""
         worst, estimated = 0.0, float("nan")
-        estimate = found.accuracy.sensors if found.accuracy is not None else {}
-        true, judged = self.truth(), compared_sensors(self.system())
-        judged = {name: what for name, what in judged.items() if what.always and name in true}
-        for name, size in sizes_of(true, judged, length_of(self.system())).items():
-            error = float(np.abs(found[name] - true[name]).max()) / size
+        estimate = trajectory.accuracy.sensors if trajectory.accuracy is not None else {}
+        exact, sensors = self.truth(), compared_sensors(self.system())
+        sensors = {name: sensor for name, sensor in sensors.items() if sensor.always and name in exact}
+        for name, size in sizes_of(exact, sensors, length_of(self.system())).items():
+            error = float(np.abs(trajectory[name] - exact[name]).max()) / size
             if error >= worst:
                 worst, estimated = error, estimate.get(name, float("nan")) / size
         return worst, estimated
 
 
 def _recorded(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
-    """A run that is recorded at its `SAMPLES` instants."""
+    """Simulate a System, recorded at `SAMPLES` equal instants."""
     every = max(1, round(end / SAMPLES / h))
     return mbs.simulate(system, end, h, method=method, every=every, progress=False, **more)
 
@@ -89,7 +91,7 @@ def _case_truth(name: str) -> dict[str, Array]:
     best = _case_run(name, method, case.end / (SAMPLES * division), estimate_error=False)
     for sensor, values in known.items():
         assert np.abs(best[sensor] - values).max() < CLOSE * np.ptp(exact), f"{name}: {sensor}"
-    return {n: best[n] for n, what in compared_sensors(system_of(name)).items() if what.always} | known
+    return {n: best[n] for n, sensor in compared_sensors(system_of(name)).items() if sensor.always} | known
 
 
 def _case(name: str) -> Scene:
@@ -105,7 +107,7 @@ def _case(name: str) -> Scene:
 
 @cache
 def printed_model() -> mbs.System:
-    """The crank-slider as `docs/modelling.md` prints it."""
+    """The crank-slider from the code in `docs/modelling.md`."""
     block = re.search(r"```python\n(.*?)\nsystem = ", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     assert block is not None
     names: dict[str, Any] = {}
@@ -126,7 +128,7 @@ def _crank_truth() -> dict[str, Array]:
 
 @cache
 def tumbling_body() -> mbs.System:
-    """A free body about its middle axis of inertia, which turns over at times that hang on the smallest error."""
+    """A free body near its axis of intermediate inertia: small errors change the times at which it turns over."""
     m = mbs.Model("tumbling body", gravity=(0.0, 0.0, 0.0))
     body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=TUMBLING[0])
     m.initial_velocity(body, linear=(0.0, 0.0, 0.0), angular=TUMBLING[1])
@@ -137,12 +139,12 @@ def tumbling_body() -> mbs.System:
 
 
 def _tumbling_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
-    return _recorded(tumbling_body(), TUMBLES, method, h, **more)
+    return _recorded(tumbling_body(), TUMBLING_TIME, method, h, **more)
 
 
 @cache
 def _tumbling_truth() -> dict[str, Array]:
-    """Euler's equations and the rotation matrix under DOP853."""
+    """Positions of the tip, m, by Euler's equations, the rotation matrix and DOP853."""
     inertia, rate = TUMBLING
 
     def rates(_: float, x: Array) -> Array:
@@ -151,8 +153,8 @@ def _tumbling_truth() -> dict[str, Array]:
         return np.concatenate([np.linalg.solve(inertia, -np.cross(w, inertia @ w)), (axes @ turn).ravel()])
 
     start = np.concatenate([rate, np.eye(3).ravel()])
-    t = np.linspace(0.0, TUMBLES, SAMPLES + 1)
-    x = solve_ivp(rates, (0.0, TUMBLES), start, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
+    t = np.linspace(0.0, TUMBLING_TIME, SAMPLES + 1)
+    x = solve_ivp(rates, (0.0, TUMBLING_TIME), start, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
     return {f"tip.{c}": x[4 + 3 * k] for k, c in enumerate("xyz")}
 
 
@@ -164,7 +166,7 @@ def _car_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
 
 @cache
 def _car_truth(name: str) -> dict[str, Array]:
-    """The default with a step at which it differs from the stored references by 1e-4 of what is judged, or less."""
+    """Sensors of a run of the default method whose difference from the stored references is below 1e-4."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
     return {n: fine[n] for n, sensor in compared_sensors(manoeuvres.system_of(name)).items() if sensor.always}
