@@ -1,4 +1,4 @@
-"""The PUMA 560 whose hand is pinned and released: errors, energy at the jumps, the share of each stage."""
+"""The PUMA 560 whose hand is pinned and released: errors, energy jumps, error by stage."""
 
 import time
 from collections.abc import Sequence
@@ -62,7 +62,7 @@ def measure(system: mbs.System, method: str, h: float, repeats: int) -> dict[str
 
 
 def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
-    """Error with large steps in one stage and small ones elsewhere, and where the hand was when the pin closed."""
+    """Rows of errors with large steps in one stage and small ones elsewhere, and of the hand's offset when pinned."""
     rows = []
     for title, steps in SPLIT.items():
         result = puma.replay(system, steps, mbs.Settings(method=method), estimate_error=False)
@@ -73,7 +73,7 @@ def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
 
 
 def puma_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The paper's Table 2 beside ours."""
+    """Our errors beside the paper's Table 2."""
     columns = {
         "method": "",
         "h_s": "g",
