@@ -134,7 +134,7 @@ def _with_bank(drive: Drive, seconds: Spans) -> Drive:
     computed.
     """
     try:
-        return replace_of(drive, bank=bank_of(drive, seconds).by_place)
+        return replace_of(drive, bank=bank_of(drive, seconds))
     except ValueError as error:
         print(f"note: no bank of the road, and no model that knows it. {error}")
         return drive

@@ -5,7 +5,6 @@ acceleration less g sin b. Roll of the body adds a share of the acceleration to 
 """
 
 import gzip
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -25,30 +24,11 @@ _LEAST_CORRELATION = 0.9  # of the curvatures of two laps
 _NEARLY = 0.02  # largest difference from the best correlation
 
 
-@dataclass(frozen=True)
-class Bank:
-    """Lateral acceleration by the weight on the banked road, positive to the left, m/s2."""
+def bank_of(drive: Drive, seconds: Spans = FITTED) -> Array:
+    """Lateral acceleration by the weight on the banked road at each sample, m/s2, positive to the left, shape (n,).
 
-    by_sensor: Array
-    """At each sample of the drive, from that sample, shape (n,): a model that is judged with it uses the accelerometer
-    of the judged seconds."""
-    by_place: Array
-    """At each sample, from the fitted seconds alone, by the place of the car in its lap, shape (n,)."""
-    roll_share: float
-    """Share of the acceleration that roll adds to the sensor's signal."""
-    lap: float
-    """Length of a lap, m."""
-    repeated: float
-    """Correlation of `by_sensor` with itself a lap later."""
-    unseen: float
-    """Share of the lap without a fitted second."""
-
-
-def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
-    """Find the bank of the road of a drive in laps.
-
-    `seconds`: from which the share of the roll and the map are taken, s. Raises `ValueError`: the log has no
-    accelerometer, or the drive does not come to the same places again.
+    The bank is a function of the position in the lap, from the samples in the spans `seconds`. Raises `ValueError`: the
+    log has no accelerometer, or the drive has no laps.
     """
     if not drive.ay.size:
         raise ValueError("The log has no lateral acceleration, 'chassis.ay'.")
@@ -59,19 +39,15 @@ def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
     in_seconds = drive.inside(seconds)
     columns = np.column_stack([acceleration, np.ones_like(acceleration)])
     share = np.linalg.lstsq(columns[in_seconds], (sensed - acceleration)[in_seconds], rcond=None)[0]
-    by_sensor = -(sensed - acceleration - columns @ share)
+    bank = -(sensed - acceleration - columns @ share)
     distance, lap = distance_and_lap(drive)
     count = round(lap / PIECE)
     piece = pieces(distance, lap)
     passed = np.bincount(piece[in_seconds], minlength=count)
     seen = np.flatnonzero(passed)
-    means = np.bincount(piece[in_seconds], by_sensor[in_seconds], count)[seen] / passed[seen]
+    means = np.bincount(piece[in_seconds], bank[in_seconds], count)[seen] / passed[seen]
     middle = (seen + 0.5) * lap / count
-    by_place = np.interp(distance % lap, middle, means, period=lap)
-    later = np.interp(distance + lap, distance, by_sensor, right=np.nan)
-    both = np.isfinite(later)
-    repeated = float(np.corrcoef(by_sensor[both], later[both])[0, 1])
-    return Bank(by_sensor, by_place, float(share[0]), lap, repeated, 1.0 - len(seen) / count)
+    return np.interp(distance % lap, middle, means, period=lap)
 
 
 def distance_and_lap(drive: Drive) -> tuple[Array, float]:
