@@ -33,8 +33,7 @@ def _four_bar(options: Namespace) -> list[dict[str, Any]]:
 def _puma(options: Namespace) -> list[dict[str, Any]]:
     system, methods = mbs.compile(puma_scene.build()), puma.METHODS[:1] if options.quick else puma.METHODS
     runs = [(method, h) for method in methods for h in puma.STEPS]
-    repeats = 1 if options.quick else puma.REPEATS
-    rows = [{"table": "methods", **puma.measure(system, *run, repeats)} for run in watched(runs)]
+    rows = [{"table": "methods", **puma.measure(system, *run)} for run in watched(runs)]
     stages = [] if options.quick else puma.split(system, methods[0])
     return rows + [{"table": "large steps in one stage", **row} for row in stages]
 
