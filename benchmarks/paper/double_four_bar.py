@@ -27,7 +27,6 @@ METHODS = {
     "ALi3-P, paper's update": mbs.Settings(update="paper", tolerance_r=1e-7),
     "ALi3-P, paper's start value": mbs.Settings(predictor="acceleration"),
     "energy-momentum": mbs.Settings(method="energy_momentum"),
-    "ALi3 without projections": mbs.Settings(project=False),
 }
 STEPS = (0.1, 0.05, 0.03, 0.01, 0.005, 0.002, 0.001)
 
@@ -99,9 +98,8 @@ def four_bar_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 def draw(rows: Sequence[Row], file: Path) -> None:
     """Draw position errors over wall time, log-log, a panel for each N; colours of Okabe and Ito."""
-    drawn = [method for method in METHODS if METHODS[method].project]
     styles = dict(
-        zip(drawn, zip(("#0072B2", "#009E73", "#E69F00", "#000000", "#CC79A7"), "os^vD", strict=True), strict=True)
+        zip(METHODS, zip(("#0072B2", "#009E73", "#E69F00", "#000000", "#CC79A7"), "os^vD", strict=True), strict=True)
     )
     windows = list(dict.fromkeys(r["N"] for r in rows))
     figure, axes = pyplot().subplots(
