@@ -33,14 +33,12 @@ def by_commonroad(cars: Sequence[str] = CARS) -> list[tuple[Published, float]]:
     return results
 
 
-PARTS: dict[str, Callable[[], list[tuple[Published, float]]]] = {
-    "from rest": acceleration.compared,
-    "avoidance": avoidance.compared,
-    "tyre": tyre_rig.compared,
-    "CommonRoad": by_commonroad,
-}
-
-
 def rows() -> list[dict[str, Any]]:
     """Rows of the table."""
-    return [figure.row(value) for part in watched(list(PARTS.values())) for figure, value in part()]
+    tests: tuple[Callable[[], list[tuple[Published, float]]], ...] = (
+        acceleration.compared,
+        avoidance.compared,
+        tyre_rig.compared,
+        by_commonroad,
+    )
+    return [figure.row(value) for test in watched(tests) for figure, value in test()]
