@@ -1,11 +1,13 @@
 """Classifies a run with a step and a penalty (or Baumgarte's factor) as fine, wrong, refused or diverged."""
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 import mbs
+from benchmarks.baselines.mechanism import Mechanism
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.baselines.run import run
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY, suits
@@ -58,30 +60,18 @@ def judge(scene: str, positions: np.ndarray, energy: np.ndarray) -> tuple[str, d
     return ("fine" if good else "wrong"), figures
 
 
-_SCALES: dict[str, float] = {}
-
-
+@cache
 def _energy_scale(scene: str) -> float:
-    """Largest kinetic energy of the motion, J: measured on a fine run."""
-    if scene not in _SCALES:
-        system = system_of(scene)
-        settings = mbs.Settings(max_halvings=16)  # the light cart needs them
-        simulation, case = mbs.Simulation(system, settings=settings), CASES[scene]
-        mass = _mass(system)
-        largest, h = 0.0, case.end / 5000.0
-        for _ in range(200):
-            qd = simulation.state.qd
-            largest = max(largest, 0.5 * float(qd @ mass @ qd))
-            simulation.step(h, n=25)
-        _SCALES[scene] = largest
-    return _SCALES[scene]
-
-
-def _mass(system: mbs.System) -> np.ndarray:
-    dense = np.zeros((system.nq, system.nq))
-    a = system.arrays
-    dense[np.repeat(np.arange(system.nq), np.diff(a["mass_ptr"])), a["mass_col"]] = a["mass_val"]
-    return dense
+    """Largest kinetic energy in a run with small steps, J."""
+    system = system_of(scene)
+    settings = mbs.Settings(max_halvings=16)  # the light cart needs them
+    simulation, mass = mbs.Simulation(system, settings=settings), Mechanism(system).M
+    largest, h = 0.0, CASES[scene].end / 5000.0
+    for _ in range(200):
+        qd = simulation.state.qd
+        largest = max(largest, 0.5 * float(qd @ mass @ qd))
+        simulation.step(h, n=25)
+    return largest
 
 
 def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[str, Any]:
