@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     result, failed = make_all(chosen, max(1, options.jobs))
     for name, message in failed.items():
         print(f"\n{name} cannot be made:\n{message}", file=sys.stderr)
-    completed = {*chosen, *(() if options.only else ("",))} - failed.keys()  # "": what no group makes any more
+    completed = {*chosen, *(() if options.only else ("",))} - failed.keys()  # "": entries without a group
     kept = {name: entry for name, entry in stored.items() if group_of(name) in completed}
     rows = [row for row in store.compare(kept, result) if _asked(row.entry, options.only)]
     report(rows, result, taken, options.most)

@@ -1,4 +1,4 @@
-"""Cars with controllers in second FMUs, and the effect of the communication step."""
+"""Systems of cars and controllers in separate FMUs, to test the effect of the communication step."""
 
 from dataclasses import dataclass, field
 from functools import cache
@@ -17,7 +17,7 @@ from tests.vehicle.cars_with_ports import WHEELS
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
 FRONT = ("FL", "FR")
 REAR = ("RL", "RR")
-INNER = 0.001  # s
+INNER = 0.001  # s, step of the cars
 
 
 @dataclass(frozen=True)
