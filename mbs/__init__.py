@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from mbs.system.compiled_model import SystemFileError as SystemFileError
     from mbs.system.system import System as System
 
-# imported when they are first asked for: commands that need no engine start fast
+# imported at first use, so that commands without the engine start fast
 _LAZY = {
     "Affine": "mbs.common.affine",
     "AffineVector": "mbs.common.affine",
@@ -87,7 +87,7 @@ _LAZY = {
     "simulate": "mbs.simulation.run",
     "simulate_many": "mbs.simulation.many_runs",
 }
-# packages of their own too: mbs.vehicle.load("prototype")
+# packages are attributes too: mbs.vehicle.load("prototype")
 __getattr__ = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"), _LAZY)
 
 __all__ = [*_LAZY]

@@ -11,7 +11,8 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from benchmarks.car import scene_instructions
-from benchmarks.car.scene_instructions import SOURCE, Scene, instructions
+from benchmarks.car.operations import executed
+from benchmarks.car.scene_instructions import SOURCE, Scene
 from benchmarks.shared.command import watched
 from mbs.kernel import build
 
@@ -95,7 +96,7 @@ def measure(
     repeats : int
         Runs of which a round takes the least.
     counted : bool
-        Instructions too, where valgrind is there.
+        Instructions and operations too, where valgrind and objdump are there.
     steps : int
         Of each scene; 0: its own number.
     """
@@ -141,8 +142,9 @@ def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats:
             f"{what} {name}": round(n / steps, 3)
             for what, n in zip(("iterations", "solves"), counts[side][::2], strict=True)
         }
-    if counted and scene_instructions.counter() is not None:
+    if counted:
         for name, command, code in both:
-            counts_of_runs = [instructions([*command[:5], n, "1", *code]) for n in (str(steps), "0")]
-            row[f"instructions {name}"] = round((counts_of_runs[0] - counts_of_runs[1]) / steps)  # type: ignore[operator]
+            with_steps, without = (executed([*command[:5], n, "1", *code]) for n in (str(steps), "0"))
+            for what, total, start in zip(("instructions", "operations"), with_steps, without, strict=True):
+                row[f"{what} {name}"] = None if total is None or start is None else round((total - start) / steps)
     return row

@@ -60,7 +60,7 @@ def beam(settings: mbs.Settings, h: float) -> CaseRun:
     """Error of the tip deflection against geometrically exact beams."""
     t = _run("beam", spinning_beam.DURATION, h, settings, 0.02)
     time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
-    _, result = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
+    _, result = spinning_beam.extension_and_deflection(t.t, t["tip.x"], t["tip.y"])
     return float(np.abs(np.interp(time_ref, t.t, result) - expected).max() / np.abs(expected).max()), t
 
 

@@ -41,7 +41,7 @@ class CaseRun:
 
     values: Mapping[str, Array]
     """Values by sensor, at the instants."""
-    reported_error: float | None
+    estimate: float | None
     """Estimate of the error, relative to the range or the length."""
     cost: float | None = None
     """Steps of the run and of its check, over those of the run."""

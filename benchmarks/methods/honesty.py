@@ -5,39 +5,23 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 import mbs
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
+from benchmarks.methods.random_honesty import COUNTS, FACTOR, NEGLIGIBLE, counts, verdict_of
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
 
 LONG = 12.0  # s of processor time from which a method is not run with smaller steps
 QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}
-NEGLIGIBLE = 1e-3  # error over the range below which estimates are not compared
-FACTOR = 10.0  # largest ratio of an error to its estimate
-VERDICTS = ("right, no warning", "false alarm", "wrong, warned", "wrong, missed")
-SUMMARY = {
-    "method": "",
-    "runs": "d",
-    "refused": "d",
-    "right": "d",
-    "false alarms": "d",
-    "wrong": "d",
-    "missed": "d",
-    "found by the balance": "d",
-    "right without a repeat": ".0%",
-    "above the estimate": "d",
-}
+SUMMARY = {"method": "", **COUNTS}
 
 
 def measure(name: str, method: str, h: float) -> dict[str, Any]:
     """Row of a run with steps of h, s: true error, estimate and verdict."""
     scene = SCENES[name]
     row: dict[str, Any] = {"scene": name, "method": method, "h_s": h, "ended": "refused", "verdict": "refused"}
-    row |= dict.fromkeys(("error", "estimate", "balance", "halvings_per_step", "warning"))
-    row["repeated"] = ""
+    row |= dict.fromkeys(("error", "estimate", "steps", "balance", "halvings_per_step", "warning"))
     begin = time.process_time()
     try:
         with warnings.catch_warnings(record=True) as caught_warnings:
@@ -48,54 +32,33 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
     accuracy = result.accuracy
     assert accuracy is not None
     row["cpu_s"] = time.process_time() - begin
-    error, estimate = scene.error(result)
-    wrong, warned = not error <= WRONG_ERROR, bool(caught_warnings)
+    error = scene.error(result)
     return row | {
         "ended": "finished",
         "error": error,
-        "estimate": estimate if np.isfinite(estimate) else None,
+        "estimate": accuracy.error,
+        "steps": 1.0 + accuracy.check_cost,
         "balance": accuracy.energy_balance,
         "halvings_per_step": accuracy.halvings_per_step,
-        "repeated": "yes" if accuracy.compared_step is not None else "no",
-        "verdict": VERDICTS[2 * wrong + (warned != wrong if wrong else warned)],
+        "verdict": verdict_of(error, WRONG_ERROR, bool(caught_warnings)),
         "warning": accuracy.message,
     }
 
 
 def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """Counts by method: wrong runs with and without a warning, right runs with one."""
-    lines = []
-    for method in dict.fromkeys(r["method"] for r in rows):
-        method_rows = [r for r in rows if r["method"] == method]
-        finished = [r for r in method_rows if r["ended"] == "finished"]
-        right = [r for r in finished if r["error"] <= WRONG_ERROR]
-        once = sum(r["repeated"] == "no" for r in right)
-        estimated = [r for r in finished if r["estimate"] is not None and r["error"] > NEGLIGIBLE]
-        lines.append(
-            {
-                "method": TITLES[method],
-                "runs": len(method_rows),
-                "refused": len(method_rows) - len(finished),
-                "right": len(right),
-                "false alarms": sum(r["verdict"] == VERDICTS[1] for r in finished),
-                "wrong": len(finished) - len(right),
-                "missed": sum(r["verdict"] == VERDICTS[3] for r in finished),
-                "found by the balance": sum((r["balance"] or 0.0) > WRONG_ERROR for r in finished),
-                "right without a repeat": once / len(right) if right else None,
-                "above the estimate": sum(r["error"] > FACTOR * r["estimate"] for r in estimated),
-            }
-        )
-    return lines
+    """Counts by method."""
+    methods = dict.fromkeys(r["method"] for r in rows)
+    return [{"method": TITLES[m], **counts([r for r in rows if r["method"] == m])} for m in methods]
 
 
 def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Summary by method, list of false alarms, missed runs and low estimates, and table of the crank-slider."""
     reported = []
-    for verdict in (VERDICTS[3], VERDICTS[1]):
+    for verdict in ("silently wrong", "false alarm"):
         results = [r for r in rows if r["verdict"] == verdict]
         for method in dict.fromkeys(r["method"] for r in results):
             runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in results if r["method"] == method)
-            reported.append(f"- {TITLES[method]}, {verdict.replace('wrong, ', '')}: {'; '.join(runs)}.")
+            reported.append(f"- {TITLES[method]}, {verdict}: {'; '.join(runs)}.")
     low_estimates = [
         f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, estimate {r['estimate']:.1e}"
         for r in rows

@@ -14,7 +14,7 @@ import mbs
 from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
-from mbs.results.comparison import compared_sensors, sizes_of
+from mbs.results.comparison import Comparison, compared_sensors, instants
 from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
@@ -58,17 +58,15 @@ class Scene:
     steps: tuple[float, ...]
     """Steps in descending order, s."""
 
-    def error(self, trajectory: mbs.Trajectory) -> tuple[float, float]:
-        """Largest error of a sensor over its size, and the estimate for that sensor over its size (NaN: none)."""
-        worst, estimated = 0.0, float("nan")
-        estimate = trajectory.accuracy.sensors if trajectory.accuracy is not None else {}
-        exact, sensors = self.truth(), compared_sensors(self.system())
-        sensors = {name: sensor for name, sensor in sensors.items() if sensor.always and name in exact}
-        for name, size in sizes_of(exact, sensors, length_of(self.system())).items():
-            error = float(np.abs(trajectory[name] - exact[name]).max()) / size
-            if error >= worst:
-                worst, estimated = error, estimate.get(name, float("nan")) / size
-        return worst, estimated
+    def error(self, trajectory: mbs.Trajectory) -> float:
+        """Largest error of a compared sensor over its size; forces are compared at `instants`."""
+        exact = self.truth()
+        compared = {name: sensor for name, sensor in compared_sensors(self.system()).items() if name in exact}
+        assert trajectory.report is not None
+        comparison = Comparison(compared, length_of(self.system()), energy=trajectory.report.energy_floor)
+        comparison.add(exact, trajectory, instants(len(trajectory.t)))
+        gaps = comparison.gaps
+        return max((gaps[name] / size for name, size in comparison.sizes().items()), default=0.0)
 
 
 def _recorded(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
@@ -91,7 +89,7 @@ def _case_truth(name: str) -> dict[str, Array]:
     best = _case_run(name, method, case.end / (SAMPLES * division), estimate_error=False)
     for sensor, values in known.items():
         assert np.abs(best[sensor] - values).max() < CLOSE * np.ptp(exact), f"{name}: {sensor}"
-    return {n: best[n] for n, sensor in compared_sensors(system_of(name)).items() if sensor.always} | known
+    return {n: best[n] for n in compared_sensors(system_of(name))} | known
 
 
 def _case(name: str) -> Scene:
@@ -169,7 +167,7 @@ def _car_truth(name: str) -> dict[str, Array]:
     """Sensors of a run of the default method whose difference from the stored references is below 1e-4."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
-    return {n: fine[n] for n, sensor in compared_sensors(manoeuvres.system_of(name)).items() if sensor.always}
+    return {n: fine[n] for n in compared_sensors(manoeuvres.system_of(name))}
 
 
 def _car(name: str) -> Scene:

@@ -21,7 +21,7 @@ NEGLIGIBLE = 1e-3  # error over the range or the length below which estimates ar
 FACTOR = 10.0  # largest ratio between an error and its estimate
 WRONG_TOLERANCES = 10.0  # tolerances from which an error is wrong
 NEAR = (0.9, 1.1)  # range of the error over the limit in which runs are not judged
-VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong", "near")
+VERDICTS = ("right", "false alarm", "refused", "wrong, warned", "silently wrong", "near")
 ERRORS = (mbs.AccuracyWarning, mbs.BranchWarning)
 """Warnings of errors; others are about models, such as bending beyond the range of the modes."""
 LISTED = ("false alarm", "refused", "silently wrong")
@@ -32,25 +32,23 @@ COLUMNS = {
     "kind": "",
     "asked": "",
     "error": ".1e",
-    "told": ".1e",
+    "estimate": ".1e",
     "verdict": "",
     "cpu_s": ".2g",
 }
-SUMMARY = {
-    "family": "",
-    "seed": "d",
+COUNTS = {
     "runs": "d",
     "right": "d",
     "false alarms": "d",
     "refused": "d",
-    "wrong, told": "d",
+    "wrong, warned": "d",
     "silently wrong": "d",
     "near the limit": "d",
     "estimates": "d",
     "within ten times": ".0%",
     "steps over its own": ".2f",
-    "no reference": "d",
 }
+SUMMARY = {"family": "", "seed": "d", **COUNTS, "no reference": "d"}
 
 
 def rows_of(family: str, seed: int, numbers: Iterable[int]) -> Iterator[dict[str, Any]]:
@@ -100,7 +98,7 @@ def judge(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
 def _verdict(
     asked: str, run: Callable[[], CaseRun], error_of: Callable[[Mapping[str, Array]], float], limit: float
 ) -> dict[str, Any]:
-    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "told": None, "warnings": []}
+    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "estimate": None, "warnings": []}
     begin = time.process_time()
     try:
         with warnings.catch_warnings(record=True) as caught_warnings:
@@ -110,20 +108,43 @@ def _verdict(
         return row | {"cpu_s": time.process_time() - begin, "reason": str(simulation_error)}
     row["cpu_s"] = time.process_time() - begin
     error = error_of(result.values)
-    wrong, messages = (
-        not error <= limit,
-        [f"{w.category.__name__}: {w.message}" for w in caught_warnings if w.category in ERRORS],
-    )
-    verdict = VERDICTS[(3 if messages else 4) if wrong else (1 if messages else 0)]
-    if limit == WRONG_ERROR and NEAR[0] * limit <= error <= NEAR[1] * limit:
-        verdict = "near"
+    messages = [f"{w.category.__name__}: {w.message}" for w in caught_warnings if w.category in ERRORS]
     return row | {
-        "verdict": verdict,
+        "verdict": verdict_of(error, limit, bool(messages)),
         "error": error,
-        "told": result.reported_error,
+        "estimate": result.estimate,
         "warnings": messages,
         "method": result.method,
         "steps": result.cost,
+    }
+
+
+def verdict_of(error: float, limit: float, warned: bool) -> str:
+    """One of `VERDICTS` for a run with or without a warning, which is wrong if its error exceeds `limit`."""
+    if limit == WRONG_ERROR and NEAR[0] * limit <= error <= NEAR[1] * limit:
+        return "near"
+    if error <= limit:
+        return "false alarm" if warned else "right"
+    return "wrong, warned" if warned else "silently wrong"
+
+
+def counts(rows: Sequence[Row]) -> dict[str, Any]:
+    """Values of the columns `COUNTS` for rows of runs."""
+    count = {v: sum(r["verdict"] == v for r in rows) for v in VERDICTS}
+    estimated = [r for r in rows if r.get("estimate") is not None and r["error"] > _negligible(r)]
+    close = sum(1.0 / FACTOR <= r["estimate"] / r["error"] <= FACTOR for r in estimated)
+    steps = [r["steps"] for r in rows if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
+    return {
+        "runs": len(rows),
+        "right": count["right"] + count["false alarm"],
+        "false alarms": count["false alarm"],
+        "refused": count["refused"],
+        "wrong, warned": count["wrong, warned"],
+        "silently wrong": count["silently wrong"],
+        "near the limit": count["near"],
+        "estimates": len(estimated),
+        "within ten times": close / len(estimated) if estimated else None,
+        "steps over its own": float(np.median(steps)) if steps else None,
     }
 
 
@@ -137,33 +158,16 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
             runs = [r for r in seed_rows if r["verdict"] != "none" and ("tol" in r["asked"]) == controlled]
             if not runs:
                 continue
-            count = {v: sum(r["verdict"] == v for r in runs) for v in VERDICTS}
-            reported = [r for r in runs if r.get("told") is not None and r["error"] > _negligible(r)]
-            near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in reported)
-            steps = [r["steps"] for r in runs if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
             lines.append(
-                {
-                    "family": f"{family}, {requested}",
-                    "seed": seed,
-                    "runs": len(runs),
-                    "right": count["right"] + count["false alarm"],
-                    "false alarms": count["false alarm"],
-                    "refused": count["refused"],
-                    "wrong, told": count["wrong, told"],
-                    "silently wrong": count["silently wrong"],
-                    "near the limit": count["near"],
-                    "estimates": len(reported),
-                    "within ten times": near / len(reported) if reported else None,
-                    "steps over its own": float(np.median(steps)) if steps else None,
-                    "no reference": no_reference,
-                }
+                {"family": f"{family}, {requested}", "seed": seed, **counts(runs), "no reference": no_reference}
             )
     return lines
 
 
 def _negligible(row: Row) -> float:
     """Smallest error whose estimate is compared: a hundredth of the tolerance, or `NEGLIGIBLE`."""
-    return 0.01 * float(row["asked"].split()[1]) if "tol" in row["asked"] else NEGLIGIBLE
+    requested = row.get("asked", "")
+    return 0.01 * float(requested.split()[1]) if "tol" in requested else NEGLIGIBLE
 
 
 def text_of(rows: Sequence[Row]) -> str:

@@ -54,7 +54,7 @@ def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
     for title, steps in SPLIT.items():
         result = puma.replay(system, steps, mbs.Settings(method=method), estimate_error=False)
         stage_1 = result.hand[result.times <= puma.STAGES_S[0]]
-        offset = float(np.linalg.norm(stage_1[-1] - puma.held_at()))
+        offset = float(np.linalg.norm(stage_1[-1] - puma.pinned_position()))
         rows.append({"large steps in": title, "when pinned mm": 1e3 * offset, "error mm": 1e3 * result.error})
     return rows
 

@@ -43,7 +43,7 @@ static void log_of_python(fmi2ComponentEnvironment environment, fmi2String name,
 static bool has_module(slave *s) {
   const char *why;
   size_t size = 0;
-  unsigned char *text = slave_read(s->resources, "slavemodule.txt", &s->memory, &size, &why);
+  unsigned char *text = slave_read_resource(s->resources, "slavemodule.txt", &s->memory, &size, &why);
   if (text == NULL) {
     slave_say(s, SLAVE_ERROR, "The file slavemodule.txt of the FMU cannot be read in %s: %s.", s->resources, why);
     return false;

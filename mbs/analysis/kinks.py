@@ -1,4 +1,4 @@
-"""Forces that are not smooth at a state: where their slopes differ to both sides, or within a small velocity."""
+"""Forces that are not smooth at a state: slopes that differ on both sides, or that change within a small velocity."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from mbs.simulation.state import State
 
 Array = NDArray[np.float64]
 
-KINK = 1e-3  # difference of the slopes to both sides, share of the largest slope of the forces by this velocity
-WIDE = 100.0  # the second difference is that many times as wide
-BEND = 1e-2  # the same between the narrow and the wide difference
-ASIDE = 10.0  # distance from a kink at which slopes are taken, in widths of the difference
+KINK = 1e-3  # least difference of the slopes on both sides over the largest slope of the forces by this velocity
+WIDE = 100.0  # width of the wide difference over that of the narrow one
+BEND = 1e-2  # least difference of the slopes of narrow and wide differences over the largest slope
+KINK_DISTANCE = 10.0  # distance from a kink at which slopes are taken, in widths of the difference
 
 
 class LinearisationWarning(UserWarning):
     """The forces have no single slope at the state that was linearised."""
 
 
-def smooth_side(evaluator: Evaluator, side: int | None) -> State:
-    """State for differences, beside kinks of the forces in the velocities.
+def state_beside_kinks(evaluator: Evaluator, side: int | None) -> State:
+    """Shift the state of the evaluator away from kinks of the forces in the velocities.
 
-    `side`: 1 or -1: rising or falling velocities; None takes rising ones and warns. Warns `LinearisationWarning`: names
-    the coordinate, both slopes and the chosen side.
+    `side`: 1 or -1 for rising or falling velocities; None takes rising ones and warns with `LinearisationWarning`.
+    Raises `ValueError`: a coordinate has several kinks.
     """
     state = evaluator.state
     names = evaluator.system.meta["coordinates"]
@@ -50,15 +50,15 @@ def smooth_side(evaluator: Evaluator, side: int | None) -> State:
                 LinearisationWarning,
                 stacklevel=3,
             )
-        beside = state.qd.copy()
-        beside[i] += ASIDE * SHIFT * (side or 1)
-        state = replace(state, qd=beside)
+        velocities = state.qd.copy()
+        velocities[i] += KINK_DISTANCE * SHIFT * (side or 1)
+        state = replace(state, qd=velocities)
     _warn_of_bends(evaluator, state)
     return state
 
 
 def _worst_kink(evaluator: Evaluator, state: State) -> tuple[int, float, float] | None:
-    """Coordinate whose slopes ahead and behind differ most, with both, N s/m; None where all agree."""
+    """Coordinate whose slopes on both sides differ most, with both slopes, N s/m; None if all agree."""
     forces = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
     noise = 1e-13 * np.abs(forces).max(initial=0.0) / SHIFT
     worst, worst_kink = 0.0, None
@@ -71,15 +71,15 @@ def _worst_kink(evaluator: Evaluator, state: State) -> tuple[int, float, float] 
 
 
 def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
-    """Forces that are linear only in velocities far below those of a motion, such as a very small friction."""
+    """Warn of forces that are linear only within very small velocities, such as a small friction."""
     rates = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
     noise = 1e-13 * np.abs(rates).max(initial=0.0) / SHIFT
     bends = []
     for i, name in enumerate(evaluator.system.meta["coordinates"]):
         narrow = _slope(evaluator, state, i, SHIFT, rates)
         wide_slopes = [_slope(evaluator, state, i, s * WIDE * SHIFT, rates) for s in (1.0, -1.0)]
-        gaps = [float(np.abs(slope - narrow).max()) for slope in wide_slopes]
-        wide = wide_slopes[int(np.argmin(gaps))]  # away from a kink next to the state
+        differences = [float(np.abs(slope - narrow).max()) for slope in wide_slopes]
+        wide = wide_slopes[int(np.argmin(differences))]  # on the side without a kink near the state
         if np.abs(narrow - wide).max() > BEND * max(np.abs(narrow).max(), np.abs(wide).max()) + 10.0 * noise:
             bends.append(f"{name!r} {narrow[i]:.4g} and {wide[i]:.4g} N s/m")
     if bends:
@@ -91,9 +91,9 @@ def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
         )
 
 
-def _slope(evaluator: Evaluator, state: State, i: int, shift: float, here: Array) -> Array:
+def _slope(evaluator: Evaluator, state: State, i: int, shift: float, forces: Array) -> Array:
     """One-sided slope of the generalised forces (nq,) by the velocity of coordinate `i`."""
-    moved = state.qd.copy()
-    moved[i] += shift
-    slope: Array = (evaluator.rates(state.q, moved, state.y)[: len(here)] - here) / shift
+    velocities = state.qd.copy()
+    velocities[i] += shift
+    slope: Array = (evaluator.rates(state.q, velocities, state.y)[: len(forces)] - forces) / shift
     return slope

@@ -14,8 +14,9 @@ In a steady motion the coordinates turn with a frame, ``qd0 = G q0 + b`` (`mbs.a
 seen in the frame has constant coefficients: ``-V' M G`` times the displacement, and times dqd, is added to the
 rates above.
 
-With conditions on velocities A qd = 0 (rolling, skates) there are more places than velocities: z counts a basis P of
-the null space of the rows on positions alone, w one V of the null space of all, and ``zd = P' M (V w + N z)``.
+With conditions on velocities A qd = 0 (rolling, skates) there are more displacements than velocities: z refers to a
+basis P of the null space of the rows on positions alone, w to a basis V of that of all rows, and
+``zd = P' M (V w + N z)``.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from mbs.analysis.kinks import smooth_side
+from mbs.analysis.kinks import state_beside_kinks
 from mbs.analysis.steady_motion import SteadyFrame, steady_frame
 from mbs.common.checks import instance_of, is_number, shown
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
@@ -37,11 +38,10 @@ from mbs.system.system import System
 
 Array = NDArray[np.float64]
 
-STEADY = 1e-2  # accelerations that a frame does not explain, share of those of the motion and of its forces
+STEADY = 1e-2  # largest unsteady acceleration over the accelerations of the motion and of its forces
 STILL = 1e-3  # m/s2; smaller accelerations count as zero
-# 1/s; slots with smaller slopes of their rates (gears, clocks) have no dynamics; above round-off
-STATE_TOLERANCE = 1e-3
-FREE = 1e-3  # 1/s; smaller eigenvalues are those of free motions, which are zero up to round-off
+STATE_TOLERANCE = 1e-3  # 1/s; slots whose rates have smaller slopes (gears, clocks) have no dynamics
+FREE = 1e-3  # 1/s; smaller eigenvalues are zero up to round-off: those of free motions
 OSCILLATION_TOLERANCE = 1e-9  # imaginary part over modulus of an eigenvalue below which it counts as real
 
 
@@ -67,7 +67,7 @@ class Mode:
 
     @property
     def is_free(self) -> bool:
-        """A motion that nothing holds back: its eigenvalue is zero."""
+        """Whether it is a free motion: its eigenvalue is zero."""
         return abs(self.eigenvalue) < FREE
 
 
@@ -157,14 +157,14 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
         N[:, j] = -W @ np.linalg.lstsq(jacobian @ W, drift, rcond=RANK_TOLERANCE)[0]
         HV[:, j] = (ahead - behind).T @ state.lam / (2 * SHIFT)
     slots = evaluator.slots
-    base = smooth_side(evaluator, side)
+    base = state_beside_kinks(evaluator, side)
     unit = np.eye(len(state.y))
     columns = (
         [_difference(evaluator.rates, base, dq=P[:, j], dqd=N[:, j]) for j in range(n_positions)]
         + [_difference(evaluator.rates, base, dqd=V[:, j]) for j in range(n)]
         + [_difference(evaluator.rates, base, dy=unit[k]) for k in slots]
     )
-    slope = np.array(columns).T  # (nq + len(slots), n_motion + len(slots)): of forces and of slot rates
+    slope = np.array(columns).T  # of forces and slot rates, shape (nq + len(slots), n_motion + len(slots))
     n_motion = n_positions + n
     velocities = np.hstack([N, V])
     A: Array = np.zeros((n_motion + len(slots), n_motion + len(slots)))
@@ -174,11 +174,11 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     A[n_positions:n_motion, :n_positions] -= V.T @ HV
     A[n_positions:n_motion, :n_motion] -= V.T @ M @ frame.G @ velocities
     A[n_motion:] = slope[len(state.q) :]
-    lively = [i for i in range(len(slots)) if np.abs(A[n_motion + i]).max() > STATE_TOLERANCE]
-    chosen = [*range(n_motion), *(n_motion + i for i in lively)]
-    A = A[np.ix_(chosen, chosen)]
+    dynamic_slots = [i for i in range(len(slots)) if np.abs(A[n_motion + i]).max() > STATE_TOLERANCE]
+    indices = [*range(n_motion), *(n_motion + i for i in dynamic_slots)]
+    A = A[np.ix_(indices, indices)]
     names = tuple(simulation.system.meta["coordinates"])
-    return LinearModel(A, P, tuple(slots[i] for i in lively), names, _modes(A, P), tuple(frame.turning.tolist()))
+    return LinearModel(A, P, tuple(slots[i] for i in dynamic_slots), names, _modes(A, P), tuple(frame.turning.tolist()))
 
 
 def _check_steady(evaluator: Evaluator, frame: SteadyFrame, M: Array) -> None:
@@ -188,14 +188,14 @@ def _check_steady(evaluator: Evaluator, frame: SteadyFrame, M: Array) -> None:
     scale = np.where(M.diagonal() > 0.0, M.diagonal(), np.inf)
     moving = max(float(state.qdd @ M @ state.qdd), float(np.sum(force**2 / scale)))
     size = max(moving**0.5, STILL * float(M.diagonal().max()) ** 0.5)
-    off = abs(float(frame.unsteady @ M @ frame.unsteady)) ** 0.5
-    if off <= STEADY * size:
+    unsteady = abs(float(frame.unsteady @ M @ frame.unsteady)) ** 0.5
+    if unsteady <= STEADY * size:
         return
     worst, names = int(np.argmax(np.abs(frame.unsteady))), evaluator.system.meta["coordinates"]
     raise ValueError(
         f"At t = {evaluator.time:g} s the System is neither in equilibrium nor in a steady motion: "
-        f"{names[worst]!r} changes its rate by {frame.unsteady[worst]:.3g} per second, and {off / size:.2g} of the "
-        f"accelerations are left unexplained ({STEADY:g} at most). Call static_equilibrium() or step to a steady "
+        f"{names[worst]!r} changes its rate by {frame.unsteady[worst]:.3g} per second, and {unsteady / size:.2g} of "
+        f"the accelerations are left unexplained ({STEADY:g} at most). Call static_equilibrium() or step to a steady "
         "motion first; a periodic motion has Floquet multipliers, see mbs.floquet."
     )
 
@@ -210,15 +210,15 @@ def _difference(
     """Central difference of `function` (q, qd, y) along a direction."""
     ahead = function(state.q + SHIFT * dq, state.qd + SHIFT * dqd, state.y + SHIFT * dy)
     behind = function(state.q - SHIFT * dq, state.qd - SHIFT * dqd, state.y - SHIFT * dy)
-    result: Array = (ahead - behind) / (2.0 * SHIFT)
-    return result
+    slope: Array = (ahead - behind) / (2.0 * SHIFT)
+    return slope
 
 
 def admissible_motions(M: Array, jacobian: Array, system: System) -> tuple[Array, Array, Array]:
-    """V and W of `_null_space`, and a basis P of the places: V without the conditions on velocities."""
+    """V and W of `_null_space`, and a basis P of the displacements: V without the conditions on velocities."""
     V, W = _null_space(M, jacobian, system)
-    rolling = system.arrays["velocity_row"]
-    return V, W, _null_space(M, np.delete(jacobian, rolling, axis=0), system)[0] if len(rolling) else V
+    velocity_rows = system.arrays["velocity_row"]
+    return V, W, _null_space(M, np.delete(jacobian, velocity_rows, axis=0), system)[0] if len(velocity_rows) else V
 
 
 def _null_space(M: Array, jacobian: Array, system: System) -> tuple[Array, Array]:

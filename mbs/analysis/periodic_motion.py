@@ -20,7 +20,7 @@ from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
 
-MOST_STEPS = 1e8  # of a period
+MOST_STEPS = 1e8  # largest number of steps of a period
 DISTURBANCE = 1e-4  # largest change of a point or unit axis, m; of a velocity the same over the period
 CLOSED = 1e-4  # largest distance of the state after a period, share of the size and of the speed of the motion
 
@@ -67,8 +67,8 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
         If a step fails.
     """
     instance_of(Simulation, simulation, "What floquet takes", "a Simulation")
-    good = is_finite(period) and is_finite(h) and 0.0 < h <= period
-    if not good:
+    is_valid = is_finite(period) and is_finite(h) and 0.0 < h <= period
+    if not is_valid:
         raise ValueError(
             f"The period is {shown(period)} s and the step {shown(h)} s; both must be positive, h at most the period."
         )
@@ -85,35 +85,35 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
     V, _, P = admissible_motions(M, evaluator.jacobian(state.q), simulation.system)
     steps = max(1, round(period / h))
 
-    def after(q: Array, qd: Array) -> tuple[Array, Array]:
+    def run_period(q: Array, qd: Array) -> tuple[Array, Array]:
         run = _copy_at(simulation, q, qd)
         run.step(period / steps, n=steps)
         return run.state.q, run.state.qd
 
-    end = after(state.q, state.qd)
+    end = run_period(state.q, state.qd)
     _check_closed(simulation, evaluator, end, period)
-    before: list[Array] = []
-    later: list[Array] = []
-    for basis, positional in ((P, True), (V, False)):
+    start_columns: list[Array] = []
+    end_columns: list[Array] = []
+    for basis, is_displacement in ((P, True), (V, False)):
         for direction in basis.T:
             shift = DISTURBANCE / np.abs(direction).max() * direction
             size = np.linalg.norm(shift) / np.linalg.norm(direction)
             starts = [
                 evaluator.admissible(state.q + s * shift, state.qd)
-                if positional
+                if is_displacement
                 else evaluator.admissible(state.q, state.qd + s * shift / period)
                 for s in (1.0, -1.0)
             ]
-            for column_list, pair in ((before, starts), (later, [after(*start) for start in starts])):
+            for column_list, pair in ((start_columns, starts), (end_columns, [run_period(*start) for start in starts])):
                 dq, dqd = ((a - b) / (2.0 * size) for a, b in zip(*pair, strict=True))
                 column_list.append(np.concatenate([P.T @ M @ dq, period * (V.T @ M @ dqd)]))
-    monodromy: Array = np.linalg.solve(np.array(before), np.array(later)).T
+    monodromy: Array = np.linalg.solve(np.array(start_columns), np.array(end_columns)).T
     multipliers = np.asarray(np.linalg.eigvals(monodromy), complex)
     return FloquetModel(period, monodromy, multipliers[np.argsort(-np.abs(multipliers), kind="stable")])
 
 
 def _copy_at(simulation: Simulation, q: Array, qd: Array) -> Simulation:
-    """A simulation of the same System, settings, inputs, parameters and switches at another place."""
+    """Copy a simulation with its settings, inputs, parameters and switches, at coordinates and velocities (nq,)."""
     meta, source = simulation.system.meta, simulation.instance
     copy = Simulation(
         simulation.system,
@@ -130,19 +130,19 @@ def _copy_at(simulation: Simulation, q: Array, qd: Array) -> Simulation:
 
 
 def _check_closed(simulation: Simulation, evaluator: Evaluator, end: tuple[Array, Array], period: float) -> None:
-    """Refuse a motion that does not come back; spins may turn on, angles by whole turns."""
+    """Refuse a motion that does not return to its start, up to spins and whole turns of angles."""
     state, frames = evaluator.state, simulation.system.frames
     T = np.eye(len(state.q)) if frames is None else frames.T.toarray()
 
-    def full(x: Array) -> Array:
+    def full_coordinates(x: Array) -> Array:
         return np.asarray(T @ x)
 
-    q, qd = full(end[0] - state.q), full(end[1] - state.qd)
+    q, qd = full_coordinates(end[0] - state.q), full_coordinates(end[1] - state.qd)
     if frames is not None:
-        turning = list(frames.scalars)
-        q[turning] = (q[turning] + np.pi) % (2.0 * np.pi) - np.pi
-    speed = max(np.abs(full(state.qd)).max(), np.abs(full(end[1])).max())
-    size = max(np.abs(full(state.q)).max(), speed * period)
+        angles = list(frames.scalars)
+        q[angles] = (q[angles] + np.pi) % (2.0 * np.pi) - np.pi
+    speed = max(np.abs(full_coordinates(state.qd)).max(), np.abs(full_coordinates(end[1])).max())
+    size = max(np.abs(full_coordinates(state.q)).max(), speed * period)
     speed = max(speed, size / period)
     if np.abs(q).max() > CLOSED * size or np.abs(qd).max() > CLOSED * speed:
         raise ValueError(

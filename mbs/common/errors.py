@@ -1,14 +1,14 @@
-"""The errors of the modelling vocabulary."""
+"""Errors of models and of their arguments."""
 
 from __future__ import annotations
 
 
 class ModelError(ValueError):
-    """A model that cannot be: one sentence that names the part, the value and what would be right."""
+    """An impossible model; the message names the component, its value and the valid values."""
 
 
 class ArgumentTypeError(TypeError, ValueError):
-    """An argument that is a thing of another kind: one sentence that says which kind is needed.
+    """An argument of a wrong type; the message names the type that is needed.
 
-    It is a TypeError, as everywhere in Python, and a ValueError, as all errors of values here.
+    It is a `TypeError`, as usual in Python, and a `ValueError`, as are the other errors of arguments in this package.
     """

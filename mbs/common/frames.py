@@ -1,4 +1,4 @@
-"""Points and axes of bodies as full coordinates, and their change when the scene is moved or turned."""
+"""Points and axes of bodies as full coordinates, and their change when the scene is translated or rotated."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ class FlexibleShapes:
 
     name: str
     first: int
-    """Its first amplitude among the full coordinates; the others follow."""
+    """Index of its first amplitude among the full coordinates; the others follow."""
     turns: Array
     """Shape (nodes, 3, modes): rotation of each node per unit amplitude, rad."""
 
@@ -36,5 +36,5 @@ class Frames:
     bodies: tuple[int, ...]
     """First full coordinate of each rigid body: centre of mass, then unit axes (spatial a, b, c; planar a)."""
     scalars: tuple[int, ...]
-    """Full coordinates that a shift or turn of the scene leaves as they are, and that may turn on: angles and spins."""
+    """Full coordinates that no translation or rotation of the scene changes, and that may grow: angles and spins."""
     flexible: tuple[FlexibleShapes, ...] = ()

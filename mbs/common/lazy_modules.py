@@ -1,4 +1,4 @@
-"""Modules and names of a package as its attributes, imported when they are first asked for: ``mbs.vehicle.load``."""
+"""Modules and names of a package as its attributes, imported at first use, such as ``mbs.vehicle.load``."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from importlib import import_module
 from typing import Any
 
 
-def lazy_modules(package: str, names: Iterable[str], homes: Mapping[str, str] | None = None) -> Callable[[str], Any]:
-    """Function ``__getattr__`` of a package that imports modules when a name is first used.
+def lazy_modules(package: str, names: Iterable[str], sources: Mapping[str, str] | None = None) -> Callable[[str], Any]:
+    """Make the function ``__getattr__`` of a package that imports modules at first use.
 
-    `homes`: functions, classes and others by name, with the full name of the module that each is in.
+    `names`: modules of the package; `sources`: modules of further names, by name.
     """
-    modules, sources = frozenset(names), dict(homes or {})
+    modules, module_of = frozenset(names), dict(sources or {})
 
     def attribute(name: str) -> Any:
-        if name in sources:
-            return getattr(import_module(sources[name]), name)
+        if name in module_of:
+            return getattr(import_module(module_of[name]), name)
         if name in modules:
             return import_module(f"{package}.{name}")
         raise AttributeError(f"module {package!r} has no attribute {name!r}")

@@ -1,31 +1,31 @@
-"""Value that is computed when it is first used."""
+"""Value that is computed at first use."""
 
 import threading
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
 T = TypeVar("T")
-_ONE_AT_A_TIME = threading.RLock()
+_LOCK = threading.RLock()
 
 
 class LazyValue(Generic[T]):
-    """A value that takes time and is not always wanted: the first call makes it, later ones return it.
+    """Value that is computed by the first call and returned by later ones.
 
-    `make`: makes the value; called once, or again where it has raised.
+    `make`: computes the value; called once, or again after an error.
     """
 
     def __init__(self, make: Callable[[], T]) -> None:
         self._make: Callable[[], T] | None = make
-        self._made: T | None = None
+        self._value: T | None = None
 
     def __call__(self) -> T | None:
-        """The value; None to what asks while it is being made."""
-        with _ONE_AT_A_TIME:
+        """The value; None in a call that `make` itself makes."""
+        with _LOCK:
             if self._make is not None:
                 make, self._make = self._make, None
                 try:
-                    self._made = make()
+                    self._value = make()
                 except BaseException:
                     self._make = make
                     raise
-            return self._made
+            return self._value

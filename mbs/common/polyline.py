@@ -1,4 +1,4 @@
-"""The points that a polyline needs."""
+"""Reduction of polylines to the points that they need."""
 
 from collections.abc import Callable
 
@@ -6,20 +6,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def needed_points(n: int, off: Callable[[int, int], NDArray[np.float64]], least: float) -> list[int]:
-    """Indices of points without which straight lines would miss others (Ramer 1972, Douglas and Peucker 1973).
+def needed_points(n: int, deviations: Callable[[int, int], NDArray[np.float64]], tolerance: float) -> list[int]:
+    """Indices of the points that a polyline needs within a tolerance (Ramer 1972, Douglas and Peucker 1973).
 
-    `n`: number of points; the first and the last are kept; `off`: gives how far the straight line between two points
-    misses each one between them; `least`: up to which a point is not needed.
+    `n`: number of points, of which the first and the last are needed; `deviations`: function of two indices that gives
+    the distances of the points between them from their line; `tolerance`: largest distance of an omitted point.
     """
-    keep, waiting = {0, n - 1}, [(0, n - 1)]  # no recursion, which a staircase of many points would exhaust
-    while waiting:
-        a, b = waiting.pop()
+    needed, intervals = {0, n - 1}, [(0, n - 1)]  # not recursive: a staircase of many points would be too deep
+    while intervals:
+        a, b = intervals.pop()
         if b - a < 2:
             continue
-        missed = off(a, b)
-        k = int(np.argmax(missed))
-        if missed[k] > least:
-            keep.add(a + 1 + k)
-            waiting += [(a, a + 1 + k), (a + 1 + k, b)]
-    return sorted(keep)
+        distances = deviations(a, b)
+        k = int(np.argmax(distances))
+        if distances[k] > tolerance:
+            needed.add(a + 1 + k)
+            intervals += [(a, a + 1 + k), (a + 1 + k, b)]
+    return sorted(needed)

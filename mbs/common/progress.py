@@ -16,8 +16,8 @@ _FORM = "{percentage:3.0f} % {bar:40} {remaining} left"
 class Progress:
     """A bar on the standard error stream, or lines; silent until `delay` seconds have passed.
 
-    `delay`: seconds before the bar appears; `clock`: seconds, monotone; `everywhere`: the bar also where the stream is
-    no terminal, such as a file, which it fills with control characters.
+    `delay`: time before the bar appears, s; `clock`: monotone time, s; `everywhere`: whether the bar is also written to
+    a stream that is no terminal, with control characters.
     """
 
     def __init__(
@@ -35,7 +35,7 @@ class Progress:
             self._bar.close()
 
     def update(self, share: float) -> None:
-        """Show that `share` (0 to 1) of the run is done."""
+        """Show the completed share of the run, from 0 to 1."""
         if self._bar is None:
             if self._clock() < self._from:
                 return
@@ -47,7 +47,7 @@ class Progress:
 
 
 class Callback(Progress):
-    """Hands every update to a function."""
+    """Progress that calls a function of the completed share."""
 
     def __init__(self, function: Callable[[float], None]) -> None:
         super().__init__(math.inf)
@@ -58,9 +58,10 @@ class Callback(Progress):
 
 
 def progress_for(choice: bool | Callable[[float], None] | None) -> Progress:
-    """Bar of a run: None after two seconds, as lines where there is no terminal; True a bar at once; False none.
+    """Make the progress display of a run.
 
-    A function receives the share.
+    `choice`: None: after two seconds, as lines without a terminal; True: a bar at once; False: none; or a function of
+    the completed share.
     """
     if callable(choice):
         return Callback(choice)

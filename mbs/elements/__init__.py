@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from mbs.elements.wind_drag import WindDrag as WindDrag
     from mbs.kernel.header.enumerations import ElementType as ElementType
 
-# imported when they are first asked for: who reads one element needs no other
+# imported at first use, so that a program that uses one element does not import all
 _LAZY = {kind.name.title().replace("_", ""): f"mbs.elements.{kind.name.lower()}" for kind in _ElementType} | {
     "ElementRecord": "mbs.elements.record",
     "ElementType": "mbs.kernel.header.enumerations",

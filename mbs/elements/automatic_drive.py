@@ -11,10 +11,10 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import not_negative, positive
 from mbs.common.errors import ModelError
 from mbs.elements.element import Element
-from mbs.elements.integers import Integer, an_input
+from mbs.elements.integers import Integer, input_index
 from mbs.elements.reals import NotNegative, Positive, Real, each_real, reals_of
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import several
+from mbs.elements.record_checks import number_list
 from mbs.elements.wheel_signals import carrier_signals
 
 
@@ -52,19 +52,19 @@ class AutomaticDrive(Element):
     """Wheel speed where the creep torque has faded, rad/s."""
     drag_torque: NotNegative = 20.0
     """Torque of the engine at its limit speed with closed throttle, N m."""
-    up_closed: Annotated[float, Real(not_negative, words="upshift speed with closed throttle")] = 230.0
+    up_closed: Annotated[float, Real(not_negative, noun="upshift speed with closed throttle")] = 230.0
     """Speed of the turbine at which it shifts up with closed throttle, rad/s."""
-    up_open: Annotated[float, Real(not_negative, words="upshift speed with open throttle")] = 540.0
+    up_open: Annotated[float, Real(not_negative, noun="upshift speed with open throttle")] = 540.0
     """Speed of the turbine at which it shifts up with open throttle, rad/s."""
-    down_closed: Annotated[float, Real(not_negative, words="downshift speed with closed throttle")] = 110.0
+    down_closed: Annotated[float, Real(not_negative, noun="downshift speed with closed throttle")] = 110.0
     """Speed of the turbine at which it shifts down with closed throttle, rad/s."""
-    down_open: Annotated[float, Real(not_negative, words="downshift speed with open throttle")] = 270.0
+    down_open: Annotated[float, Real(not_negative, noun="downshift speed with open throttle")] = 270.0
     """Speed of the turbine at which it shifts down with open throttle, rad/s."""
-    dwell: Annotated[float, Real(not_negative, words="time between shifts")] = 0.6
+    dwell: Annotated[float, Real(not_negative, noun="time between shifts")] = 0.6
     """Least time between shifts, s."""
-    ramp: Annotated[float, Real(not_negative, words="shift duration")] = 0.2
+    ramp: Annotated[float, Real(not_negative, noun="shift duration")] = 0.2
     """Duration of a shift, s."""
-    locking: Annotated[float, Real(not_negative, words="locking share")] = 0.0
+    locking: Annotated[float, Real(not_negative, noun="locking share")] = 0.0
     """Share of the torque by which the slower driven wheel can have more than the faster; 0: open differential."""
     ratios: Sequence[float] = (10.5, 5.9, 4.0)
     """Total ratio of each gear, first gear first."""
@@ -76,14 +76,14 @@ class AutomaticDrive(Element):
     engage_time: Positive = 0.3
     """Time in which the torque fades out of one direction, and into the other, s."""
 
-    _words = "a drive"
+    _noun = "a drive"
     _signals = (("left", 1), ("right", 1), ("f", 3), ("g", 3))
     _integers = (
-        an_input("throttle", "the input"),
+        input_index("throttle", "the input"),
         Integer("gears", least=1, reals=1),
-        an_input("selector", optional=True),
-        an_input("request", missing=True, optional=True),
-        an_input("clutch", optional=True),
+        input_index("selector", optional=True),
+        input_index("request", missing=True, optional=True),
+        input_index("clutch", optional=True),
     )
     _states = (1.0, 1.0, 1e3, 0.0)
     _outputs = (
@@ -94,11 +94,11 @@ class AutomaticDrive(Element):
         *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
         *(Output(f"{side}_torque", "N m", f"torque on the {side} wheel") for side in ("left", "right")),
     )
-    _more = "reverse_ratio"
-    _more_states = (1.0, 1.0)
+    _first_optional = "reverse_ratio"
+    _optional_states = (1.0, 1.0)
 
     def faults(self) -> Iterator[tuple[str, str]]:
-        """A field and what is wrong with it, where gears or speeds are not in order, without a full stop."""
+        """Each field whose gears or speeds are not in order, with a description of the fault."""
         ratios = list(self.ratios)
         if not ratios or any(b >= a for a, b in pairwise(ratios)):
             yield "ratios", f"are {ratios}; they must fall from first gear on, with at least one"
@@ -152,23 +152,23 @@ class AutomaticDrive(Element):
         ModelError
             The ratios do not fall, or a gear is left as soon as it is engaged.
         """
-        what = self._what(name)
-        ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
+        label = self._label(name)
+        ratios = [positive(r, f"A ratio of {label}") for r in number_list(self.ratios, f"the ratios of {label}")]
         for number, input_name in ((request, "request of gears"), (clutch, "clutch")):
             if number is not None and selector is None:
-                raise ModelError(f"T{what[1:]} has a {input_name} and no selector; give it one.")
-        reals_of(self, what)
-        words = {field: called for field, _, called in each_real(type(self))}
-        for field, wrong in self.faults():
-            raise ModelError(f"The {words.get(field, field)} of {what} {wrong}.")
+                raise ModelError(f"T{label[1:]} has a {input_name} and no selector; give it one.")
+        reals_of(self, label)
+        nouns = {field: noun for field, _, noun in each_real(type(self))}
+        for field, fault in self.faults():
+            raise ModelError(f"The {nouns.get(field, field)} of {label} {fault}.")
         record = self._record(
             name,
-            (left, right, *carrier_signals(f, g, what)),
+            (left, right, *carrier_signals(f, g, label)),
             (throttle, len(ratios), selector, request, clutch),
-            behind={f"ratio_{i + 1}": (ratio, positive) for i, ratio in enumerate(ratios)},
+            appended={f"ratio_{i + 1}": (ratio, positive) for i, ratio in enumerate(ratios)},
         )
         if not 1 <= gear <= len(ratios):
-            raise ModelError(f"The gear of {what} is {gear}; it must be one of 1 to {len(ratios)}.")
+            raise ModelError(f"The gear of {label} is {gear}; it must be one of 1 to {len(ratios)}.")
         outputs = list(self._outputs)
         if selector is not None:
             outputs[1] = replace(outputs[1], description="gear engaged, -1: reverse, 0: neutral")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import flag
 from mbs.elements.element import Element
-from mbs.elements.integers import Integer, an_input
+from mbs.elements.integers import Integer, input_index
 from mbs.elements.reals import NotNegative, Positive
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.wheel_signals import carrier_signals
@@ -34,12 +34,12 @@ class Brake(Element):
     side: NotNegative = 1.0
     """Factor on the share, so that brakes that differ from left to right may be a parameter."""
 
-    _words = "a brake"
+    _noun = "a brake"
     _signals = (("f", 3), ("g", 3), ("spin", 1))
     _integers = (
-        an_input("pedal", "the input"),
-        an_input("hand", "the hand brake", missing=True),
-        Integer("by_size", most=1, optional=True, words="the choice of a size as the input"),
+        input_index("pedal", "the input"),
+        input_index("hand", "the hand brake", missing=True),
+        Integer("by_size", most=1, optional=True, noun="the choice of a size as the input"),
     )
     _states = (0.0, 0.0)
     _outputs = (
@@ -71,6 +71,6 @@ class Brake(Element):
         by_size : bool
             Whether `input` is not a pedal but any number from 0 on, and `max_torque` the torque per unit of it.
         """
-        what = self._what(name)
-        sized = 1 if flag(by_size, f"The by_size of {what}") else None
-        return self._record(name, (*carrier_signals(f, g, what), spin), (input, hand, sized))
+        label = self._label(name)
+        sized = 1 if flag(by_size, f"The by_size of {label}") else None
+        return self._record(name, (*carrier_signals(f, g, label), spin), (input, hand, sized))

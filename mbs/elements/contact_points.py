@@ -15,7 +15,7 @@ from mbs.elements.element import Element
 from mbs.elements.integers import ROAD, Integer
 from mbs.elements.reals import Fraction, NotNegative, Positive
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import fraction, size
+from mbs.elements.record_checks import check_components, fraction
 
 
 @dataclass(frozen=True)
@@ -46,10 +46,10 @@ class ContactPoints(Element):
     restitution: Fraction = 0.0
     """Least coefficient of restitution e, that of fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not."""
 
-    _words = "contact points"
+    _noun = "contact points"
     _signals = (("origin", 3), ("axes", 9))
     _integers = (ROAD, Integer("points", least=1, reals=3, states=4))
-    _behind = 6
+    _appended = 6
     _outputs = (
         Output("normal_force", "N", "sum of the normal forces of the road on the points"),
         Output("touching", "1", "number of points that touch the road"),
@@ -99,8 +99,8 @@ class ContactPoints(Element):
         stick = (stiffness, stiffness, 2.0 * math.sqrt(stiffness * m))
         if loss is not None:
             return ContactPoints(*stick, w, loss, friction_factor, radius)
-        what = "The restitution of contact points"
-        e = fraction(positive(restitution, what), what)
+        label = "The restitution of contact points"
+        e = fraction(positive(restitution, label), label)
         return ContactPoints(*stick, w, _loss(e) / math.sqrt(g * d), friction_factor, radius, 0.5 * e)
 
     def record(
@@ -117,22 +117,22 @@ class ContactPoints(Element):
         points : array_like, shape (n, 3)
             From the origin along the axes, m.
         """
-        what = self._what(name)
+        label = self._label(name)
         for vector in (origin, *axes):
-            size(vector, (3,), f"The origin and each axis of {what}")
-        positions = array(points, (None, 3), f"the points of {what}")
+            check_components(vector, (3,), f"The origin and each axis of {label}")
+        positions = array(points, (None, 3), f"the points of {label}")
         if len(axes) != 3 or not len(positions):
-            raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {positions.shape}.")
+            raise ModelError(f"The {label[4:]} need 3 axes and points of shape (n, 3); got {positions.shape}.")
         box = (*positions.min(axis=0).tolist(), *positions.max(axis=0).tolist())
         signals = (*origin.components, *(s for axis in axes for s in axis.components))
-        return self._record(name, signals, (road, len(positions)), behind=[*box, *positions.ravel().tolist()])
+        return self._record(name, signals, (road, len(positions)), appended=[*box, *positions.ravel().tolist()])
 
 
 def _loss(e: float) -> float:
     """Loss times impact speed of the coefficient of restitution e, where the least one is half of it.
 
-    With b = e/(2 - e) and u = chi |d'| the factors are (1 + (1 + b) u)/(1 + b u) and its inverse. Energies of the way
-    in, integral of u du over the factor from 0 to x, and of the way out, from 0 to e x, are equal.
+    With b = e/(2 - e) and u = chi |d'| the factors are (1 + (1 + b) u)/(1 + b u) and its inverse. Energies of
+    compression, the integral of u du over the factor from 0 to x, and of restitution, from 0 to e x, are equal.
     """
     b = e / (2.0 - e)
 

@@ -11,7 +11,7 @@ from mbs.elements.element import Element
 from mbs.elements.reals import Positive, Real
 from mbs.elements.record import ElementRecord, Output
 
-LargestForce = Annotated[float, Real(not_negative, words="largest force")]
+LargestForce = Annotated[float, Real(not_negative, noun="largest force")]
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class CoordinateFriction(Element):
     unit: str = "N m"
     """Unit of the force, "N m" or "N"."""
 
-    _words = "a friction"
+    _noun = "a friction"
     _signals = (("coordinate", 1),)
     _states = (0.0, 0.0)
     _outputs = (
@@ -41,5 +41,5 @@ class CoordinateFriction(Element):
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
         """The force element."""
         force, sticking = self._outputs
-        force = replace(force, unit=text(self.unit, f"The unit of {self._what(name)}"))
+        force = replace(force, unit=text(self.unit, f"The unit of {self._label(name)}"))
         return self._record(name, (coordinate,), outputs=(force, sticking))

@@ -9,7 +9,7 @@ from mbs.common.affine import AffineVector
 from mbs.elements.element import SPACE_OR_PLANE, Element, Signals
 from mbs.elements.reals import NotNegative
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import size
+from mbs.elements.record_checks import check_components
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Drag(Element):
     air_density: NotNegative = 1.225
     """kg/m^3."""
 
-    _words = "a drag"
+    _noun = "a drag"
     _signals: ClassVar[Signals] = (("point", SPACE_OR_PLANE),)
     _outputs = (Output("force", "N", "size of the drag"),)
 
@@ -33,5 +33,5 @@ class Drag(Element):
         point : AffineVector
             Where the force acts, two or three components.
         """
-        size(point, (2, 3), f"The point of {self._what(name)}")
+        check_components(point, (2, 3), f"The point of {self._label(name)}")
         return self._record(name, point.components)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.element import Element
-from mbs.elements.integers import an_input
+from mbs.elements.integers import input_index
 from mbs.elements.reals import NotNegative, Positive, Share
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.wheel_signals import carrier_signals
@@ -52,10 +52,10 @@ class ElectricDrive(Element):
     engage_time: Positive = 0.3
     """Time in which the torque fades out and in when the selector moves, s."""
 
-    _words = "a drive"
+    _noun = "a drive"
     _signals = (("left", 1), ("right", 1), ("f", 3), ("g", 3))
-    _integers = (an_input("throttle", "the input"), an_input("selector", optional=True))
-    _more_states = (1.0, 1.0)
+    _integers = (input_index("throttle", "the input"), input_index("selector", optional=True))
+    _optional_states = (1.0, 1.0)
     _outputs = (
         Output("motor_speed", "rad/s", "speed of the motor", display_unit="rpm"),
         Output("motor_torque", "N m", "torque of the motor"),
@@ -85,5 +85,5 @@ class ElectricDrive(Element):
         selector : int, optional
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
         """
-        signals = (left, right, *carrier_signals(f, g, self._what(name)))
+        signals = (left, right, *carrier_signals(f, g, self._label(name)))
         return self._record(name, signals, (throttle, selector))

@@ -1,4 +1,4 @@
-"""Base class of force elements: fields with their checks, from which record, parameters and a C header follow."""
+"""Base class of force elements: fields with checks, from which the record, parameters and a C header are made."""
 
 from collections.abc import Mapping, Sequence
 from typing import ClassVar, TypeAlias
@@ -15,52 +15,52 @@ Signals: TypeAlias = tuple[tuple[str, int | tuple[int, int]], ...] | None
 
 
 class Element:
-    """A force element whose numbers are fields; a subclass is a frozen dataclass in a file of its type's name.
+    """Force element whose numbers are fields; a subclass is a frozen dataclass in a file with the name of its type.
 
-    A field is a number of the kernel, in the order of the kernel: its check stands in its type, its unit and meaning
-    below it (`reals`).
+    Fields are numbers of the kernel, in its order, with the check in the type and the unit and meaning in the docstring
+    (see `reals`).
     """
 
-    _words: ClassVar[str]
-    """What sentences call it, with its article."""
+    _noun: ClassVar[str]
+    """Noun for messages, with its article."""
     _signals: ClassVar[Signals]
-    """Its local variables in the order of the kernel, with the components of each, a pair where an element in the plane
-    has others; None: any number."""
+    """Names of the local variables in the order of the kernel, with their numbers of components: in space, or a pair in
+    space and in the plane. None: any number of variables."""
     _integers: ClassVar[tuple[Integer, ...]] = ()
-    """Its inputs, roads, choices and counts."""
+    """Inputs, roads, choices and counts."""
     _states: ClassVar[tuple[float, ...]] = ()
-    """Initial values of its slots."""
+    """Initial values of the slots."""
     _outputs: ClassVar[tuple[Output, ...]] = ()
     """Outputs besides the force."""
-    _behind: ClassVar[int | None] = 0
-    """Count of further numbers behind its fields, without those that its integers count; None: any."""
-    _more: ClassVar[str] = ""
-    """First of the numbers that may be missing, behind all others: they are there with the optional integers, where it
-    has some."""
-    _more_states: ClassVar[tuple[float, ...]] = ()
-    """States that it has with optional integers."""
-    _prefix: ClassVar[str] = ""
-    """Of its names in C, where other laws that are compiled with it have the same."""
+    _appended: ClassVar[int | None] = 0
+    """Number of further reals after the fields, without those that integers count; None: any."""
+    _first_optional: ClassVar[str] = ""
+    """First of the optional reals, which follow all others; they are present with the optional integers, if there are
+    any."""
+    _optional_states: ClassVar[tuple[float, ...]] = ()
+    """Further slots with optional integers."""
+    _c_prefix: ClassVar[str] = ""
+    """Prefix of names in C, if other laws in the same compilation have these names."""
     _tangent: ClassVar[bool] = True
-    """Whether its force depends on the signals or their rates."""
+    """Whether the force depends on the signals or their rates."""
     _elastic: ClassVar[bool] = False
-    """Whether a spring in it holds the bodies it acts on."""
+    """Whether a spring in the element holds the bodies on which it acts."""
 
     @classmethod
     def _type(cls) -> ElementType:
-        """Number of the element type, by the name of its file."""
+        """Element type, by the name of the file."""
         return ElementType[cls.__module__.rpartition(".")[2].upper()]
 
     @classmethod
-    def _what(cls, name: str) -> str:
-        """The element in a sentence."""
-        return f"the {cls._words.removeprefix('a ').removeprefix('an ')} '{name}'"
+    def _label(cls, name: str) -> str:
+        """Noun and name of the element for messages."""
+        return f"the {cls._noun.removeprefix('a ').removeprefix('an ')} '{name}'"
 
     @classmethod
-    def _numbers(cls) -> tuple[list[str], list[str]]:
-        """Names of its numbers, and of those that may be missing."""
+    def _real_names(cls) -> tuple[list[str], list[str]]:
+        """Names of the required and of the optional reals."""
         names = [name for name, _, _ in each_real(cls)]
-        first = names.index(cls._more) if cls._more else len(names)
+        first = names.index(cls._first_optional) if cls._first_optional else len(names)
         return names[:first], names[first:]
 
     def _record(
@@ -70,30 +70,30 @@ class Element:
         integer: Sequence[int | None] = (),
         *,
         values: Mapping[str, object] | None = None,
-        behind: Reals | Sequence[float] = (),
-        more: bool = True,
+        appended: Reals | Sequence[float] = (),
+        has_optional: bool = True,
         states: Sequence[float] | None = None,
         outputs: Sequence[Output] | None = None,
     ) -> ElementRecord:
-        """The record.
+        """Make the record.
 
-        `integer`: the declared ones, None for missing ones. `values`, `states`, `outputs`: in place of those
-        of the fields and of the class. `behind`: numbers between its own and those that may be missing. `more`: whether
-        it has these, where no optional integer says it.
+        `integer`: values of the declared integers, None if missing; `values`, `states`, `outputs`: in place of those of
+        the fields and the class; `appended`: reals between the required and the optional ones; `has_optional`: whether
+        there are optional reals, if no integer is optional.
         """
-        what = self._what(name)
+        label = self._label(name)
         present = list(integer)
         while present and present[-1] is None and self._integers[len(present) - 1].optional:
             present.pop()
-        integers = [of.checked(value, what) for of, value in zip(self._integers, present, strict=False)]
-        extended = len(integers) > sum(not of.optional for of in self._integers)
-        if any(of.optional for of in self._integers):
-            more = extended
-        reals, optional_names = reals_of(self, what, values), self._numbers()[1]
-        named, plain = (behind, ()) if isinstance(behind, dict) else ({}, behind)
-        last = {key: real for key, real in reals.items() if key in optional_names} if more else {}
-        counted = sum(of.states * n for of, n in zip(self._integers, integers, strict=False))
-        slots = (*self._states, *(self._more_states if extended else ()), *([0.0] * counted))
+        integers = [declared.checked(value, label) for declared, value in zip(self._integers, present, strict=False)]
+        extended = len(integers) > sum(not declared.optional for declared in self._integers)
+        if any(declared.optional for declared in self._integers):
+            has_optional = extended
+        reals, optional_names = reals_of(self, label, values), self._real_names()[1]
+        named, plain = (appended, ()) if isinstance(appended, dict) else ({}, appended)
+        last = {key: real for key, real in reals.items() if key in optional_names} if has_optional else {}
+        counted = sum(declared.states * n for declared, n in zip(self._integers, integers, strict=False))
+        slots = (*self._states, *(self._optional_states if extended else ()), *([0.0] * counted))
         return ElementRecord(
             name,
             self._type(),

@@ -1,6 +1,6 @@
-"""Writes the C header of each force element: indices of its numbers, their checks, its sizes.
+"""C headers of the force elements: indices of their numbers, checks and sizes.
 
-The classes are the source. After a change of theirs:
+They are written from the classes, after each change of one, by
 
     python -m mbs.elements.fields_in_c
 """
@@ -13,7 +13,7 @@ from pathlib import Path
 import mbs.kernel
 from mbs.common.checks import not_negative, number, positive
 from mbs.elements.element import Element
-from mbs.elements.integers import Integer, Of
+from mbs.elements.integers import Integer, IntegerKind
 from mbs.elements.reals import Check, Group, Real, declared, each_real, texts_of
 from mbs.elements.record_checks import MOST, fraction, share
 from mbs.kernel.header.enumerations import ElementType
@@ -26,11 +26,11 @@ RANGES: dict[Check, tuple[str, str]] = {
     share: ("ALI3_IS_SHARE", "must be above 0 and at most 1"),
     fraction: ("ALI3_IS_FRACTION", "must be at least 0 and below 1"),
 }
-"""Of a check: `ali3_range` in C, and what a number must be."""
+"""`ali3_range` in C of each check, and the requirement in messages."""
 
 
 def class_of(kind: ElementType) -> type[Element]:
-    """The class of a type of elements."""
+    """Class of an element type."""
     name = kind.name.lower()
     element_class = getattr(importlib.import_module(f"mbs.elements.{name}"), name.title().replace("_", ""))
     assert isinstance(element_class, type)
@@ -39,19 +39,19 @@ def class_of(kind: ElementType) -> type[Element]:
 
 
 def texts(kind: type) -> dict[str, str]:
-    """Docstrings below the fields of a class and of its base classes."""
+    """Docstrings of the fields of a class and of its base classes, by field."""
     return {name: " ".join(text.split()) for c in reversed(kind.__mro__[:-1]) for name, text in texts_of(c).items()}
 
 
 def header(kind: type[Element]) -> str:
-    """The header of an element."""
+    """Text of the header of an element class."""
     name = kind._type().name.lower()
-    upper, words = name.upper(), kind._words
-    required_reals, optional_reals = kind._numbers()
-    required = sum(not of.optional for of in kind._integers)
+    upper, noun = name.upper(), kind._noun
+    required_reals, optional_reals = kind._real_names()
+    required = sum(not integer.optional for integer in kind._integers)
     lines = [
         "/* clang-format off */",
-        *_comment(f"Numbers of {words}. Written by `python -m mbs.elements.fields_in_c` from {kind.__name__}."),
+        *_comment(f"Numbers of {noun}. Written by `python -m mbs.elements.fields_in_c` from {kind.__name__}."),
         *_comment(f"Signals: {signals_of(kind)}."),
         *_comment("Outputs: " + ("; ".join(f"{o.name} ({o.unit}), {o.description}" for o in kind._outputs) or "none")),
         f"#ifndef ALI3_{upper}_FIELDS_H",
@@ -63,7 +63,7 @@ def header(kind: type[Element]) -> str:
     if kind._integers:
         lines += [
             "enum {",
-            *(f"  {kind._prefix}{of.name.upper()}," for of in kind._integers),
+            *(f"  {kind._c_prefix}{integer.name.upper()}," for integer in kind._integers),
             f"  {upper}_INTEGERS",
             "};",
         ]
@@ -71,16 +71,17 @@ def header(kind: type[Element]) -> str:
     lines += ["#ifndef ALI3_WIDTH"]
     if required_reals or optional_reals:
         lines += [f"static const ali3_field {name}_fields[] = {{"]
-        for _, real, called in each_real(kind):
-            what, must = RANGES[real.check]
-            lines += [f'  {{{what}, "{f"the {called} of {words} {must}" if must else ""}"}},']
+        for _, real, real_noun in each_real(kind):
+            range_name, requirement = RANGES[real.check]
+            lines += [f'  {{{range_name}, "{f"the {real_noun} of {noun} {requirement}" if requirement else ""}"}},']
         lines += ["};"]
         sizes |= {"fields": f"{name}_fields", "nfields": str(len(required_reals) + len(optional_reals))}
     if kind._integers:
         lines += [f"static const ali3_integer {name}_integers[] = {{"]
-        for of in kind._integers:
-            limits = f"{of.least}, {'INT32_MAX' if of.most == MOST else of.most}, {of.reals}, {of.states}"
-            lines += [f'  {{{of.of.value}, {limits}, "{_sentence(of, words)}"}},']
+        for integer in kind._integers:
+            most = "INT32_MAX" if integer.most == MOST else integer.most
+            limits = f"{integer.least}, {most}, {integer.reals}, {integer.states}"
+            lines += [f'  {{{integer.kind.value}, {limits}, "{_sentence(integer, noun)}"}},']
         lines += ["};"]
         sizes |= {"integers": f"{name}_integers", "nintegers": f"{upper}_INTEGERS"}
     size_lines = textwrap.wrap(", ".join(f".{size}={value}" for size, value in sizes.items()), 90)
@@ -95,23 +96,26 @@ def header(kind: type[Element]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _enumeration(kind: type[Element], size: str, own: int, more: bool) -> list[str]:
-    """Places of the numbers; of those that may be missing as if nothing were counted before them."""
-    meanings, lines, at, follows = texts(kind), ["enum {"], 0, ""
+def _enumeration(kind: type[Element], size: str, required: int, has_optional: bool) -> list[str]:
+    """Lines of the enumeration of the indices of the reals, of which the first `required` are not optional.
+
+    Indices of optional reals do not include reals that integers count.
+    """
+    meanings, lines, index, follows = texts(kind), ["enum {"], 0, ""
     for field, real in declared(kind).items():
-        if more and at == own:
+        if has_optional and index == required:
             lines += [f"  {size}{follows}", "};", "enum {"]
-            follows = f" = {size}" + (f" + {kind._behind}" if kind._behind else "")
-        name = kind._prefix + (real.name if isinstance(real, Real) and real.name else field).upper()
+            follows = f" = {size}" + (f" + {kind._appended}" if kind._appended else "")
+        name = kind._c_prefix + (real.name if isinstance(real, Real) and real.name else field).upper()
         lines += [*(f"  {line}" for line in _comment(meanings[field])), f"  {name}{follows},"]
         count = len([*each_real(real.kind)]) if isinstance(real, Group) else len(real.parts) or 1
         follows = f" = {name} + {count}" if count > 1 else ""
-        if at < own < at + count:  # a group of which the last numbers may be missing
-            follows, more = f" = {own}", False
-        at += count
-    if not at:
+        if index < required < index + count:  # the last reals of a group are optional
+            follows, has_optional = f" = {required}", False
+        index += count
+    if not index:
         return []
-    return [*lines, *([] if more else [f"  {size}{follows}"]), "};"]
+    return [*lines, *([] if has_optional else [f"  {size}{follows}"]), "};"]
 
 
 def signals_of(kind: type[Element]) -> str:
@@ -122,30 +126,31 @@ def signals_of(kind: type[Element]) -> str:
 
 
 def _sizes(kind: type[Element], required: int) -> dict[str, str]:
-    """Sizes in `ali3_element_type` that are not 0."""
-    required_reals, optional_reals = kind._numbers()
+    """Fields of `ali3_element_type` that are not 0, with their values."""
+    required_reals, optional_reals = kind._real_names()
     counts = [n if isinstance(n, tuple) else (n, n) for _, n in kind._signals or ()]
     space, plane = sum(n for n, _ in counts), sum(n for _, n in counts)
     sizes = {
         "nsig": -1 if kind._signals is None else space,
         "nsig_plane": 0 if plane == space else plane,
-        "nreal": -1 if kind._behind is None else len(required_reals) + kind._behind,
+        "nreal": -1 if kind._appended is None else len(required_reals) + kind._appended,
         "nreal_more": len(optional_reals),
         "nint": required,
         "nstate": len(kind._states),
-        "nstate_more": len(kind._more_states),
+        "nstate_more": len(kind._optional_states),
         "nout": len(kind._outputs),
     }
     return {size: str(n) for size, n in sizes.items() if n}
 
 
-def _sentence(of: Integer, words: str) -> str:
-    """Sentence of the kernel about an integer outside its range."""
-    if of.of is not Of.NUMBERS:
-        thing = "an input" if of.of is Of.INPUTS else "a road"
-        return f"{of.called} of {words} names {thing} that does not exist"
-    allowed = " or ".join(map(str, range(of.least, min(of.most, of.least + 3) + 1)))
-    return f"{of.called} of {words} must be {allowed if of.most < of.least + 3 else f'at least {of.least}'}"
+def _sentence(integer: Integer, noun: str) -> str:
+    """Message of the kernel about an integer outside its range."""
+    if integer.kind is not IntegerKind.NUMBERS:
+        kind_noun = "an input" if integer.kind is IntegerKind.INPUTS else "a road"
+        return f"{integer.phrase} of {noun} names {kind_noun} that does not exist"
+    allowed = " or ".join(map(str, range(integer.least, min(integer.most, integer.least + 3) + 1)))
+    requirement = allowed if integer.most < integer.least + 3 else f"at least {integer.least}"
+    return f"{integer.phrase} of {noun} must be {requirement}"
 
 
 def _comment(text: str) -> list[str]:
@@ -155,13 +160,13 @@ def _comment(text: str) -> list[str]:
 
 
 def headers() -> Iterator[tuple[Path, str]]:
-    """The files in C, with their texts."""
+    """Paths of the headers, with their texts."""
     for kind in ElementType:
         yield FOLDER / f"{kind.name.lower()}_fields.h", header(class_of(kind))
 
 
 def main() -> None:
-    """Write the headers."""
+    """Write all headers."""
     for file, text in headers():
         file.write_text(text, encoding="utf-8", newline="\n")
 

@@ -21,9 +21,9 @@ class GyroscopicSpin(Element):
     spin_inertia: Positive
     """Moment of inertia about the axis, kg m^2."""
 
-    _words = "a spinning wheel"
+    _noun = "a spinning wheel"
     _signals = (("f", 3), ("g", 3), ("spin", 1))
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
         """The force element."""
-        return self._record(name, (*carrier_signals(f, g, self._what(name)), spin))
+        return self._record(name, (*carrier_signals(f, g, self._label(name)), spin))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.element import Element
-from mbs.elements.integers import channels, components
+from mbs.elements.integers import check_inputs, input_indices
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.wheel_signals import WHEEL, wheel_signals
 
@@ -23,12 +23,12 @@ class HubWrench(Element):
     inputs: Sequence[int]
     """Numbers of the inputs: three components of the force, N, three of the moment, N m."""
 
-    _words = "a wrench"
+    _noun = "a wrench"
     _signals = WHEEL
-    _integers = components("force_x force_y force_z moment_x moment_y moment_z", missing=False)
+    _integers = input_indices("force_x force_y force_z moment_x moment_y moment_z", missing=False)
     _outputs = (Output("power", "W", "power of force and moment on wheel and carrier together"),)
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
         """The force element."""
-        what = self._what(name)
-        return self._record(name, wheel_signals(centre, axis, spin, what), channels(self.inputs, 6, what))
+        label = self._label(name)
+        return self._record(name, wheel_signals(centre, axis, spin, label), check_inputs(self.inputs, 6, label))

@@ -9,10 +9,10 @@ from mbs.common.affine import Affine
 from mbs.common.checks import number
 from mbs.common.errors import ModelError
 from mbs.elements.element import Element
-from mbs.elements.integers import an_input
+from mbs.elements.integers import input_index
 from mbs.elements.reals import Reals
 from mbs.elements.record import ElementRecord
-from mbs.elements.record_checks import several
+from mbs.elements.record_checks import number_list
 
 
 @dataclass(frozen=True)
@@ -23,10 +23,10 @@ class InputForce(Element):
     weights: Sequence[float] = (1.0,)
     """Force on each expression per unit of the input."""
 
-    _words = "an input force"
+    _noun = "an input force"
     _signals = None
-    _integers = (an_input("input"),)
-    _behind = None
+    _integers = (input_index("input"),)
+    _appended = None
     _tangent = False
 
     def record(self, name: str, signals: Sequence[Affine]) -> ElementRecord:
@@ -37,10 +37,10 @@ class InputForce(Element):
         signals : sequence of Affine
             As many expressions as there are weights.
         """
-        what = self._what(name)
+        label = self._label(name)
         weights: Reals = {
-            f"weight_{i}": (x, number) for i, x in enumerate(several(self.weights, f"the weights of {what}"))
+            f"weight_{i}": (x, number) for i, x in enumerate(number_list(self.weights, f"the weights of {label}"))
         }
         if len(signals) != len(weights) or not signals:
-            raise ModelError(f"T{what[1:]} has {len(weights)} weights for {len(signals)} signals, not one each.")
-        return self._record(name, signals, (self.input,), behind=weights)
+            raise ModelError(f"T{label[1:]} has {len(weights)} weights for {len(signals)} signals, not one each.")
+        return self._record(name, signals, (self.input,), appended=weights)

@@ -11,7 +11,7 @@ from mbs.elements.element import SPACE_OR_PLANE, Element
 from mbs.elements.integers import WIND
 from mbs.elements.reals import NotNegative, Number
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import size
+from mbs.elements.record_checks import check_components
 from mbs.elements.wind import Wind
 
 
@@ -28,7 +28,7 @@ class Lift(Element):
     air_density: NotNegative = 1.225
     """kg/m^3."""
 
-    _words = "a lift"
+    _noun = "a lift"
     _signals = tuple((name, SPACE_OR_PLANE) for name in ("point", "forward", "up"))
     _integers = tuple(replace(of, optional=True) for of in WIND)
     _outputs = (Output("force", "N", "lift, positive along the upward axis"),)
@@ -48,16 +48,16 @@ class Lift(Element):
         wind : Wind, optional
             How the air moves; by default it is still.
         """
-        what = self._what(name)
-        size(point, (2, 3), f"The point of {what}")
-        for axis, words in ((forward, "forward axis"), (up, "upward axis")):
-            size(axis, (2, 3), f"The {words} of {what}")
+        label = self._label(name)
+        check_components(point, (2, 3), f"The point of {label}")
+        for axis, noun in ((forward, "forward axis"), (up, "upward axis")):
+            check_components(axis, (2, 3), f"The {noun} of {label}")
             if len(axis) != len(point):
                 raise ModelError(
-                    f"The {words} of {what} has {len(axis)} components and its point {len(point)}; they must agree."
+                    f"The {noun} of {label} has {len(axis)} components and its point {len(point)}; they must agree."
                 )
         air: tuple[int, ...] = ()
         if wind is not None:
-            air = instance_of(Wind, wind, f"The wind of {what}", "a Wind or None").inputs
-            size(point, (3,), f"The point in wind of {what}")
+            air = instance_of(Wind, wind, f"The wind of {label}", "a Wind or None").inputs
+            check_components(point, (3,), f"The point in wind of {label}")
         return self._record(name, (*point.components, *forward.components, *up.components), air)

@@ -20,7 +20,7 @@ from mbs.elements.wheel_signals import WHEEL, wheel_signals
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
 VERSIONS = {"PAC2002": 52, "MF52": 52, "MF61": 61, "MF62": 62}
-"""Number of a form of the Magic Formula in the kernel."""
+"""Versions of the Magic Formula in the kernel, by the names of files."""
 COMBINATIONS = ("none", "weighting", "ellipse")
 """How longitudinal and lateral slip act together, in the order of the kernel."""
 SIGNS = {"iso": (1.0, 1.0, 1.0), "sae": (-1.0, 1.0, -1.0), "adapted_sae": (1.0, 1.0, -1.0)}
@@ -28,8 +28,8 @@ SIGNS = {"iso": (1.0, 1.0, 1.0), "sae": (-1.0, 1.0, -1.0), "adapted_sae": (1.0, 
 FACTORS = ("lmux", "lmuy", "lkx", "lky")
 """Fields that multiply the scaling factors of the file."""
 Bounds = Annotated[Pair, Real(number, ("least", "most"))]
-_STEEPEST = 1.5706
-"""rad: a slip angle has a tangent."""
+_LARGEST_ANGLE = 1.5706
+"""Slip angle whose tangent is finite, rad."""
 
 
 @dataclass(frozen=True)
@@ -62,13 +62,13 @@ class MagicTyre(Element):
     """Coefficient of friction of the road on which the coefficients hold."""
     friction_factor: NotNegative = 1.0
     """Multiplies the friction of the road."""
-    lmux: Annotated[float, Real(positive, words="factor on LMUX")] = 1.0
+    lmux: Annotated[float, Real(positive, noun="factor on LMUX")] = 1.0
     """Factor on LMUX of the file, the largest longitudinal force."""
-    lmuy: Annotated[float, Real(positive, words="factor on LMUY")] = 1.0
+    lmuy: Annotated[float, Real(positive, noun="factor on LMUY")] = 1.0
     """Factor on LMUY of the file, the largest lateral force."""
-    lkx: Annotated[float, Real(positive, words="factor on LKX")] = 1.0
+    lkx: Annotated[float, Real(positive, noun="factor on LKX")] = 1.0
     """Factor on LKX of the file, the longitudinal slip stiffness."""
-    lky: Annotated[float, Real(positive, words="factor on LKY")] = 1.0
+    lky: Annotated[float, Real(positive, noun="factor on LKY")] = 1.0
     """Factor on LKY of the file, the cornering stiffness."""
     pressure: Number = 0.0
     """Inflation pressure over the nominal one, less 1, a ratio."""
@@ -92,7 +92,7 @@ class MagicTyre(Element):
     bore: Annotated[TyreBore | None, BORE] = None
     """Torque against turning on the spot; it fades out up to 1 m/s, from where the formula has the moments."""
 
-    _words = "a tyre"
+    _noun = "a tyre"
     _signals = WHEEL
     _integers = (ROAD, Integer("version"), Integer("combination", most=len(COMBINATIONS) - 1), WITH_BORE)
     _states = (0.0,) * 4
@@ -101,9 +101,9 @@ class MagicTyre(Element):
         Output("overturning_moment", "N m", "moment about the wheel's heading in the plane of the road"),
         Output("resistance_moment", "N m", "moment of rolling resistance about the wheel's axis"),
     )
-    _behind = len(MAGIC_COEFFICIENTS)
-    _more = "bore_width"
-    _more_states = (0.0,) * 2
+    _appended = len(MAGIC_COEFFICIENTS)
+    _first_optional = "bore_width"
+    _optional_states = (0.0,) * 2
 
     @property
     def along(self) -> tuple[float, float]:
@@ -111,8 +111,8 @@ class MagicTyre(Element):
         the slip stiffness over the relaxation length, where there is none over half a radius.
         """
         c = {**MAGIC_COEFFICIENTS, **self.coefficients}
-        by_slip = c["PKX1"] * c["LKX"] * self.lkx * self.nominal_load
-        return by_slip, c["LONGITUDINAL_STIFFNESS"] or by_slip / ((c["PTX1"] or 0.5) * self.radius)
+        slip_stiffness = c["PKX1"] * c["LKX"] * self.lkx * self.nominal_load
+        return slip_stiffness, c["LONGITUDINAL_STIFFNESS"] or slip_stiffness / ((c["PTX1"] or 0.5) * self.radius)
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
@@ -122,27 +122,27 @@ class MagicTyre(Element):
         ModelError
             A number or a coefficient is not what it must be.
         """
-        what = self._what(name)
-        signals = wheel_signals(centre, axis, spin, what)
-        version = VERSIONS[one_of(self.version, tuple(VERSIONS), f"The version of {what}")]
-        combination = COMBINATIONS.index(one_of(self.combination, COMBINATIONS, f"The combination of {what}"))
-        signs = SIGNS[one_of(self.signs, tuple(SIGNS), f"The signs of {what}")]
-        angles = vector(self.angle_range, 2, f"the angle range of {what}").tolist()
+        label = self._label(name)
+        signals = wheel_signals(centre, axis, spin, label)
+        version = VERSIONS[one_of(self.version, tuple(VERSIONS), f"The version of {label}")]
+        combination = COMBINATIONS.index(one_of(self.combination, COMBINATIONS, f"The combination of {label}"))
+        signs = SIGNS[one_of(self.signs, tuple(SIGNS), f"The signs of {label}")]
+        angles = vector(self.angle_range, 2, f"the angle range of {label}").tolist()
         values = {
             "signs": [-sign if self.mirrored else sign for sign in signs],
-            "angle_range": [tan(min(max(angle, -_STEEPEST), _STEEPEST)) for angle in angles],
+            "angle_range": [tan(min(max(angle, -_LARGEST_ANGLE), _LARGEST_ANGLE)) for angle in angles],
         }
         integers = (road, version, combination, None if self.bore is None else 1)
-        record = self._record(name, signals, integers, values=values, behind=self._coefficients(what))
-        check_rim(self.bottoming_radius, self.radius, what)
+        record = self._record(name, signals, integers, values=values, appended=self._coefficients(label))
+        check_rim(self.bottoming_radius, self.radius, label)
         return record
 
-    def _coefficients(self, what: str) -> Reals:
+    def _coefficients(self, label: str) -> Reals:
         for key in self.coefficients:
             if key not in MAGIC_COEFFICIENTS:
-                raise ModelError(f"The Magic Formula of {what} has no coefficient {key}.")
+                raise ModelError(f"The Magic Formula of {label} has no coefficient {key}.")
         reals: Reals = {}
-        for key, usual in MAGIC_COEFFICIENTS.items():
+        for key, default in MAGIC_COEFFICIENTS.items():
             check = positive if key in ("LMUX", "LMUY", "LKX", "LKY", "LFZO", "LONGVL") else number
-            reals[key] = (check(self.coefficients.get(key, usual), f"{key} of {what}"), check)
+            reals[key] = (check(self.coefficients.get(key, default), f"{key} of {label}"), check)
         return reals

@@ -1,9 +1,9 @@
-"""Numbers of elements and roads: a field says its check in its type, and all else follows from its name.
+"""Reals of elements and roads: fields whose type has the check, as in
 
     stiffness: NotNegative
     \"\"\"N/m.\"\"\"
 
-`reals_of` then checks the values, and gives them with their names to the record, where a parameter finds them.
+`reals_of` checks the values and returns them by name for the record, where parameters find them.
 """
 
 import ast
@@ -20,41 +20,41 @@ from mbs.elements.record_checks import fraction, share
 Check: TypeAlias = Callable[[object, str], float]
 """One of the checks of numbers of `mbs.common.checks`."""
 Reals: TypeAlias = dict[str, tuple[float, Check]]
-"""Checked numbers by name, in the order of the kernel, each with what a parameter may write there."""
+"""Checked numbers by name, in the order of the kernel, each with the check of parameter values."""
 Pair = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Real:
-    """Check of a number of an element, given in the type of its field."""
+    """Check of a number of an element, as an annotation of its field."""
 
     check: Check
-    """Returns the number or raises one sentence."""
+    """Returns the number or raises `ModelError`."""
     parts: tuple[str, ...] = ()
-    """Of several numbers in one field: the ends of their names."""
-    words: str = ""
-    """What a sentence calls it, where that is not its name."""
+    """Suffixes of the names of several numbers in one field."""
+    noun: str = ""
+    """Noun for messages, if that is not the name."""
     name: str = ""
-    """Its name, where that is not that of its field."""
+    """Name, if that is not the name of the field."""
 
 
 @dataclass(frozen=True)
 class Group:
-    """Several numbers of one field, which a class of their own declares; it stands in the type of the field."""
+    """Numbers of one field that a class declares, as an annotation of the field."""
 
     kind: type
-    words: str
-    """The class with its article, for sentences."""
+    class_phrase: str
+    """Class with its article, for messages."""
     noun: str = ""
-    """What sentences call it behind the name of its field."""
+    """Noun for messages after the name of the field."""
     optional: bool = False
-    """Whether None is one without numbers."""
-    apart: bool = False
-    """Whether its numbers stand behind those of all fields, by their own names without that of the field."""
+    """Whether the field may be None, which has no numbers."""
+    separate: bool = False
+    """Whether its numbers follow those of all fields, under their own names without the name of the field."""
 
     def name(self, field: str, number: str) -> str:
         """Name of one number of the group in a field."""
-        return number if self.apart else f"{field}_{number}"
+        return number if self.separate else f"{field}_{number}"
 
 
 Number = Annotated[float, Real(number)]
@@ -68,32 +68,31 @@ _DECLARED: dict[type, dict[str, Real | Group]] = {}
 
 
 def declared(kind: type) -> dict[str, Real | Group]:
-    """Numbers that a class declares and groups of them, by field, in the order of the kernel."""
-    if kind not in _DECLARED:  # a car asks for those of its tyres many times
+    """Numbers and groups of numbers that a class declares, by field, in the order of the kernel."""
+    if kind not in _DECLARED:  # type hints take long to evaluate
         hints = get_type_hints(kind, include_extras=True).items()
         annotations = ((name, real) for name, hint in hints for real in getattr(hint, "__metadata__", ()))
         numbers = {name: real for name, real in annotations if isinstance(real, (Real, Group))}
-        apart = {name for name, real in numbers.items() if isinstance(real, Group) and real.apart}
-        _DECLARED[kind] = {name: numbers[name] for name in sorted(numbers, key=apart.__contains__)}
+        separate = {name for name, real in numbers.items() if isinstance(real, Group) and real.separate}
+        _DECLARED[kind] = {name: numbers[name] for name in sorted(numbers, key=separate.__contains__)}
     return _DECLARED[kind]
 
 
 def each_real(kind: type) -> Iterator[tuple[str, Real, str]]:
-    """Every single number that a class declares: its name, its declaration and what a sentence calls it."""
+    """Name, declaration and noun of every single number that a class declares."""
     for field, real in declared(kind).items():
-        words = field.replace("_", " ")
         if isinstance(real, Group):
-            noun = f"{words} {real.noun} ".strip() if real.noun else ""
-            for name, member, called in each_real(real.kind):
-                yield real.name(field, name), member, f"{called} of the {noun}" if noun else called
+            group_noun = f"{field.replace('_', ' ')} {real.noun} ".strip() if real.noun else ""
+            for name, member, noun in each_real(real.kind):
+                yield real.name(field, name), member, f"{noun} of the {group_noun}" if group_noun else noun
         else:
             base_name = real.name or field
             for name in [f"{base_name}_{suffix}" for suffix in real.parts] or [base_name]:
-                yield name, real, real.words or base_name.replace("_", " ")
+                yield name, real, real.noun or base_name.replace("_", " ")
 
 
 def texts_of(kind: type) -> dict[str, str]:
-    """Docstrings below the fields of a class, by name."""
+    """Docstrings of the fields of a class, by field."""
     (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
     assert isinstance(tree, ast.ClassDef)
     return {
@@ -104,26 +103,26 @@ def texts_of(kind: type) -> dict[str, str]:
     }
 
 
-def reals_of(thing: object, what: str, values: Mapping[str, object] | None = None) -> Reals:
+def reals_of(thing: object, label: str, values: Mapping[str, object] | None = None) -> Reals:
     """Checked numbers of an element or a road, in the order of the kernel.
 
-    `what`: the element, for messages; `values`: in place of fields, by name.
+    `label`: of the element or road, for messages; `values`: in place of fields, by name.
     """
     reals: Reals = {}
     for name, real in declared(type(thing)).items():
         value = values[name] if values and name in values else getattr(thing, name)
         if isinstance(real, Group):
-            words = name.replace("_", " ")
+            field_noun = name.replace("_", " ")
             if not (value is None and real.optional):
-                group: object = instance_of(real.kind, value, f"The {words} of {what}", real.words)
-                numbers = reals_of(group, f"the {words} {real.noun} of {what}" if real.noun else what)
+                group: object = instance_of(real.kind, value, f"The {field_noun} of {label}", real.class_phrase)
+                numbers = reals_of(group, f"the {field_noun} {real.noun} of {label}" if real.noun else label)
                 reals |= {real.name(name, key): component for key, component in numbers.items()}
             continue
         base_name = real.name or name
-        words = f"{real.words or base_name.replace('_', ' ')} of {what}"
+        noun = f"{real.noun or base_name.replace('_', ' ')} of {label}"
         if not real.parts:
-            reals[base_name] = (real.check(value, f"The {words}"), real.check)
+            reals[base_name] = (real.check(value, f"The {noun}"), real.check)
             continue
-        for suffix, component in zip(real.parts, vector(value, len(real.parts), f"the {words}"), strict=True):
-            reals[f"{base_name}_{suffix}"] = (real.check(component, f"The {words}"), real.check)
+        for suffix, component in zip(real.parts, vector(value, len(real.parts), f"the {noun}"), strict=True):
+            reals[f"{base_name}_{suffix}"] = (real.check(component, f"The {noun}"), real.check)
     return reals

@@ -32,7 +32,7 @@ class ElementRecord:
     real_names: Sequence[str] = ()
     """Names of the first entries of `real`, so that a parameter can be tied to one."""
     real_checks: Sequence[Check] = ()
-    """What each of these must satisfy, also as a parameter writes it; by default any finite number will do."""
+    """Check of each of these entries, also for values of parameters; without one any finite number is valid."""
     integer: Sequence[int] = ()
     """Numbers of inputs and roads, and sizes."""
     states: Sequence[float] = ()

@@ -1,4 +1,7 @@
-"""Checks of the data of an element other than numbers: each returns a clean value or raises one sentence."""
+"""Checks of the data of elements; each function returns the value or raises `ModelError`.
+
+`subject` begins the message.
+"""
 
 from collections.abc import Sequence
 
@@ -12,41 +15,43 @@ MOST = 2**31 - 1
 """Largest number of the System file."""
 
 
-def index(value: int, what: str) -> int:
-    """Number of an input or a road."""
-    n = whole(value, what, 0)
+def index(value: int, subject: str) -> int:
+    """Return the index of an input or a road."""
+    n = whole(value, subject, 0)
     if n > MOST:
-        raise ModelError(f"{capital(what)} is {shown(value)}; it must be a whole number, at most {MOST}.")
+        raise ModelError(f"{capital(subject)} is {shown(value)}; it must be a whole number, at most {MOST}.")
     return n
 
 
-def share(value: object, what: str) -> float:
-    """A number above zero, at most one."""
-    x = positive(value, what)
+def share(value: object, subject: str) -> float:
+    """Return a number above 0 and at most 1."""
+    x = positive(value, subject)
     if x > 1.0:
-        raise ModelError(f"{capital(what)} is {shown(value)}; it must be above 0 and at most 1.")
+        raise ModelError(f"{capital(subject)} is {shown(value)}; it must be above 0 and at most 1.")
     return x
 
 
-def fraction(value: object, what: str) -> float:
-    """A number from zero on, below one."""
-    x = not_negative(value, what)
+def fraction(value: object, subject: str) -> float:
+    """Return a number of at least 0 and below 1."""
+    x = not_negative(value, subject)
     if x >= 1.0:
-        raise ModelError(f"{capital(what)} is {shown(value)}; it must be at least 0 and below 1.")
+        raise ModelError(f"{capital(subject)} is {shown(value)}; it must be at least 0 and below 1.")
     return x
 
 
-def size(vector: AffineVector, sizes: Sequence[int], what: str) -> None:
-    """The number of components of an expression."""
+def check_components(vector: AffineVector, sizes: Sequence[int], subject: str) -> None:
+    """Raise `ModelError` unless the number of components of a vector is one of `sizes`."""
     expected = " or ".join(str(n) for n in sizes)
     if not isinstance(vector, AffineVector):
-        raise ModelError(f"{capital(what)} must be a point or a vector of {expected} expressions, not {shown(vector)}.")
+        raise ModelError(
+            f"{capital(subject)} must be a point or a vector of {expected} expressions, not {shown(vector)}."
+        )
     if len(vector) not in sizes:
-        raise ModelError(f"{capital(what)} has {len(vector)} components; it must have {expected}.")
+        raise ModelError(f"{capital(subject)} has {len(vector)} components; it must have {expected}.")
 
 
-def several(values: Sequence[float], what: str) -> list[float]:
-    """Finite numbers, one at least."""
+def number_list(values: Sequence[float], subject: str) -> list[float]:
+    """Return a sequence of finite numbers as a list."""
     if not isinstance(values, (list, tuple, np.ndarray)) or np.ndim(np.asarray(values, dtype=object)) != 1:
-        raise ModelError(f"{capital(what)} must be a sequence of numbers, not {shown(values)}.")
-    return [number(v, f"an entry of {what}") for v in values]
+        raise ModelError(f"{capital(subject)} must be a sequence of numbers, not {shown(values)}.")
+    return [number(v, f"an entry of {subject}") for v in values]

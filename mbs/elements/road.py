@@ -19,13 +19,13 @@ from mbs.kernel.header.enumerations import RoadType
 
 
 class _NamedNumbers(ABC):
-    """Numbers of a road by name, for the System and for parameters, in the order of the kernel."""
+    """Reals of a road by name, in the order of the kernel, for the System and for parameters."""
 
     real_names: ClassVar[tuple[str, ...]]
     real_checks: ClassVar[tuple[Check, ...]]
 
     def __init_subclass__(cls, order: Sequence[str] = (), **others: Check) -> None:
-        """`order` where it is not that of the fields; `others` are numbers that follow from what is not a number."""
+        """`order`: of the names, if not that of the fields; `others`: checks of numbers that are not fields."""
         checks = {name: real.check for name, real, _ in each_real(cls)} | others
         cls.real_names = tuple(order or checks)
         cls.real_checks = tuple(checks[name] for name in cls.real_names)
@@ -150,10 +150,10 @@ class PortRoad:
     @property
     def real(self) -> tuple[float, ...]:
         """Checked numbers for the System."""
-        what = "The first inputs of a road at ports"
+        label = "The first inputs of a road at ports"
         if not isinstance(self.first, (list, tuple)) or not self.first:
-            raise ModelError(f"{what} are {shown(self.first)}; they must be a list of at least one number.")
-        return (float(len(self.first)), *(float(whole(k, f"{what} have one that", 0)) for k in self.first))
+            raise ModelError(f"{label} are {shown(self.first)}; they must be a list of at least one number.")
+        return (float(len(self.first)), *(float(whole(k, f"{label} have one that", 0)) for k in self.first))
 
 
 Road = PlaneRoad | KerbRoad | GridRoad | PortRoad

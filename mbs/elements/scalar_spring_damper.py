@@ -11,7 +11,7 @@ from mbs.elements.element import Element
 from mbs.elements.reals import NotNegative, Number, Real
 from mbs.elements.record import ElementRecord, Output
 
-ConstantForce = Annotated[float, Real(number, words="constant force")]
+ConstantForce = Annotated[float, Real(number, noun="constant force")]
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class ScalarSpringDamper(Element):
     damping_factor: NotNegative = 1.0
     """Factor on the damping, for parameters."""
 
-    _words = "a spring-damper"
+    _noun = "a spring-damper"
     _signals = (("coordinate", 1),)
     _outputs = (Output("force", "N m", "generalised force on the coordinate"),)
     _elastic = True
@@ -41,5 +41,5 @@ class ScalarSpringDamper(Element):
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
         """The force element."""
         (force,) = self._outputs
-        force = replace(force, unit=text(self.unit, f"The unit of {self._what(name)}"))
+        force = replace(force, unit=text(self.unit, f"The unit of {self._label(name)}"))
         return self._record(name, (coordinate,), outputs=(force,))

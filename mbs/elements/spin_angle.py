@@ -20,7 +20,7 @@ class SpinAngle(Element):
     axis e beyond the smallest rotation that brings e from one step to the next.
     """
 
-    _words = "an angle of a spinning wheel"
+    _noun = "an angle of a spinning wheel"
     _signals = (("f", 3), ("g", 3), ("spin", 1))
     _states = (0.0,) * 7
     _outputs = (Output("angle", "rad", "angle of the wheel on its carrier since the start"),)
@@ -35,4 +35,4 @@ class SpinAngle(Element):
             For `Model.add`; its output `angle`, rad, is 0 at the start and positive for a wheel that turns as `spin`
             counts, without wrapping.
         """
-        return self._record(name, (*carrier_signals(f, g, self._what(name)), spin))
+        return self._record(name, (*carrier_signals(f, g, self._label(name)), spin))

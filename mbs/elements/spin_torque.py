@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.element import Element
-from mbs.elements.integers import an_input
+from mbs.elements.integers import input_index
 from mbs.elements.reals import Number
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.wheel_signals import carrier_signals
@@ -23,9 +23,9 @@ class SpinTorque(Element):
     gain: Number = 1.0
     """Torque on the wheel about its axis per unit of the input, N m."""
 
-    _words = "a spin torque"
+    _noun = "a spin torque"
     _signals = (("f", 3), ("g", 3), ("spin", 1))
-    _integers = (an_input("input"),)
+    _integers = (input_index("input"),)
     _outputs = (
         Output("torque", "N m", "torque on the wheel about the axis"),
         Output("power", "W", "power of the torque on wheel and carrier together"),
@@ -33,4 +33,4 @@ class SpinTorque(Element):
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
         """The force element."""
-        return self._record(name, (*carrier_signals(f, g, self._what(name)), spin), (self.input,))
+        return self._record(name, (*carrier_signals(f, g, self._label(name)), spin), (self.input,))

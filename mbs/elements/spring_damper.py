@@ -11,7 +11,7 @@ from mbs.common.errors import ModelError
 from mbs.elements.element import SPACE_OR_PLANE, Element
 from mbs.elements.reals import Group, NotNegative, reals_of
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import size
+from mbs.elements.record_checks import check_components
 
 LINE_OUTPUTS = (
     Output("length", "m", "distance of the two points"),
@@ -81,13 +81,13 @@ class EndStops:
             positive(self.metal_onset, f"The metal onset of {what}")
 
 
-STOPS = Group(EndStops, "EndStops", apart=True)
+STOPS = Group(EndStops, "EndStops", separate=True)
 
 
-def given_stops(stops: EndStops | None, what: str) -> EndStops:
-    """The stops of a spring, checked; without any, stops that do not act."""
-    checked = EndStops() if stops is None else instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
-    checked.check(what)
+def check_stops(stops: EndStops | None, label: str) -> EndStops:
+    """Check the stops of a spring and return them; None stands for stops that do not act."""
+    checked = EndStops() if stops is None else instance_of(EndStops, stops, f"The stops of {label}", "EndStops")
+    checked.check(label)
     return checked
 
 
@@ -112,10 +112,10 @@ class SpringDamper(Element):
     damping_factor: NotNegative = 1.0
     """Factor on the damping, for a parameter; not on the stops."""
 
-    _words = "a spring-damper"
+    _noun = "a spring-damper"
     _signals = (("difference", SPACE_OR_PLANE),)
     _outputs = LINE_OUTPUTS
-    _more = "bump_progression"
+    _first_optional = "bump_progression"
     _elastic = True
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
@@ -126,7 +126,7 @@ class SpringDamper(Element):
         ModelError
             The bump length is not below the rebound length.
         """
-        what = self._what(name)
-        size(difference, (2, 3), f"The distance of {what}")
-        stops = given_stops(self.stops, what)
-        return self._record(name, difference.components, values={"stops": stops}, more=not stops.linear)
+        label = self._label(name)
+        check_components(difference, (2, 3), f"The distance of {label}")
+        stops = check_stops(self.stops, label)
+        return self._record(name, difference.components, values={"stops": stops}, has_optional=not stops.linear)

@@ -16,8 +16,8 @@ from mbs.elements.element import SPACE_OR_PLANE, Element
 from mbs.elements.integers import Integer
 from mbs.elements.reals import NotNegative, Real
 from mbs.elements.record import ElementRecord
-from mbs.elements.record_checks import size
-from mbs.elements.spring_damper import LINE_OUTPUTS, STOPS, EndStops, given_stops
+from mbs.elements.record_checks import check_components
+from mbs.elements.spring_damper import LINE_OUTPUTS, STOPS, EndStops, check_stops
 
 if TYPE_CHECKING:
     from scipy.interpolate import PchipInterpolator
@@ -51,7 +51,7 @@ class SpringDamperTable(Element):
     damping_factor: NotNegative = 1.0
     """Factor on the forces of the damper."""
 
-    _words = "a spring-damper"
+    _noun = "a spring-damper"
     _signals = (("difference", SPACE_OR_PLANE),)
     _integers = (Integer("spring_points", reals=4), Integer("damper_points", reals=3))
     _outputs = LINE_OUTPUTS
@@ -70,29 +70,29 @@ class SpringDamperTable(Element):
         ModelError
             A table does not rise, a damper would give energy, or the bump length is not below the rebound length.
         """
-        what = self._what(name)
-        size(difference, (2, 3), f"The distance of {what}")
-        stiffness, spring = _number_or_table(self.spring, "stiffness", "spring", what)
-        damping, damper = _number_or_table(self.damper, "damping", "damper", what)
+        label = self._label(name)
+        check_components(difference, (2, 3), f"The distance of {label}")
+        stiffness, spring = _number_or_table(self.spring, "stiffness", "spring", label)
+        damping, damper = _number_or_table(self.damper, "damping", "damper", label)
         if len(damper):
-            _check_damper(damper, what)
+            _check_damper(damper, label)
         record = self._record(
             name,
             difference.components,
             (len(spring), len(damper)),
-            values={"spring": stiffness, "damper": damping, "stops": given_stops(self.stops, what)},
-            behind=[*_spring_columns(spring), *_damper_columns(damper)],
+            values={"spring": stiffness, "damper": damping, "stops": check_stops(self.stops, label)},
+            appended=[*_spring_columns(spring), *_damper_columns(damper)],
         )
-        # with a table the kernel reads no number, and none can be a parameter
+        # with a table the kernel does not read the number, so it cannot be a parameter
         unused = {name for name, rows in (("stiffness", spring), ("damping", damper)) if len(rows)}
         return replace(record, real_names=[f"unused {n}" if n in unused else n for n in record.real_names])
 
 
-def _number_or_table(value: float | Rows, number_name: str, name: str, what: str) -> tuple[float, NDArray[np.float64]]:
-    """The number and no rows, or zero and the rows."""
+def _number_or_table(value: float | Rows, number_name: str, name: str, label: str) -> tuple[float, NDArray[np.float64]]:
+    """A number and a table without rows, or zero and a checked table (n, 2)."""
     if is_number(value):
-        return not_negative(value, f"The {number_name} of {what}"), np.empty((0, 2))
-    table = f"the table of the {name} of {what}"
+        return not_negative(value, f"The {number_name} of {label}"), np.empty((0, 2))
+    table = f"the table of the {name} of {label}"
     rows = array(value, (None, 2), table)
     if len(rows) < 2:
         raise ModelError(f"T{table[1:]} has {len(rows)} rows; it needs two at least.")
@@ -106,20 +106,20 @@ def _number_or_table(value: float | Rows, number_name: str, name: str, what: str
     return 0.0, rows
 
 
-def _check_damper(rows: NDArray[np.float64], what: str) -> None:
-    falls = np.flatnonzero(np.diff(rows[:, 1]) < 0.0)
-    if len(falls):
-        k = falls[0]
+def _check_damper(rows: NDArray[np.float64], label: str) -> None:
+    falling = np.flatnonzero(np.diff(rows[:, 1]) < 0.0)
+    if len(falling):
+        k = falling[0]
         raise ModelError(
-            f"The force of the damper of {what} falls from {rows[k, 1]:g} N at {rows[k, 0]:g} m/s to "
+            f"The force of the damper of {label} falls from {rows[k, 1]:g} N at {rows[k, 0]:g} m/s to "
             f"{rows[k + 1, 1]:g} N at {rows[k + 1, 0]:g} m/s; it must not fall as the rate rises."
         )
     if not np.any(np.all(rows == 0.0, axis=1)):
-        raise ModelError(f"The table of the damper of {what} has no row (0, 0); a damper has no force at rest.")
+        raise ModelError(f"The table of the damper of {label} has no row (0, 0); a damper has no force at rest.")
 
 
 def _spring_columns(rows: NDArray[np.float64]) -> list[float]:
-    """Stretches, forces, slopes and the energy from stretch 0 to each, column after column."""
+    """Stretches, forces, slopes and energies from stretch 0, one column after the other."""
     if not len(rows):
         return []
     x, y = rows.T
@@ -136,10 +136,12 @@ def _spring_columns(rows: NDArray[np.float64]) -> list[float]:
 
 
 def _damper_columns(rows: NDArray[np.float64]) -> list[float]:
-    """Rates, forces and slopes, column after column."""
+    """Rates, forces and slopes, one column after the other."""
     if not len(rows):
         return []
-    return [float(v) for v in np.concatenate([*rows.T, np.maximum(_slopes(rows), 0.0)])]  # below 0: round-off
+    return [
+        float(v) for v in np.concatenate([*rows.T, np.maximum(_slopes(rows), 0.0)])
+    ]  # negative slopes are round-off
 
 
 def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -147,6 +149,6 @@ def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _curve(rows: NDArray[np.float64]) -> PchipInterpolator:
-    from scipy.interpolate import PchipInterpolator  # most of the time in which programs that read roads start
+    from scipy.interpolate import PchipInterpolator  # imported late: it slows the start of programs
 
     return PchipInterpolator(*rows.T)

@@ -28,7 +28,7 @@ class TorsionBar(Element):
     assistance_limit: NotNegative = 0.0
     """Largest torque of the power assistance on the pinion, N m."""
 
-    _words = "a torsion bar"
+    _noun = "a torsion bar"
     _signals = (("wheel", 1), ("pinion", 1))
     _outputs = (
         Output("torque", "N m", "torque of the bar on the pinion"),

@@ -46,10 +46,10 @@ TYRE_OUTPUTS = (
 """The first outputs of every tyre, in the order of the kernel."""
 
 
-def check_rim(bottoming_radius: float, radius: float, what: str) -> None:
+def check_rim(bottoming_radius: float, radius: float, label: str) -> None:
     """Refuse a rim that does not lie within the free tyre; radii in m."""
     if not bottoming_radius < radius:
-        raise ModelError(f"The bottoming radius {bottoming_radius:g} m of {what} must be less than {radius:g} m.")
+        raise ModelError(f"The bottoming radius {bottoming_radius:g} m of {label} must be less than {radius:g} m.")
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,8 @@ class TyreCurve:
 
 
 Curve = Annotated[TyreCurve, Group(TyreCurve, "a TyreCurve", "curve")]
-WITH_BORE = Integer("with_bore", least=1, most=1, optional=True, words="the number of bore torques")
-"""It is there where bore torque is."""
+WITH_BORE = Integer("with_bore", least=1, most=1, optional=True, noun="the number of bore torques")
+"""Present with a bore torque."""
 
 
 @dataclass(frozen=True)
@@ -123,14 +123,14 @@ class Tyre(Element):
     bore: Annotated[TyreBore | None, BORE] = None
     """Torque against turning about the normal of the road."""
 
-    _words = "a tyre"
+    _noun = "a tyre"
     _signals = WHEEL
     _integers = (ROAD, WITH_BORE)
     _states = (0.0,) * 4
     _outputs = TYRE_OUTPUTS
-    _more = "bore_width"
-    _more_states = (0.0,) * 2
-    _prefix = "TYRE_"
+    _first_optional = "bore_width"
+    _optional_states = (0.0,) * 2
+    _c_prefix = "TYRE_"
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
@@ -140,11 +140,11 @@ class Tyre(Element):
         ModelError
             A curve is not in order at some load up to the largest.
         """
-        what = self._what(name)
-        record = self._record(name, wheel_signals(centre, axis, spin, what), (road, None if self.bore is None else 1))
-        check_rim(self.bottoming_radius, self.radius, what)
-        for _, field, wrong in self.faults_over_loads():
-            raise ModelError(f"The {field} of {what} {wrong}.")
+        label = self._label(name)
+        record = self._record(name, wheel_signals(centre, axis, spin, label), (road, None if self.bore is None else 1))
+        check_rim(self.bottoming_radius, self.radius, label)
+        for _, field, fault in self.faults_over_loads():
+            raise ModelError(f"The {field} of {label} {fault}.")
         return record
 
     def faults_over_loads(self) -> Iterator[tuple[str, str, str]]:
@@ -153,7 +153,7 @@ class Tyre(Element):
         Yields
         ------
         tuple of str
-            The field, such as ``lateral.slide_slip``, what it is called, and what is wrong, each without a full stop.
+            The field, such as ``lateral.slide_slip``, its noun, and the fault, each without a full stop.
         """
         for q in (0.0, self.max_load_factor):
             load = f"at {q * self.nominal_load:g} N"
@@ -162,9 +162,9 @@ class Tyre(Element):
                     y1, y2 = getattr(curve, key)
                     per_load = 2.0 * y1 - 0.5 * y2 - (y1 - 0.5 * y2) * q
                     if not per_load > 0.0:
-                        what = f"{direction} {key.replace('_', ' ')} per load"
-                        wrong = f"{load} is {per_load:g} N per nominal load; it must be greater than zero"
-                        yield f"{direction}.{key}", what, wrong
+                        subject = f"{direction} {key.replace('_', ' ')} per load"
+                        fault = f"{load} is {per_load:g} N per nominal load; it must be greater than zero"
+                        yield f"{direction}.{key}", subject, fault
                 slips = ("max_slip", curve.max_slip, "max slip"), ("slide_slip", curve.slide_slip, "slide slip")
                 yield from _faulty_slips(slips, q, load, direction)
             trail = (
@@ -178,13 +178,13 @@ def _faulty_slips(
     slips: tuple[tuple[str, Pair, str], tuple[str, Pair, str]], q: float, load: str, direction: str = ""
 ) -> Iterator[tuple[str, str, str]]:
     """Faults of two slips: the first must be positive, the second larger."""
-    (one, pair, called), (other, further, named) = slips
+    (first_key, first_pair, first_noun), (last_key, last_pair, last_noun) = slips
     field, name = (f"{direction}.", f"{direction} ") if direction else ("", "")
-    first, last = _linear(pair, q), _linear(further, q)
+    first, last = _linear(first_pair, q), _linear(last_pair, q)
     if not first > 0.0:
-        yield f"{field}{one}", f"{name}{called}", f"{load} is {first:g}; it must be greater than zero"
+        yield f"{field}{first_key}", f"{name}{first_noun}", f"{load} is {first:g}; it must be greater than zero"
     elif not last > first:
-        yield f"{field}{other}", f"{name}{named}", f"{load} is {last:g}; it must exceed {first:g}"
+        yield f"{field}{last_key}", f"{name}{last_noun}", f"{load} is {last:g}; it must exceed {first:g}"
 
 
 def _linear(pair: Pair, q: float) -> float:

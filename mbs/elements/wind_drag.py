@@ -9,7 +9,7 @@ from mbs.common.checks import instance_of
 from mbs.elements.drag import Drag
 from mbs.elements.integers import WIND
 from mbs.elements.record import ElementRecord
-from mbs.elements.record_checks import size
+from mbs.elements.record_checks import check_components
 from mbs.elements.wind import Wind
 
 
@@ -34,7 +34,7 @@ class WindDrag(Drag):
         point : AffineVector
             Where the force acts, three components.
         """
-        what = self._what(name)
-        size(point, (3,), f"The point in wind of {what}")
-        air = instance_of(Wind, self.wind, f"The wind of {what}", "a Wind").inputs
+        label = self._label(name)
+        check_components(point, (3,), f"The point in wind of {label}")
+        air = instance_of(Wind, self.wind, f"The wind of {label}", "a Wind").inputs
         return self._record(name, point.components, air)

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from mbs.flexible.section import round_bar as round_bar
     from mbs.flexible.section import tube as tube
 
-# imported on first use: a model of beams needs no reader of matrices
+# imported at first use: a model of beams needs no reader of matrices
 _LAZY = {
     "Beam": "mbs.flexible.frame",
     "FiniteElementModel": "mbs.flexible.fe_model",

@@ -4,13 +4,13 @@ import numpy as np
 
 from mbs.common.vectors import cross
 
-VERTICAL = 0.95  # beams steeper than this cosine take x instead of z as their upward direction
+VERTICAL = 0.95  # cosine from the vertical above which x replaces z as the upward direction
 
 
 def beam_axes(start: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
-    """Length and axes of a beam: x from start to end, z as far up as it can be, y = z cross x to the left.
+    """Length and axes of a beam: x from start to end, z as near to the vertical as possible, y = z cross x.
 
-    `start`, `end`: ends, m, shape (3,). A beam that stands upright has local z along the global x as far as it can.
+    `start`, `end`: ends, m, shape (3,). A vertical beam has z as near to the global x as possible.
 
     Returns
     -------
@@ -19,9 +19,9 @@ def beam_axes(start: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
     R : ndarray, shape (3, 3)
         Rows are the local axes in body axes: ``local = R @ global``.
     """
-    along = end - start
-    length = float(np.linalg.norm(along))
-    ex = along / length
+    difference = end - start
+    length = float(np.linalg.norm(difference))
+    ex = difference / length
     up = np.array([0.0, 0.0, 1.0]) if abs(ex[2]) < VERTICAL else np.array([1.0, 0.0, 0.0])
     ey = cross(up, ex)
     ey /= np.linalg.norm(ey)

@@ -19,7 +19,7 @@ from mbs.flexible.section import Section
 
 @dataclass(frozen=True)
 class Beam:
-    """One element from node `i` to node `j`; local axes as `beam_axes` says."""
+    """One element from node `i` to node `j`; for its local axes see `beam_axes`."""
 
     i: int
     j: int
@@ -102,7 +102,7 @@ class BeamFrame:
 
 
 def node_labels(names: Sequence[str] | None, count: int) -> tuple[str, ...]:
-    """Names of the nodes, by default their numbers."""
+    """Check the names of `count` nodes and return them; by default these are the node numbers."""
     if names is None:
         return tuple(str(i) for i in range(count))
     if not isinstance(names, (list, tuple)):

@@ -1,4 +1,4 @@
-"""Displacements inside a beam from those of its ends: cubic, with the interdependent Timoshenko shape functions."""
+"""Displacements inside a beam from those of its ends, by cubic interdependent Timoshenko shape functions."""
 
 import numpy as np
 
@@ -31,11 +31,11 @@ def section_motion(xi: float, length: float, phi_y: float, phi_z: float) -> np.n
     Returns an array of shape (6, 12).
     """
     N = np.zeros((6, 12))
-    for row in (0, 3):  # stretch and twist are linear
+    for row in (0, 3):  # axial displacement and twist are linear
         N[row, [row, row + 6]] = 1 - xi, xi
     v, rz = bending_functions(xi, length, phi_y)
     w, ry = bending_functions(xi, length, phi_z)
     N[1, [1, 5, 7, 11]], N[5, [1, 5, 7, 11]] = v, rz
-    flip = np.array([1.0, -1.0, 1.0, -1.0])  # dw/dx = -ry
-    N[2, [2, 4, 8, 10]], N[4, [2, 4, 8, 10]] = w * flip, -ry * flip
+    signs = np.array([1.0, -1.0, 1.0, -1.0])  # dw/dx = -ry
+    N[2, [2, 4, 8, 10]], N[4, [2, 4, 8, 10]] = w * signs, -ry * signs
     return N

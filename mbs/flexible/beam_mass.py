@@ -49,6 +49,6 @@ def beam_mass_points(
         for y, z in offsets:
             positions.append([xi * length, y, z])
             masses.append(mass * weight / len(offsets))
-            lever = np.array([[0.0, z, -y], [-z, 0.0, 0.0], [y, 0.0, 0.0]])  # rotation cross (0, y, z)
-            shapes.append(motion[:3] + lever @ motion[3:])
+            cross = np.array([[0.0, z, -y], [-z, 0.0, 0.0], [y, 0.0, 0.0]])  # rotation cross (0, y, z)
+            shapes.append(motion[:3] + cross @ motion[3:])
     return np.array(positions), np.array(masses), np.array(shapes)

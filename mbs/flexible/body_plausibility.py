@@ -1,6 +1,4 @@
-"""Plausibility of a flexible body: its mass, size and frequencies, and the mistakes in units that would explain odd
-ones.
-"""
+"""Plausibility of a flexible body: mass, size and frequencies, and mistakes in units that would explain odd values."""
 
 from collections.abc import Iterator, Mapping
 from functools import partial
@@ -35,7 +33,7 @@ class Units(NamedTuple):
     stiffness: float = 1.0
 
 
-UNDONE = (
+UNIT_MISTAKES = (
     ("t, mm and N in place of kg, m and N", Units(1e-3, 1e3, 1e3)),
     ("g in place of kg in the mass", Units(mass=1e-3)),
     ("t in place of kg in the mass", Units(mass=1e3)),
@@ -50,39 +48,45 @@ UNDONE = (
 
 @plausibility_of.register
 def model_plausibility(
-    model: FiniteElementModel, what: str = "", modes: bool = True, beside: float = 0.0, held: ArrayLike = ()
+    model: FiniteElementModel, label: str = "", modes: bool = True, beside: float = 0.0, held: ArrayLike = ()
 ) -> list[Plausibility]:
     """Quantities of a finite-element model with their usual ranges.
 
-    `what`: the file, in messages; `modes`: whether its frequencies are computed; `beside`: mass that is given apart
-    from the model, kg; `held`: degrees of freedom of its interfaces.
+    `label`: file name for messages; `modes`: whether frequencies are computed; `beside`: mass that belongs to the body
+    and is not in the model, kg; `held`: degrees of freedom of its interfaces.
     """
     x, masses = model.positions, model.mass.masses
-    free = _lowest(model, RIGID) if modes else None
-    supported = _lowest(model, 0, held) if modes and np.size(held) else None
+    free = _frequency_of_model(model, RIGID) if modes else None
+    supported = _frequency_of_model(model, 0, held) if modes and np.size(held) else None
     moment, hull = masses @ model.mass.positions, _hull(x)
     values = partial(_values, x, hull, masses, moment, free, supported, model.given, beside)
-    return [_plausibility(what, values, alone=not modes)]
+    return [_plausibility(label, values, alone=not modes)]
 
 
 @plausibility_of.register
 def reduced_plausibility(body: ReducedBody) -> list[Plausibility]:
-    """Quantities of a reduced body with their usual ranges, from its reference node; frequencies are by its modes."""
+    """Quantities of a reduced body with their usual ranges; positions are from its reference node."""
     x, moment = body.node_positions, body.masses @ body.mass_positions
-    values = partial(_values, x, _hull(x), body.masses, moment, _free(body), _supported(body), {}, 0.0)
+    values = partial(
+        _values, x, _hull(x), body.masses, moment, _free_frequency(body), _supported_frequency(body), {}, 0.0
+    )
     return [_plausibility("", values)]
 
 
-def _plausibility(what: str, values: partial[list[Value]], alone: bool = False) -> Plausibility:
-    """Plausibility with the mistakes of `UNDONE`. `alone`: only those in one of nodes, mass and stiffness."""
-    changed = [(words, frozenset(_changed(units)), units) for words, units in UNDONE]
-    mistakes = [Mistake(w, keys, partial(values, units)) for w, keys, units in changed if not alone or len(keys) == 1]
-    return Plausibility(what, values(Units()), mistakes)
+def _plausibility(label: str, values: partial[list[Value]], alone: bool = False) -> Plausibility:
+    """Plausibility with the mistakes of `UNIT_MISTAKES`. `alone`: only mistakes in one of nodes, mass and stiffness."""
+    mistakes_with_keys = [(text, frozenset(_affected_keys(units)), units) for text, units in UNIT_MISTAKES]
+    mistakes = [
+        Mistake(text, keys, partial(values, units))
+        for text, keys, units in mistakes_with_keys
+        if not alone or len(keys) == 1
+    ]
+    return Plausibility(label, values(Units()), mistakes)
 
 
-def _changed(units: Units) -> Iterator[str]:
-    for key, factor, plain in zip(("nodes", "mass", "stiffness"), units, Units(), strict=True):
-        if factor != plain:
+def _affected_keys(units: Units) -> Iterator[str]:
+    for key, factor, unit_factor in zip(("nodes", "mass", "stiffness"), units, Units(), strict=True):
+        if factor != unit_factor:
             yield key
 
 
@@ -93,78 +97,83 @@ def _values(
     moment: np.ndarray,
     free: float | None,
     supported: float | None,
-    given: Mapping[str, Mapping[str, float]],
+    faults: Mapping[str, Mapping[str, float]],
     beside: float,
     units: Units,
 ) -> list[Value]:
     total, sides = units.mass * float(masses.sum()), units.length * np.ptp(x, axis=0)
     size, centre = float(sides.max()), units.length * moment / max(float(masses.sum()), np.finfo(float).tiny)
-    mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_three(sides)} m"}
+    mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_size_text(sides)} m"}
     values = [Value(QUANTITIES["mass"], total, mass), Value(QUANTITIES["size"], size, nodes)]
-    for name, three in (("extent", sides), ("centre", np.round(centre, 9) + 0.0)):
-        values += [Value(QUANTITIES[name], float(v), nodes, axis) for axis, v in zip("xyz", three, strict=True)]
+    for name, components in (("extent", sides), ("centre", np.round(centre, 9) + 0.0)):
+        values += [Value(QUANTITIES[name], float(v), nodes, axis) for axis, v in zip("xyz", components, strict=True)]
     volume = units.length**3 * hull
     if volume > 0.0:
         values.append(Value(QUANTITIES["dense"], total / volume, mass | nodes))
     if beside:
         values.append(Value(QUANTITIES["beside"], total / beside, mass | {"mass beside it": beside}))
-    faster = float(np.sqrt(units.stiffness / units.mass))
+    frequency_factor = float(np.sqrt(units.stiffness / units.mass))
     if free is not None:
-        keys: dict[str, Any] = {"stiffness": f"a first free frequency of {faster * free:.4g} Hz"} | mass | nodes
-        c = 2.0 * size * faster * free
-        values += [Value(QUANTITIES["free"], faster * free, keys), Value(QUANTITIES["wave"], c, keys)]
+        keys: dict[str, Any] = (
+            {"stiffness": f"a first free frequency of {frequency_factor * free:.4g} Hz"} | mass | nodes
+        )
+        wave_speed = 2.0 * size * frequency_factor * free
+        values += [
+            Value(QUANTITIES["free"], frequency_factor * free, keys),
+            Value(QUANTITIES["wave"], wave_speed, keys),
+        ]
         if volume > 0.0 and total > 0.0:
-            values.append(Value(QUANTITIES["stiff"], c**2 * volume / total, keys))
+            values.append(Value(QUANTITIES["stiff"], wave_speed**2 * volume / total, keys))
     if supported is not None:
-        values.append(Value(QUANTITIES["supported"], faster * supported))
-    for quantity, of in given.items():
-        values += [Value(QUANTITIES[quantity], float(v), {}, name) for name, v in of.items()]
+        values.append(Value(QUANTITIES["supported"], frequency_factor * supported))
+    for quantity, by_matrix in faults.items():
+        values += [Value(QUANTITIES[quantity], float(v), {}, name) for name, v in by_matrix.items()]
     return values
 
 
-def _three(sides: np.ndarray) -> str:
+def _size_text(sides: np.ndarray) -> str:
     return " x ".join(f"{side:.4g}" for side in sides)
 
 
 def _hull(x: np.ndarray) -> float:
-    """Volume of the convex hull, m3; 0 for a body that is flat or slim, see `SLIM`."""
+    """Volume of the convex hull of points (n, 3), m3; 0 for a flat or slim body, see `SLIM`."""
     centred = x - x.mean(axis=0)
     sides = np.ptp(centred @ np.linalg.svd(centred.T @ centred)[0], axis=0)
     return float(ConvexHull(x).volume) if sides.min() > SLIM * sides.max() else 0.0
 
 
-def _lowest(model: FiniteElementModel, number: int, held: ArrayLike = ()) -> float | None:
-    """Natural frequency by its number from 0, Hz; None: the modes cannot be computed."""
+def _frequency_of_model(model: FiniteElementModel, number: int, held: ArrayLike = ()) -> float | None:
+    """Natural frequency by its number from 0, Hz; None if the modes cannot be computed."""
     try:
         return float(natural_modes(model, number + 1, held)[0][-1])
     except ModelError:
         return None
 
 
-def _free(body: ReducedBody) -> float | None:
-    """First free frequency of a reduced body, by its modes without the rigid motions, Hz."""
-    p, m = len(body.masses), body.n_modes
-    rigid = np.zeros((p, 3, RIGID))
+def _free_frequency(body: ReducedBody) -> float | None:
+    """First elastic frequency of a free reduced body, Hz."""
+    points, modes = len(body.masses), body.n_modes
+    rigid = np.zeros((points, 3, RIGID))
     rigid[:, range(3), range(3)] = 1.0
-    for axis, spin in enumerate(np.eye(3)):
-        rigid[:, :, 3 + axis] = np.cross(spin, body.mass_positions)
-    shapes = np.concatenate([rigid, body.mass_shapes], axis=2).reshape(3 * p, -1)
+    for axis, rotation in enumerate(np.eye(3)):
+        rigid[:, :, 3 + axis] = np.cross(rotation, body.mass_positions)
+    shapes = np.concatenate([rigid, body.mass_shapes], axis=2).reshape(3 * points, -1)
     M = shapes.T @ (np.repeat(body.masses, 3)[:, None] * shapes)
-    K = np.zeros((RIGID + m, RIGID + m))
+    K = np.zeros((RIGID + modes, RIGID + modes))
     K[RIGID:, RIGID:] = body.K
-    return _first(K, M, RIGID)
+    return _frequency(K, M, RIGID)
 
 
-def _supported(body: ReducedBody) -> float | None:
-    """First frequency with all interfaces held, Hz; None where no mode is left."""
+def _supported_frequency(body: ReducedBody) -> float | None:
+    """First frequency with all interfaces held, Hz; None if no mode is left."""
     rows = [body.node_translations[i.node] for i in body.interfaces.values()]
     rows += [body.node_rotations[i.node] for i in body.interfaces.values() if i.rotation is not None]
     Z = null_space(np.vstack(rows)) if rows else np.eye(body.n_modes)
-    return _first(Z.T @ body.K @ Z, Z.T @ body.M @ Z, 0) if Z.shape[1] else None
+    return _frequency(Z.T @ body.K @ Z, Z.T @ body.M @ Z, 0) if Z.shape[1] else None
 
 
-def _first(K: np.ndarray, M: np.ndarray, number: int) -> float | None:
-    """Frequency by its number, from 0, Hz."""
+def _frequency(K: np.ndarray, M: np.ndarray, number: int) -> float | None:
+    """Frequency by its number from 0, Hz; None if it cannot be computed."""
     try:
         squares = eigh(K, M, eigvals_only=True)
     except np.linalg.LinAlgError:

@@ -45,7 +45,10 @@ def read_calculix(deck: str | Path, *, total_mass: float | None = None) -> Finit
 
 
 def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.ndarray, list[int]]:
-    """Stiffness and mass over x, y, z of node after node, positions (n, 3), and the numbers of the nodes."""
+    """Read stiffness and mass (3 n, 3 n), with x, y, z of one node after the other, positions (n, 3) and node numbers.
+
+    Raises `ModelError`: as `read_calculix`.
+    """
     try:
         import meshio
     except ModuleNotFoundError as error:
@@ -60,7 +63,7 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     points = read_foreign(deck, lambda path: np.asarray(meshio.read(text, file_format="abaqus").points, float))
     numbers = [int(line.partition(",")[0]) for line in nodes]
     row = {number: i for i, number in enumerate(numbers)}
-    freedoms = read_foreign(files[3], _freedoms)
+    freedoms = read_foreign(files[3], _read_freedoms)
     table = np.full((len(numbers), 3), -1)
     for k, (node, axis) in enumerate(freedoms):
         if node in row and axis < 3:
@@ -72,7 +75,7 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     if supported.size or not complete.any():
         node = numbers[int(supported[0])] if supported.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
-    entries = [read_foreign(path, _entries) for path in files[1:3]]
+    entries = [read_foreign(path, _read_entries) for path in files[1:3]]
     lumped = len(entries[1]) == 3 and np.array_equal(entries[1][0], entries[1][1])
     for path, matrix_entries in zip(files[1:3], entries, strict=True):
         if (
@@ -83,47 +86,47 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     if entries[0].shape != entries[1].shape and not lumped:
         raise ModelError(f"{files[1].name} and {files[2].name} must have as many entries; one of them is damaged.")
     K, M = (
-        read_foreign(path, partial(_triangle, size=len(freedoms), entries=e))
+        read_foreign(path, partial(_symmetric_matrix, size=len(freedoms), entries=e))
         for path, e in zip(files[1:3], entries, strict=True)
     )
-    K, M = _condensed(K, M, table[complete].ravel())
+    K, M = _condense(K, M, table[complete].ravel())
     return K, M, points[complete], [numbers[int(i)] for i in np.flatnonzero(complete)]
 
 
-def _freedoms(path: Path) -> list[tuple[int, int]]:
-    """Number of the node and axis, from 0, of each row of the matrices."""
-    return [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in _text(path).split())]
+def _read_freedoms(path: Path) -> list[tuple[int, int]]:
+    """Node number and axis, from 0, of each row of the matrices."""
+    return [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in _read_text(path).split())]
 
 
-def _entries(path: Path) -> np.ndarray:
-    """Rows, columns and values of one triangle, one below the other."""
+def _read_entries(path: Path) -> np.ndarray:
+    """Rows, columns and values of one triangle, shape (3, entries)."""
     with open_file(path, LARGEST, ModelError, path.name) as file:
         return np.loadtxt(file, unpack=True, ndmin=2, encoding="latin-1")
 
 
-def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
-    """Static condensation on freedoms `retained`: the others are inner ones of elements (incompatible modes)."""
-    drop = np.setdiff1d(np.arange(K.shape[0]), retained)
-    if not drop.size:
+def _condense(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
+    """Condense statically to the freedoms `retained`; the others are internal to elements (incompatible modes)."""
+    dropped = np.setdiff1d(np.arange(K.shape[0]), retained)
+    if not dropped.size:
         return K[retained][:, retained], M[retained][:, retained]
-    follow = -sp.csc_array(spsolve(sp.csc_matrix(K[drop][:, drop]), sp.csc_matrix(K[drop][:, retained])))
-    T = sp.csc_array(sp.vstack([sp.identity(retained.size), follow]))
-    order = np.concatenate([retained, drop])
+    transmission = -sp.csc_array(spsolve(sp.csc_matrix(K[dropped][:, dropped]), sp.csc_matrix(K[dropped][:, retained])))
+    T = sp.csc_array(sp.vstack([sp.identity(retained.size), transmission]))
+    order = np.concatenate([retained, dropped])
     K, M = (sp.csc_array(T.T @ X[order][:, order] @ T) for X in (K, M))
     return K, M
 
 
-def _triangle(_: Path, entries: np.ndarray, size: int) -> sp.csc_array:
+def _symmetric_matrix(_: Path, entries: np.ndarray, size: int) -> sp.csc_array:
     """Symmetric matrix from rows, columns (from 1) and values of one triangle."""
     i, j, value = entries
-    one = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
-    return sp.csc_array(one + one.T - sp.diags(one.diagonal()))
+    triangle = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
+    return sp.csc_array(triangle + triangle.T - sp.diags(triangle.diagonal()))
 
 
 def _node_lines(deck: Path) -> list[str]:
-    """Lines of the nodes of a deck, all that its reader is given: others may name files, or sets without end."""
+    """Lines of the nodes of a deck; its reader gets no others, because they may name files or endless sets."""
     lines, inside = [], False
-    for line in _text(deck).splitlines():
+    for line in _read_text(deck).splitlines():
         if line.startswith("**"):
             continue
         if line.startswith("*"):
@@ -137,5 +140,5 @@ def _node_lines(deck: Path) -> list[str]:
     return lines
 
 
-def _text(path: Path) -> str:
+def _read_text(path: Path) -> str:
     return read_bytes(path, LARGEST, ModelError, path.name).decode("latin-1")

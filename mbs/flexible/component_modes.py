@@ -16,10 +16,10 @@ from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.modal_body import InterfaceModes
 from mbs.flexible.reduced_body import ReducedBody
 
-DEPENDENT = 1e-10  # of the mass norm: inertia modes that add nothing new are left out
-ROUND_OFF = 2e-16  # of the squared mass norm
+DEPENDENT = 1e-10  # squared mass norm below which an inertia mode depends linearly on others
+ROUND_OFF = 2e-16  # share of the squared mass norm
 MOST_MODES = 10**6
-FIRST_BATCH = 20  # modes considered first when they are chosen by frequency
+FIRST_BATCH = 20  # modes that are computed first if they are chosen by frequency
 
 
 def craig_bampton(
@@ -105,7 +105,7 @@ def craig_bampton(
 
 
 def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | None:
-    """Accelerations of nodes, from rigid motions and modes, whose inertia loads the inner nodes as each mode does."""
+    """Accelerations of the nodes whose inertia loads the inner nodes as each mode does, shape (3 n, m)."""
     model = fixed.model
     if not model.mass_along_beams:
         return None
@@ -116,54 +116,54 @@ def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | Non
 
 
 def _dynamic_modes(
-    fixed: FixedInterface, wanted: int | Sequence[int], up_to: float | None
+    fixed: FixedInterface, dynamic_modes: int | Sequence[int], up_to: float | None
 ) -> tuple[np.ndarray, np.ndarray]:
-    held_numbers = fixed.held_numbers()
+    """Frequencies, Hz, and shapes (n_dof, k) of the chosen dynamic modes."""
+    held = fixed.held_freedoms()
     if up_to is not None:
-        if not (is_number(wanted) and wanted == 0):
+        if not (is_number(dynamic_modes) and dynamic_modes == 0):
             raise ModelError("Dynamic modes are chosen by number or by frequency, not by both.")
-        available = fixed.model.n_dof - held_numbers.size
-        massive = int((fixed.model.mass_matrix().diagonal()[fixed.inner] > 0).sum())
-        count = min(FIRST_BATCH, massive, available)
-        hertz, shapes = natural_modes(fixed.model, count, held_numbers)
-        while hertz.size and hertz[-1] <= up_to and count < massive:
-            count = min(2 * count, massive)
-            hertz, shapes = natural_modes(fixed.model, count, held_numbers)
+        available = fixed.model.n_dof - held.size
+        mass_freedoms = int((fixed.model.mass_matrix().diagonal()[fixed.inner] > 0).sum())
+        count = min(FIRST_BATCH, mass_freedoms, available)
+        hertz, shapes = natural_modes(fixed.model, count, held)
+        while hertz.size and hertz[-1] <= up_to and count < mass_freedoms:
+            count = min(2 * count, mass_freedoms)
+            hertz, shapes = natural_modes(fixed.model, count, held)
         chosen = np.flatnonzero(hertz <= up_to)
     else:
-        chosen = _numbers_of(wanted)
+        chosen = _mode_indices(dynamic_modes)
         if chosen.size and (chosen.min() < 0 or np.unique(chosen).size != chosen.size):
             raise ModelError(f"Dynamic modes are different numbers from 0 up, not {chosen.tolist()}.")
-        hertz, shapes = natural_modes(fixed.model, int(chosen.max(initial=-1)) + 1, held_numbers)
+        hertz, shapes = natural_modes(fixed.model, int(chosen.max(initial=-1)) + 1, held)
     return hertz[chosen], shapes[:, chosen]
 
 
-def _numbers_of(wanted: int | Sequence[int]) -> np.ndarray:
-    """Numbers of the dynamic modes: of so many of the lowest, or as given."""
-    if isinstance(wanted, Sequence) and not isinstance(wanted, (str, bytes)):
-        return np.array([whole(k, "An entry of dynamic_modes") for k in wanted], dtype=int)
-    return np.arange(whole(wanted, "The number of dynamic_modes", 0, MOST_MODES))
+def _mode_indices(dynamic_modes: int | Sequence[int]) -> np.ndarray:
+    """Indices of the dynamic modes, from their number or a sequence of indices."""
+    if isinstance(dynamic_modes, Sequence) and not isinstance(dynamic_modes, (str, bytes)):
+        return np.array([whole(k, "An entry of dynamic_modes") for k in dynamic_modes], dtype=int)
+    return np.arange(whole(dynamic_modes, "The number of dynamic_modes", 0, MOST_MODES))
 
 
 def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Ritz vectors of the dynamic modes and the deformations under the inertia of rigid accelerations."""
+    """Frequencies, Hz, and Ritz vectors of the dynamic modes and the deformations under rigid accelerations."""
     model = fixed.model
     M = model.mass_matrix()
-    sag = fixed.solve(np.asarray(M @ model.rigid_motions(model.origin(fixed.reference))))
-    whole_square = np.einsum("ij,ij->j", sag, M @ sag)
-    sag -= dynamic @ (dynamic.T @ (M @ sag))
-    square = np.einsum("ij,ij->j", sag, M @ sag)
-    bends = (
-        square > ROUND_OFF * whole_square
-    )  # nothing bends a straight beam without rotary inertia that turns about it
-    sag = sag[:, bends] / np.sqrt(square[bends])
-    weights, directions = np.linalg.eigh(sag.T @ (M @ sag))
-    sag = sag @ directions[:, weights > DEPENDENT] / np.sqrt(weights[weights > DEPENDENT])
-    basis = np.hstack([dynamic, sag])
+    deformations = fixed.solve(np.asarray(M @ model.rigid_motions(model.origin(fixed.reference))))
+    full_square = np.einsum("ij,ij->j", deformations, M @ deformations)
+    deformations -= dynamic @ (dynamic.T @ (M @ deformations))
+    square = np.einsum("ij,ij->j", deformations, M @ deformations)
+    # a straight beam without rotary inertia does not deform under rotation about its axis
+    is_deformed = square > ROUND_OFF * full_square
+    deformations = deformations[:, is_deformed] / np.sqrt(square[is_deformed])
+    weights, directions = np.linalg.eigh(deformations.T @ (M @ deformations))
+    deformations = deformations @ directions[:, weights > DEPENDENT] / np.sqrt(weights[weights > DEPENDENT])
+    basis = np.hstack([dynamic, deformations])
     squares, V = eigh(_symmetric(basis.T @ (model.K @ basis)), _symmetric(basis.T @ (M @ basis)))
     shapes = basis @ V
-    top = shapes[np.abs(shapes).argmax(axis=0), np.arange(shapes.shape[1])]
-    return np.sqrt(squares) / (2 * np.pi), shapes * np.sign(top)
+    largest_entries = shapes[np.abs(shapes).argmax(axis=0), np.arange(shapes.shape[1])]
+    return np.sqrt(squares) / (2 * np.pi), shapes * np.sign(largest_entries)
 
 
 def _static_names(fixed: FixedInterface) -> list[str]:

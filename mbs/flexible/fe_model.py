@@ -15,7 +15,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.mass_points import MassPoints
 
-ON_ONE_LINE = 1e-6  # of the extent of the three reference nodes
+ON_ONE_LINE = 1e-6  # share of the extent of the three reference nodes
 Reference = str | int | Sequence[str | int]
 
 
@@ -31,15 +31,14 @@ class FiniteElementModel(Summarised):
     """Shape (n, 6): number of each displacement x, y, z and rotation rx, ry, rz (rad) in the matrices; -1 where a node
     has none (nodes of solid elements have no rotations)."""
     K: sp.csc_array
-    """Shape (n_dof, n_dof): stiffness, symmetric, of the free model: six rigid motions and nothing else cost no
-    energy."""
+    """Shape (n_dof, n_dof): symmetric stiffness of the free model: only the six rigid motions have no energy."""
     mass: MassPoints
     frame: BeamFrame | None = None
-    """Beams it was made of, with its nodes; None for models of other programs."""
+    """Beams of the model, with its nodes; None for models of other programs."""
     mass_along_beams: bool = False
-    """Whether the beams have their mass between their ends: its inertia loads them there."""
+    """Whether the mass of beams is distributed between their ends, where its inertia loads them."""
     given: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    """Of matrices of other programs: numbers of faults, by quantity and matrix, for `summary`."""
+    """Measures of faults of matrices of other programs, by quantity and matrix, for `summary`."""
 
     def __str__(self) -> str:
         return self.summary()

@@ -1,4 +1,4 @@
-"""Checks of a finite-element model before its reduction; each raises one sentence."""
+"""Checks of a finite-element model before its reduction; each function raises `ModelError`."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -14,35 +14,37 @@ from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.sparse_matrices import Sparse
 
-SYMMETRY = 1e-6  # of the largest entry: matrices printed with seven digits pass
-GROUNDED = 1e-5  # of the stiffness times the size: printed matrices pass, a spring to the ground does not
-MECHANISM = 1e-13  # of the scaled stiffness, whose largest eigenvalue is of order 1
+SYMMETRY = 1e-6  # share of the largest entry: round-off of matrices printed with seven digits
+GROUNDED = 1e-5  # force of a rigid motion over stiffness and size: above round-off, below a spring to the ground
+MECHANISM = 1e-13  # eigenvalue of the scaled stiffness, whose largest one is of order 1
 AXES = ("x", "y", "z")
 AXIS_WORDS = ("along x", "along y", "along z", "about x", "about y", "about z")
-NAMED = 5  # nodes named in one sentence
+MOST_NAMES = 5  # largest number of nodes in a message
 
 
-def check_symmetric(matrix: Sparse, what: str) -> None:
-    """Refuse a matrix that is not square, finite and symmetric."""
+def check_symmetric(matrix: Sparse, label: str) -> None:
+    """Refuse a matrix that is not square, finite and symmetric. `label`: its name in the message."""
     if matrix.shape[0] != matrix.shape[1]:
-        raise ModelError(f"The {what} matrix is {matrix.shape[0]} by {matrix.shape[1]}; it must be square.")
+        raise ModelError(f"The {label} matrix is {matrix.shape[0]} by {matrix.shape[1]}; it must be square.")
     entries = sp.coo_array(matrix)
     if not np.isfinite(entries.data).all():
-        raise ModelError(f"The {what} matrix has entries that are not finite numbers.")
+        raise ModelError(f"The {label} matrix has entries that are not finite numbers.")
     largest = float(np.abs(entries.data).max(initial=0.0))
     if largest == 0.0:
-        raise ModelError(f"The {what} matrix is zero.")
+        raise ModelError(f"The {label} matrix is zero.")
     error = sp.coo_array(matrix - matrix.T)
     if error.nnz and (worst := int(np.abs(error.data).argmax())) >= 0 and abs(error.data[worst]) > SYMMETRY * largest:
         i, j = sorted((int(error.row[worst]), int(error.col[worst])))
-        gap = abs(error.data[worst])
-        raise ModelError(f"The {what} matrix is not symmetric: entries ({i}, {j}) and ({j}, {i}) differ by {gap:g}.")
+        difference = abs(error.data[worst])
+        raise ModelError(
+            f"The {label} matrix is not symmetric: entries ({i}, {j}) and ({j}, {i}) differ by {difference:g}."
+        )
 
 
 def asymmetry(matrix: Sparse) -> float:
     """Largest difference of a matrix from its transpose over its largest entry."""
-    gap = sp.coo_array(matrix - matrix.T).data
-    return float(np.abs(gap).max(initial=0.0) / np.abs(sp.coo_array(matrix).data).max())
+    differences = sp.coo_array(matrix - matrix.T).data
+    return float(np.abs(differences).max(initial=0.0) / np.abs(sp.coo_array(matrix).data).max())
 
 
 def negative_eigenvalues(matrix: Sparse) -> int:
@@ -61,114 +63,114 @@ def negative_eigenvalues(matrix: Sparse) -> int:
     return int((factors.U.diagonal() < 0.0).sum())
 
 
-def check_definite(matrix: Sparse, what: str) -> int:
-    """Refuse a matrix of the other sign. Result: how many of its eigenvalues are negative."""
+def check_definite(matrix: Sparse, label: str) -> int:
+    """Refuse a negative matrix; return the number of negative eigenvalues. `label`: its name in the message."""
     negative = negative_eigenvalues(matrix)
     if negative and not negative_eigenvalues(-matrix):
-        raise ModelError(f"The {what} matrix is negative; it must be positive: its sign is reversed.")
+        raise ModelError(f"The {label} matrix is negative; it must be positive: its sign is reversed.")
     return negative
 
 
 def check_free(model: FiniteElementModel) -> None:
-    """Refuse a stiffness that holds the model to the ground, or is not in the order of its nodes."""
-    forces = _resistance(model, model.positions, model.dof)
+    """Refuse a stiffness that supports the model on the ground or is not in the order of the nodes."""
+    forces = _rigid_motion_forces(model, model.positions, model.dof)
     worst = np.unravel_index(int(forces.argmax()), forces.shape)
     if forces[worst] <= GROUNDED:
         return
     node, axis = (int(k[0]) for k in np.nonzero(model.dof == worst[0]))
-    where = f"The stiffness resists rigid motions at node {model.names[node]!r}"
-    for words, x, dof in _mistakes(model):
-        if _resistance(model, x, dof).max() <= GROUNDED:
-            raise ModelError(f"{where}: {words} would explain it.")
-    if (turned := _turned_entry(model)) is not None:
-        raise ModelError(f"{where}: the sign of its entries {turned} and {turned[::-1]} would explain it.")
-    moved = forces[:, :3]
-    if moved.max() <= GROUNDED:
+    subject = f"The stiffness resists rigid motions at node {model.names[node]!r}"
+    for mistake, x, dof in _mistakes(model):
+        if _rigid_motion_forces(model, x, dof).max() <= GROUNDED:
+            raise ModelError(f"{subject}: {mistake} would explain it.")
+    if (entry := _reversed_entry(model)) is not None:
+        raise ModelError(f"{subject}: the sign of its entries {entry} and {entry[::-1]} would explain it.")
+    translation_forces = forces[:, :3]
+    if translation_forces.max() <= GROUNDED:
         raise ModelError(
-            f"{where} for rotations, not for translations: the positions of the nodes do not belong to the "
+            f"{subject} for rotations, not for translations: the positions of the nodes do not belong to the "
             "stiffness, by their order, axes or unit."
         )
-    across = moved.copy()
+    transverse_forces = translation_forces.copy()
     for k in range(3):
-        across[model.dof[:, k], k] = 0.0
-    if across.max() > GROUNDED:
+        transverse_forces[model.dof[:, k], k] = 0.0
+    if transverse_forces.max() > GROUNDED:
         raise ModelError(
-            f"{where}, with forces {AXIS_WORDS[axis]} across the motion, which no support has: the freedoms are not in "
-            "the order of the nodes, or an entry is wrong."
+            f"{subject}, with forces {AXIS_WORDS[axis]} across the motion, which no support has: the freedoms are not "
+            "in the order of the nodes, or an entry is wrong."
         )
-    raise ModelError(f"{where}: give the free model, without supports.")
+    raise ModelError(f"{subject}: give the free model, without supports.")
 
 
-def _resistance(model: FiniteElementModel, x: np.ndarray, dof: np.ndarray) -> np.ndarray:
-    """Forces at unit rigid motions over the largest stiffness, shape (n_dof, 6), with other places or freedoms."""
-    moved = replace(model, positions=x, dof=dof)
-    forces = np.asarray(np.abs(model.K @ moved.rigid_motions(x.mean(axis=0))))
+def _rigid_motion_forces(model: FiniteElementModel, x: np.ndarray, dof: np.ndarray) -> np.ndarray:
+    """Forces at unit rigid motions over the largest stiffness, shape (n_dof, 6), for node positions and freedoms."""
+    corrected = replace(model, positions=x, dof=dof)
+    forces = np.asarray(np.abs(model.K @ corrected.rigid_motions(x.mean(axis=0))))
     forces[:, 3:] /= float(np.ptp(x, axis=0).max())
     return forces / float(np.abs(model.K.data).max())
 
 
 def _mistakes(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
-    """Words, places and freedoms without each common mistake."""
+    """Description of each common mistake, with the corrected node positions and freedoms."""
     x, dof, n = model.positions, model.dof, len(model.positions)
-    width = model.n_dof // n if model.n_dof in (3 * n, 6 * n) else 0
-    if width:
-        apart = dof.copy()
-        apart[:, :width] = np.arange(width * n).reshape(width, n).T
-        yield "one axis after the other in place of node after node in the order of the freedoms", x, apart
-    if width == 6:
-        nodes_apart = np.hstack([np.arange(3 * n).reshape(n, 3), 3 * n + np.arange(3 * n).reshape(n, 3)])
-        yield "all translations before all rotations in place of node after node", x, nodes_apart
+    per_node = model.n_dof // n if model.n_dof in (3 * n, 6 * n) else 0
+    if per_node:
+        axis_major = dof.copy()
+        axis_major[:, :per_node] = np.arange(per_node * n).reshape(per_node, n).T
+        yield "one axis after the other in place of node after node in the order of the freedoms", x, axis_major
+    if per_node == 6:
+        separated = np.hstack([np.arange(3 * n).reshape(n, 3), 3 * n + np.arange(3 * n).reshape(n, 3)])
+        yield "all translations before all rotations in place of node after node", x, separated
         yield "rotations before translations of each node", x, dof[:, [3, 4, 5, 0, 1, 2]]
         yield "mm in place of m in the places of the nodes", 1e-3 * x, dof
         yield "N mm in place of N m in the stiffness", 1e3 * x, dof
     numbers = [(len(name), name) if name.isdigit() else (0, name) for name in model.names]
-    for words, order_of in (
+    for text, node_order in (
         ("by their names", sorted(range(n), key=lambda k: numbers[k])),
         ("by their names as words", sorted(range(n), key=lambda k: model.names[k])),
         ("backwards", list(range(n))[::-1]),
     ):
-        yield f"nodes in the order of the matrices in place of {words}", x[np.argsort(order_of)], dof
-        yield f"nodes {words} in place of the order of the matrices", x[order_of], dof
+        yield f"nodes in the order of the matrices in place of {text}", x[np.argsort(node_order)], dof
+        yield f"nodes {text} in place of the order of the matrices", x[node_order], dof
     for order in permutations(range(3)):
         names = [f"{a} for {b}" for a, b in zip((AXES[k] for k in order), AXES, strict=True) if a != b]
         if names:
-            words = f"exchanged axes, {' and '.join(names)}"
-            yield f"{words}, in the places of the nodes", x[:, order], dof
-            yield f"{words}, in the order of the freedoms", x, dof[:, [*order, 3, 4, 5]]
-            yield f"{words}, in the order of the freedoms", x, dof[:, [*order, *(3 + k for k in order)]]
+            text = f"exchanged axes, {' and '.join(names)}"
+            yield f"{text}, in the places of the nodes", x[:, order], dof
+            yield f"{text}, in the order of the freedoms", x, dof[:, [*order, 3, 4, 5]]
+            yield f"{text}, in the order of the freedoms", x, dof[:, [*order, *(3 + k for k in order)]]
     for k, axis in enumerate(AXES):
         yield f"the sign of {axis} in the places of the nodes", x * np.where(np.arange(3) == k, -1.0, 1.0), dof
 
 
-def _turned_entry(model: FiniteElementModel) -> tuple[int, int] | None:
-    """Row and column of an entry that must have the other sign for the model to be free; None where none mends it."""
+def _reversed_entry(model: FiniteElementModel) -> tuple[int, int] | None:
+    """Row and column of an entry whose sign must change for the model to be free; None if there is none."""
     motions = model.rigid_motions(model.positions.mean(axis=0))
     forces = np.asarray(model.K @ motions)[:, :3]
     i = int(np.abs(forces).max(axis=1).argmax())
     row = model.K[[i]].toarray()[0]
-    # turned, an entry takes twice itself times the motion of its column from its row
-    fits = np.abs(forces[i] - 2.0 * row[:, None] * motions[:, :3]).max(axis=1)
-    fits[i] = np.inf
-    for j in np.argsort(fits)[:3].tolist():
+    # the new sign changes the force of its row by twice the entry times the motion of its column
+    residuals = np.abs(forces[i] - 2.0 * row[:, None] * motions[:, :3]).max(axis=1)
+    residuals[i] = np.inf
+    for j in np.argsort(residuals)[:3].tolist():
         K = model.K.tolil(copy=True)
         K[i, j], K[j, i] = -K[i, j], -K[j, i]
-        mended = replace(model, K=sp.csc_array(K))
-        if _resistance(mended, model.positions, model.dof).max() <= GROUNDED:
+        corrected = replace(model, K=sp.csc_array(K))
+        if _rigid_motion_forces(corrected, model.positions, model.dof).max() <= GROUNDED:
             return min(i, j), max(i, j)
     return None
 
 
 def check_connected(model: FiniteElementModel, reference: Reference) -> None:
-    """Refuse nodes or degrees of freedom that nothing ties to the reference node, and mechanisms."""
+    """Refuse nodes without connection to the reference node, and mechanisms."""
     reference_freedoms = model.reference_freedoms(reference)
     islands = _island_nodes(model, reference_freedoms)
     if islands.size:
-        raise ModelError(f"No element ties {_named(model, islands)} to the reference node.")
+        raise ModelError(f"No element ties {_node_list(model, islands)} to the reference node.")
     _check_mechanism(model, reference_freedoms)
 
 
 def _island_nodes(model: FiniteElementModel, held: np.ndarray) -> np.ndarray:
-    """Nodes without any path of stiffness entries to the reference."""
+    """Nodes without a path of stiffness entries to the reference."""
     node_of, K = model.node_of, sp.coo_array(model.K)
     n = len(model.names)
     stiff = np.abs(K.data) > 0
@@ -178,6 +180,7 @@ def _island_nodes(model: FiniteElementModel, held: np.ndarray) -> np.ndarray:
 
 
 def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
+    """Refuse motions without stiffness while the degrees of freedom `held` are zero."""
     free = np.setdiff1d(np.arange(model.n_dof), held)
     diagonal = model.K.diagonal()[free]
     if (diagonal <= 0).any():
@@ -194,9 +197,10 @@ def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
         per_node = np.where(model.dof >= 0, motion[model.dof], 0.0).max(axis=1)
         moving = np.flatnonzero(per_node > 0.1 * per_node.max())
         raise ModelError(
-            f"The stiffness is singular with the reference node held: {_named(model, moving)} can move without force."
+            f"The stiffness is singular with the reference node held: {_node_list(model, moving)} can move without "
+            "force."
         )
 
 
-def _named(model: FiniteElementModel, nodes: np.ndarray) -> str:
-    return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), NAMED)}"
+def _node_list(model: FiniteElementModel, nodes: np.ndarray) -> str:
+    return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), MOST_NAMES)}"

@@ -15,7 +15,7 @@ from mbs.flexible.fe_model_checks import check_connected
 
 @dataclass(frozen=True)
 class Interface:
-    """A node where joints or forces act: its translations become static modes, and its rotations if asked for."""
+    """Node of joints or forces, whose translations and, if requested, rotations become static modes."""
 
     node: str | int
     translations: bool = True
@@ -61,7 +61,7 @@ class FixedInterface:
         self._factor: SuperLU | None = None
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
-        """Displacements under nodal forces with everything held, shape (n_dof, k) from (n_dof, k)."""
+        """Displacements under nodal forces with reference and interfaces held, both of shape (n_dof, k)."""
         if self._factor is None:
             self._factor = splu(sp.csc_matrix(self.model.K[self.inner][:, self.inner]))
         u = np.zeros_like(forces)
@@ -76,6 +76,6 @@ class FixedInterface:
             return unit
         return np.asarray(unit - self.solve(np.asarray(self.model.K @ unit)))
 
-    def held_numbers(self) -> np.ndarray:
-        """All degrees of freedom that are held for the dynamic modes."""
+    def held_freedoms(self) -> np.ndarray:
+        """Degrees of freedom that are held in the dynamic modes."""
         return np.concatenate([self.held, self.boundary])

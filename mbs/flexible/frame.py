@@ -1,4 +1,4 @@
-"""Frames of beams: the finite-element model of one."""
+"""Finite-element models of frames of beams."""
 
 from __future__ import annotations
 

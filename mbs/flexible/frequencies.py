@@ -40,9 +40,9 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
     free = np.setdiff1d(np.arange(model.n_dof), np.asarray(held, int))
     K = sp.csc_array(model.K[free][:, free])
     M = sp.csc_array(model.mass_matrix()[free][:, free])
-    massive = np.flatnonzero(M.diagonal() > 0).size
-    if count > massive:
-        raise ModelError(f"{count} modes were asked for; the model has mass for at most {massive}.")
+    mass_freedoms = np.flatnonzero(M.diagonal() > 0).size
+    if count > mass_freedoms:
+        raise ModelError(f"{count} modes were asked for; the model has mass for at most {mass_freedoms}.")
     if count == 0:
         return np.zeros(0), np.zeros((model.n_dof, 0))
     # a shift below zero keeps the factorisation regular for free models; small against the lowest elastic mode
@@ -64,5 +64,5 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
     V = V / np.sqrt(np.einsum("ij,ij->j", V, M @ V))
     shapes = np.zeros((model.n_dof, count))
     shapes[free] = V
-    top = shapes[np.abs(shapes).argmax(axis=0), np.arange(count)]
-    return np.sqrt(np.maximum(squares, 0.0)) / (2 * np.pi), shapes * np.sign(top)
+    largest_entries = shapes[np.abs(shapes).argmax(axis=0), np.arange(count)]
+    return np.sqrt(np.maximum(squares, 0.0)) / (2 * np.pi), shapes * np.sign(largest_entries)

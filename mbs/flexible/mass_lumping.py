@@ -13,7 +13,7 @@ def lumped_masses(M: Sparse, positions: np.ndarray, dof: np.ndarray) -> MassPoin
     """Lump a mass matrix at the nodes, isotropic in translation; the total mass is kept.
 
     Row sums are used where none is negative (bars, beams, linear solids); otherwise the diagonal is scaled to the
-    total (Hinton, Rock and Zienkiewicz 1976), which quadratic elements need. Rotary inertia is left out.
+    total (Hinton, Rock and Zienkiewicz 1976), which quadratic elements need. Rotary inertia is omitted.
 
     `M`: shape (n_dof, n_dof); `positions`: shape (n, 3); `dof`: as in `FiniteElementModel`, shape (n, 6).
     """
@@ -26,10 +26,14 @@ def lumped_masses(M: Sparse, positions: np.ndarray, dof: np.ndarray) -> MassPoin
     if not (totals > 0).all():
         raise ModelError(f"The mass matrix weighs {totals.min():g} kg along an axis; it must be positive.")
     if np.ptp(totals) > ISOTROPY * totals.mean():
-        removed = not (M.diagonal()[translation] != 0.0).all()
-        why = "supports must not be removed from it" if removed else "its freedoms are not in the order of the nodes"
+        supports_removed = not (M.diagonal()[translation] != 0.0).all()
+        reason = (
+            "supports must not be removed from it"
+            if supports_removed
+            else "its freedoms are not in the order of the nodes"
+        )
         raise ModelError(
-            f"The mass matrix weighs {totals[0]:g}, {totals[1]:g} and {totals[2]:g} kg along x, y and z: {why}."
+            f"The mass matrix weighs {totals[0]:g}, {totals[1]:g} and {totals[2]:g} kg along x, y and z: {reason}."
         )
     masses = np.stack([rows[translation[:, axis], axis] for axis in range(3)]).mean(axis=0)
     if (masses < -1e-9 * totals.mean()).any():

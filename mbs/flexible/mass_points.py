@@ -41,19 +41,21 @@ class MassPoints:
 
 
 def nodal_mass_points(positions: np.ndarray, masses: np.ndarray, translation: np.ndarray, n_dof: int) -> MassPoints:
-    """Masses at nodes; nodes without mass are left out.
+    """Mass points at the nodes; nodes without mass are omitted.
 
     `positions`: shape (n, 3); `masses`: shape (n,); `translation`: numbers of the translations of each node among the
     `n_dof` degrees of freedom, shape (n, 3).
     """
-    heavy = np.flatnonzero(masses)
-    rows = np.arange(3 * heavy.size)
-    pick = sp.csr_array((np.ones(rows.size), (rows, translation[heavy].ravel())), shape=(rows.size, n_dof))
-    return MassPoints(positions[heavy], masses[heavy], pick)
+    mass_nodes = np.flatnonzero(masses)
+    rows = np.arange(3 * mass_nodes.size)
+    interpolation = sp.csr_array(
+        (np.ones(rows.size), (rows, translation[mass_nodes].ravel())), shape=(rows.size, n_dof)
+    )
+    return MassPoints(positions[mass_nodes], masses[mass_nodes], interpolation)
 
 
 def check_masses(masses: np.ndarray, names: tuple[str, ...]) -> None:
     """Refuse masses that are negative or not finite, one per node."""
-    wrong = np.flatnonzero(~(np.isfinite(masses) & (masses >= 0.0)))
-    if wrong.size:
-        raise ModelError(f"The mass at node {names[wrong[0]]!r} is {masses[wrong[0]]:g} kg; it cannot be negative.")
+    invalid = np.flatnonzero(~(np.isfinite(masses) & (masses >= 0.0)))
+    if invalid.size:
+        raise ModelError(f"The mass at node {names[invalid[0]]!r} is {masses[invalid[0]]:g} kg; it cannot be negative.")

@@ -89,7 +89,10 @@ def external_model(
         measured["asymmetry"]["mass"] = asymmetry(M)
         M = sp.csc_array((M + M.T) / 2)
         measured["negative"]["mass"] = check_definite(M, "mass")
-        measured |= {"apart": {"mass": _pairs_apart(M, model)}, "rigid": {"mass": _rigid_off(M, model)}}
+        measured |= {
+            "apart": {"mass": _count_uncoupled_pairs(M, model)},
+            "rigid": {"mass": _rigid_inertia_error(M, model)},
+        }
         points = lumped_masses(M, x, table)
     else:
         masses = np.array(mass, float)
@@ -103,17 +106,17 @@ def external_model(
     return model
 
 
-def _rigid_off(M: Sparse, model: FiniteElementModel) -> float:
+def _rigid_inertia_error(M: Sparse, model: FiniteElementModel) -> float:
     """Deviation of the inertia of rigid unit motions from that of a rigid body, relative to mass and size."""
     R = model.rigid_motions(model.positions.mean(axis=0))
     inertia = R.T @ (M @ R)
     totals, moments = inertia[:3, :3], inertia[:3, 3:]
     mass, size = np.trace(totals) / 3.0, np.ptp(model.positions, axis=0).max()
-    off = max(np.abs(totals - mass * np.eye(3)).max(), np.abs(moments + moments.T).max() / size)
-    return float(off / abs(mass)) if mass else np.inf
+    error = max(np.abs(totals - mass * np.eye(3)).max(), np.abs(moments + moments.T).max() / size)
+    return float(error / abs(mass)) if mass else np.inf
 
 
-def _pairs_apart(M: Sparse, model: FiniteElementModel) -> int:
+def _count_uncoupled_pairs(M: Sparse, model: FiniteElementModel) -> int:
     """Number of pairs of nodes that are coupled by the mass matrix but not by the stiffness."""
     node_of, pairs = model.node_of, []
     for matrix in (model.K, M):

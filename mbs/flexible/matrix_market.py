@@ -1,7 +1,7 @@
-"""Sparse matrices in files: Matrix Market, and SciPy's ``.npz``.
+"""Sparse matrices in files: Matrix Market and SciPy's ``.npz``.
 
-SciPy's own reader of the first ends the process at a number that is damaged, and its matrices trust what the second
-says of them.
+The readers of SciPy are not used: the first one ends the process at a damaged number, the second one does not check
+indices and sizes.
 """
 
 import io
@@ -18,11 +18,11 @@ from mbs.flexible.foreign_file import LARGEST
 _SIGNS = {"general": 0.0, "symmetric": 1.0, "skew-symmetric": -1.0}
 _FIELDS = ("real", "double", "integer", "pattern")
 _COPIES = 4
-"""Of rows, columns and values: as read, of both triangles, and in the order of columns."""
+"""Copies of rows, columns and values: as read, of both triangles, and in the order of columns."""
 
 
 def read_matrix_market(path: Path) -> sp.csc_array:
-    """A real matrix; `ValueError` or `ModelError` if the file is damaged or complex."""
+    """Read a real matrix; raise `ValueError` or `ModelError` if the file is damaged or complex."""
     with io.TextIOWrapper(io.BufferedReader(Unpacked(path, LARGEST, ModelError, path.name)), "latin-1") as stream:
         head = stream.readline().lower().split()
         if len(head) != 5 or head[:2] != ["%%matrixmarket", "matrix"]:
@@ -50,9 +50,9 @@ def read_matrix_market(path: Path) -> sp.csc_array:
     if form == "coordinate":
         i, j = (_indices(table[:, k], n) for k, n in ((0, rows), (1, columns)))
     if sign := _SIGNS[symmetry]:
-        beside = i != j
-        i, j = np.concatenate([i, j[beside]]), np.concatenate([j, i[beside]])
-        values = np.concatenate([values, sign * values[beside]])
+        off_diagonal = i != j
+        i, j = np.concatenate([i, j[off_diagonal]]), np.concatenate([j, i[off_diagonal]])
+        values = np.concatenate([values, sign * values[off_diagonal]])
     return sp.csc_array((values, (i, j)), shape=(rows, columns))
 
 
@@ -65,19 +65,19 @@ def _dense_indices(rows: int, columns: int, symmetry: str, path: Path) -> tuple[
 
 
 def _indices(numbers: np.ndarray, size: int) -> np.ndarray:
-    """Numbers from 1 as whole ones from 0."""
+    """Indices from 0, checked, of numbers from 1 to `size`."""
     if not ((numbers >= 1) & (numbers <= size) & (numbers == np.floor(numbers))).all():
         raise ValueError(f"a row or column is not from 1 to {size}")
     return numbers.astype(int) - 1
 
 
 def read_sparse_arrays(path: Path) -> sp.csc_array:
-    """A real matrix of SciPy's `save_npz`; `KeyError`, `ValueError` or `ModelError` if the file is damaged."""
+    """Read a real matrix of SciPy's `save_npz`; raise `KeyError`, `ValueError` or `ModelError` if it is damaged."""
     arrays = read_arrays(path, LARGEST, ModelError, path.name)
     form, shape = str(arrays["format"].astype("U")), [int(n) for n in arrays["shape"].ravel()]
     if len(shape) != 2 or min(shape) < 0:
         raise ValueError(f"its shape is {shape}")
-    data, names = arrays["data"], _PLACES.get(form)
+    data, names = arrays["data"], _INDEX_ARRAYS.get(form)
     if names is None or data.dtype.kind not in "fiu":
         raise ValueError(f"a matrix '{form[:20]}' of {data.dtype} is not read")
     indices = [arrays[name] for name in names]
@@ -93,4 +93,4 @@ def read_sparse_arrays(path: Path) -> sp.csc_array:
     return sp.csc_array(matrix)
 
 
-_PLACES = {"coo": ("row", "col")} | dict.fromkeys(("csc", "csr", "bsr"), ("indices", "indptr"))
+_INDEX_ARRAYS = {"coo": ("row", "col")} | dict.fromkeys(("csc", "csr", "bsr"), ("indices", "indptr"))

@@ -1,4 +1,4 @@
-"""The modes of a flexible body: all that the engine needs of its reduction."""
+"""Modes of a flexible body: the data of its reduction for the engine."""
 
 from __future__ import annotations
 

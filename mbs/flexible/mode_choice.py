@@ -14,12 +14,12 @@ from mbs.flexible.fixed_interface import FixedInterface, Interface
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.sparse_matrices import Sparse
 
-RESONANT = 1.5  # modes below this multiple of the frequency that matters are always taken
+RESONANT = 1.5  # modes below this multiple of the highest relevant frequency are always taken
 
 
 @dataclass(frozen=True)
 class ModeChoice:
-    """Chosen fixed-interface modes and what they leave out."""
+    """Chosen fixed-interface modes and the error without the others."""
 
     modes: tuple[int, ...]
     """Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`."""
@@ -75,11 +75,12 @@ def modes_for_output(
     if not is_finite(tolerance) or not 0 < tolerance < 1:
         raise ModelError(f"The tolerance on an output is {shown(tolerance)}; a fraction between 0 and 1 is needed.")
     fixed = FixedInterface(model, reference, interfaces)
-    hertz, modes = natural_modes(model, candidates, fixed.held_numbers())
+    hertz, modes = natural_modes(model, candidates, fixed.held_freedoms())
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(reference)))
-    # accelerations about the axes count over the size of the model, to compare with those along them
+    # angular accelerations are scaled by the size of the model, for comparison with linear ones
     load[:, 3:] /= float(np.ptp(model.positions, axis=0).max())
-    rows = rows[:, : model.n_dof]  # what the deformation adds; the inertia along the beams is in every choice
+    # outputs of the deformation only: those of the inertia along the beams do not depend on the choice
+    rows = rows[:, : model.n_dof]
     exact = np.asarray(rows @ fixed.solve(load))
     scale = np.abs(exact).max(axis=1, keepdims=True)
     if (scale == 0).any():
@@ -89,7 +90,7 @@ def modes_for_output(
     participation = (modes.T @ load) / ((2 * np.pi * hertz) ** 2)[:, None]
     contributions = np.asarray(rows @ modes)[:, :, None] * participation[None] / scale[:, :, None]
     resonant = hertz < RESONANT * frequency
-    # at resonance only damping bounds the response: these modes are taken whatever they contribute
+    # at resonance only damping bounds the response, so these modes are taken without their contributions
     ratio = np.where(resonant, 0.0, frequency / np.where(resonant, 1.0, hertz)) ** 2
     amplified = contributions * (ratio / (1 - ratio))[None, :, None]
     residual = amplified.sum(axis=1) + (0.0 if inertia_modes else exact / scale)

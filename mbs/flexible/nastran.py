@@ -29,7 +29,7 @@ def read_nastran(
     """Model from a bulk data file with the grid points and an OUTPUT4 file with the g-set matrices.
 
     The g-set has six freedoms per grid point, grid points in ascending order. Displacements must be in the basic
-    coordinate system, in SI units; places may be in any system of a card CORD2R, CORD2C or CORD2S.
+    coordinate system, in SI units; positions may be in any system of a card CORD2R, CORD2C or CORD2S.
 
     Parameters
     ----------
@@ -61,19 +61,19 @@ def read_nastran(
     for number, (_, system) in points.items():
         if system != 0:
             raise ModelError(f"Grid point {number} has displacements in a system of its own; use the basic system.")
-    by_name = read_foreign(Path(matrices), read_output4)
+    matrix_of = read_foreign(Path(matrices), read_output4)
     for name in (stiffness, mass):
-        if name.upper() not in by_name:
-            raise ModelError(f"{Path(matrices).name} has no matrix {name}; it has {', '.join(sorted(by_name))}.")
-        if np.iscomplexobj(by_name[name.upper()]):
+        if name.upper() not in matrix_of:
+            raise ModelError(f"{Path(matrices).name} has no matrix {name}; it has {', '.join(sorted(matrix_of))}.")
+        if np.iscomplexobj(matrix_of[name.upper()]):
             raise ModelError(f"The matrix {name} of {Path(matrices).name} is complex; give a real one.")
-    K, M = (_symmetric(by_name[name.upper()]) for name in (stiffness, mass))
+    K, M = (_symmetric(matrix_of[name.upper()]) for name in (stiffness, mass))
     positions, names = np.array([position for position, _ in points.values()]), [str(number) for number in points]
     return external_model(K, M, positions, names, total_mass=total_mass, what=Path(matrices).name)
 
 
 def _symmetric(data: Sparse) -> sp.csc_array:
-    """Whole matrix from what may be one triangle of it."""
+    """Full symmetric matrix from a full matrix or one of its triangles."""
     full = sp.csc_array(data)
     lower, upper = sp.tril(full, -1), sp.triu(full, 1)
     if lower.nnz and upper.nnz:

@@ -18,14 +18,14 @@ from mbs.common.errors import ModelError
 from mbs.flexible.foreign_file import LARGEST
 
 Array = NDArray[np.float64]
-_BIG = 65536
-"""Rows from which on a string has its row in a word of its own; a negative number of rows says the same."""
+_BIGMAT_ROWS = 65536
+"""Rows from which on, as with a negative number of rows, a string has its row in a separate word (format BIGMAT)."""
 
 _LONGEST_LINE = 1000
 
 
 def read_output4(path: Path) -> dict[str, sp.csc_array]:
-    """All matrices of a file by their names in capital letters; complex ones are complex.
+    """Read all matrices of a file, by their names in capital letters; complex matrices stay complex.
 
     `path`: text, or binary with integers of 4 or 8 bytes in either order. Raises `ValueError`, `IndexError` or
     `TypeError`: the file is damaged.
@@ -53,7 +53,7 @@ def _matrices(source: _Binary | _Text) -> Iterator[tuple[str, sp.csc_array]]:
 
 
 def _strings(source: _Binary | _Text, columns: int, rows: int) -> Iterator[tuple[int, int, Array]]:
-    """Column and first row, from 1, and the numbers from there on; complex ones take two."""
+    """Column and first row, from 1, and numbers of each string; a complex number takes two."""
     while True:
         column, row, words = source.column()
         if column > columns:
@@ -63,23 +63,23 @@ def _strings(source: _Binary | _Text, columns: int, rows: int) -> Iterator[tuple
             yield column, row, source.numbers(words, dense=True)
             continue
         while words > 0:
-            if rows < 0 or rows >= _BIG:
+            if rows < 0 or rows >= _BIGMAT_ROWS:
                 length, row = source.integers(2)
                 words -= 1
             else:
-                length, row = divmod(source.integers(1)[0], _BIG)
+                length, row = divmod(source.integers(1)[0], _BIGMAT_ROWS)
             words -= length
             yield column, row, source.numbers(length - 1, dense=False)
 
 
-def _count(words: int) -> int:
+def _check_length(words: int) -> int:
     if words < 0:
         raise ValueError("a string has a negative length")
     return words
 
 
 class _Binary:
-    """A file of Fortran's records: one for the header and one for each column."""
+    """File of Fortran records: one for the header and one for each column."""
 
     def __init__(self, file: BinaryIO, head: bytes) -> None:
         order = "<" if int.from_bytes(head, "little") <= 48 else ">"
@@ -102,25 +102,25 @@ class _Binary:
         return self.integers(3)
 
     def integers(self, count: int) -> list[int]:
-        return [int(n) for n in np.frombuffer(self._taken(count), self._word)]
+        return [int(n) for n in np.frombuffer(self._take(count), self._word)]
 
     def numbers(self, words: int, dense: bool) -> Array:
         size = max(self._word.itemsize, 4 if self.kind in (1, 3) else 8)
-        return np.frombuffer(self._taken(words), f"{self._order}f{size}").astype(float)
+        return np.frombuffer(self._take(words), f"{self._order}f{size}").astype(float)
 
     def end(self) -> None:
         pass
 
-    def _taken(self, words: int) -> bytes:
-        size = _count(words) * self._word.itemsize
-        taken, self._record = self._record[:size], self._record[size:]
-        if len(taken) < size:
+    def _take(self, words: int) -> bytes:
+        size = _check_length(words) * self._word.itemsize
+        data, self._record = self._record[:size], self._record[size:]
+        if len(data) < size:
             raise ValueError("a record is too short")
-        return taken
+        return data
 
 
 class _Text:
-    """A file of lines, with numbers in columns of a width that the header gives."""
+    """File of lines, with numbers in fields of the width in the header."""
 
     def __init__(self, file: BinaryIO) -> None:
         self._lines = (line.decode("latin-1").rstrip("\r\n") for line in file)
@@ -131,8 +131,8 @@ class _Text:
         line = next(self._lines, "").rstrip()
         if not line:
             return None
-        wide = 16 if line.endswith("|I16") else 8
-        columns, rows, line = int(line[:wide]), int(line[wide : 2 * wide]), line[2 * wide :]
+        width = 16 if line.endswith("|I16") else 8
+        columns, rows, line = int(line[:width]), int(line[width : 2 * width]), line[2 * width :]
         self.kind = int(line[8:16])
         form = re.search(r"(\d+)[ED](\d+)\.", line[24:].upper())
         self._per_line, self._width = (int(form[1]), int(form[2])) if form else (5, 16)
@@ -150,9 +150,9 @@ class _Text:
         return integers
 
     def numbers(self, words: int, dense: bool) -> Array:
-        count = _count(words if dense or self.kind in (1, 3) else words // 2)
-        wide = self._per_line * self._width
-        block = "".join(self._line()[:wide].ljust(wide) for _ in range(-(-count // self._per_line)))
+        count = _check_length(words if dense or self.kind in (1, 3) else words // 2)
+        line_width = self._per_line * self._width
+        block = "".join(self._line()[:line_width].ljust(line_width) for _ in range(-(-count // self._per_line)))
         block = block.upper().replace("D", "E")
         return np.array([block[k * self._width : (k + 1) * self._width] for k in range(count)], float)
 

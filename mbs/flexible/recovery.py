@@ -1,8 +1,8 @@
 """Section forces and stresses of a frame as constant rows on nodal displacements and loads of its beams.
 
-Rows have 9 n columns for n nodes: the 6 n degrees of freedom, then three components a node of the acceleration (of
-weight: of free fall) whose inertia forces the beams carry between their ends. `ModalBody.recovery` and `inertia_relief`
-know both; a frame that is loaded at its nodes only needs the first 6 n.
+Rows have 9 n columns for n nodes: the 6 n degrees of freedom, then three components per node of the acceleration whose
+inertia forces load the beams between their ends (for weight: of free fall). `ModalBody.recovery` and `inertia_relief`
+accept both; a frame that is loaded only at its nodes needs the first 6 n columns.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")
 
 
 def end_forces(frame: BeamFrame, element: int) -> np.ndarray:
-    """Forces and moments on the two ends of a beam in its local axes, shape (12, 12) on its local freedoms' globals.
+    """Forces and moments on the two ends of a beam, in its local axes, per nodal displacement, shape (12, 12).
 
-    Columns are the twelve degrees of freedom `Frame.element_freedoms`.
+    Columns belong to the degrees of freedom `Frame.element_freedoms`.
     """
     T = np.kron(np.eye(4), frame.element_axes(element)[1])
     return frame.element_stiffness(element) @ T
@@ -33,14 +33,14 @@ def end_forces(frame: BeamFrame, element: int) -> np.ndarray:
 def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     """Section forces at ``x = xi * length`` per unit nodal displacement.
 
-    They act on the face whose normal is +x: N pulls, T twists about x, positive My stretches the fibres at +z,
-    positive Mz those at -y. What loads the element between its ends is its consistent mass times an acceleration that
-    is linear along it, such as its own weight.
+    They act on the face with the normal +x: N is tensile, T turns about x, positive My stretches the fibres at +z,
+    positive Mz those at -y. Between its ends the element is loaded by its consistent mass times an acceleration
+    that is linear along it, such as its own weight.
 
     Parameters
     ----------
     xi : float
-        Place along the beam, from 0 to 1 as a fraction of its length.
+        Position along the beam, from 0 to 1 as a fraction of its length.
 
     Returns
     -------
@@ -50,45 +50,47 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     Raises
     ------
     ModelError
-        The place is outside the beam, or there is no such beam.
+        The position is outside the beam, or there is no such beam.
     """
     instance_of(BeamFrame, frame, "The frame of the section forces", "a Frame")
     if not is_finite(xi) or not 0.0 <= xi <= 1.0:
         raise ModelError(f"The place {shown(xi)} on beam {element} is outside the beam: 0 is its start and 1 its end.")
     length, _ = frame.element_axes(element)
-    to_nodes, between = _inertia(frame, element, xi)
+    to_nodes, beyond_section = _inertia_forces(frame, element, xi)
     shift = np.eye(6)
     arm = (1 - xi) * length  # moment about the section: M_j + arm e_x cross F_j
     shift[4, 2], shift[5, 1] = -arm, arm
-    rows = np.hstack([shift @ end_forces(frame, element)[6:], between - shift @ to_nodes[6:]])
+    rows = np.hstack([shift @ end_forces(frame, element)[6:], beyond_section - shift @ to_nodes[6:]])
     n, beam = len(frame.positions), frame.beams[int(element)]
-    loaded = [6 * n + 3 * node + axis for node in (beam.i, beam.j) for axis in range(3)]
-    columns = np.concatenate([frame.element_freedoms(element), loaded])
+    acceleration_columns = [6 * n + 3 * node + axis for node in (beam.i, beam.j) for axis in range(3)]
+    columns = np.concatenate([frame.element_freedoms(element), acceleration_columns])
     indices = (np.repeat(np.arange(6), 18), np.tile(columns, 6))
     return sp.csr_array(sp.coo_array((rows.ravel(), indices), shape=(6, 9 * n)))
 
 
-def _inertia(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarray, np.ndarray]:
-    """Forces per acceleration of both ends, earth axes: of the whole beam on its ends, and of its part beyond xi.
+def _inertia_forces(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarray, np.ndarray]:
+    """Inertia forces per acceleration of both ends, earth axes: of the beam on its ends, and of its part beyond xi.
 
-    Shapes (12, 6), as the mass of `beam_mass_points` has them, and (6, 6): force and moment about the section, local.
+    Shapes (12, 6), from the mass points of `beam_mass_points`, and (6, 6): force and moment about the section in local
+    axes.
     """
     beam = frame.beams[int(element)]
     length, R = frame.element_axes(element)
     shear = shear_parameters(beam.section, beam.material, length, frame.theory)
     positions, masses, shapes = beam_mass_points(beam.section, beam.material, length, shear, "consistent", False)
-    share = positions[:, 0] / length
-    moved = np.stack([np.hstack([(1.0 - s) * R, s * R]) for s in share])
-    to_nodes = np.einsum("p,pij,pik->jk", masses, shapes, moved)
+    positions_over_length = positions[:, 0] / length
+    accelerations = np.stack([np.hstack([(1.0 - s) * R, s * R]) for s in positions_over_length])
+    to_nodes = np.einsum("p,pij,pik->jk", masses, shapes, accelerations)
     complement, mass = 1.0 - xi, beam.material.rho * beam.section.area * length
     force = mass * np.hstack([complement**2 / 2 * R, (1.0 - xi**2) / 2 * R])
-    lever = mass * length * np.hstack([complement**3 / 6 * R, ((1.0 - xi**3) / 3 - xi * (1.0 - xi**2) / 2) * R])
-    return to_nodes, np.vstack([force, np.zeros(6), -lever[2], lever[1]])
+    first_moment = mass * length * np.hstack([complement**3 / 6 * R, ((1.0 - xi**3) / 3 - xi * (1.0 - xi**2) / 2) * R])
+    return to_nodes, np.vstack([force, np.zeros(6), -first_moment[2], first_moment[1]])
 
 
 def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
-    """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, 9 n), Pa per m
-    and rad, and per m/s2.
+    """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, 9 n).
+
+    Units: Pa per m and rad, and per m/s2.
 
     `fibres`: points (y, z) of the section, m, shape (n_fibres, 2); by default those of `Section.fibres` (highest and
     lowest first).
@@ -106,13 +108,13 @@ def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray
 class StrainGauge:
     """Strain gauges on a beam, as single ones or joined to bridges.
 
-    What they read are rows of shape (1, 9 n), in N, N m or Pa per m, rad and m/s2 of the nodes.
+    Readings are rows of shape (1, 9 n), in N, N m or Pa per m, rad and m/s2 of the nodes.
     """
 
     name: str
     element: int
     xi: float = 0.5
-    """Place along it, 0 at its start and 1 at its end."""
+    """Position along the beam, 0 at its start and 1 at its end."""
     fibre: tuple[float, float] | None = None
     """Point (y, z) of the section where a gauge sits, m; by default the highest fibre. The second gauge of a
     half-bridge sits on the opposite point."""
@@ -125,17 +127,17 @@ class StrainGauge:
         return sp.csr_array(forces[[4]] * (z / size) - forces[[5]] * (y / size))
 
     def half_bridge(self, frame: BeamFrame) -> sp.csr_array:
-        """Stress of the fibre minus that of the opposite one; blind to pull and twist."""
+        """Stress of the fibre minus that of the opposite one, which axial force and torque do not change."""
         y, z = self._point(frame)
         both = fibre_stresses(frame, self.element, self.xi, np.array([(y, z), (-y, -z)]))
         return sp.csr_array(both[[0]] - both[[1]])
 
     def quarter_bridge(self, frame: BeamFrame) -> sp.csr_array:
-        """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads."""
+        """Normal stress of the fibre, by axial force and bending: Young's modulus times the strain of one gauge."""
         return fibre_stresses(frame, self.element, self.xi, np.array([self._point(frame)]))
 
     def axial_force(self, frame: BeamFrame) -> sp.csr_array:
-        """N, positive when the beam is pulled."""
+        """Axial force N, positive in tension."""
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[0]])
 
     def axial_stress(self, frame: BeamFrame) -> sp.csr_array:
@@ -143,7 +145,7 @@ class StrainGauge:
         return sp.csr_array(self.axial_force(frame) * (1.0 / frame.beams[int(self.element)].section.area))
 
     def torque(self, frame: BeamFrame) -> sp.csr_array:
-        """T, positive when it turns the far side of the section right-handed about the beam from start to end."""
+        """Torque T, positive if it turns the far side of the section right-handed about the beam from start to end."""
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[3]])
 
     def shear_stress(self, frame: BeamFrame) -> sp.csr_array:
@@ -201,7 +203,7 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
 
 
 def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:
-    """Largest |normal stress| round each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
+    """Largest absolute normal stress in each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
 
     `forces`: of `section_force_field`, shape (12 n_elements,). Returns an array of shape (n_elements, 2): at the start
     and at the end of each element.

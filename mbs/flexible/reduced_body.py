@@ -16,7 +16,7 @@ from mbs.flexible.modal_body import InterfaceModes, ModalBody
 
 @dataclass(frozen=True, kw_only=True)
 class ReducedBody(ModalBody, Summarised):
-    """A `ModalBody` with what reductions of it and pictures need."""
+    """A `ModalBody` with the data for further reductions and for pictures."""
 
     M: np.ndarray
     """Shape (m, m): modal mass."""

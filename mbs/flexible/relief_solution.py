@@ -1,4 +1,4 @@
-"""Inertia relief: a flexible body deforms at once under interface forces, weight and the inertia of rigid motion."""
+"""Inertia relief: quasi-static deformation under interface forces, weight and the inertia of rigid motion."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def inertia_relief(
 ) -> InertiaRelief:
     """Solve the model once per interface force and per unit acceleration.
 
-    Outputs must not see rigid motions (stresses and section forces do not); then the node that is held does not
-    matter where loads are in balance.
+    Outputs must not depend on rigid motions, as stresses and section forces; then the held node does not affect them
+    under balanced loads.
 
     Parameters
     ----------
@@ -54,13 +54,13 @@ def inertia_relief(
 
     origin = model.origin(reference)
     points, x = model.mass, model.mass.positions - origin
-    field = np.zeros((len(x), 3, 12))  # accelerations of the mass points per unit s and W
+    field = np.zeros((len(x), 3, 12))  # accelerations of the mass points per unit of s and W
     for i in range(3):
         field[:, i, i] = 1.0
         field[:, i, 3 + 3 * i : 6 + 3 * i] = x
     inertia = -np.asarray(points.interpolation.T @ (points.masses[:, None, None] * field).reshape(-1, 12))
 
-    nodes = np.zeros((len(model.positions), 3, 12))  # the same of the nodes, whose inertia loads the beams between them
+    nodes = np.zeros((len(model.positions), 3, 12))  # the same for nodes, for the beams between them
     if model.mass_along_beams:
         nodes[:, range(3), range(3)] = -1.0
         for i in range(3):
@@ -73,13 +73,13 @@ def inertia_relief(
     to_motion = outputs(inertia, nodes.reshape(-1, 12))
     R = model.rigid_motions(origin)
     # unit angular accelerations as columns of W
-    turn = np.zeros((12, 6))
-    turn[:3, :3] = np.eye(3)
+    rigid_to_motion = np.zeros((12, 6))
+    rigid_to_motion[:3, :3] = np.eye(3)
     for axis in range(3):
         e = np.zeros(3)
         e[axis] = 1.0
-        turn[3:, 3 + axis] = np.cross(e, np.eye(3)).T.ravel()
-    rigid_mass = -R.T @ (inertia @ turn)
+        rigid_to_motion[3:, 3 + axis] = np.cross(e, np.eye(3)).T.ravel()
+    rigid_mass = -R.T @ (inertia @ rigid_to_motion)
     balance = np.linalg.solve(rigid_mass, R.T @ loads)
-    balanced = to_forces + to_motion @ turn @ balance
+    balanced = to_forces + to_motion @ rigid_to_motion @ balance
     return InertiaRelief(to_forces, to_motion[:, :3], to_motion[:, 3:], balanced, balance)

@@ -26,7 +26,7 @@ class Section:
     """`shear_y`, `shear_z`: coefficients ``(a, b, c, d)`` of the shear factor ``(a + b nu) / (c + d nu)`` along y and z
     (Cowper 1966)."""
     fibres: tuple[tuple[float, float], ...]
-    """Points (y, z) of the outline, m, at which stresses are wanted; the first two are the highest and the lowest."""
+    """Points (y, z) of the outline, m, at which stresses are computed; the first two are the highest and the lowest."""
 
     def shear_factors(self, nu: float) -> tuple[float, float]:
         """Shear factors along y and z.
@@ -53,7 +53,7 @@ def tube(outer_diameter: float, wall: float) -> Section:
     ModelError
         A length is not positive and finite, or the wall is more than half the diameter.
     """
-    _positive("tube", outer_diameter=outer_diameter, wall=wall)
+    _check_positive("tube", outer_diameter=outer_diameter, wall=wall)
     if wall > outer_diameter / 2:
         raise ModelError(f"A tube of {outer_diameter} m cannot have a wall of {wall} m: at most half the diameter.")
     D, d = outer_diameter, outer_diameter - 2 * wall
@@ -72,7 +72,7 @@ def round_bar(diameter: float) -> Section:
     diameter : float
         m.
     """
-    _positive("round bar", diameter=diameter)
+    _check_positive("round bar", diameter=diameter)
     return tube(diameter, diameter / 2)
 
 
@@ -84,7 +84,7 @@ def rectangle(width: float, height: float) -> Section:
     width, height : float
         Along y and along z, m.
     """
-    _positive("rectangle", width=width, height=height)
+    _check_positive("rectangle", width=width, height=height)
     a, b = max(width, height), min(width, height)
     n = np.arange(1, 200, 2)
     series = float(np.sum(np.tanh(n * np.pi * a / (2 * b)) / n**5))
@@ -102,7 +102,7 @@ def _round_fibres(radius: float) -> tuple[tuple[float, float], ...]:
     return (*top_and_bottom, (radius, 0.0), (-radius, 0.0), (s, s), (-s, s), (-s, -s), (s, -s))
 
 
-def _positive(what: str, **lengths: float) -> None:
+def _check_positive(label: str, **lengths: float) -> None:
     for name, value in lengths.items():
         if not (is_finite(value) and 0.0 < value < LARGEST):
-            raise ModelError(f"The {name} of a {what} is {shown(value)} m; it must be positive.")
+            raise ModelError(f"The {name} of a {label} is {shown(value)} m; it must be positive.")

@@ -1,4 +1,4 @@
-"""The kinds of sparse matrices that are taken."""
+"""Type of sparse matrices that are accepted."""
 
 from typing import Any, TypeAlias
 

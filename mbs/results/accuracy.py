@@ -1,6 +1,4 @@
-"""What a run with fixed steps finds about its own error: from the energy balance at no cost, and for suspect runs from
-a refined run with shorter steps.
-"""
+"""Error of a run with fixed steps: estimated from the energy balance, and for suspect runs from a refined run."""
 
 from __future__ import annotations
 
@@ -21,16 +19,15 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-# Of refined runs, in runs, unless `estimate_error` is a number: 4 + 8 + 16 + 32 where all steps were halved.
-MOST_COST = float(MOST_PARTS * MOST_PARTS)
-GOAL_ERROR = AGREED * WRONG_ERROR  # what a step that is tried as a remedy aims at, and what energy may be off by
-CLEAR = 0.03  # of the range: a run that by order one is off by so little is right, and its step may be named
+MOST_COST = float(MOST_PARTS * MOST_PARTS)  # largest cost of refined runs, in runs, unless `estimate_error` is a number
+GOAL_ERROR = AGREED * WRONG_ERROR  # target of a suggested step, and largest error of the energy
+CLEAR = 0.03  # share of the range: largest error, by order one, of a run that is right
 RIGHT = "A refined run, in which they do not, shows that what is compared is right all the same."
 COARSER, FINER = "coarser", "finer"
 
 
 class AccuracyWarning(UserWarning):
-    """The result of a run is not what was asked for: its energy balance or a refined run say so."""
+    """The energy balance of a run or a refined run shows that its result is inaccurate."""
 
 
 @dataclass(frozen=True)
@@ -38,32 +35,32 @@ class Accuracy:
     """Estimated error of a run."""
 
     energy_balance: float | None
-    """Work that constraint forces and projections did, over the energy that was in the motion; they should do none.
-    None where the method measures none (see `Report.energy_error`)."""
+    """Work of constraint forces and projections over the energy of the motion; it should be zero. None if the method
+    does not measure it (see `Report.energy_error`)."""
     energy_error: float | None
     """That work, J."""
     halvings_per_step: float
-    """How often steps were halved."""
+    """Mean number of halvings per step."""
     compared_step: float | None = None
-    """Step of the last refined run, s; None where there was none. Above that of the run it was a coarser one."""
+    """Step of the last further run, s; None if there was none. It is larger than that of the run for a coarser run."""
     check_cost: float = 0.0
-    """Steps of all refined runs over those of the run: what the check cost."""
+    """Cost of the check: steps of all further runs over those of the run."""
     order: float | None = None
-    """With which errors fall, as the energy of the two runs shows, else that of the method."""
+    """Order of the errors, from the energies of the two runs or, if these are not measured, that of the method."""
     units: dict[str, float] = field(default_factory=dict)
-    """Estimated largest error over the largest range, per unit that was judged ("1": coordinates of the System)."""
+    """Largest estimated error over the largest range, by compared unit ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)
-    """Estimated largest error of the sensors that were compared, in their units."""
+    """Largest estimated errors of the compared sensors, in their units, by name."""
     message: str = ""
-    """Evidence against the result, with a remedy; empty where there is none."""
+    """Evidence against the result, with a remedy; empty if there is none."""
     notice: str = ""
-    """A sentence about an open energy balance of a run that is right as its refined run shows; else empty."""
+    """A sentence about an open energy balance of a run that its refined run confirms; else empty."""
     branch: str = ""
-    """A sentence about a change of the assembly mode that the refined run does not make; empty where there is none."""
+    """A sentence about a change of the assembly mode that the refined run does not make; else empty."""
 
     @property
     def error(self) -> float | None:
-        """Largest of `units`; None where no refined run estimated one."""
+        """Largest of `units`; None if no further run estimated it."""
         return max(self.units.values(), default=0.0) if self.compared_step is not None and self.units else None
 
     def __str__(self) -> str:
@@ -73,7 +70,7 @@ class Accuracy:
         if self.halvings_per_step > 0.0:
             sentences.append(f"{self.halvings_per_step:.2g} halvings a step")
         if self.units:
-            errors = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
+            errors = (f"{_percent(e)}{_range_text(unit)}" for unit, e in self.units.items())
             sentences.append(f"estimated error {', '.join(errors)}")
         if self.check_cost > 0.0:
             sentences.append(
@@ -83,59 +80,58 @@ class Accuracy:
         return "; ".join(sentences)
 
 
-def doubt(report: Report, method: str) -> str:
-    """How a run is to be checked: empty, not at all; `COARSER` by one of twice the step, `FINER` by one of half.
+def required_check(report: Report, method: str) -> str:
+    """Check that a run needs: empty for none, `COARSER` for coarser runs, `FINER` for refined runs.
 
-    An open balance, and a loop that left its mode, are signs of coarse steps already; so is an energy that alone makes
-    places wrong by a method of high order, past a singular position, where longer steps may gain as much by chance.
+    An open energy balance and a change of the assembly mode show that steps are too long. So does the energy error of a
+    method of high order that makes positions wrong: past a singular position longer steps may have the same by chance.
     """
-    drifts = METHOD_TABLE[method].order > 2 and drift(report) > WRONG_ERROR
-    if report.balance != Balance.KEPT or report.branch_changes > 0 or drifts:
+    has_energy_drift = METHOD_TABLE[method].order > 2 and energy_drift(report) > WRONG_ERROR
+    if report.balance != Balance.KEPT or report.branch_changes > 0 or has_energy_drift:
         return FINER
-    # what an abrupt force does is missed, or hidden in parts of steps
-    whole = report.halvings == report.divisions == report.abrupt_steps == 0
-    conserved = max(drift(report), abs(report.energy_change)) <= GOAL_ERROR
-    return "" if summed_miss(report) <= WRONG_ERROR and conserved and whole else COARSER
+    # divided steps may hide the effect of an abrupt force
+    is_undivided = report.halvings == report.divisions == report.abrupt_steps == 0
+    is_conserved = max(energy_drift(report), abs(report.energy_change)) <= GOAL_ERROR
+    return "" if missed_over_peak(report) <= WRONG_ERROR and is_conserved and is_undivided else COARSER
 
 
-def summed_miss(report: Report) -> float:
-    """Changes of velocity that ``v + h a`` does not see, over the largest velocity."""
-    # what a vehicle has at constant speed is no motion that steps could miss
+def missed_over_peak(report: Report) -> float:
+    """Changes of velocity that ``v + h a`` misses, over the largest velocity."""
+    # a constant velocity is no motion that steps could miss
     speed = min(report.speed_peak, report.velocity_path) or math.inf
     return report.predictor_path / speed
 
 
-def drift(report: Report) -> float:
-    """Energy balance times (1 + radians that the motion has turned): what a wrong energy does to the place adds up."""
+def energy_drift(report: Report) -> float:
+    """Energy balance times (1 + rotation of the motion, rad), because position errors of a wrong energy accumulate."""
     balance = report.energy_balance if abs(report.energy_error) > report.energy_floor else 0.0
-    turned = report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
-    return balance * (1.0 + turned)
+    rotation = report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
+    return balance * (1.0 + rotation)
 
 
 def missed_share(report: Report, method: str) -> float:
-    """Changes of velocity that ``v + h a`` does not see, over all: ``h w/2`` of a vibration or an impact of w.
+    """Changes of velocity that ``v + h a`` misses, over all changes: ``h w/2`` of a vibration or impact of w, rad/s.
 
-    Long steps of order above two have few of an event among many smooth ones: of their squares the event keeps its
-    share.
+    Methods of order above two take sums of squares, in which a short event among many smooth steps keeps its share.
     """
-    missed, all_of_them = report.predictor_path, report.velocity_path
+    missed, total = report.predictor_path, report.velocity_path
     if METHOD_TABLE[method].order > 2:
-        missed, all_of_them = math.sqrt(report.predictor_squares), math.sqrt(report.velocity_squares)
-    return missed / all_of_them if all_of_them > 0.0 else 0.0
+        missed, total = math.sqrt(report.predictor_squares), math.sqrt(report.velocity_squares)
+    return missed / total if total > 0.0 else 0.0
 
 
-def divisor(steps: int, halvings: int) -> int:
-    """By what the step is divided for the refined run: twice as fine as the steps that were really made."""
+def step_divisor(steps: int, halvings: int) -> int:
+    """Divisor of the step for a refined run with half of the mean step that was made."""
     return max(2, math.ceil(2.0 * (1.0 + halvings / max(steps, 1)) - 1e-9))
 
 
-def recorded_every(every: int, steps: int) -> int:
-    """A divisor of `every` with which a run of so many steps has enough samples to be compared."""
-    least = max(1, steps // INSTANTS)
-    return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
+def sampling_interval(every: int, steps: int) -> int:
+    """Divisor of `every` with which a run of `steps` steps has enough samples for a comparison."""
+    longest = max(1, steps // INSTANTS)
+    return next(k for k in range(min(every, longest), 0, -1) if every % k == 0) if isinstance(every, int) else every
 
 
-def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
+def accuracy_from_energy(report: Report, steps: int, halvings: int) -> Accuracy:
     """Accuracy of a run from its energy balance alone, without a refined run."""
     moves = report.kinetic_peak > 0.0
     return Accuracy(
@@ -146,7 +142,7 @@ def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
 
 
 def balance_text(report: Report) -> str:
-    """The energy balance in a sentence; empty where it does not say that the run is wrong."""
+    """Sentence about the energy balance; empty unless it shows that the run is wrong."""
     if report.balance != Balance.WRONG:
         return ""
     return (
@@ -156,21 +152,21 @@ def balance_text(report: Report) -> str:
 
 
 def energy_text(report: Report, system: System, method: str) -> str:
-    """That the energy of a free System does not stay, with a remedy; empty where it does."""
+    """Sentence about a change of the energy of a free System, with a remedy; empty if the energy is conserved."""
     share = report.energy_change
     if abs(share) <= GOAL_ERROR:
         return ""
-    other = any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame")) or method == "energy_momentum"
-    goes_on = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
+    is_excluded = any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame")) or method == "energy_momentum"
+    continuation = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
     return (
         f"Nothing acts on {system.name!r} but forces with a potential, so its energy should stay, but it "
         f"{'grows' if share > 0.0 else 'falls'} by {_percent(abs(share))} of the largest kinetic energy in "
-        f"{report.steps} steps, {goes_on}; {OTHER_STEPS if other else OTHER_METHOD}."
+        f"{report.steps} steps, {continuation}; {OTHER_STEPS if is_excluded else OTHER_METHOD}."
     )
 
 
 def needed_step(h: float, accuracy: Accuracy) -> float | None:
-    """The step that would bring the result to `GOAL_ERROR`, s; None where it is too far off to estimate it."""
+    """Step with an estimated error of `GOAL_ERROR`, s; None if the error is too large for an estimate."""
     error = accuracy.error
     if error is None or error > RESOLVED or accuracy.order is None:
         return None
@@ -179,20 +175,22 @@ def needed_step(h: float, accuracy: Accuracy) -> float | None:
 
 
 def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
-    """The remedy for an inaccurate result, in a sentence.
+    """Sentence with a remedy for an inaccurate result.
 
-    `tried`: steps of refined runs, s, the finest last, and their estimated errors, relative to the range.
+    `tried`: steps of refined runs, s, the finest last, and their estimated errors over the range.
     """
-    sufficient = next(((step, off) for step, off in tried if off <= CLEAR), None)
+    sufficient = next(((step, error) for step, error in tried if error <= CLEAR), None)
     if sufficient is None:
-        finds = "simulate(..., tolerance=1e-3) in place of a step finds sufficient steps."
+        tolerance_advice = "simulate(..., tolerance=1e-3) in place of a step finds sufficient steps."
         if not tried:
-            return f"Which step is sufficient was not tried: {finds}"
-        step, off = tried[-1]
-        nearer = (
-            f"are off by about {_percent(off)} at most" if off <= RESOLVED else "do not show the limit of shorter steps"
+            return f"Which step is sufficient was not tried: {tolerance_advice}"
+        step, error = tried[-1]
+        outcome = (
+            f"are off by about {_percent(error)} at most"
+            if error <= RESOLVED
+            else "do not show the limit of shorter steps"
         )
-        return f"Steps of {step:g} s were tried too, and {nearer}: {finds}"
+        return f"Steps of {step:g} s were tried too, and {outcome}: {tolerance_advice}"
     better = _higher_orders(system, method)
     names = " or ".join(map(repr, better))
     advice = f"; longer steps may be sufficient with a method of higher order ({names})" if better else ""
@@ -200,22 +198,25 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
 
 
 def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping[str, Compared]) -> str:
-    """The estimated error in a sentence, with the worst sensor."""
+    """Sentence about the estimated error, with the worst sensor.
+
+    `sizes`: ranges of the compared quantities, in their units, by name.
+    """
     name = max(accuracy.sensors, key=lambda n: accuracy.sensors[n] / sizes[n])
     unit, share = compared[name].unit, accuracy.sensors[name] / sizes[name]
-    least = "at least" if share > RESOLVED else "about"
-    what, of = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
-    gap, size = f"{accuracy.sensors[name]:.3g}{of}", f"{sizes[name]:.3g}{of}"
+    qualifier = "at least" if share > RESOLVED else "about"
+    kind, unit_suffix = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
+    difference_text, size_text = f"{accuracy.sensors[name]:.3g}{unit_suffix}", f"{sizes[name]:.3g}{unit_suffix}"
     return (
-        f"The result is off by {least} {_percent(share)} of the largest range, as a refined run with steps of "
-        f"{accuracy.compared_step:g} s shows: {what} '{name}' by {gap} of {size}."
+        f"The result is off by {qualifier} {_percent(share)} of the largest range, as a refined run with steps of "
+        f"{accuracy.compared_step:g} s shows: {kind} '{name}' by {difference_text} of {size_text}."
     )
 
 
-def open_text(accuracy: Accuracy, step: float, most: float, needed: float) -> str:
-    """That refined runs have cost the `most` that they may, with a remedy.
+def budget_text(accuracy: Accuracy, step: float, most: float, needed: float) -> str:
+    """Sentence about a check that ended at the budget of `most` runs, with a remedy.
 
-    `accuracy`: by the last one; `step`: of the next one, s; `needed`: what all that may follow would cost.
+    `accuracy`: by the last refined run; `step`: of the next one, s; `needed`: cost of all that may follow, in runs.
     """
     reason = "there is no estimate"
     if accuracy.error is not None:
@@ -231,7 +232,7 @@ def open_text(accuracy: Accuracy, step: float, most: float, needed: float) -> st
 
 
 def _higher_orders(system: System, method: str) -> list[str]:
-    """Methods of higher order that take the System, for a method of order two."""
+    """Methods of higher order that accept the System; empty if `method` has an order above two."""
     arrays = system.arrays
     if (
         METHOD_TABLE[method].order > 2
@@ -247,5 +248,5 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.2g} %" if not 0.995 <= share < 100.0 else f"{100.0 * share:.0f} %"
 
 
-def _of(unit: str) -> str:
+def _range_text(unit: str) -> str:
     return f" of the range in {unit}" if unit != COORDINATES else " of the range of coordinates"

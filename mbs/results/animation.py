@@ -1,4 +1,4 @@
-"""Runs that can be looked at: a page, a notebook, a glTF animation, a film."""
+"""Animations of runs: as a page, in a notebook, as a glTF file, as a film."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Comparison of two motions of a System at samples by the kernel: compared sensors, their sizes, differences."""
+"""Comparison of two motions of a System at samples by the kernel: compared quantities, their sizes, differences."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from mbs.kernel.header.structures import ComparedFields, JudgedFields
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
-INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
-WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
-WIDTH = 3  # samples: of the means of loads that are compared, and by how many one run may be late
+INSTANTS = 50  # number of intervals at whose ends two long records are compared
+WHOLE = 200  # largest number of intervals of a record that is compared at all samples
+WIDTH = 3  # samples of a mean of a load, and largest delay of one run, in samples
 COORDINATES = "1"
 UNITS = {
     "m": JudgedUnit.M,
@@ -31,9 +31,9 @@ UNITS = {
     "rad/s": JudgedUnit.RAD_S,
     "N m": JudgedUnit.N_M,
 }
-"""In which two motions are compared."""
-WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # their first integer
-ANGLES = (SensorType.ANGLE, SensorType.ANGLE_ABOUT)  # from -pi to pi
+"""Units of the compared quantities."""
+WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # the first integer is the derivative order
+ANGLES = (SensorType.ANGLE, SensorType.ANGLE_ABOUT)  # values from -pi to pi
 _COMPARED: WeakKeyDictionary[System, dict[str, Compared]] = WeakKeyDictionary()
 REACTIONS = (SensorType.REACTION, SensorType.REACTION_PRODUCTS, SensorType.REACTION_BY_TABLE)
 
@@ -44,17 +44,17 @@ class Compared:
 
     unit: str
     place: bool = False
-    """A position, a length, an angle or a coordinate; all else a rate or a load."""
+    """Whether it is a position, a length, an angle or a coordinate; otherwise it is a rate or a load."""
     load: bool = False
-    """Whether it is a force: compared with its largest value, as a load may be constant; others with their range."""
+    """Whether it is a force: its size is the largest value, as it may be constant; that of others is the range."""
     always: bool = True
-    """False: rates and the forces of motors, which change in jumps, judged where nothing else moves by itself."""
+    """False for rates and motor forces, which may jump: compared only if no position moves by itself."""
     wrapped: bool = False
-    """An angle from -pi to pi."""
+    """Whether it is an angle from -pi to pi."""
 
     @property
     def fields(self) -> JudgedFields:
-        """Fields of the structure for the kernel."""
+        """Structure for the kernel."""
         bits = {
             JudgedKind.PLACE: self.place,
             JudgedKind.LOAD: self.load,
@@ -64,29 +64,29 @@ class Compared:
         return JudgedFields(UNITS[self.unit], sum(bit for bit, is_set in bits.items() if is_set))
 
     def change(self, one: Array, other: Array) -> Array:
-        """Differences of values at samples, (n,); of angles along the smaller arc."""
+        """Differences ``other - one`` of samples (n,), of angles along the smaller arc."""
         return np.asarray((other - one + np.pi) % (2.0 * np.pi) - np.pi if self.wrapped else other - one)
 
     def gap(self, one: Array, other: Array) -> float:
-        """Largest difference at samples, (n,); of angles the smaller arc."""
+        """Largest difference of samples (n,), of angles along the smaller arc."""
         comparison = Comparison({"": self}, 1.0)
         comparison.add({"": other}, {"": one})
         return comparison.gaps[""]
 
 
 class Comparison:
-    """Two motions at samples, in the kernel, which FMUs ask too: ranges, differences, and what counts.
+    """Ranges and differences of two motions at samples, evaluated by the kernel as in FMUs.
 
     Parameters
     ----------
     compared : mapping of str to Compared
-        The compared values, by name.
+        Compared quantities, by name.
     length : float
-        Of the model, m: a smaller range than 1e-4 of it is rest, wherever the model lies.
+        Length of the model, m; a range below 1e-4 of it is rest.
     before : mapping of str to ComparedFields, optional
-        `ends` of the runs before.
+        `ends` of the runs that this one continues.
     energy : float
-        J: forces that do less over the length, and moments that do less over a radian, are none.
+        Forces with less work over the length, and moments with less over a radian, are zero, J.
     """
 
     def __init__(
@@ -97,68 +97,77 @@ class Comparison:
         energy: float = 0.0,
     ) -> None:
         self.compared, self.length, self.energy, n = compared, length, energy, len(compared)
-        self._what = (JudgedFields * n)(*(what.fields for what in compared.values()))
-        self._seen = (ComparedFields * n)(*((before or {}).get(name, ComparedFields()) for name in compared))
+        self._judged = (JudgedFields * n)(*(quantity.fields for quantity in compared.values()))
+        self._extremes = (ComparedFields * n)(*((before or {}).get(name, ComparedFields()) for name in compared))
 
-    def add(self, fine: Mapping[str, Array], coarse: Mapping[str, Array] | None = None, forces: Any = None) -> None:
-        """Samples of the finer motion, and of the coarser one at the same times, each of shape (n,) by name; NaN where
-        something is not known. `forces`: numbers of the samples at which these are compared, by default all.
+    def add(
+        self, fine: Mapping[str, Array], coarse: Mapping[str, Array] | None = None, load_samples: Any = None
+    ) -> None:
+        """Add samples (n,), by name, of the finer motion and of the coarser one at the same times; NaN: unknown.
+
+        `load_samples`: indices of the samples at which loads are compared, by default all.
         """
         if not self.compared:
             return
-        fine_rows, aligned = self._rows(fine), None
+        fine_rows, aligned = self._samples(fine), None
         if coarse is not None:
-            coarse_rows, aligned = self._rows(coarse)[: len(fine_rows)], np.full_like(fine_rows, np.nan)
-            loads = np.array([what.load for what in self.compared.values()])
+            coarse_rows, aligned = self._samples(coarse)[: len(fine_rows)], np.full_like(fine_rows, np.nan)
+            loads = np.array([quantity.load for quantity in self.compared.values()])
             aligned[: len(coarse_rows), ~loads] = coarse_rows[:, ~loads]
-            loaded = np.ix_(np.arange(len(coarse_rows)) if forces is None else forces, np.flatnonzero(loads))
+            loaded = np.ix_(
+                np.arange(len(coarse_rows)) if load_samples is None else load_samples, np.flatnonzero(loads)
+            )
             aligned[loaded] = coarse_rows[loaded]
         pointers = (None if rows is None else rows.ctypes.data_as(POINTER(c_double)) for rows in (aligned, fine_rows))
-        load_library().ali3_compare(self._what, len(self._what), len(fine_rows), None, *pointers, self._seen)
+        load_library().ali3_compare(self._judged, len(self._judged), len(fine_rows), None, *pointers, self._extremes)
 
-    def _rows(self, motion: Mapping[str, Array]) -> Array:
+    def _samples(self, motion: Mapping[str, Array]) -> Array:
         return np.column_stack([np.asarray(motion[name], float) for name in self.compared])
 
     def widen(self, gaps: Mapping[str, float]) -> None:
-        """Differences that were found otherwise."""
-        for name, fields in zip(self.compared, self._seen, strict=True):
+        """Raise the largest differences to at least `gaps`, by name."""
+        for name, fields in zip(self.compared, self._extremes, strict=True):
             fields.gap = max(fields.gap, gaps.get(name, 0.0))
 
     @property
     def gaps(self) -> dict[str, float]:
-        """Largest difference of each."""
-        return {name: fields.gap for name, fields in zip(self.compared, self._seen, strict=True)}
+        """Largest difference of each quantity, in its unit."""
+        return {name: fields.gap for name, fields in zip(self.compared, self._extremes, strict=True)}
 
     @property
     def ends(self) -> dict[str, ComparedFields]:
-        """Ranges without differences, for a comparison of what follows."""
-        ends = dict(zip(self.compared, map(ComparedFields.from_buffer_copy, self._seen), strict=True))
+        """Extreme values without differences, for the comparison of a run that continues this one."""
+        ends = dict(zip(self.compared, map(ComparedFields.from_buffer_copy, self._extremes), strict=True))
         for fields in ends.values():
             fields.gap = 0.0
         return ends
 
     def sizes(self, guided: bool = True) -> dict[str, float]:
-        """Reference for the differences of each value that counts: the largest range in its unit, of forces the largest
-        value. `guided`: places that are the same in both motions do not move by themselves.
+        """Reference of the differences of each relevant quantity: the largest range in its unit; of forces, the value.
+
+        `guided`: positions that are equal in both motions do not move by themselves.
         """
-        size = np.zeros(len(self._what))
-        pointer = size.ctypes.data_as(POINTER(c_double))
-        load_library().ali3_compared_sizes(self._what, len(size), self._seen, self.length, self.energy, guided, pointer)
-        return {name: float(of) for name, of in zip(self.compared, size, strict=True) if of > 0.0}
+        references = np.zeros(len(self._judged))
+        pointer = references.ctypes.data_as(POINTER(c_double))
+        load_library().ali3_compared_sizes(
+            self._judged, len(references), self._extremes, self.length, self.energy, guided, pointer
+        )
+        return {
+            name: float(reference) for name, reference in zip(self.compared, references, strict=True) if reference > 0.0
+        }
 
 
 def compared_sensors(system: System) -> Mapping[str, Compared]:
     """Sensors of the System that can be compared, by name.
 
-    Gears, energies and accelerations change in jumps, or change sign, where a small shift in time is a large
-    difference: they say nothing.
+    Gears, energies and accelerations are excluded: they jump, and a small shift in time makes a large difference.
     """
     if system not in _COMPARED:
-        _COMPARED[system] = _sensors_of(system)
+        _COMPARED[system] = _find_compared_sensors(system)
     return _COMPARED[system]
 
 
-def _sensors_of(system: System) -> dict[str, Compared]:
+def _find_compared_sensors(system: System) -> dict[str, Compared]:
     arrays, compared = system.arrays, dict[str, Compared]()
     driven = set(np.asarray(arrays["gterm_row"]).tolist())
     for i, sensor in enumerate(system.meta["sensors"]):
@@ -176,55 +185,57 @@ def _sensors_of(system: System) -> dict[str, Compared]:
             compared[sensor["name"]] = Compared(unit, load=True)
         elif rate and unit in ("m/s", "rad/s"):
             compared[sensor["name"]] = Compared(unit, always=False)
-        elif kind in REACTIONS and unit in UNITS and driven.intersection(_rows(kind, integers)):
+        elif kind in REACTIONS and unit in UNITS and driven.intersection(_rows_of_reaction(kind, integers)):
             compared[sensor["name"]] = Compared(unit, load=True, always=False)
     return compared
 
 
-def _rows(kind: SensorType, integers: list[int]) -> list[int]:
-    """The rows whose multipliers a sensor reads; items have a row first."""
+def _rows_of_reaction(kind: SensorType, integers: list[int]) -> list[int]:
+    """Rows whose multipliers a reaction sensor reads: the first integer of each of its items."""
     item = {SensorType.REACTION: 1, SensorType.REACTION_PRODUCTS: 5}.get(kind, 6)
     return integers[1::item]
 
 
-def compared_in(
+def select_compared(
     values: Mapping[str, Array],
     compared: Mapping[str, Compared],
     length: float,
     before: Mapping[str, ComparedFields] | None = None,
-    stands: bool = False,
+    at_rest: bool = False,
     guided: bool = False,
     energy: float = 0.0,
 ) -> dict[str, Compared]:
     """Values of a run that are compared, by name, as the kernel selects them.
 
-    `stands`: nothing moves by the coordinates, so that rates and forces of motors do not count; `guided`: two motions
-    decide whether a place moves by itself, see `differences`; `length`, `before`, `energy`: as of `Comparison`.
+    `at_rest`: no coordinate moves, so that rates and motor forces are excluded; `guided`: two motions decide whether a
+    position moves by itself, see `differences`; `length`, `before`, `energy`: as of `Comparison`.
     """
     comparison = Comparison(
-        {n: what for n, what in compared.items() if what.always or not stands}, length, before, energy
+        {n: quantity for n, quantity in compared.items() if quantity.always or not at_rest}, length, before, energy
     )
     comparison.add(values, values)
     return {name: compared[name] for name in comparison.sizes(guided)}
 
 
-def is_open(compared: Mapping[str, Compared]) -> bool:
-    """Whether two motions must say whether a place moves by itself, see `differences`."""
-    return any(what.place for what in compared.values()) and not all(what.always for what in compared.values())
+def needs_two_motions(compared: Mapping[str, Compared]) -> bool:
+    """Whether only two motions show whether a position moves by itself, see `differences`."""
+    return any(quantity.place for quantity in compared.values()) and not all(
+        quantity.always for quantity in compared.values()
+    )
 
 
 def has_loads(compared: Mapping[str, Compared]) -> bool:
-    """Whether some forces are always compared."""
-    return any(what.load and what.always for what in compared.values())
+    """Whether any force is always compared."""
+    return any(quantity.load and quantity.always for quantity in compared.values())
 
 
 def shows_motion(compared: Mapping[str, Compared]) -> bool:
-    """Whether a place or a rate is judged; else the coordinates of the System are."""
-    return any(not what.load for what in compared.values())
+    """Whether a position or a rate is compared; otherwise the coordinates of the System are."""
+    return any(not quantity.load for quantity in compared.values())
 
 
 def instants(samples: int) -> NDArray[np.int_]:
-    """Numbers of the samples at which two runs are compared: all of a short record, 51 of a longer one."""
+    """Indices of the samples at which two runs are compared: all of a short record, 51 of a longer one."""
     last = max(samples - 1, 0)
     return np.unique(np.linspace(0, last, (last if last <= WHOLE else INSTANTS) + 1).round().astype(int))
 
@@ -250,13 +261,13 @@ def differences(
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """Largest differences of two runs at samples, of loads at `instants` and between them.
 
-    Rates and the forces of motors count where no place moves by itself: those that guides prescribe are the same to
-    round-off in both.
+    Rates and motor forces are compared if no position moves by itself: guided positions are equal in both runs to
+    round-off.
 
     Returns
     -------
     units : dict of str to float
-        Largest difference over its size, per unit; units in which nothing moves are left out.
+        Largest difference over its size, per unit; units without motion are omitted.
     sensors : dict of str to float
         Largest difference per sensor.
     sizes : dict of str to float
@@ -267,7 +278,9 @@ def differences(
         [len(run[n]) for n in compared for run in (fine, coarse)],
     )
     comparison.add(fine, coarse, instants(min(samples, default=0)))
-    comparison.widen({name: missed_load(coarse[name], fine[name]) for name, what in compared.items() if what.load})
+    comparison.widen(
+        {name: missed_load(coarse[name], fine[name]) for name, quantity in compared.items() if quantity.load}
+    )
     sizes, units = comparison.sizes(), dict[str, float]()
     gaps = {name: gap for name, gap in comparison.gaps.items() if name in sizes}
     for name, size in sizes.items():
@@ -276,19 +289,19 @@ def differences(
 
 
 def missed_load(one: Array, other: Array) -> float:
-    """Largest load of one run, or lack of it, that the other does not have within `WIDTH` samples.
+    """Largest excess of a load of one run over its range in the other within `WIDTH` samples.
 
-    Compared are means of `WIDTH` samples: a landing that comes a sample later, or whose peak lies between two samples,
-    has the same mean. Shorter runs have none.
+    Means of `WIDTH` samples are compared: an impact that is a sample later, or whose peak lies between two samples, has
+    the same mean. 0 for runs that are too short.
 
-    `one`, `other`: the load at the same samples, shape (n,).
+    `one`, `other`: load at the same samples, shape (n,).
     """
     if len(one) < 2 * WIDTH:
         return 0.0
     means = [uniform_filter1d(load, WIDTH, mode="nearest") for load in (one, other)]
     gap = 0.0
     for a, b in (means, means[::-1]):
-        most = maximum_filter1d(b, 2 * WIDTH + 1, mode="nearest")
-        least = -maximum_filter1d(-b, 2 * WIDTH + 1, mode="nearest")
-        gap = max(gap, float(np.max(a - most)), float(np.max(least - a)))
+        upper = maximum_filter1d(b, 2 * WIDTH + 1, mode="nearest")
+        lower = -maximum_filter1d(-b, 2 * WIDTH + 1, mode="nearest")
+        gap = max(gap, float(np.max(a - upper)), float(np.max(lower - a)))
     return gap

@@ -1,4 +1,4 @@
-"""Observed order of convergence, and extrapolation of runs with shorter steps."""
+"""Observed order of convergence and extrapolation of runs with shorter steps."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -16,55 +16,67 @@ from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
 
-LEAST_ORDER = 0.5  # measured: below, differences do not yet show the error
+LEAST_ORDER = 0.5  # measured: below it, differences do not show the error
 
 
 def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
-    most = float(METHOD_TABLE[method].order)
+    """Order of the errors: that of the energy if both runs measured it, at most that of the method.
+
+    `ratio`: step of the coarse run over that of the fine one.
+    """
+    method_order = float(METHOD_TABLE[method].order)
     first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if most > 2.0 or not (second > 0.0 and first > second):  # the quadrature of a work is of lower order
-        return most
-    return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
+    if method_order > 2.0 or not (second > 0.0 and first > second):  # the quadrature of the work is of lower order
+        return method_order
+    return min(method_order, max(1.0, math.log(first / second) / math.log(ratio)))
 
 
-def seen_order(first: float, near: float, parts: int, most_parts: int, most: float) -> float:
-    """Order, from `LEAST_ORDER` to `most`, with which runs come nearer to what they tend to, of which one and that with
-    its step in `parts` differ by `first` and `near` from that with its step in `most_parts`.
+def observed_order(
+    first_difference: float, near_difference: float, near_divisor: int, finest_divisor: int, method_order: float
+) -> float:
+    """Observed order of three runs, from `LEAST_ORDER` to `method_order`.
+
+    `first_difference`, `near_difference`: differences of the first run, and of that with its step over `near_divisor`,
+    from the run with its step over `finest_divisor`.
     """
 
-    def more(order: float) -> float:
-        return float(near * (most_parts**order - 1.0) - first * ((most_parts / parts) ** order - 1.0))
+    def residual(order: float) -> float:
+        return float(
+            near_difference * (finest_divisor**order - 1.0)
+            - first_difference * ((finest_divisor / near_divisor) ** order - 1.0)
+        )
 
-    if more(most) <= 0.0:
-        return most
-    return float(brentq(more, LEAST_ORDER, most)) if more(LEAST_ORDER) < 0.0 else LEAST_ORDER
+    if residual(method_order) <= 0.0:
+        return method_order
+    return float(brentq(residual, LEAST_ORDER, method_order)) if residual(LEAST_ORDER) < 0.0 else LEAST_ORDER
 
 
-def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
-    """Whether a run that is off by `apart` may change the verdict of the error that it gave, both over the range, per
-    unit.
+def may_change_verdict(known: Accuracy, errors: Mapping[str, float]) -> bool:
+    """Whether the errors of a refined run could change the verdict on the errors of the first run.
+
+    `known`: errors of the first run by the refined one; `errors`: those of the refined run over the range, by unit.
     """
-    above = {unit: error - WRONG_ERROR for unit, error in known.units.items()}
-    surely_wrong = any(more >= apart[unit] for unit, more in above.items())
-    return not surely_wrong and any(-more < apart[unit] for unit, more in above.items())
+    margins = [(error - WRONG_ERROR, errors.get(unit, 0.0)) for unit, error in known.units.items()]
+    surely_wrong = any(margin >= error for margin, error in margins)
+    return not surely_wrong and any(-margin < error for margin, error in margins)
 
 
-def extrapolated(
+def extrapolate_error(
     known: Accuracy,
     tables: Sequence[Mapping[str, NDArray[np.float64]]],
     compared: Mapping[str, Compared],
     before: Mapping[str, ComparedFields] | None,
     length: float,
-) -> Accuracy:
-    """The error against what refined runs tend to, by Richardson's extrapolation with the order of the default
-    method, which keeps it behind abrupt events: stops are located, and parts of steps shrink with the step.
+) -> tuple[Accuracy, dict[str, float]]:
+    """Error against the limit of refined runs, by Richardson's extrapolation with the order of the default method.
 
-    `tables`: of the run and of the last two refined ones, of which the last has half the step, samples of shape (n,) by
-    name; `before`, `length`: as of `Comparison`.
+    That order holds after abrupt events too: stops are located, and parts of steps shrink with the step.
+
+    `tables`: samples (n,), by name, of the run and of the last two refined ones, of which the last has half the step;
+    `before`, `length`: as of `Comparison`. Result: the sizes of the sensors too, see `Comparison.sizes`.
     """
     run, coarse, fine = tables
     weight = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)
     limit = {name: fine[name] + weight * what.change(coarse[name], fine[name]) for name, what in compared.items()}
-    units, sensors, _ = differences(run, limit, compared, before, length)
-    return replace(known, units=units, sensors=sensors)
+    units, sensors, sizes = differences(run, limit, compared, before, length)
+    return replace(known, units=units, sensors=sensors), sizes

@@ -1,4 +1,4 @@
-"""Sensors that a System leaves out: they are computed when one of them is first read, and never read as 0."""
+"""Sensors that a System omits: they are computed when one of them is first read."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ PICKLED = "a run that was pickled has what was read of it before. Read the senso
 
 
 class OmittedSensors:
-    """Columns of a run that it did not compute.
+    """Columns of sensors that a run did not compute.
 
-    `compute`: takes of how many samples one is wanted, and returns the columns by name; None where nothing can;
-    `reason`: why nothing can; `every`: one of so many samples of the run is wanted.
+    `compute`: function of the stride that returns the columns, by name; None if they cannot be computed; `reason`: why
+    not; `every`: stride, one of so many samples of the run.
     """
 
     def __init__(
@@ -27,36 +27,36 @@ class OmittedSensors:
         every: int = 1,
     ) -> None:
         self.names, self._compute, self.reason, self._every = tuple(names), compute, reason, every
-        self._found: dict[str, Array] | None = None
+        self._values: dict[str, Array] | None = None
 
     @property
-    def can(self) -> bool:
-        """Whether they can be found."""
+    def can_be_computed(self) -> bool:
+        """Whether the columns can be computed."""
         return self._compute is not None
 
     def column(self, name: str) -> Array:
-        """Values of one of the names; all are found with the first.
+        """Values of a sensor; all are computed with the first.
 
-        Raises `KeyError`: they cannot be found; the sentence says why.
+        Raises `KeyError`: they cannot be computed.
         """
-        if self._compute is not None and self._found is None:
-            self._found = self._compute(self._every)
-        if self._found is None:
-            raise KeyError(refused(name, self.reason))
-        return self._found[name]
+        if self._compute is not None and self._values is None:
+            self._values = self._compute(self._every)
+        if self._values is None:
+            raise KeyError(not_computed_text(name, self.reason))
+        return self._values[name]
 
     def thinned(self, every: int) -> OmittedSensors:
         """Omitted sensors of every `every`-th sample."""
         omitted = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
-        if self._compute is None and self._found is not None:
-            omitted._found = {name: values[::every] for name, values in self._found.items()}
+        if self._compute is None and self._values is not None:
+            omitted._values = {name: values[::every] for name, values in self._values.items()}
         return omitted
 
     def __getstate__(self) -> dict[str, Any]:
-        lost = self._compute is not None and self._found is None
-        return {**self.__dict__, "_compute": None, "reason": PICKLED if lost else self.reason}
+        is_lost = self._compute is not None and self._values is None
+        return {**self.__dict__, "_compute": None, "reason": PICKLED if is_lost else self.reason}
 
 
-def refused(name: str, reason: str) -> str:
-    """Sentence that says why a sensor cannot be read."""
+def not_computed_text(name: str, reason: str) -> str:
+    """Sentence about a sensor that cannot be read, with the reason."""
     return f"The sensor {name!r} is not computed by this System: {reason}."

@@ -1,4 +1,4 @@
-"""Poses of all bodies over a run: columns by name, from the coordinates that a run keeps."""
+"""Poses of all bodies over a run, from the recorded coordinates: columns by name."""
 
 from __future__ import annotations
 
@@ -14,23 +14,24 @@ from mbs.common.checks import shown
 from mbs.system.drawing import POSE, POSE_UNITS, BodyPlace, Places, twist
 
 Array = NDArray[np.float64]
-MOST_SAMPLES, MOST_NUMBERS = 100_000, 4_000_000
-"""Poses that a run keeps: so many samples at most, and so many coordinates in all (32 MB)."""
+MOST_SAMPLES, MOST_COORDINATES = 100_000, 4_000_000
+"""Largest numbers of samples and of coordinates (32 MB) of recorded poses."""
 
 
-def kept_every(samples: int, nq: int, every: int = 1) -> int:
-    """Interval of the samples whose poses are kept, a multiple of `every`."""
-    most = max(100, min(MOST_SAMPLES, MOST_NUMBERS // max(nq, 1)))
-    return every * max(1, math.ceil(samples / every / most))
+def pose_interval(samples: int, nq: int, every: int = 1) -> int:
+    """Interval of the samples with poses, a multiple of `every`."""
+    most_samples = max(100, min(MOST_SAMPLES, MOST_COORDINATES // max(nq, 1)))
+    return every * max(1, math.ceil(samples / every / most_samples))
 
 
 class Poses(Mapping[str, Array]):
     """Poses over time: ``poses["rod.x"]`` is an array of shape (n,).
 
-    A body has ``BODY.x``, ``.y``, ``.z``, the place of its centre of mass (of a flexible body the origin of its
+    A body has ``BODY.x``, ``.y``, ``.z``, the position of its centre of mass (of a flexible body the origin of its
     floating frame) in earth axes, m, and the quaternion ``BODY.qw``, ``.qx``, ``.qy``, ``.qz`` that turns its axes from
     the drawing, scalar first and ``qw`` not negative. Planar bodies have z = 0 and turn about z, particles do not turn.
-    Wheels and what else turns on a body have ``NAME.angle``, rad; flexible bodies ``BODY.MODE``, their amplitudes.
+    Wheels and other parts that rotate on a body have ``NAME.angle``, rad; flexible bodies have their amplitudes
+    ``BODY.MODE``.
 
     Attributes
     ----------
@@ -44,12 +45,12 @@ class Poses(Mapping[str, Array]):
         self.t = t
         self.every = every
         self._q, self._places = q, places
-        self._made: dict[str, Array] = {}
+        self._computed: dict[str, Array] = {}
         self.bodies = tuple(body.name for body in places.bodies)
 
     @classmethod
     def of_columns(cls, t: Array, columns: Mapping[str, Array]) -> Poses | None:
-        """Poses from named columns, of what has all seven parts.
+        """Poses from named columns, of the bodies with all seven components.
 
         Parameters
         ----------
@@ -61,17 +62,19 @@ class Poses(Mapping[str, Array]):
         Returns
         -------
         Poses or None
-            None where nothing has all parts.
+            None if no body has all components.
         """
-        ends = [f".{end}" for end in POSE]
+        suffixes = [f".{suffix}" for suffix in POSE]
         names = [n.removesuffix(".qw") for n in columns if n.endswith(".qw")]
-        whole = [n for n in names if all(n + end in columns for end in ends) and f"{n}.pose.qw" not in columns]
-        if not whole:
+        complete = [
+            n for n in names if all(n + suffix in columns for suffix in suffixes) and f"{n}.pose.qw" not in columns
+        ]
+        if not complete:
             return None
-        q = np.column_stack([columns[n + end] for n in whole for end in ends])
+        q = np.column_stack([columns[n + suffix] for n in complete for suffix in suffixes])
         bodies = [
-            BodyPlace(n.removesuffix(".pose"), "pose", 7 * k, tuple(n + end for end in ends))
-            for k, n in enumerate(whole)
+            BodyPlace(n.removesuffix(".pose"), "pose", 7 * k, tuple(n + suffix for suffix in suffixes))
+            for k, n in enumerate(complete)
         ]
         size = q.shape[1]
         return cls(t, 1, q, Places(sparse.csr_matrix(np.eye(size)), np.zeros(size), tuple(bodies)))
@@ -103,7 +106,7 @@ class Poses(Mapping[str, Array]):
         ndarray, shape (n, 3)
             Earth axes, m.
         """
-        return self._pose(self._number(body))[:, :3]
+        return self._pose(self._body_index(body))[:, :3]
 
     def quaternion(self, body: str) -> Array:
         """Quaternions of a body, scalar first and not negative: earth vector = rotation of the vector as drawn.
@@ -112,27 +115,29 @@ class Poses(Mapping[str, Array]):
         -------
         ndarray, shape (n, 4)
         """
-        return self._pose(self._number(body))[:, 3:]
+        return self._pose(self._body_index(body))[:, 3:]
 
     @property
     def units(self) -> dict[str, str]:
         """Unit of each column."""
-        of_kind = {"turn": "rad", "mode": "1"}
-        return {name: of_kind.get(kind) or POSE_UNITS[part] for name, (kind, _, part) in self._columns.items()}
+        kind_units = {"turn": "rad", "mode": "1"}
+        return {
+            name: kind_units.get(kind) or POSE_UNITS[component] for name, (kind, _, component) in self._columns.items()
+        }
 
     def recorded(
         self, columns: Mapping[str, Array], units: Mapping[str, str]
     ) -> tuple[dict[str, Array], dict[str, str]]:
-        """Columns and units of sensors, and behind them those of the poses as recordings and files name them."""
-        p = self._places
-        names = dict(zip(self._columns, [c for b in p.bodies for c in b.columns], strict=False))
-        names |= {f"{turn.name}.angle": turn.column for turn in p.turns}
-        names |= {f"{a.body}.{m}": c for a in p.amplitudes for m, c in zip(a.modes, a.columns, strict=True)}
-        of_poses = {names[n]: values for n, values in self.items()}
-        return {**columns, **of_poses}, {**units, **{names[n]: unit for n, unit in self.units.items()}}
+        """Columns and units of sensors, followed by those of the poses under their names in recordings and files."""
+        places = self._places
+        names = dict(zip(self._columns, [c for b in places.bodies for c in b.columns], strict=False))
+        names |= {f"{turn.name}.angle": turn.column for turn in places.turns}
+        names |= {f"{a.body}.{m}": c for a in places.amplitudes for m, c in zip(a.modes, a.columns, strict=True)}
+        pose_columns = {names[n]: values for n, values in self.items()}
+        return {**columns, **pose_columns}, {**units, **{names[n]: unit for n, unit in self.units.items()}}
 
     def thinned(self, every: int) -> Poses:
-        """The poses at every so many samples of the trajectory.
+        """Poses at every n-th sample of the trajectory.
 
         Parameters
         ----------
@@ -149,32 +154,34 @@ class Poses(Mapping[str, Array]):
 
     @cached_property
     def _columns(self) -> dict[str, tuple[str, int, int]]:
-        p = self._places
+        places = self._places
         columns = {
-            f"{b.name}.{component}": ("body", k, i) for k, b in enumerate(p.bodies) for i, component in enumerate(POSE)
+            f"{b.name}.{component}": ("body", k, i)
+            for k, b in enumerate(places.bodies)
+            for i, component in enumerate(POSE)
         }
-        columns |= {f"{turn.name}.angle": ("turn", k, 0) for k, turn in enumerate(p.turns)}
-        modes = [(k, i, f"{a.body}.{mode}") for k, a in enumerate(p.amplitudes) for i, mode in enumerate(a.modes)]
+        columns |= {f"{turn.name}.angle": ("turn", k, 0) for k, turn in enumerate(places.turns)}
+        modes = [(k, i, f"{a.body}.{mode}") for k, a in enumerate(places.amplitudes) for i, mode in enumerate(a.modes)]
         return columns | {name: ("mode", k, i) for k, i, name in modes}
 
-    def _number(self, body: str) -> int:
+    def _body_index(self, body: str) -> int:
         if body not in self.bodies:
             raise KeyError(f"There is no body {shown(body)}; the bodies are: {', '.join(self.bodies) or 'none'}.")
         return self.bodies.index(body)
 
-    def _pose(self, number: int) -> Array:
-        body = self._places.bodies[number]
-        if body.name not in self._made:
-            self._made[body.name] = self._places.pose(self._q, body)
-        return self._made[body.name]
+    def _pose(self, index: int) -> Array:
+        body = self._places.bodies[index]
+        if body.name not in self._computed:
+            self._computed[body.name] = self._places.pose(self._q, body)
+        return self._computed[body.name]
 
-    def _turn(self, number: int) -> Array:
-        turn = self._places.turns[number]
+    def _turn(self, index: int) -> Array:
+        turn = self._places.turns[index]
         angle = self._places.rows(self._q, turn.row, 1)[:, 0]
         if not turn.absolute:
             return angle
         return angle - twist(self.quaternion(turn.carrier), np.array(turn.axis))
 
-    def _amplitudes(self, number: int) -> Array:
-        of = self._places.amplitudes[number]
-        return self._places.rows(self._q, of.row, len(of.modes))
+    def _amplitudes(self, index: int) -> Array:
+        amplitudes = self._places.amplitudes[index]
+        return self._places.rows(self._q, amplitudes.row, len(amplitudes.modes))

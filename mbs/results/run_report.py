@@ -8,9 +8,9 @@ from dataclasses import dataclass, fields
 
 from mbs.kernel.header.steps import Balance
 
-LINE = 0.5
-"""Square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15."""
-TURNED = 12.0  # rad of the motion from which it is told apart
+LEAST_CORRELATION = 0.5
+"""Least squared correlation of energy and time of a growth: one period of an oscillation has 0.6, two have 0.15."""
+LEAST_ROTATION = 12.0  # rad of the motion from which growth and oscillation are distinguished
 
 
 @dataclass(frozen=True)
@@ -51,34 +51,32 @@ class Report:
     energy_floor : float
         Work of gravity over the tolerance of the residual, J; a smaller `energy_error` is not significant.
     free_states : int
-        Of a System on which nothing acts but forces with a potential, whose energy stays: states that were looked at;
-        0 for others, and where parameters or switches changed last.
+        Number of observed states of a System on which only forces with a potential act, so that its energy is
+        constant; 0 for other Systems, and after a change of parameters or switches.
     free_start, free_steps, free_energy, free_steps_squares, free_energy_squares, free_product : float
-        The energy of the first of these, J, means of the steps and of the energy, and sums of squares and products of
-        the deviations from these.
+        Energy of the first of these states, J, means of the step numbers and of the energy, and sums of squares and of
+        products of the deviations from these means.
     balance : int
-        Whether `energy_balance` is above its limit by more than the tolerance of the residual explains: 0 no, 1 yes,
-        2 yes, and that alone decides that the run is wrong.
+        Whether `energy_balance` exceeds its limit by more than the tolerance of the residual explains: 0 no, 1 yes,
+        2 yes, and this alone shows that the run is wrong.
     rim_pressed, rim_time, rim_x, rim_y : float
-        How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
+        Largest depth of a rim in a road beyond the limit of its wheel, m, 0: none; its time, s, and position, m.
     divisions : int
-        Steps that were made in halves, as parts of them may have been again, because a force of a contact or a stop
-        changed abruptly in them; and parts of steps that ended where an input jumps or peaks.
+        Steps or parts of steps that were halved because a force of a contact or a stop changed abruptly in them, and
+        parts of steps that ended at a jump or peak of an input.
     abrupt_steps : int
-        Steps in which such a force changed by more than a tenth of the largest; without roads that of a spring beyond
-        its stop.
+        Steps in which such a force changed by more than a tenth of the largest one; without roads, the force of a
+        spring beyond its stop.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float
-        Of the first one, s.
+        Time of the first one, s.
     branch_kind : int
-        Of the first one: 1 a loop went through a dead centre, or another position, into a mode that is not its own; 2 a
-        step jumped.
+        Kind of the first one: 1 a loop passed a dead centre, or another position, into another mode; 2 a step jumped.
     capped : int
-        Steps that ended at `Settings.step_iterations`, or stayed whole where a force changes abruptly because it has no
-        room for halves.
+        Steps that ended at `Settings.step_iterations`, or that were not halved at an abrupt force because of it.
     capped_residual : float
-        The largest that one of them left of `residual` or `violation`, m: about as far its positions may be off.
+        Largest `residual` or `violation` after one of them, m: about the largest error of its positions.
     """
 
     steps: int
@@ -141,36 +139,42 @@ class Report:
 
     @property
     def energy_balance(self) -> float:
-        """``|energy_error|`` over `energy_size`; 0 where nothing moved."""
+        """``|energy_error|`` over `energy_size`; 0 without motion."""
         return abs(self.energy_error) / self.energy_size if self.energy_size > 0.0 else 0.0
 
     @property
     def energy_growth(self) -> float:
         """Growth of the energy of a free System over the run, J, by linear regression.
 
-        0 where the line is less than half of how the energy changes: it then swings and comes back.
+        0 if the line explains less than half of the variance: the energy then oscillates.
         """
         scatter = math.sqrt(self.free_steps_squares) * math.sqrt(self.free_energy_squares)
-        if not abs(self.free_product) > math.sqrt(LINE) * scatter or self.velocity_path < TURNED * self.speed_peak:
+        if (
+            not abs(self.free_product) > math.sqrt(LEAST_CORRELATION) * scatter
+            or self.velocity_path < LEAST_ROTATION * self.speed_peak
+        ):
             return 0.0
         return self.free_product / self.free_steps_squares * self.steps
 
     @property
     def energy_change(self) -> float:
-        """By what the energy of a free System is off, in parts of the largest kinetic energy: it grows, or its mean has
-        left that of the start.
+        """Error of the energy of a free System over the largest kinetic energy.
+
+        It is the growth of the energy or, without growth, its mean minus the energy at the start.
         """
-        off = self.energy_growth or (self.free_energy - self.free_start if self.free_states else 0.0)
-        return off / self.kinetic_peak if abs(off) > self.energy_floor else 0.0
+        change = self.energy_growth or (self.free_energy - self.free_start if self.free_states else 0.0)
+        return change / self.kinetic_peak if abs(change) > self.energy_floor else 0.0
 
     @property
     def capped_text(self) -> str:
-        """A sentence about the steps that `Settings.step_iterations` ended or left whole; empty where none."""
+        """A sentence about the steps that `Settings.step_iterations` ended or left whole; empty if there are none."""
         if self.capped == 0:
             return ""
         violation_text = f"they left at most {1e3 * self.capped_residual:.2g} mm"
-        ended = f"{self.capped} of {self.steps} steps ended at the limit of their iterations, or stayed whole for it"
-        return f"{ended}; {violation_text}."
+        count_text = (
+            f"{self.capped} of {self.steps} steps ended at the limit of their iterations, or stayed whole for it"
+        )
+        return f"{count_text}; {violation_text}."
 
     def __str__(self) -> str:
         text = (

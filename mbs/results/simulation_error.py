@@ -6,18 +6,18 @@ from mbs.results.trajectory import Trajectory
 
 
 class SimulationError(RuntimeError):
-    """A step, an initialisation or a restore that the kernel refused; the last good state is kept.
+    """A step, an initialisation or a restore failed in the kernel; the last good state is kept.
 
     Attributes
     ----------
     time : float
-        Of the last good state, s.
+        Time of the last good state, s.
     status : int
         Code of the kernel.
     trajectory : Trajectory or None
         Record of the run up to the failure.
     final : bool
-        Whether no other step or method would go further, as where drives lead loops no further.
+        Whether no other step or method would continue, as where drives reach the end of the motion of a loop.
     """
 
     final = False
@@ -30,4 +30,4 @@ class SimulationError(RuntimeError):
 
 
 class PoseError(SimulationError, ValueError):
-    """A pose for a System that takes none: a start that is refused, and an argument that cannot be."""
+    """A pose for a System whose joints tie it to the ground: a refused start and an invalid argument."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 ALLOWED = 3.0
-"""Estimated errors up to this multiple of the tolerance pass without a warning: they may be too small by as much."""
+"""Largest multiple of the tolerance without a warning, as estimates may be wrong by this factor."""
 
 
 @dataclass(frozen=True)
@@ -15,43 +15,43 @@ class Control:
     """Method, steps and estimated error of a run whose steps `simulate` chose."""
 
     tolerance: float
-    """Accepted error of positions in parts of `length`."""
+    """Accepted error of positions over `length`."""
     length: float
-    """Of the model, m."""
+    """Length of the model, m."""
     method: str
     """Name of the method that made the run."""
     reason: str
-    """Why this method; empty where the caller named it."""
+    """Reason for this method; empty if the caller named it."""
     error: float
-    """Guess of the largest error of positions over the run in parts of `length`: the distance from a coarser run
-    times the ratio of their step errors, at least a tenth of the tolerance, as smaller guesses are unreliable. In
-    nine of ten runs it is within ten times the error; what both runs miss is not in it, and where guides prescribe
-    all motion it is 0. NaN where the step was given: nothing was compared."""
+    """Estimate of the largest error of positions over the run, over `length`: the distance from a coarser run times the
+    ratio of their step errors, at least a tenth of the tolerance, as smaller estimates are unreliable. In nine of ten
+    runs it is within ten times the error; errors of both runs are not included, and if guides prescribe all motion it
+    is 0. NaN if the step was given: no runs were compared."""
     h: float | None
     """The fixed step, s; None: steps under error control."""
     steps: int
     rejected: int
     failed: int
-    """`steps`, `rejected`, `failed`: steps of the run that is shown; those that erred too much, and those that did not
-    converge, were repeated."""
+    """`steps`, `rejected`, `failed`: steps of the returned run; steps that were repeated because their error was too
+    large, and because they did not converge."""
     forced: int
-    """Steps that err more than their share of the tolerance and no less when they are shorter."""
+    """Steps that exceed their share of the tolerance at any length."""
     smallest: float
     largest: float
-    """`smallest`, `largest`: accepted steps, s."""
+    """`smallest`, `largest`: smallest and largest accepted step, s."""
     side_steps: int
-    """Made for times between the steps, where no polynomial through the steps served."""
+    """Steps to times between the steps at which no polynomial through the steps was accurate enough."""
     runs: int
-    """Whole runs that were made, those for the estimate and for the choice of the method included."""
+    """Number of runs, including those for the estimate and for the choice of the method."""
     moved: float = math.nan
-    """How far the coordinate that moves farthest moves, m; NaN where the step was given."""
+    """Largest displacement of a coordinate, m; NaN if the step was given."""
     sensors: Mapping[str, float] = field(default_factory=dict)
-    """Guessed errors of the sensors that were given a tolerance, in their units; `error` is then the largest of them
+    """Estimated errors of the sensors with a tolerance, in their units, by name; `error` is then the largest of them
     over its tolerance, times `tolerance`."""
 
     @property
     def kept(self) -> bool:
-        """Whether the guessed error is at most three times the tolerance, or there is none."""
+        """Whether the estimated error is at most three times the tolerance, or there is no estimate."""
         return not self.error > ALLOWED * self.tolerance
 
     def __str__(self) -> str:

@@ -1,4 +1,4 @@
-"""Results of a run: arrays by sensor name, with units."""
+"""Trajectory of a run: arrays by sensor name, with units."""
 
 from __future__ import annotations
 
@@ -88,10 +88,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         left_out: OmittedSensors | None = None,
     ) -> None:
         self.t = t
-        self._left_out = left_out if left_out is not None else OmittedSensors((), None)
-        without = set(self._left_out.names)
-        hidden = set() if self._left_out.can else without
-        self.units = {n: unit for n, unit in zip(names, units, strict=True) if n not in hidden}
+        self._omitted = left_out if left_out is not None else OmittedSensors((), None)
+        omitted_names = set(self._omitted.names)
+        unavailable_names = set() if self._omitted.can_be_computed else omitted_names
+        self.units = {name: unit for name, unit in zip(names, units, strict=True) if name not in unavailable_names}
         self.report = report
         self.settings = settings
         self.wall_s = wall_s
@@ -102,11 +102,11 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.drawing = drawing
         self.roads = dict(roads or {})
         self._poses = poses
-        self._columns = {name: values[:, i] for i, name in enumerate(names) if name not in without}
+        self._columns = {name: values[:, i] for i, name in enumerate(names) if name not in omitted_names}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
-        if isinstance(name, str) and name in self._left_out.names:
-            return self._left_out.column(name)
+        if isinstance(name, str) and name in self._omitted.names:
+            return self._omitted.column(name)
         if not isinstance(name, str) or name not in self._columns:
             hint = did_you_mean(str(name), self.units, f"the trajectory has: {some_of(self.units)}")
             raise KeyError(f"There is no sensor {shown(name)}{hint}")
@@ -242,9 +242,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             self.control,
         )
         poses = None if self._poses is None else self._poses.thinned(every)
-        left_out = self._left_out.thinned(every)
+        omitted = self._omitted.thinned(every)
         return Trajectory(
-            self.t[::every], values[::every], names, units, *unchanged, poses, self.drawing, self.roads, left_out
+            self.t[::every], values[::every], names, units, *unchanged, poses, self.drawing, self.roads, omitted
         )
 
     @property

@@ -65,12 +65,12 @@ def build(speed: float = SPEED, lean_rate: float = LEAN_RATE, rolling: bool = Tr
         m.sense_coordinate(f"{name}.spin", spin, description="its rate is the spin")
         if carrier is rear:
             m.sense_coordinate("speed", spin, order=1, scale=REAR_RADIUS, unit="m/s", description="of the rear contact")
-        for axis, step in AXES.items():
+        for axis, offset in AXES.items():
             for component in "xyz":
                 m.sense_position(
                     f"{name}.{axis}.{component}",
                     carrier,
-                    np.add(centre, step),
+                    np.add(centre, offset),
                     component,
                     description=f"{component} of the wheel centre, or of the point 1 m from it along an axis",
                 )

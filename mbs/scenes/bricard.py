@@ -1,6 +1,4 @@
-"""Bricard's loop (IFToMM benchmark A04): five rods, six revolutes, one degree of freedom, over-constrained
-everywhere.
-"""
+"""Bricard's loop (IFToMM benchmark A04): five rods, six revolutes, one degree of freedom, always overconstrained."""
 
 from __future__ import annotations
 
@@ -23,8 +21,8 @@ def build() -> Model:
     transverse = MASS * (LENGTH**2 + SECTION**2) / 12.0
     chain = [m.ground]
     for k in range(5):
-        along = (points[k + 1] - points[k]) / LENGTH
-        inertia = transverse * np.eye(3) + (axial - transverse) * np.outer(along, along)
+        axis = (points[k + 1] - points[k]) / LENGTH
+        inertia = transverse * np.eye(3) + (axial - transverse) * np.outer(axis, axis)
         chain.append(m.body(f"rod {k + 1}", mass=MASS, com=0.5 * (points[k] + points[k + 1]), inertia=inertia))
     chain.append(m.ground)
     for k in range(6):

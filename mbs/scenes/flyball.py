@@ -1,5 +1,6 @@
-"""Stiff flyball governor (IFToMM benchmark A05): a spinning shaft, two rods with heavy ends, a slider on the shaft that
-stiff springs and dampers hold; its fast mode is 27000 1/s, its motion a second.
+"""Stiff flyball governor (IFToMM benchmark A05): a spinning shaft, two rods with balls, and a slider on the shaft.
+
+Stiff springs and dampers hold the slider: the fastest eigenvalue is 27000 1/s, the motion takes a second.
 """
 
 from __future__ import annotations
@@ -15,9 +16,9 @@ DENSITY = 3000.0  # kg/m3
 SLIDER_SIDE = 0.1  # m, cube
 BALL = 5.0  # kg
 OFFSET = 0.05  # m, of the hinges from the axis
-DROP = radians(30.0)  # of the rods below the horizontal at the start
+START_ANGLE = radians(30.0)  # of the rods below the horizontal at the start
 SLIDER_HEIGHT = 0.5  # m
-STIFFNESS, DAMPING, REST = 8e5, 4e4, 0.5  # N/m, N s/m, m
+STIFFNESS, DAMPING, FREE_LENGTH = 8e5, 4e4, 0.5  # N/m, N s/m, m
 SPIN = 2.0 * pi  # rad/s
 
 
@@ -34,15 +35,15 @@ def build() -> Model:
     m.initial_velocity(shaft, (0, 0, 0), (0, 0, SPIN))
     m.initial_velocity(slider, (0, 0, 0), (0, 0, SPIN))
     for side, sign in (("right", 1.0), ("left", -1.0)):
-        along = np.array([sign * cos(DROP), 0.0, -sin(DROP)])
+        axis = np.array([sign * cos(START_ANGLE), 0.0, -sin(START_ANGLE)])
         hinge = np.array([sign * OFFSET, 0.0, LENGTH])
-        middle, end = hinge + 0.5 * LENGTH * along, hinge + LENGTH * along
+        middle, end = hinge + 0.5 * LENGTH * axis, hinge + LENGTH * axis
         # rod and ball as one body
         centre = (bar * middle + BALL * end) / (bar + BALL)
-        inertia = transverse * np.eye(3) + (axial - transverse) * np.outer(along, along)
+        inertia = transverse * np.eye(3) + (axial - transverse) * np.outer(axis, axis)
         for mass, position in ((bar, middle), (BALL, end)):
-            arm = position - centre
-            inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+            offset = position - centre
+            inertia = inertia + mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
         rod = m.body(f"rod {side}", mass=bar + BALL, com=centre, inertia=inertia)
         m.revolute(f"hinge {side}", shaft, rod, point=hinge, axis=(0, 1, 0))
         m.spring_damper(
@@ -51,7 +52,7 @@ def build() -> Model:
             (rod, middle),
             stiffness=STIFFNESS,
             damping=DAMPING,
-            free_length=REST,
+            free_length=FREE_LENGTH,
         )
         m.initial_velocity(rod, linear=np.cross((0, 0, SPIN), centre), angular=(0, 0, SPIN))
     m.sense_position("slider.position.z", slider, None, "z", description="height of the slider")

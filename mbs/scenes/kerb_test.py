@@ -56,7 +56,7 @@ def build(
 
 
 def fidelities() -> dict[Fidelity, Callable[[], Model]]:
-    """The models an FMU offers by its parameter `fidelity`."""
+    """Builders of the models that an FMU offers by its parameter `fidelity`."""
     return {fidelity: partial(build, fidelity) for fidelity in OFFERED}
 
 
@@ -85,11 +85,11 @@ def smooth_guide(m: Model, start: float) -> Guide:
     breaks = np.concatenate(
         [[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]]
     )
-    v, rate = speed(breaks), _acceleration(breaks)
+    v, acceleration = speed(breaks), _acceleration(breaks)
     x = start + distance(breaks)
     coefficients = []
     for k, h in enumerate(np.diff(breaks)):
-        low = [x[k], v[k], rate[k] / 2.0]
+        low_coefficients = [x[k], v[k], acceleration[k] / 2.0]
         A = np.array(
             [
                 [h**n for n in (3, 4, 5)],
@@ -99,12 +99,12 @@ def smooth_guide(m: Model, start: float) -> Guide:
         )
         residual = np.array(
             [
-                x[k + 1] - low[0] - low[1] * h - low[2] * h * h,
-                v[k + 1] - low[1] - 2 * low[2] * h,
-                rate[k + 1] - 2 * low[2],
+                x[k + 1] - low_coefficients[0] - low_coefficients[1] * h - low_coefficients[2] * h * h,
+                v[k + 1] - low_coefficients[1] - 2 * low_coefficients[2] * h,
+                acceleration[k + 1] - 2 * low_coefficients[2],
             ]
         )
-        coefficients.append([*low, *np.linalg.solve(A, residual)])
+        coefficients.append([*low_coefficients, *np.linalg.solve(A, residual)])
     motion = PPoly(np.array(coefficients).T[::-1], breaks)
     return m.guide_time("way of the chassis", motion, unit="m")
 

@@ -11,7 +11,7 @@ from mbs.vehicle import Car, Fidelity, load
 
 
 def car() -> Car:
-    """The car's file."""
+    """Load the car from its file."""
     return load("prototype")
 
 
@@ -36,7 +36,7 @@ def build(
 
 
 def fidelities() -> dict[Fidelity, Callable[[], Model]]:
-    """The models an FMU offers by its parameter `fidelity`."""
+    """Builders of the models that an FMU offers by its parameter `fidelity`."""
     return car().fidelities()
 
 

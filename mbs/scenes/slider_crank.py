@@ -1,5 +1,6 @@
-"""Slider-crank with equal arms: crank and rod lie on each other when the crank is upright, and two motions branch off
-there (the slider goes on, or stays while the arms turn as one).
+"""Slider-crank with equal arms: its motion bifurcates where the crank is upright and the rod lies on it.
+
+There the slider moves on, or stays while both arms rotate together.
 """
 
 from __future__ import annotations

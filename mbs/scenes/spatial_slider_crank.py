@@ -21,20 +21,20 @@ def build() -> Model:
     m = Model("spatial slider-crank", dimension=3)
     pin = (PIVOT[0], PIVOT[1], PIVOT[2] + CRANK)
     start = (SLIDER_X, 0.0, 0.0)
-    along = (np.array(pin) - np.array(start)) / ROD
+    rod_axis = (np.array(pin) - np.array(start)) / ROD
     crank = m.body("crank", mass=MASSES[0], com=(PIVOT[0], PIVOT[1], PIVOT[2] + 0.5 * CRANK), inertia=CRANK_INERTIA)
     rod = m.body(
         "rod",
         mass=MASSES[1],
         com=0.5 * (np.array(pin) + np.array(start)),
-        inertia=ROD_TRANSVERSE * np.eye(3) + (ROD_AXIAL - ROD_TRANSVERSE) * np.outer(along, along),
+        inertia=ROD_TRANSVERSE * np.eye(3) + (ROD_AXIAL - ROD_TRANSVERSE) * np.outer(rod_axis, rod_axis),
     )
     slider = m.body("slider", mass=MASSES[2], com=start, inertia=[SLIDER_INERTIA] * 3)
     m.revolute("A", m.ground, crank, point=PIVOT, axis=(1, 0, 0))
     m.spherical("B", crank, rod, point=pin)
-    # the rod's own pin is square to the rod and to the slider's vertical pin
-    across = np.cross((0.0, 0.0, 1.0), along)
-    m.universal("C", rod, slider, point=start, axis_1=across, axis_2=(0, 0, 1))
+    # the pin of the rod is perpendicular to the rod and to the vertical pin of the slider
+    rod_pin = np.cross((0.0, 0.0, 1.0), rod_axis)
+    m.universal("C", rod, slider, point=start, axis_1=rod_pin, axis_2=(0, 0, 1))
     m.prismatic("guide", slider, m.ground, axis=(1, 0, 0))
     m.initial_velocity(crank, linear=(0.0, -0.5 * CRANK * SPEED, 0.0), angular=(SPEED, 0.0, 0.0))
     for component in "yz":

@@ -1,5 +1,5 @@
 """Flexible beam on a spinning hub (Simo and Vu-Quoc 1986): E A 2.8e7 N, E I 1.4e4 N m2, 1.2 kg/m, 10 m, to 6 rad/s in
-15 s. In shear it is stiff; centrifugal tension acts between the parts that it is made of.
+15 s. It is stiff in shear; centrifugal tension acts between its parts.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def build(parts: int = 8) -> Model:
     return m
 
 
-def in_turning_axes(t: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Extension along the undeformed beam and deflection across it, m, from the tip's place over time."""
+def extension_and_deflection(t: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Extension along the undeformed beam and deflection across it, m, from tip positions x, y, m, at times t, s."""
     angle = spin_angle()(t)
     return np.cos(angle) * x + np.sin(angle) * y - LENGTH, np.cos(angle) * y - np.sin(angle) * x

@@ -1,5 +1,4 @@
-"""Andrews' squeezing mechanism (IFToMM benchmark A03): seven planar bodies, a motor torque, a spring, no gravity; its
-motion happens in hundredths of a second.
+"""Andrews' squeezing mechanism (IFToMM benchmark A03): seven planar bodies, a motor torque, a spring, no gravity.
 
 Data and start angles: W. Schiehlen, Multibody System Dynamics 1, 1997; E. Hairer, G. Wanner, Solving ODEs II.
 """
@@ -11,7 +10,7 @@ from math import cos, sin
 from mbs.model.model import Model
 
 TORQUE = 0.033  # N m, of the motor on K1
-STIFFNESS, REST = 4530.0, 0.07785  # N/m, m
+STIFFNESS, FREE_LENGTH = 4530.0, 0.07785  # N/m, m
 A, B, C, O = (-0.06934, -0.00227), (-0.03635, 0.03273), (0.014, 0.072), (0.0, 0.0)  # m
 BETA, THETA, GAMMA = -0.0617138900142764496, 0.0, 0.455279819163070380  # rad
 PHI, DELTA = 0.222668390165885885, 0.487364979543842550
@@ -57,7 +56,7 @@ def build() -> Model:
     m.revolute("A upper", m.ground, body["AG"], point=A)
     m.revolute("H", body["EH"], body["AH"], point=points["H"])
     m.revolute("A lower", m.ground, body["AH"], point=A)
-    m.spring_damper("spring", (m.ground, C), (body["BDE"], points["D"]), stiffness=STIFFNESS, free_length=REST)
+    m.spring_damper("spring", (m.ground, C), (body["BDE"], points["D"]), stiffness=STIFFNESS, free_length=FREE_LENGTH)
     torque = m.input("motor.torque", start=TORQUE, unit="N.m", description="torque of the motor on OF")
     m.torque("motor", body["OF"], inputs=torque)
     for component in "xy":
@@ -73,9 +72,9 @@ def build() -> Model:
     return m
 
 
-def _point_in_axes(origin: tuple[float, float], angle: float, along: float, across: float) -> tuple[float, float]:
-    """Point at (along, across) in axes at `origin` turned by `angle`."""
+def _point_in_axes(origin: tuple[float, float], angle: float, x: float, y: float) -> tuple[float, float]:
+    """Earth coordinates, m, of the point (x, y) in axes at `origin` that are rotated by `angle`, rad."""
     return (
-        origin[0] + along * cos(angle) - across * sin(angle),
-        origin[1] + along * sin(angle) + across * cos(angle),
+        origin[0] + x * cos(angle) - y * sin(angle),
+        origin[1] + x * sin(angle) + y * cos(angle),
     )

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ali3.message_text import unit_text
 from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding.instance import Instance
-from mbs.settings.input_breaks import AT_END, Table, distinct, function_breaks, input_breaks
+from mbs.settings.input_breaks import AT_END, Table, distinct_times, function_breaks, input_breaks
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
 
@@ -43,28 +43,28 @@ class InputSignals:
                 available = ", ".join(self._names) or "none"
                 raise ValueError(f"There is no input {shown(name)}; the System has: {available}.")
             i = self._names.index(name)
-            signal = _checked(name, signal)
+            signal = _check_signal(name, signal)
             if self._whole[i] and isinstance(signal, tuple):
                 self._check(i, *_table(signal))
-                signal = _stairs(signal)
+                signal = _staircase(signal)
             self._signals[i] = signal
 
     def columns(self) -> list[int]:
-        """Numbers of the inputs that have a signal."""
+        """Indices of the inputs with a signal."""
         return list(self._signals)
 
     def breaks(self, t0: float, t_end: float, h: float) -> NDArray[np.float64]:
-        """Times, s, at which steps of `h` from `t0` are parted; what is attached jumps where functions do."""
+        """Times, s, at which steps of `h` from `t0` are divided; the jumps of functions are stored for `attach`."""
         tables = [_table(signal) for signal in self._signals.values() if isinstance(signal, tuple)]
         break_times = [input_breaks(tables, t0, t_end, h)]
         for i, signal in self._signals.items():
             if callable(signal):
                 times, self._jumps[i] = function_breaks(signal, t0, t_end, h)
                 break_times.append(times)
-        return distinct(break_times, t_end, h)
+        return distinct_times(break_times, t_end, h)
 
     def points(self) -> list[float]:
-        """Times of the tables, and when functions jump, as `breaks` has found, s."""
+        """Times of the tables, and of the jumps of functions found by `breaks`, s."""
         tables = [t for s in self._signals.values() if isinstance(s, tuple) for t in _table(s)[0].tolist()]
         return tables + [before for jumps in self._jumps.values() for before, _ in jumps]
 
@@ -74,18 +74,18 @@ class InputSignals:
         return any(callable(signal) for signal in self._signals.values())
 
     def check(self, index: int, t: float, value: float) -> None:
-        """A `ValueError` where an input is not finite, not whole as it must be or beyond its limits at time `t`, s."""
+        """Raise `ValueError` if a value at time `t`, s, is not finite, not whole as required, or outside the limits."""
         self._check(index, np.array([t]), np.array([value]))
 
     def at(self, t: NDArray[np.float64], tolerance: float, after_jump: bool = False) -> NDArray[np.float64]:
         """Values at times `t` (n,), shape (n, number of signals), in the order of `columns`.
 
-        Times within `tolerance` (s) of a jump are at the jump; `after_jump` takes the value behind it.
+        Times within `tolerance` (s) of a jump are at the jump; `after_jump`: take the value after it.
         """
         values = np.empty((len(t), len(self._signals)))
         for k, (i, signal) in enumerate(self._signals.items()):
             if callable(signal):
-                values[:, k] = [_value_of(self._names[i], signal, float(time)) for time in t]
+                values[:, k] = [_function_value(self._names[i], signal, float(time)) for time in t]
             elif isinstance(signal, tuple):
                 values[:, k] = _interpolate(t, np.asarray(signal[0]), np.asarray(signal[1]), tolerance, after_jump)
             else:
@@ -94,9 +94,9 @@ class InputSignals:
         return values
 
     def attach(self, instance: Instance, t0: float, t_end: float, tolerance: float) -> None:
-        """Let the kernel ask for the values at every time at which its method evaluates inputs, from `t0` to `t_end`.
+        """Attach the signals to the kernel, which evaluates them at the stages of its method, from `t0` to `t_end`, s.
 
-        Without functions of time no step calls Python. `instance.set_input_function(None)` ends it.
+        Without functions of time no step calls Python. `instance.set_input_function(None)` detaches them.
         """
         if not self._signals:
             return
@@ -113,40 +113,40 @@ class InputSignals:
         if not self.has_functions:
             instance.set_input_tables({i: _table(signal) for i, signal in self._signals.items()}, tolerance)
             return
-        ask = [(i, self._asker(i, signal, tolerance)) for i, signal in self._signals.items()]
+        evaluators = [(i, self._evaluator(i, signal, tolerance)) for i, signal in self._signals.items()]
 
         def function(t: float, after: bool, values: Any) -> None:
-            for i, value in ask:
+            for i, value in evaluators:
                 values[i] = value(t, after)
 
         instance.set_input_function(function)
 
     def attach_to_steps(self, instance: Instance, t0: float, t_end: float, h: float) -> None:
-        """Attach the signals for steps of `h`, s, which end early where a signal jumps or peaks."""
+        """Attach the signals for steps of `h`, s, which end early at jumps and peaks of signals."""
         breaks = self.breaks(t0, t_end, h)
         self.attach(instance, t0, t_end, AT_END * h)
         instance.set_input_breaks(breaks)
 
-    def _asker(self, i: int, signal: Signal, tolerance: float) -> Callable[[float, bool], float]:
-        """Value of one signal at a time, before or behind a jump."""
+    def _evaluator(self, i: int, signal: Signal, tolerance: float) -> Callable[[float, bool], float]:
+        """Function of time, s, and of whether the value after a jump is taken, that returns the value of one signal."""
         low, high, whole = float(self._min[i]), float(self._max[i]), bool(self._whole[i])
         if callable(signal):
-            jumping = self._jumps.get(i, [])
-            before = [jump[0] for jump in jumping]
+            jumps = self._jumps.get(i, [])
+            before = [jump[0] for jump in jumps]
 
-            def of_function(t: float, after: bool) -> float:
+            def evaluate_function(t: float, after: bool) -> float:
                 k = bisect_left(before, t - tolerance)
                 if k < len(before) and before[k] <= t + tolerance:
-                    t = jumping[k][after]
-                value = _value_of(self._names[i], signal, t)
+                    t = jumps[k][after]
+                value = _function_value(self._names[i], signal, t)
                 if not low <= value <= high or math.isinf(value) or (whole and value != math.floor(value)):
                     self._check(i, np.array([t]), np.array([value]))
                 return value
 
-            return of_function
-        times, values = (part.tolist() for part in _table(signal))
+            return evaluate_function
+        times, values = (column.tolist() for column in _table(signal))
 
-        def of_table(t: float, after: bool) -> float:
+        def interpolate_table(t: float, after: bool) -> float:
             right = bisect_right(times, t + tolerance) if after else bisect_left(times, t - tolerance)
             if right == 0 or right == len(times):
                 return float(values[right and -1])
@@ -154,17 +154,19 @@ class InputSignals:
             share = min(1.0, max(0.0, (t - begin) / span)) if span > 0.0 else 0.0
             return float(values[right - 1] + share * (values[right] - values[right - 1]))
 
-        return of_table
+        return interpolate_table
 
     def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
         inside = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
-        good = inside & (values == np.floor(values)) if self._whole[i] else inside
-        if not good.all():
-            k = int(np.argmin(good))
-            right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
-            right = "be a whole number" if inside[k] else right
+        is_valid = inside & (values == np.floor(values)) if self._whole[i] else inside
+        if not is_valid.all():
+            k = int(np.argmin(is_valid))
+            requirement = (
+                f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
+            )
+            requirement = "be a whole number" if inside[k] else requirement
             value = f"{values[k]:g}{unit_text(self._units[i])}"
-            raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
+            raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {requirement}.")
 
 
 def _table(signal: Signal) -> Table:
@@ -174,21 +176,22 @@ def _table(signal: Signal) -> Table:
     return np.zeros(1), np.array([signal], float)
 
 
-def _stairs(table: tuple[ArrayLike, ArrayLike]) -> Table:
-    """The table that keeps each value until the next time, where it jumps."""
+def _staircase(table: tuple[ArrayLike, ArrayLike]) -> Table:
+    """Table that holds each value until the next time and jumps there."""
     times, values = _table(table)
     return np.repeat(times, 2)[1:], np.repeat(values, 2)[:-1]
 
 
-def _value_of(name: str, signal: Callable[[float], float], t: float) -> float:
-    """Value of a function of time at a time, s."""
+def _function_value(name: str, signal: Callable[[float], float], t: float) -> float:
+    """Value of an input function at time `t`, s."""
     value = signal(t)
     if not is_number(value):
         raise ValueError(f"The function of input {name!r} gives {shown(value)} at t = {t:g} s; it must give a number.")
     return float(value)
 
 
-def _checked(name: str, signal: Signal) -> Signal:
+def _check_signal(name: str, signal: Signal) -> Signal:
+    """Return a signal with floats; raise `ValueError` if it is none of the three kinds."""
     if callable(signal):
         return signal
     if not isinstance(signal, tuple):
@@ -200,7 +203,7 @@ def _checked(name: str, signal: Signal) -> Signal:
         return float(signal)
     if len(signal) != 2:
         raise ValueError(f"The table of input {name!r} has {len(signal)} parts; it must be a pair (times, values).")
-    times, values = (numbers(part, f"the table of input {name!r}") for part in signal)
+    times, values = (numbers(column, f"the table of input {name!r}") for column in signal)
     if times.ndim != 1 or times.shape != values.shape or len(times) == 0:
         raise ValueError(
             f"The table of input {name!r} has times of shape {times.shape} and values of shape {values.shape}; "
@@ -208,7 +211,7 @@ def _checked(name: str, signal: Signal) -> Signal:
         )
     if not np.isfinite(times).all() or (np.diff(times) < 0.0).any():
         raise ValueError(f"The times of input {name!r} must be finite and must not decrease.")
-    if not np.isfinite(values).all():  # named here: interpolated, an infinite value is a nan at another time
+    if not np.isfinite(values).all():  # checked here, as interpolation would make it NaN at other times
         k = int(np.argmin(np.isfinite(values)))
         raise ValueError(f"The table of input {name!r} has {values[k]:g} at t = {times[k]:g} s; it must be finite.")
     return times, values
@@ -217,6 +220,7 @@ def _checked(name: str, signal: Signal) -> Signal:
 def _interpolate(
     t: NDArray[np.float64], times: NDArray[np.float64], values: NDArray[np.float64], tolerance: float, after_jump: bool
 ) -> NDArray[np.float64]:
+    """Values of a table at times `t` (n,), s; `tolerance`, `after_jump`: as of `InputSignals.at`."""
     if after_jump:
         right = np.searchsorted(times, t + tolerance, side="right")
     else:

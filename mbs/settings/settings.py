@@ -1,4 +1,4 @@
-"""The numbers that steer the integrator, in one place."""
+"""Settings of the time integration: method, tolerances and options of the solver."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mbs.settings.methods import METHOD_TABLE
 UPDATES = tuple(update.name.lower() for update in Update)
 PREDICTORS = tuple(predictor.name.lower() for predictor in Predictor)
 METHODS = {name: method.kernel_fields for name, method in METHOD_TABLE.items()}
-"""Names of the methods and what each sets in the kernel."""
+"""Fields of `ali3_settings` that each method sets, by its name."""
 LIMITED = ("ali3p", "ali3p_no_projection", "ali3p_generalised_alpha")
 """Methods whose steps may be limited to `Settings.step_iterations`."""
 
@@ -110,11 +110,11 @@ class Settings:
         for name, least, most in (("max_iterations", 1, 1000), ("max_halvings", 0, 16), ("step_iterations", 0, 1000)):
             value = getattr(self, name)
             object.__setattr__(self, name, whole(value, f"Setting {name!r}", least, most, ValueError))
-        for name, words in (("update", UPDATES), ("predictor", PREDICTORS), ("method", tuple(METHODS))):
+        for name, choices in (("update", UPDATES), ("predictor", PREDICTORS), ("method", tuple(METHODS))):
             value = getattr(self, name)
-            if not isinstance(value, str) or value not in words:
+            if not isinstance(value, str) or value not in choices:
                 raise ValueError(
-                    f"Setting {name!r} is {shown(value)}; it must be one of {', '.join(map(repr, words))}."
+                    f"Setting {name!r} is {shown(value)}; it must be one of {', '.join(map(repr, choices))}."
                 )
         if self.step_iterations > 0 and self.method not in LIMITED:
             raise ValueError(

@@ -1,4 +1,4 @@
-"""Checks of the arguments of runs: each returns a clean value or raises one sentence."""
+"""Checks of the arguments of a run: each function returns the converted value or raises an error."""
 
 import math
 import warnings
@@ -14,25 +14,25 @@ from mbs.results.accuracy import AccuracyWarning
 from mbs.results.comparison import WHOLE
 from mbs.results.simulation_error import PoseError
 from mbs.settings.settings import Settings
-from mbs.settings.tolerance import Tolerance, checked_tolerance
+from mbs.settings.tolerance import Tolerance, check_tolerance
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.state import Pose
 from mbs.system.system import System
 
 LATEST = 1e10
-"""Largest time, s: double precision leaves two microseconds there."""
-RESOLVED = 1e3
-"""Least length of a step in units of the round-off of the time."""
+"""Largest absolute time, s; there double precision resolves two microseconds."""
+LEAST_STEP = 1e3
+"""Least step in units of the round-off of the time."""
 MOST_VALUES = 10**9
-"""Values that one run may record: 8 gigabytes."""
-MOST_RUNS = 1e6
-"""Largest number that `estimate_error` may be."""
-LEFT_OUT = 0.01
-"""Share of a run at its end that may be left out without a word, as equal steps do not divide it."""
+"""Largest number of values that one run may record: 8 gigabytes."""
+LARGEST_COST = 1e6
+"""Largest number for `estimate_error`, in runs."""
+MOST_OMITTED_SHARE = 0.01
+"""Largest share of a run that equal steps may omit at its end without a warning."""
 
 
 def check_step(h: float) -> float:
-    """A step, s, or one sentence."""
+    """Return the step h, s; raise `ValueError` unless it is positive and finite."""
     if not is_number(h):
         raise ValueError(f"The step h must be a number of seconds, not {shown(h)}.")
     if not (is_finite(h) and h > 0.0):
@@ -40,16 +40,16 @@ def check_step(h: float) -> float:
     return float(h)
 
 
-def check_time(t: float, what: str) -> float:
-    """A time, s, or one sentence."""
-    time = number(t, what, ValueError)
+def check_time(t: float, subject: str) -> float:
+    """Return a time, s; raise `ValueError` unless it is a number within `LATEST`. `subject`: begins the message."""
+    time = number(t, subject, ValueError)
     if abs(time) > LATEST:
-        raise ValueError(f"{what} is {time:g} s; it must lie within {LATEST:g} s of zero, where round-off is small.")
+        raise ValueError(f"{subject} is {time:g} s; it must lie within {LATEST:g} s of zero, where round-off is small.")
     return time
 
 
 def check_end(t0: float, t_end: float) -> float:
-    """The end of a run, s, or one sentence."""
+    """Return the end of a run, s; raise `ValueError` if it is before the start `t0`, s."""
     if not is_number(t_end):
         raise ValueError(f"The end t_end must be a number of seconds, not {shown(t_end)}.")
     if not (is_finite(t_end) and t_end >= t0):
@@ -58,20 +58,20 @@ def check_end(t0: float, t_end: float) -> float:
 
 
 def check_estimate(value: object) -> bool | float | None:
-    """Whether a run is checked by refined runs, or what they may cost, or one sentence."""
-    most = float(value) if is_finite(value) else 0.0  # type: ignore[arg-type]
-    if 0.0 < most <= MOST_RUNS:
-        return most
+    """Return `estimate_error` of `simulate`: a flag, None or a largest cost; raise `ValueError` for anything else."""
+    cost = float(value) if is_finite(value) else 0.0  # type: ignore[arg-type]
+    if 0.0 < cost <= LARGEST_COST:
+        return cost
     if value is not None and not isinstance(value, (bool, np.bool_)):
         raise ValueError(
             f"estimate_error = {shown(value)}; it must be True, False or None (suspects only), or a number above 0, up "
-            f"to {MOST_RUNS:g}: what refined runs may cost, in runs."
+            f"to {LARGEST_COST:g}: what refined runs may cost, in runs."
         )
     return None if value is None else bool(value)
 
 
 def check_every(every: int) -> int:
-    """An interval of the record in steps, or one sentence."""
+    """Return the interval of the record, in steps; raise `ValueError` unless it is a positive whole number."""
     if not is_finite(every) or int(every) != every or not 1 <= every <= MOST_VALUES:
         raise ValueError(
             f"every = {shown(every)}; it must be at least 1, a whole number of steps up to {MOST_VALUES:g}."
@@ -80,19 +80,19 @@ def check_every(every: int) -> int:
 
 
 def check_resolution(t: float, h: float) -> None:
-    """One sentence for a step that is lost in the round-off of the time."""
-    least = RESOLVED * math.ulp(t)
-    if h < least:
+    """Raise `ValueError` for a step `h`, s, that is lost in the round-off of the time `t`, s."""
+    least_step = LEAST_STEP * math.ulp(t)
+    if h < least_step:
         raise ValueError(
             f"At t = {t:g} s a step of {h:g} s is lost in the round-off of the time; start nearer to zero or take a "
-            f"step above {least:.1g} s."
+            f"step above {least_step:.1g} s."
         )
 
 
 def count_steps(t0: float, t_end: float, h: float) -> int:
-    """Number of whole steps that end not after `t_end`, give or take round-off.
+    """Number of whole steps of `h` from `t0` to `t_end`, s, up to round-off.
 
-    Raises `ValueError`: the end is before the start, the step is longer than the run, or lost in the round-off of the
+    Raises `ValueError`: the end is before the start, or the step is longer than the run or lost in the round-off of the
     time.
     """
     end = check_end(t0, t_end)
@@ -105,11 +105,11 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
 
 
 def warn_of_end(t0: float, t_end: float, h: float) -> None:
-    """Warn, for the caller's caller, where whole steps leave out more than `LEFT_OUT` of what was asked for."""
-    whole, duration = count_steps(t0, t_end, h) * h, t_end - t0
-    if duration - whole > LEFT_OUT * duration + 1e-6 * h:
+    """Warn, for the caller's caller, if whole steps omit more than `MOST_OMITTED_SHARE` of the run at its end."""
+    covered, duration = count_steps(t0, t_end, h) * h, t_end - t0
+    if duration - covered > MOST_OMITTED_SHARE * duration + 1e-6 * h:
         warnings.warn(
-            f"The run ends at {t0 + whole:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
+            f"The run ends at {t0 + covered:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
             f"{duration / math.ceil(duration / h):.9g} ends there.",
             AccuracyWarning,
             stacklevel=3,
@@ -117,7 +117,7 @@ def warn_of_end(t0: float, t_end: float, h: float) -> None:
 
 
 def check_record(samples: int, sensors: int) -> None:
-    """One sentence for a record that no memory holds."""
+    """Raise `ValueError` for a record of more than `MOST_VALUES` values."""
     if samples * max(sensors, 1) > MOST_VALUES:
         raise ValueError(
             f"The run would record {samples:.3g} samples of {sensors} sensors, more than {MOST_VALUES:g} values; "
@@ -125,18 +125,18 @@ def check_record(samples: int, sensors: int) -> None:
         )
 
 
-def check_system(system: System, what: str) -> System:
-    """A System, or one sentence that says how to get one."""
-    return instance_of(System, system, what, "a System, which compile(model) makes")
+def check_system(system: System, subject: str) -> System:
+    """Return a System; raise `ArgumentTypeError` for any other object. `subject`: begins the message."""
+    return instance_of(System, system, subject, "a System, which compile(model) makes")
 
 
 def check_settings(settings: Settings | None) -> Settings:
-    """Settings, by default those of the kernel."""
+    """Return the settings, by default those of the kernel."""
     return Settings() if settings is None else instance_of(Settings, settings, "The settings", "Settings(...)")
 
 
 def check_pose(pose: Pose | None, meta: Mapping[str, Any]) -> Pose | None:
-    """A pose of a System that takes one."""
+    """Return the pose; raise `PoseError` if joints tie the System to the ground. `meta`: `System.meta`."""
     if pose is None:
         return None
     instance_of(Pose, pose, "The pose", "a Pose(...)")
@@ -151,19 +151,19 @@ def check_pose(pose: Pose | None, meta: Mapping[str, Any]) -> Pose | None:
     return pose
 
 
-def check_values(values: Mapping[str, Any] | None, what: str) -> Mapping[str, Any]:
-    """Values by name; None for none."""
-    return mapping(values, what, "names to values")
+def check_values(values: Mapping[str, Any] | None, subject: str) -> Mapping[str, Any]:
+    """Return values by name; None stands for an empty mapping. `subject`: begins the message."""
+    return mapping(values, subject, "names to values")
 
 
 def check_progress(progress: bool | Callable[[float], None] | None) -> None:
-    """One sentence for what is neither a choice nor a function."""
+    """Raise `ValueError` for an argument that is neither a flag, None nor a function."""
     if progress is not None and not callable(progress):
         flag(progress, "The progress", ValueError)
 
 
 def record_times(t0: float, t_end: float, h: float | None, every: int, times: ArrayLike | None) -> NDArray[np.float64]:
-    """Instants of the record, the first of them t0."""
+    """Instants of the record, s, shape (n,), beginning with `t0`; `h` and `every` or `times`: as of `simulate`."""
     check_end(t0, t_end)
     if times is not None and h is not None:
         raise ValueError("Both times and h are given; one of them says where to record.")
@@ -184,15 +184,15 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
     return np.concatenate([[t0], instants[instants > t0]])
 
 
-def asked_tolerance(system: System, tolerance: object) -> Tolerance:
-    """The tolerance that is asked for, or one sentence."""
+def requested_tolerance(system: System, tolerance: object) -> Tolerance:
+    """Return the tolerance of a run of the System; raise `ValueError` if it is not valid."""
     sensors = prepared(system)[1]["sensors"]
     units = {sensor["name"]: sensor["unit"] for sensor in sensors if sensor.get("computed", True)}
-    return checked_tolerance(tolerance, units, length_of(system))
+    return check_tolerance(tolerance, units, length_of(system))
 
 
 def check_tolerance_settings(settings: Settings) -> None:
-    """Refuse settings with which no tolerance can be kept."""
+    """Raise `ValueError` for settings that cannot keep a tolerance."""
     if settings.step_iterations > 0:
         raise ValueError(
             f"step_iterations = {settings.step_iterations} with a tolerance: steps that are accepted as they are keep "

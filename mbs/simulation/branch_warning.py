@@ -1,7 +1,7 @@
-"""The warning about a closed loop that changed its assembly mode."""
+"""Warning about a closed loop that changed its assembly mode."""
 
 from __future__ import annotations
 
 
 class BranchWarning(UserWarning):
-    """A closed loop changed its assembly mode: which one, when and what to do."""
+    """A closed loop changed its assembly mode; the message names the loop, the time and a remedy."""

@@ -1,4 +1,4 @@
-"""Run with equal steps, with automatic choice of step, method or both."""
+"""Run in equal steps with automatic choice of step, method or both."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -23,7 +23,7 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.simulation.tolerance_messages import warn_of_tolerance
 
 
-def chosen_equal_steps(
+def run_chosen_steps(
     start: Callable[[float, Settings], SteppedSystem],
     run: Callable[[float, Settings, bool | float | None], Trajectory],
     t0: float,
@@ -35,9 +35,10 @@ def chosen_equal_steps(
     estimate_error: bool | float | None,
     progress: bool | Callable[[float], None] | None,
 ) -> Trajectory:
-    """A run in equal steps whose step, method or both are chosen for the default tolerance.
+    """Run in equal steps; choose the step if `h` is None, the method if it is 'auto', for the default tolerance.
 
-    `start` makes a SteppedSystem for a step and settings, `run` the run itself.
+    `start`: makes a SteppedSystem for a step, s, and settings; `run`: makes a run of a step, settings and
+    `estimate_error`; the other arguments as of `simulate`.
     """
     check_end(t0, t_end)
     reason, wall, runs, error = "", 0.0, 0, math.nan
@@ -57,9 +58,9 @@ def chosen_equal_steps(
     trajectory = run(h, settings, estimate_error if step_given or estimate_error else False)
     assert trajectory.report is not None
     length = length_of(start(h, settings).system)
-    n = trajectory.report.steps
+    steps = trajectory.report.steps
     trajectory.control = Control(
-        DEFAULT_TOLERANCE, length, settings.method, reason, error, h, n, 0, 0, 0, h, h, 0, runs + 1
+        DEFAULT_TOLERANCE, length, settings.method, reason, error, h, steps, 0, 0, 0, h, h, 0, runs + 1
     )  # fmt: skip
     warn_of_tolerance(trajectory.control, error)
     trajectory.wall_s += wall

@@ -1,4 +1,4 @@
-"""Coarser runs that confirm a run: choice of their steps, and evaluation of the differences."""
+"""Coarser runs that confirm a run: choice of their steps and evaluation of their differences from it."""
 
 import math
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, missed_share
-from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
+from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, needs_two_motions
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
@@ -18,145 +18,172 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
-COUNTED = ("steps", "halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
+COUNTERS = ("steps", "halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
 
 
-def one_iteration(settings: Settings, compared: Mapping[str, Compared], states: bool) -> bool:
-    """Whether coarser runs make one iteration a step, which shows more of what a long step misses.
+def uses_one_iteration(settings: Settings, compared: Mapping[str, Compared], has_states: bool) -> bool:
+    """Whether coarser runs make one Newton iteration per step, which amplifies the errors of long steps.
 
-    Not where forces are judged or something sticks and slides, which long steps miss, nor where two motions must say
-    what guides prescribe, which one iteration does not meet to round-off.
+    They do not where forces are compared or elements have states, such as stick and slip, nor where guided positions
+    must be equal in two motions to round-off.
     """
     limited = settings.method in LIMITED and not settings.step_iterations
-    return limited and not (states or has_loads(compared) or is_open(compared))
+    return limited and not (has_states or has_loads(compared) or needs_two_motions(compared))
 
 
-def coarser_steps(
-    settings: Settings, compared: Mapping[str, Compared], states: bool, unresolved: float, run: Report
+def coarser_step_factors(
+    settings: Settings, compared: Mapping[str, Compared], has_states: bool, unresolved: float, report: Report
 ) -> list[int]:
-    """By what the step is multiplied in turn, as far as it resolves the motion: up to a missed share `unresolved`,
-    which `unresolved_share` makes larger where errors have a high order.
+    """Factors of the step of coarser runs, in the order in which they are tried.
+
+    A factor is used if it times the missed share of the run is at most `unresolved`, see `unresolved_share`.
     """
-    one = one_iteration(settings, compared, states)
-    # with one iteration, or a high order, of that half as well
-    longer = [MOST_PARTS, MOST_PARTS // 2] if unresolved > RESOLVED else [MOST_PARTS] if one else []
-    fit = [times for times in [*longer, 2] if times * missed_share(run, settings.method) <= unresolved]
-    return [times for times in fit if times in (fit[0], 2)]
+    single_iteration = uses_one_iteration(settings, compared, has_states)
+    long_factors = [MOST_PARTS, MOST_PARTS // 2] if unresolved > RESOLVED else [MOST_PARTS] if single_iteration else []
+    resolved = [factor for factor in [*long_factors, 2] if factor * missed_share(report, settings.method) <= unresolved]
+    return [factor for factor in resolved if factor in (resolved[0], 2)]
 
 
-def difference_from(known: Accuracy, method: str, h: float) -> float:
-    """Largest difference of a run in steps of `h` from a coarser one, of the range."""
-    order, times = known.order or float(METHOD_TABLE[method].order), (known.compared_step or h) / h
-    return 0.0 if known.error is None else known.error * (times**order - 1.0)
+def largest_difference(known: Accuracy, method: str, h: float) -> float:
+    """Estimated difference of a run in steps of `h`, s, from the coarser one it was compared with, over the range."""
+    order, factor = known.order or float(METHOD_TABLE[method].order), (known.compared_step or h) / h
+    return 0.0 if known.error is None else known.error * (factor**order - 1.0)
+
+
+def _halved_parts(report: Report | None) -> float:
+    """Mean number of parts into which a run halved a step."""
+    assert report is not None
+    return 1.0 + report.halvings / max(report.steps, 1)
 
 
 class TooFarError(Exception):
-    """A coarser run is given up: it differs by more than it may."""
+    """A coarser run was ended because it differs by more than the limit."""
 
 
 class CoarserRuns:
-    """Runs with longer steps than one that is to be checked, and what they say of it."""
+    """Runs with longer steps than a run that is checked, and the accuracy estimated from them."""
 
     def __init__(self, refined: RefinedRuns) -> None:
         self.refined = refined
 
     def verdict(self) -> Accuracy | None:
-        """By the first of them that shows that the run is right; None where none does."""
+        """Accuracy by the first coarser run that confirms the run; None if none does."""
         refined, settings = self.refined, self.refined.run[0].settings
         report = refined.run[0].report
         assert settings is not None
         assert report is not None
-        compared, states = refined.compared, len(refined.system.arrays["y0"]) > 0
-        iterations = int(one_iteration(settings, compared, states))
-        # past a singular position long steps of high order may be right and these not
-        by_order = refined.nothing_abrupt and METHOD_TABLE[settings.method].order <= 2
-        for times in coarser_steps(settings, compared, states, refined.unresolved, report):
-            most = CLEAR * (times - 1) if by_order else CLEAR
-            screened = self.run(times, iterations, most)
-            if screened is not None and difference_from(screened, settings.method, refined.h) <= most:
-                return screened
+        compared, has_states = refined.compared, len(refined.system.arrays["y0"]) > 0
+        iterations = int(uses_one_iteration(settings, compared, has_states))
+        # past a singular position long steps of high order may be right while the run is wrong
+        by_order = refined.is_smooth and METHOD_TABLE[settings.method].order <= 2
+        for factor in coarser_step_factors(settings, compared, has_states, refined.unresolved, report):
+            limit = CLEAR * (factor - 1) if by_order else CLEAR
+            estimate = self.run(factor, iterations, limit)
+            if estimate is not None and largest_difference(estimate, settings.method, refined.h) <= limit:
+                order = METHOD_TABLE[settings.method].order
+                return refined.at_least(estimate, accuracy.energy_drift(report)) if order > 2 else estimate
         return None
 
-    def run(self, times: int, iterations: int, most: float) -> Accuracy | None:
-        """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere, or
-        a sensor was off by more than `most` of the range before it ended. `iterations`: of a step; 0 for no limit.
+    def run(self, factor: int, iterations: int, limit: float) -> Accuracy | None:
+        """Accuracy by a run with steps about `factor` times as long.
+
+        None if the steps are too few or were halved to those of the first run, the run fails or ends at another time,
+        or a sensor differs by more than `limit` of its range. `iterations`: largest number of Newton iterations per
+        step; 0: no limit.
         """
-        # About `times` of its steps: some that end at all samples where it can, else one in `thin` samples.
-        steps, thin = max(round(self.refined.every / times), 1), max(round(times / self.refined.every), 1)
-        cost_share = thin * self.refined.every / steps
-        h, intervals = cost_share * self.refined.h, len(self.refined.run[0].t) - 1
+        # the steps end at each sample, or at every `stride`-th one if they are longer than the sampling interval
+        steps, stride = max(round(self.refined.every / factor), 1), max(round(factor / self.refined.every), 1)
+        step_ratio = stride * self.refined.every / steps
+        h, intervals = step_ratio * self.refined.h, len(self.refined.run[0].t) - 1
         coordinates, loads = bool(self.refined.run[1]), has_loads(self.refined.compared) and intervals <= WHOLE
         long_enough = self.refined.run[0].t[-1] - self.refined.run[0].t[0] >= h - 0.5 * self.refined.h
-        if (thin > 1 and (coordinates or loads)) or not long_enough:
+        if (stride > 1 and (coordinates or loads)) or not long_enough:
             return None
-        run = self.refined.run if thin == 1 else (self.refined.run[0].thinned(thin), [])
-        smooth, watch = math.inf, None
-        if not (coordinates or iterations):  # with one iteration a run is too short to be worth it
-            smooth = self._smooth_from / thin
-            watch = self.watch(run[0], most, smooth)
+        run = self.refined.run if stride == 1 else (self.refined.run[0].thinned(stride), [])
+        smooth_from, watch = math.inf, None
+        if not (coordinates or iterations):  # runs with one iteration per step are cheap enough to finish
+            smooth_from = self._smooth_from / stride
+            watch = self.watch(run[0], limit, smooth_from)
         try:
-            other = self.refined.again(h, steps, 1.0 / cost_share, iterations, watch)
+            other = self.refined.rerun(h, steps, 1.0 / step_ratio, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
             return None
-        if len(other[0].t) >= smooth:
+        made_ratio = step_ratio * self._halved_parts(stride * (len(other[0].t) - 1)) / _halved_parts(other[0].report)
+        if made_ratio <= 1.0:
+            return None
+        if len(other[0].t) >= smooth_from:
             other = self._continued(other[0], run[0]), []
         shared = min(len(run[0].t), len(other[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):
             return None
-        return self.refined.estimated(run, other, h, 1.0 / cost_share)
+        return self.refined.estimate(run, other, h, 1.0 / made_ratio)
+
+    def _halved_parts(self, samples: int) -> float:
+        """Mean number of parts into which the first run halved a step, up to a number of samples."""
+        for recorded_samples, counters in self.refined.path:
+            if recorded_samples >= samples:
+                return 1.0 + counters["halvings"] / max(counters["steps"], 1.0)
+        return _halved_parts(self.refined.run[0].report)
 
     @property
     def _smooth_from(self) -> float:
-        """The number of samples behind which what is left of the first run is plainly smooth, so that it alone would
-        not be checked.
-        """
+        """Number of samples after which the rest of the first run is smooth and would not be checked by itself."""
         report = self.refined.run[0].report
         assert report is not None
-        for samples, at in self.refined.path:
-            remaining = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
-            if not accuracy.doubt(remaining, self.refined.method):
+        for samples, counters in self.refined.path:
+            remaining = replace(report, **{name: getattr(report, name) - counters[name] for name in COUNTERS})
+            if not accuracy.required_check(remaining, self.refined.method):
                 return samples
         return math.inf
 
     def _continued(self, other: Trajectory, run: Trajectory) -> Trajectory:
-        """A run that ended where it agreed with this one, as if both were equal from there on."""
+        """The run `other`, which ended early in agreement, continued by the samples of `run`."""
         names = list(self.refined.compared)
         values = np.column_stack([np.append(other[n], run[n][len(other.t) :]) for n in names])
         t = np.append(other.t, run.t[len(other.t) :])
         return Trajectory(t, values, names, [run.units[n] for n in names], other.report, other.settings)
 
-    def watch(self, run: Trajectory, most: float, smooth: float) -> Watch:
-        """What gives up a run with the samples of this one where they differ by more than `most` of the range.
+    def watch(self, run: Trajectory, limit: float, smooth_from: float) -> Watch:
+        """Callback that compares the samples of a coarser run with `run` and returns whether it may end.
 
-        It ends it where `smooth` samples are made, and what both differ by in the last eighth of the whole is at most
-        `AGREED` of `most`, and as it grew in that eighth comes to no more than `most` in the end.
+        It raises `TooFarError` if they differ by more than `limit` of the range. The coarser run may end after
+        `smooth_from` samples if the difference in the latest eighth of the whole is at most `AGREED` of `limit` and,
+        growing on as in that eighth, stays below `limit`.
         """
-        compared, samples, part_of = self.refined.compared, len(run.t), len(run.t) / MOST_PARTS
-        column = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
+        compared, samples, eighth = self.refined.compared, len(run.t), len(run.t) / MOST_PARTS
+        columns = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
         whole = Comparison(compared, self.refined.length, self.refined.before)
         whole.add(run)
-        sizes = {name: of for name, of in whole.sizes().items() if compared[name].always or not is_open(compared)}
-        forces = instants(samples)
+        sizes = {
+            name: size
+            for name, size in whole.sizes().items()
+            if compared[name].always or not needs_two_motions(compared)
+        }
+        load_samples = instants(samples)
 
-        def off(values: NDArray[np.float64], begin: float, end: float) -> float:
-            first, last = (max(math.ceil(at), 0) for at in (begin, end))
+        def difference(values: NDArray[np.float64], begin: float, end: float) -> float:
+            first, last = (max(math.ceil(bound), 0) for bound in (begin, end))
             comparison = Comparison({name: compared[name] for name in sizes}, self.refined.length)
-            coarse_values = {name: values[first:last, column[name]] for name in sizes}
-            at = forces[(forces >= first) & (forces < last)] - first
-            comparison.add({name: run[name][first:last] for name in sizes}, coarse_values, at)
+            coarse_values = {name: values[first:last, columns[name]] for name in sizes}
+            shared_loads = load_samples[(load_samples >= first) & (load_samples < last)] - first
+            comparison.add({name: run[name][first:last] for name in sizes}, coarse_values, shared_loads)
             whole.widen(comparison.gaps)
             return max((gap / sizes[name] for name, gap in comparison.gaps.items()), default=0.0)
 
-        def look(values: NDArray[np.float64]) -> bool:
+        def decide(values: NDArray[np.float64]) -> bool:
             end = len(values)
-            old = end - 1 - part_of
-            so_far, last, before = off(values, 0.0, end), off(values, old, end), off(values, old - part_of, old)
-            if so_far > most:
+            earlier = end - 1 - eighth
+            overall, last, before = (
+                difference(values, 0.0, end),
+                difference(values, earlier, end),
+                difference(values, earlier - eighth, earlier),
+            )
+            if overall > limit:
                 raise TooFarError
             growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
-            ahead = (samples - end) / part_of * growth + math.log(last / most) if last > 0.0 else -math.inf
-            # where two motions are still to say what guides prescribe, both must have differed
-            differ = all(compared[name].always or not is_open(compared) for name in whole.sizes())
-            return differ and end >= smooth and last <= AGREED * most and ahead <= 0.0
+            ahead = (samples - end) / eighth * growth + math.log(last / limit) if last > 0.0 else -math.inf
+            # guided positions are recognised only after the two motions have differed
+            differ = all(compared[name].always or not needs_two_motions(compared) for name in whole.sizes())
+            return differ and end >= smooth_from and last <= AGREED * limit and ahead <= 0.0
 
-        return look
+        return decide

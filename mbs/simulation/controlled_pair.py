@@ -12,38 +12,41 @@ from mbs.simulation.prepared_system import prepared
 
 @dataclass(frozen=True)
 class ControlledPair:
-    """A run, and a coarser one."""
+    """A run and a coarser one; `tolerance`: the requested one."""
 
     run: ControlledRun
-    before: ControlledRun
+    coarser: ControlledRun
     tolerance: Tolerance
 
     @cached_property
-    def gaps(self) -> dict[str, float]:
-        """Largest differences of the sensors that have a tolerance of their own."""
+    def differences(self) -> dict[str, float]:
+        """Largest differences of the sensors with their own tolerance, in their units."""
         system = self.run.simulation.system
         compared, names = compared_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
-        gaps = dict[str, float]()
+        differences = dict[str, float]()
         for name in self.tolerance.sensors:
-            fine, coarse = (run.values[:, names.index(name)] for run in (self.run, self.before))
-            gaps[name] = compared.get(name, Compared(COORDINATES)).gap(fine, coarse)
-        return gaps
+            fine, coarse = (run.values[:, names.index(name)] for run in (self.run, self.coarser))
+            differences[name] = compared.get(name, Compared(COORDINATES)).gap(fine, coarse)
+        return differences
 
     @property
-    def fall(self) -> float:
-        """The error of the run over that of the coarser one: as what their steps have erred."""
-        coarse = self.before.fields.error_sum
+    def error_ratio(self) -> float:
+        """Error of the run over that of the coarser one, as the ratio of the sums of their step errors, at most 1."""
+        coarse = self.coarser.fields.error_sum
         return min(1.0, self.run.fields.error_sum / coarse) if coarse > 0.0 else 1.0
 
     @property
-    def apart(self) -> float:
-        """Distance of both in parts of the length, or of what sensors may differ by, times the share."""
+    def distance(self) -> float:
+        """Distance of both runs over the length.
+
+        With sensors: their largest difference over its tolerance, times the tolerance of positions.
+        """
         if not self.tolerance.sensors:
-            return self.run.distance(self.before)
-        return self.tolerance.share * max(gap / self.tolerance.sensors[name] for name, gap in self.gaps.items())
+            return self.run.distance(self.coarser)
+        return self.tolerance.share * max(gap / self.tolerance.sensors[name] for name, gap in self.differences.items())
 
     @property
     def errors(self) -> dict[str, float]:
-        """The guessed errors of the sensors that have a tolerance of their own."""
+        """Estimated errors of the sensors with their own tolerance, in their units."""
         least = {name: AGREED * allowed for name, allowed in self.tolerance.sensors.items()}
-        return {name: max(self.fall * gap, least[name]) for name, gap in self.gaps.items()}
+        return {name: max(self.error_ratio * gap, least[name]) for name, gap in self.differences.items()}

@@ -1,4 +1,4 @@
-"""One run under the error control of the kernel, from a start that can be gone back to."""
+"""Run under the error control of the kernel, made in parts."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
 CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
-LONGEST, LONGEST_WITH_FUNCTIONS = 0.1, 0.02  # steps, in parts of the run
-PARTED = 1e-3  # of the run: steps beside which functions are looked at for jumps and peaks
-ROWS, BALANCE = 1e-7, 1e-6  # tolerances of Newton's loop in parts of that of the run, both times the length
-MOST_FORCED, MOST_FORCED_SHARE = 300, 0.05  # steps that may err too much
-MOST_OVER_SHARE, MOST_OVER_SHARE_PART = 3000, 0.3  # steps that err more than their share
+LONGEST, LONGEST_WITH_FUNCTIONS = 0.1, 0.02  # largest steps as shares of the run, without and with input functions
+SCAN_STEP = 1e-3  # share of the run: interval at which input functions are scanned for jumps and peaks
+ROWS, BALANCE = 1e-7, 1e-6  # tolerances of Newton's iteration over that of the run, both times the length
+MOST_FORCED, MOST_FORCED_SHARE = 300, 0.05  # steps of the least size that may exceed their share: number, share of all
+MOST_OVER_SHARE, MOST_OVER_SHARE_PART = 3000, 0.3  # steps that may exceed their share: number, share of all
 ROUND_OFF = 1e-13  # m at coordinates of 1 m
 
 
@@ -36,7 +36,7 @@ class Task:
     t_end: float
     """`t0`, `t_end`: s."""
     times: Array
-    """Shape (n,): to record at, ascending, behind t0."""
+    """Instants of the record, s, shape (n,), ascending, after `t0`."""
     signals: InputSignals
 
     @property
@@ -46,29 +46,29 @@ class Task:
 
     @cached_property
     def stops(self) -> list[float]:
-        """Ends of steps: the points of the tables, jumps and peaks of functions, which are asked once, and the end."""
-        breaks = self.signals.breaks(self.t0, self.t_end, PARTED * self.span)
+        """Times at which steps must end, s: points of input tables, jumps and peaks of input functions, and `t_end`."""
+        breaks = self.signals.breaks(self.t0, self.t_end, SCAN_STEP * self.span)
         instants = {float(t) for t in (*breaks, *self.signals.points()) if self.t0 < t < self.t_end}
         return [*sorted(instants), self.t_end]
 
 
 class StalledError(RuntimeError):
-    """Steps err more than they may however short they are: round-off is reached."""
+    """Steps of the least size still exceed their share of the error: round-off is reached."""
 
 
 class ControlledRun:
-    """A run that can be made in parts, so that it may be given up.
+    """A run that is made in parts, so that it can be ended early.
 
     Parameters
     ----------
     simulation : SteppedSystem
-        At the start; it is left where the run ends.
+        At the start of the run; advanced to its end.
     settings : Settings
-        Of the method; the tolerances of its Newton loop are tightened as the run needs.
+        With the method; the tolerances of its Newton iteration are reduced as the run needs.
     tolerance : float
-        Of the run, in parts of the length.
+        Largest error of positions over the length of the model.
     longest : float
-        Longest steps in parts of the usual ones.
+        Largest step as a multiple of the usual one.
     """
 
     def __init__(
@@ -77,7 +77,9 @@ class ControlledRun:
         meta = prepared(simulation.system)[1]
         self.simulation, self.task = simulation, task
         self.length = length_of(simulation.system)
-        self.settings = tightened(settings, tolerance * self.length, simulation.state.q, simulation.system.fineness)
+        self.settings = tighten_tolerances(
+            settings, tolerance * self.length, simulation.state.q, simulation.system.fineness
+        )
         simulation.change_settings(self.settings)
         self.tolerance = tolerance
         nq = simulation.system.nq
@@ -92,68 +94,68 @@ class ControlledRun:
         n = len(task.times)
         self.values = np.empty((n, len(meta["sensors"])))
         self.positions = np.empty((n, nq))
-        self.done = 0
+        self.recorded = 0
         self.wall = 0.0
         self._stops = list(task.stops)
         self._columns = task.signals.columns()
 
     @property
     def finished(self) -> bool:
-        """Whether the end is reached."""
+        """Whether the run has reached its end."""
         return not self._stops
 
     @property
     def share(self) -> float:
-        """Share of the time that is done."""
+        """Completed share of the duration."""
         return (self.simulation.time - self.task.t0) / self.task.span
 
     @property
     def work(self) -> int:
-        """Evaluations and factorizations so far, those of rejected steps too."""
+        """Evaluations or factorizations so far, whichever are more, including those of rejected steps."""
         report = self.simulation.instance.report()
         return int(max(report["factorizations"], report["iterations"]))
 
     def advance(self, steps: int) -> None:
-        """Make at most so many accepted steps, or step to the end.
+        """Make at most `steps` accepted steps, no further than to the end.
 
-        Raises `KernelError` when a step fails as short as it may be. Raises `StalledError` when many steps err more
-        than they may, as short as they may be.
+        Raises `KernelError`: a step of the least size fails; `StalledError`: many steps of the least size exceed their
+        share of the error.
         """
         instance, task = self.simulation.instance, self.task
-        tolerance = 1e-9 * task.span
-        task.signals.attach(instance, task.t0, task.t_end, tolerance)
-        begin = time.perf_counter()
-        first = self.fields.accepted
+        time_tolerance = 1e-9 * task.span
+        task.signals.attach(instance, task.t0, task.t_end, time_tolerance)
+        clock_start = time.perf_counter()
+        accepted_before = self.fields.accepted
         try:
-            while self._stops and self.fields.accepted - first < steps:
+            while self._stops and self.fields.accepted - accepted_before < steps:
                 stop = self._stops[0]
-                remaining = steps - (self.fields.accepted - first)
+                remaining = steps - (self.fields.accepted - accepted_before)
                 try:
-                    self.done = instance.control_run(
-                        self.fields, self.scale, stop, remaining, task.times, self.values, self.positions, self.done
+                    self.recorded = instance.control_run(
+                        self.fields, self.scale, stop, remaining, task.times, self.values, self.positions, self.recorded
                     )
                 except KernelError:
-                    self.done = int(np.searchsorted(task.times, self.simulation.time, side="right"))
+                    self.recorded = int(np.searchsorted(task.times, self.simulation.time, side="right"))
                     raise
                 if self.simulation.time >= stop:
                     self._stops.pop(0)
-                c = self.fields
-                if c.forced > max(MOST_FORCED, MOST_FORCED_SHARE * c.accepted) or c.over_share > max(
-                    MOST_OVER_SHARE, MOST_OVER_SHARE_PART * c.accepted
+                control = self.fields
+                if control.forced > max(MOST_FORCED, MOST_FORCED_SHARE * control.accepted) or control.over_share > max(
+                    MOST_OVER_SHARE, MOST_OVER_SHARE_PART * control.accepted
                 ):
                     raise StalledError
         finally:
-            self.wall += time.perf_counter() - begin
+            self.wall += time.perf_counter() - clock_start
             instance.set_input_function(None)
 
     def finish(self, update: Callable[[float], None]) -> None:
-        """Step to the end, in calls of about a tenth of a second each."""
+        """Step to the end in calls of about `CHUNK_SECONDS`. `update`: callback of the completed share."""
         steps = FIRST_CHUNK
         while not self.finished:
-            before = self.wall
+            wall_before = self.wall
             self.advance(steps)
             update(min(1.0, self.share))
-            steps = max(1, int(steps * min(8.0, CHUNK_SECONDS / max(self.wall - before, 1e-9))))
+            steps = max(1, int(steps * min(8.0, CHUNK_SECONDS / max(self.wall - wall_before, 1e-9))))
 
     @property
     def moved(self) -> float:
@@ -161,26 +163,26 @@ class ControlledRun:
         return float(np.max(np.ptp(self.positions, axis=0) * self.scale, initial=0.0))
 
     def distance(self, other: ControlledRun) -> float:
-        """Largest distance of the positions of two runs, in parts of the length."""
+        """Largest distance of the positions of two runs over the length."""
         return distance(self.simulation.system, self.positions, other.positions)
 
 
-def tightened(settings: Settings, error: float, q: Array, fine: float) -> Settings:
-    """Settings whose Newton loop does not spoil an error of so many metres; `fine`: `System.fineness`.
+def tighten_tolerances(settings: Settings, error: float, q: Array, fineness: float) -> Settings:
+    """Settings with Newton tolerances that are small against an error of `error` m; `fineness`: `System.fineness`.
 
-    A loop that a method cuts is closed to round-off: at a flat position its joints are off by what its rows are open by
-    over the sine of the ring, which turns into a kick that is alike in all runs.
+    Loops that a method cuts are closed to round-off: near a singular position a residual of their rows is magnified
+    to an impulse that is equal in all runs, so that a comparison of runs does not show it.
     """
-    least = ROUND_OFF * max(1.0, float(np.max(np.abs(q), initial=0.0))) / fine
-    error /= fine
-    rows = 0.0 if METHOD_TABLE[settings.method].tree_only else ROWS
+    round_off = ROUND_OFF * max(1.0, float(np.max(np.abs(q), initial=0.0))) / fineness
+    error /= fineness
+    row_share = 0.0 if METHOD_TABLE[settings.method].tree_only else ROWS
     return replace(
         settings,
-        tolerance_r=min(settings.tolerance_r, max(least, BALANCE * error)),
-        tolerance_phi=min(settings.tolerance_phi, max(least, rows * error)),
+        tolerance_r=min(settings.tolerance_r, max(round_off, BALANCE * error)),
+        tolerance_phi=min(settings.tolerance_phi, max(round_off, row_share * error)),
     )
 
 
-def signals_of(inputs: Mapping[str, Signal], of: SteppedSystem) -> InputSignals:
-    """Inputs over time, by name, of a System."""
-    return InputSignals(inputs, prepared(of.system)[1]["inputs"])
+def signals_of(inputs: Mapping[str, Signal], simulation: SteppedSystem) -> InputSignals:
+    """Signals of the inputs of the System, from functions, tables or constants by name."""
+    return InputSignals(inputs, prepared(simulation.system)[1]["inputs"])

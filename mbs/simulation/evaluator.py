@@ -12,15 +12,15 @@ Array = NDArray[np.float64]
 
 SHIFT = 1e-6  # of coordinates (m), velocities (m/s) and element states in the central differences
 RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
-STATE_STEP = 1e-5  # s, of the element steps that give the rates of element states
+STATE_STEP = 1e-5  # s, of the element steps from which the rates of element states are found
 SHORT_STEP = 1e-9  # s, over which a state keeps its value
 
 
 class Evaluator:
     """Evaluation of rows, forces and tangents of a simulation for linearisation; its state is not changed.
 
-    Elements give steps of their slots, not rates: rates are the limit of short steps. A slot that does not remember
-    its value over a short step (a rate kept for the next step) is not a state; it is set to what such a step gives.
+    Elements step their slots (internal variables) and do not state their rates: these are the limit of short steps.
+    A slot that does not keep its value over a short step is no state; it takes the value after such a step.
     """
 
     def __init__(self, simulation: SystemInstance) -> None:
@@ -29,13 +29,13 @@ class Evaluator:
         self.arrays = simulation.system.arrays
         self.time = simulation.time
         self.state = simulation.state
-        self._bends = len(self.arrays["flex_mode"]) > 0 or "tabled_size" in self.arrays
+        self._has_variable_mass = len(self.arrays["flex_mode"]) > 0 or "tabled_size" in self.arrays
         self._mass = self._mass_at(self.state.q)
-        self.slots = [k for k in range(len(self.state.y)) if self._remembers(k)]
+        self.slots = [k for k in range(len(self.state.y)) if self._is_state(k)]
 
     def mass(self, q: Array | None = None) -> Array:
         """Mass matrix (nq, nq) at `q`, by default at the state."""
-        if q is None or not self._bends:
+        if q is None or not self._has_variable_mass:
             return self._mass
         return self._mass_at(q)
 
@@ -59,9 +59,9 @@ class Evaluator:
 
     def rates(self, q: Array, qd: Array, y: Array) -> Array:
         """Forces Q - M(q) qdd (nq,) and rates g of the states among the slots, in one vector."""
-        settled = self._settled(q, qd, y)
+        settled = self._with_settled_slots(q, qd, y)
         force = np.array(self._evaluate(q, qd, settled)["force"])
-        if self._bends:
+        if self._has_variable_mass:
             force -= self.mass(q) @ self.state.qdd
         return np.concatenate([force, self._slot_rates(q, qd, settled)])
 
@@ -70,11 +70,14 @@ class Evaluator:
 
         The accelerations solve ``M qdd + Phi_q' lam = Q`` and ``Phi_q qdd = -gamma`` by the null space of Phi_q.
         """
-        settled = self._settled(q, qd, self.state.y)
+        settled = self._with_settled_slots(q, qd, self.state.y)
         values = self._evaluate(q, qd, settled, t)
         M = self.mass(q)
         root = np.sqrt(np.where(M.diagonal() > 0.0, M.diagonal(), M.diagonal().mean()))
-        jacobian, M = self._jacobian(values, len(q)) / root, M / root / root[:, None]  # of coordinates of one size
+        jacobian, M = (
+            self._jacobian(values, len(q)) / root,
+            M / root / root[:, None],
+        )  # with coordinates scaled by the roots of their masses
         Z = scipy.linalg.null_space(jacobian, rcond=RANK_TOLERANCE) if len(jacobian) else np.eye(len(q))
         particular = np.linalg.lstsq(jacobian, -np.array(values["gamma"]), rcond=RANK_TOLERANCE)[0]
         free = np.linalg.solve(Z.T @ M @ Z, Z.T @ (np.array(values["force"]) / root - M @ particular))
@@ -82,11 +85,11 @@ class Evaluator:
         return np.concatenate([acceleration, self._slot_rates(q, qd, settled)])
 
     def admissible(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """The place and velocity near `q`, `qd` that satisfy the rows, by Newton's iteration of least change."""
-        rolling = self.arrays["velocity_row"]
+        """Positions and velocities (nq,) nearest to `q`, `qd` that satisfy the rows, by Newton's iteration."""
+        velocity_rows = self.arrays["velocity_row"]
         for _ in range(8):
             phi, jacobian, _ = self.constraints(q, qd)
-            phi, jacobian = np.delete(phi, rolling), np.delete(jacobian, rolling, axis=0)
+            phi, jacobian = np.delete(phi, velocity_rows), np.delete(jacobian, velocity_rows, axis=0)
             q = q - np.linalg.lstsq(jacobian, phi, rcond=RANK_TOLERANCE)[0]
         _, jacobian, rate = self.constraints(q, qd)
         return q, qd - np.linalg.lstsq(jacobian, rate, rcond=RANK_TOLERANCE)[0]
@@ -94,15 +97,17 @@ class Evaluator:
     def _mass_at(self, q: Array) -> Array:
         return np.reshape(self.instance.mass_matrix(q.tolist()), (len(q),) * 2)
 
-    def _settled(self, q: Array, qd: Array, y: Array) -> Array:
+    def _with_settled_slots(self, q: Array, qd: Array, y: Array) -> Array:
         settled = self._element_step(q, qd, y, SHORT_STEP)
         settled[self.slots] = y[self.slots]
         return settled
 
     def _slot_rates(self, q: Array, qd: Array, settled: Array) -> Array:
-        whole = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
-        half = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
-        rates: Array = (2.0 * half - whole)[self.slots]  # without the first-order error of the steps
+        full_step_rates = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
+        half_step_rates = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
+        rates: Array = (2.0 * half_step_rates - full_step_rates)[
+            self.slots
+        ]  # without the first-order error of the steps
         return rates
 
     def _evaluate(self, q: Array, qd: Array, y: Array, t: float | None = None) -> dict[str, Any]:
@@ -114,11 +119,11 @@ class Evaluator:
         matrix[np.repeat(np.arange(len(ptr) - 1), np.diff(ptr)), col] = np.array(values["jacobian"])
         return matrix
 
-    def _remembers(self, k: int) -> bool:
-        s = self.state
-        shift = SHIFT * np.eye(len(s.y))[k]
-        ahead = self._element_step(s.q, s.qd, s.y + shift, SHORT_STEP)
-        behind = self._element_step(s.q, s.qd, s.y - shift, SHORT_STEP)
+    def _is_state(self, k: int) -> bool:
+        state = self.state
+        shift = SHIFT * np.eye(len(state.y))[k]
+        ahead = self._element_step(state.q, state.qd, state.y + shift, SHORT_STEP)
+        behind = self._element_step(state.q, state.qd, state.y - shift, SHORT_STEP)
         return bool(ahead[k] - behind[k] > SHIFT)
 
     def _element_step(self, q: Array, qd: Array, y: Array, h: float) -> Array:

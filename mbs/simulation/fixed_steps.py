@@ -1,4 +1,4 @@
-"""A run in equal steps, with a refined run where its accuracy asks for one."""
+"""Run in equal steps, with coarser or refined runs that estimate its error."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation import refined_run
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.coarser_run import CoarserRuns, one_iteration
+from mbs.simulation.coarser_run import CoarserRuns, uses_one_iteration
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
@@ -34,7 +34,7 @@ from mbs.system.system import System
 Warned: TypeAlias = "list[tuple[type[Warning], str]]"
 
 
-def fixed_step_run(
+def run_fixed_steps(
     system: System,
     start: Callable[[float], SteppedSystem],
     t0: float,
@@ -48,14 +48,15 @@ def fixed_step_run(
     divisor: int = 0,
     warned: Warned | None = None,
 ) -> Trajectory:
-    """A run in steps of h, with further ones where its accuracy asks for them, see `check`.
+    """Run in steps of `h`, s, with further runs that estimate its error, see `estimate_accuracy`.
 
-    What it warns of beside `Accuracy.message` is added to `warned` where that is given, also where the run fails.
+    `start`: makes the simulation for a step, s; `before`, `divisor`: as of `RefinedRuns`; `warned`: list to which
+    warnings except `Accuracy.message` are added, also if the run fails; None: they are issued.
     """
     stepped, path = list[SteppedSystem](), list[tuple[int, Mapping[str, float]]]()
     run_accuracy: Accuracy | None = None
 
-    def note(values: NDArray[np.float64]) -> bool:
+    def record_path(values: NDArray[np.float64]) -> bool:
         path.append((len(values), stepped[0].instance.report()))
         return False
 
@@ -63,7 +64,7 @@ def fixed_step_run(
         step: float,
         every: int,
         progress: Callable[[float], None],
-        look: bool,
+        records_coordinates: bool,
         iterations: int = 0,
         watch: refined_run.Watch | None = None,
     ) -> refined_run.Run:
@@ -71,91 +72,97 @@ def fixed_step_run(
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         stepped.append(simulation)
-        if len(stepped) == 1 and checked and before is None:  # a coarser run that may be watched asks for it
+        if len(stepped) == 1 and is_checked and before is None:  # only coarser runs that may end early need the path
             guided, states = (len(system.arrays[name]) > 0 for name in ("gterm_row", "y0"))
-            judged_sensors = {name: what for name, what in compared_sensors(system).items() if what.always or guided}
-            watch = None if one_iteration(simulation.settings, judged_sensors, states) else note
-        return march(simulation, t_end, step, inputs, every, progress, look, thinning, watch)
+            judged_sensors = {
+                name: quantity for name, quantity in compared_sensors(system).items() if quantity.always or guided
+            }
+            watch = None if uses_one_iteration(simulation.settings, judged_sensors, states) else record_path
+        return march(simulation, t_end, step, inputs, every, progress, records_coordinates, samples_per_pose, watch)
 
-    checked = estimate_error is not False
-    most = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
-    look = checked or before is not None
-    often = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if checked else every
-    thinning = every // often
+    is_checked = estimate_error is not False
+    most_cost = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
+    records_coordinates = is_checked or before is not None
+    sample_interval = accuracy.sampling_interval(every, count_steps(t0, t_end, h)) if is_checked else every
+    samples_per_pose = every // sample_interval
     try:
         with progress_for(progress) as bar:
-            first = 1.0 / 3.0 if estimate_error is True else 1.0
-            run = march_from_start(h, often, lambda share: bar.update(first * share), look)
+            first_share = 1.0 / 3.0 if estimate_error is True else 1.0
+            run = march_from_start(
+                h, sample_interval, lambda share: bar.update(first_share * share), records_coordinates
+            )
             run_accuracy = run[0].accuracy
             refined = refined_run.RefinedRuns(
-                system, run, march_from_start, h, often, bar.update, before, divisor, inputs, most, path
+                system, run, march_from_start, h, sample_interval, bar.update, before, divisor, inputs, most_cost, path
             )
-            if checked:
-                run_accuracy = check(refined, always=estimate_error is True)
+            if is_checked:
+                run_accuracy = estimate_accuracy(refined, always=estimate_error is True)
             refined.add_ends()
     except SimulationError as error:
         if error.trajectory is not None:
-            error.trajectory = error.trajectory.thinned(every // often)
+            error.trajectory = error.trajectory.thinned(every // sample_interval)
         raise
-    finally:  # of the run that was asked for, also when it failed
-        jump = stepped and stepped[0].report.branch_kind == BranchKind.JUMP
-        branch = stepped[0].branch_change if jump else run_accuracy.branch if run_accuracy is not None else ""
-        bent = stepped[0].bending.once() if stepped else ""
-        rim = stepped[0].road_text if stepped and run_accuracy is not None else ""  # else the refusal says it
-        for category, text in ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim)):
+    finally:  # warnings about the first run are issued even if it failed
+        jumped = stepped and stepped[0].report.branch_kind == BranchKind.JUMP
+        branch = stepped[0].branch_change if jumped else run_accuracy.branch if run_accuracy is not None else ""
+        bending = stepped[0].bending.message_once() if stepped else ""
+        # the error of a failed run has this message already
+        road_message = stepped[0].road_text if stepped and run_accuracy is not None else ""
+        for category, text in ((BranchWarning, branch), (BendingWarning, bending), (RoadWarning, road_message)):
             if text and warned is not None:
                 warned.append((category, text))
             elif text:
                 warnings.warn(text, category, stacklevel=4)
-    trajectory = run[0].thinned(every // often)
+    trajectory = run[0].thinned(every // sample_interval)
     trajectory.accuracy = run_accuracy
     if run_accuracy is not None and run_accuracy.notice:
         trajectory.notices += (run_accuracy.notice,)
     return trajectory
 
 
-def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
-    """Accuracy of a run, after the further runs that it needs.
+def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
+    """Accuracy of a run after the further runs that it needs.
 
-    Without `RefinedRuns.before` a run that is not plainly smooth is compared with `CoarserRuns`, and refined where they
-    differ. Where the next refined run costs more than is left, that is said in place of a verdict.
+    Without `RefinedRuns.before` a run that is not smooth is first compared with `CoarserRuns` and refined if they
+    differ. If the next refined run exceeds the remaining budget, the message says so.
 
-    `always`: whether a run that is plainly smooth is refined too.
+    `always`: whether a smooth run is refined too.
     """
     system, run = refined.system, refined.run
     report, estimate = run[0].report, run[0].accuracy
     if report is None or estimate is None or run[0].settings is None:
         return estimate
     method, balance = run[0].settings.method, accuracy.balance_text(report)
-    doubt = accuracy.doubt(report, method)
-    if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
+    needed_check = accuracy.required_check(report, method)
+    if len(run[0].t) < 2 or not (always or refined.divisor or needed_check):
         return estimate
-    if not always and refined.before is None and doubt == accuracy.COARSER:
+    if not always and refined.before is None and needed_check == accuracy.COARSER:
         if refined.rests:
             return estimate
-        screened = CoarserRuns(refined).verdict()
-        if screened is not None:
-            return screened
+        confirmed = CoarserRuns(refined).verdict()
+        if confirmed is not None:
+            return confirmed
     try:
         estimate = refined.verdict()
     except refined_run.TooDearError:
-        ahead = [refined.h / refined.tried * times for times in (1, 2, 4, MOST_PARTS)]
-        needed = refined.cost + sum(cost for cost in ahead if cost < (MOST_PARTS + 0.5) * refined.parts)
+        further_costs = [refined.h / refined.tried * factor for factor in (1, 2, 4, MOST_PARTS)]
+        needed = refined.cost + sum(cost for cost in further_costs if cost < (MOST_PARTS + 0.5) * refined.parts)
         estimate = refined.known or estimate
-        text = accuracy.open_text(estimate, refined.tried, refined.most, needed)
+        text = accuracy.budget_text(estimate, refined.tried, refined.most, needed)
         return replace(estimate, check_cost=refined.cost, message=f"{balance} {text}".strip())
     except SimulationError as error:
         text = (
             f"A refined run with steps of {refined.tried:g} s was refused, so the result is not to be trusted: {error}"
         )
-        if error.status == Status.ROAD_LOST:  # which says nothing about the steps
+        if error.status == Status.ROAD_LOST:  # not a fault of the steps
             text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
         return replace(estimate, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
-    off = refined.text(estimate) if (estimate.error or 0.0) > WRONG_ERROR else ""
-    if not (off or (balance and refined.finest.balance == Balance.WRONG)):  # if it is, the refined run is off as well
+    error_text = refined.text(estimate) if (estimate.error or 0.0) > WRONG_ERROR else ""
+    # an open balance is evidence against the run if that of the finest run is wrong too
+    if not (error_text or (balance and refined.finest.balance == Balance.WRONG)):
         notice = f"{balance} {accuracy.RIGHT}" if balance else ""
         return replace(estimate, branch=branch, notice=notice)
-    step_errors = refined.tried_steps(estimate) if off else []
-    message = " ".join(filter(None, [off, balance, accuracy.remedy(system, method, step_errors)]))
+    step_errors = refined.tried_steps(estimate) if error_text else []
+    message = " ".join(filter(None, [error_text, balance, accuracy.remedy(system, method, step_errors)]))
     return replace(estimate, check_cost=refined.cost, branch=branch, message=message)

@@ -1,4 +1,4 @@
-"""Flexible bodies that bend more within their floating frame than their shapes hold for.
+"""Warning about flexible bodies that bend beyond the range of their linear modes.
 
 A reduced body is linear in its amplitudes: it leaves out the shortening of a bent line (s^2/6 of its length between
 ends of the slopes s and -s) and the stiffening or softening by axial forces. The second is the larger: in the falling
@@ -18,33 +18,33 @@ from mbs.common.frames import FlexibleShapes, Frames
 
 Array = NDArray[np.float64]
 
-MOST_TURN = 0.04  # rad, of a node in its floating frame
-SHARE = 0.25  # of that turn times the length: how far the end of the soft pendulum is off
+MOST_TURN = 0.04  # rad; largest rotation of a node in its floating frame
+SHARE = 0.25  # error at the end of the soft pendulum over that turn times its length
 
 
 class BendingWarning(UserWarning):
-    """A flexible body bends more than its modes hold for."""
+    """A flexible body bends beyond the range of its linear modes."""
 
 
 class BendingWatch:
-    """Largest turn of a node in its floating frame over the states that were shown.
+    """Largest rotation of a node in its floating frame over the observed states.
 
-    `frames`: None, or one without flexible bodies, watches nothing.
+    `frames`: of the System; None or without flexible bodies: nothing is observed.
     """
 
     def __init__(self, frames: Frames | None) -> None:
         self.frames = frames
         self.turn, self.time = 0.0, 0.0
         self.body: FlexibleShapes | None = None
-        self._taken = False
+        self._was_reported = False
 
     @property
-    def watches(self) -> bool:
-        """Whether there is a body that bends."""
+    def has_flexible_bodies(self) -> bool:
+        """Whether there is a flexible body."""
         return self.frames is not None and bool(self.frames.flexible)
 
-    def look(self, t: float, q: Array) -> None:
-        """Take a state into account: coordinates `q` (nq,) at `t`, s."""
+    def observe(self, t: float, q: Array) -> None:
+        """Observe a state: coordinates `q` (nq,) at time `t`, s."""
         if self.frames is None or not self.frames.flexible:
             return
         full = self.frames.T @ q + self.frames.constant
@@ -56,24 +56,24 @@ class BendingWatch:
 
     @property
     def message(self) -> str:
-        """One sentence with a remedy where a body bent too far, else empty."""
+        """Text of the warning with a remedy if a body bent too far, else empty."""
         if self.body is None or self.turn <= MOST_TURN:
             return ""
         divisions = int(np.ceil(self.turn / MOST_TURN))
         return (
             f"The flexible body {self.body.name!r} bends by {self.turn:.2g} rad in its floating frame at "
             f"t = {self.time:.4g} s. Its modes are linear: they leave out its shortening and the stiffening by axial "
-            f"forces, so places at its ends may be off by {SHARE * self.turn:.1%} of its length. Divide it into "
+            f"forces, so positions of its ends may be off by {SHARE * self.turn:.1%} of its length. Divide it into "
             f"{divisions} or more bodies welded end to end."
         )
 
-    def once(self) -> str:
-        """The sentence where it was not taken before, else empty."""
-        text = "" if self._taken else self.message
-        self._taken = self._taken or bool(text)
+    def message_once(self) -> str:
+        """Return the message on the first call that has one, else an empty text."""
+        text = "" if self._was_reported else self.message
+        self._was_reported = self._was_reported or bool(text)
         return text
 
     def warn(self, stacklevel: int) -> None:
-        """Issue the sentence, once."""
-        if text := self.once():
+        """Issue the warning, once."""
+        if text := self.message_once():
             warnings.warn(text, BendingWarning, stacklevel=stacklevel)

@@ -1,4 +1,4 @@
-"""`simulate_many`: runs of many variants of one System, several at once on each core."""
+"""Runs of many variants of one System, several at once on each core (`simulate_many`)."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ from mbs.simulation.arguments import (
     warn_of_end,
 )
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.fixed_steps import Warned, fixed_step_run
+from mbs.simulation.fixed_steps import Warned, run_fixed_steps
 from mbs.simulation.large_bending import BendingWarning
-from mbs.simulation.march import attached, next_chunk, trajectory_of
+from mbs.simulation.march import attach_inputs, next_chunk, trajectory_of
 from mbs.simulation.omitted_sensor_run import omitted_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
@@ -53,18 +53,18 @@ from mbs.system.system import System
 
 METHOD = "ali3p"
 WIDTHS = (2, 4, 8)
-POLL = 0.1  # s between two looks at the progress
-_STARTING = threading.Lock()  # what a start warns of is caught for all threads at once
+POLL = 0.1  # s between updates of the progress
+_STARTING = threading.Lock()  # warnings are recorded for the whole process, so starts take turns
 
 
 @dataclass(frozen=True)
 class Variant:
-    """Data of one of many runs that differ from those of the others."""
+    """Data of one of many runs."""
 
     parameters: Mapping[str, Any] = field(default_factory=dict)
     """Values that differ from their declaration."""
     inputs: Mapping[str, Signal] = field(default_factory=dict)
-    """As of `simulate`."""
+    """Inputs over time, as of `simulate`."""
     pose: Pose | None = None
     """Start of a scene that is not tied to the ground."""
 
@@ -74,27 +74,28 @@ class ManyRuns:
     """The runs of `simulate_many`, in the order of the variants."""
 
     trajectories: list[Trajectory | None]
-    """Of a run that failed what was recorded until then; None where its start was refused."""
+    """Trajectories; of a failed run up to the failure, None if its start was refused."""
     failures: dict[int, SimulationError]
-    """Why a run failed, by the number of its variant."""
+    """Errors of failed runs, by the number of the variant."""
     alone: list[int]
-    """Steps that each run made alone: halved ones, failed ones, those without a neighbour, the first six of a flexible
-    System with modes that the step does not resolve, and all of Systems and settings that are not stepped together."""
+    """Number of steps that each run made alone: halved and failed ones, those without a neighbour, the first six of a
+    flexible System with modes that the step does not resolve, and all of Systems and settings that cannot be stepped
+    together."""
     lanes: int
-    """Runs of a whole group, which advance together; the last group may have fewer."""
+    """Number of runs in a group, which advance together; the last group may have fewer."""
 
 
-class _Found(NamedTuple):
-    """End of the run of a variant."""
+class _Result(NamedTuple):
+    """Result of the run of a variant."""
 
     trajectory: Trajectory | None
     failure: SimulationError | None
     alone: int
-    told: Warned
+    warnings: Warned
 
 
 class _Run:
-    """One variant on its way."""
+    """Run of one variant."""
 
     def __init__(
         self, system: System, variant: Variant, settings: Settings, t0: float, h: float, steps: int, every: int
@@ -103,17 +104,18 @@ class _Run:
         signals = InputSignals(variant.inputs, meta["inputs"])
         self.system, self.variant, self.settings = system, variant, settings
         self.signals, self.h, self.t0, self.steps, self.every = signals, h, t0, steps, every
-        self.told_at_start: Warned = []
+        self.start_warnings: Warned = []
         self.simulation = self._start(h)
         self.simulation.step_tried = h
         self.before, self.alone, self.wall = self.simulation.report, 0, 0.0
         self.values = np.empty((steps // every + 1, len(meta["sensors"])))
         self.values[0] = list(self.simulation.instance.sensors())
-        self.left_out = omitted_of_run(self.simulation, variant.inputs, h, every)
+        self.omitted = omitted_of_run(self.simulation, variant.inputs, h, every)
         self.record = PositionRecord(system, self.simulation.state.q, len(self.values))
         self.error: KernelError | None = None
 
     def _start(self, h: float) -> Simulation:
+        """Make the simulation for steps of `h`, s, and record the warnings of its start."""
         first = self.signals.at(np.array([self.t0]), 1e-6 * h, after_jump=True)[0]
         declared = prepared(self.system)[1]["inputs"]
         names = [declared[i]["name"] for i in self.signals.columns()]
@@ -127,56 +129,59 @@ class _Run:
                 pose=self.variant.pose,
                 t0=self.t0,
             )
-        self.told_at_start = [(w.category, str(w.message)) for w in caught]
+        self.start_warnings = [(w.category, str(w.message)) for w in caught]
         return simulation
 
     def rows(self, done: int, n: int) -> tuple[int, Any, Any]:
-        """Where n steps after the first `done` are recorded."""
+        """Record of the `n` steps after the first `done`: first row, samples (rows, ns) and coordinates (rows, nq)."""
         row = done // self.every + 1
         samples = self.values[row : (done + n) // self.every + 1]
         return row, samples, self.record.rows(row, len(samples))
 
-    def ended(self, checked: bool) -> _Found:
-        """What was recorded, why it is not all, and what it warns of, where it is `checked` as `simulate` does."""
-        time_now = self.simulation.time
-        good = round((time_now - self.t0) / self.h) // self.every + 1 if self.error else len(self.values)
+    def result(self, is_checked: bool) -> _Result:
+        """Record, failure and warnings of the finished run. `is_checked`: whether its error is estimated."""
+        t = self.simulation.time
+        samples = round((t - self.t0) / self.h) // self.every + 1 if self.error else len(self.values)
         interval = self.h * self.every
         recorded = trajectory_of(
-            self.simulation, self.t0, interval, self.values[:good], self.wall, self.before, self.record, self.left_out
+            self.simulation, self.t0, interval, self.values[:samples], self.wall, self.before, self.record, self.omitted
         )
         failure = None
         if self.error is not None:
-            what = f"The step from t = {time_now:g} s with h = {self.h:g} s failed"
-            failure = refusal(self.simulation, what, self.error, recorded, step_given=True)
-        messages = self._checked(recorded) if checked and failure is None else self._told(recorded)
-        return _Found(recorded, failure, self.alone, messages)
+            subject = f"The step from t = {t:g} s with h = {self.h:g} s failed"
+            failure = refusal(self.simulation, subject, self.error, recorded, step_given=True)
+        messages = (
+            self._error_warnings(recorded) if is_checked and failure is None else self._balance_warnings(recorded)
+        )
+        return _Result(recorded, failure, self.alone, messages)
 
-    def _checked(self, run: Trajectory) -> Warned:
-        """By the refined runs of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
-        messages = list(self.told_at_start)
+    def _error_warnings(self, run: Trajectory) -> Warned:
+        """Warnings after the further runs of `simulate`, which repeat this run alone; a smooth run has none."""
+        messages = list(self.start_warnings)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
-        if accuracy.doubt(report, self.simulation.settings.method):
-            alone = fixed_step_run(
+        if accuracy.required_check(report, self.simulation.settings.method):
+            single_run = run_fixed_steps(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
                 warned=messages,
             )  # fmt: skip
-            run.accuracy, run.notices = alone.accuracy, alone.notices
+            run.accuracy, run.notices = single_run.accuracy, single_run.notices
             if run.accuracy is not None and run.accuracy.message:
                 messages.append((AccuracyWarning, run.accuracy.message))
             return messages
-        return messages + self._remarks()
+        return messages + self._model_warnings()
 
-    def _told(self, run: Trajectory) -> Warned:
-        messages = list(self.told_at_start)
+    def _balance_warnings(self, run: Trajectory) -> Warned:
+        """Warnings about the energy balance, the assembly modes and the model."""
+        messages = list(self.start_warnings)
         if run.report is not None and (balance := accuracy.balance_text(run.report)):
             messages.append((AccuracyWarning, f"{balance} The result is wrong; take shorter steps."))
         messages += [(BranchWarning, run.branch_change)] if run.branch_change else []
-        return messages + self._remarks()
+        return messages + self._model_warnings()
 
-    def _remarks(self) -> Warned:
-        """Of what the model holds for, at the end of the run."""
-        bent, rim = self.simulation.bending.message, self.simulation.road_text
-        return [(kind, text) for kind, text in ((BendingWarning, bent), (RoadWarning, rim)) if text]
+    def _model_warnings(self) -> Warned:
+        """Warnings about the range of validity of the model."""
+        bending, road = self.simulation.bending.message, self.simulation.road_text
+        return [(kind, text) for kind, text in ((BendingWarning, bending), (RoadWarning, road)) if text]
 
 
 def simulate_many(
@@ -249,25 +254,25 @@ def simulate_many(
             "Take simulate for other methods."
         )
     instance_of(Iterable, variants, "The variants", "a list of Variant(...)")
-    variants = [_checked(k, v) for k, v in enumerate(variants)]
+    variants = [_check_variant(k, v) for k, v in enumerate(variants)]
     check_record(max(1, len(variants)) * (steps // every + 1), len(prepared(system)[1]["sensors"]))
-    width = _width(lanes, len(variants))
+    width = _choose_lanes(lanes, len(variants))
     workers = os.cpu_count() or 1 if threads is None else whole(threads, "the threads", least=1, error=ValueError)
-    order = _by_inputs(system, variants)
+    order = _order_by_inputs(system, variants)
     groups = [order[i : i + width] for i in range(0, len(order), width)]
-    finished_runs: dict[int, _Found] = {}
+    finished_runs: dict[int, _Result] = {}
     steps_made = [0] * len(groups)
     stopped = threading.Event()
 
     def work(number: int) -> None:
         members = {k: variants[k] for k in groups[number]}
 
-        def told(done: int) -> bool:
+        def report_progress(done: int) -> bool:
             steps_made[number] = done * len(members)
             return not stopped.is_set()
 
         finished_runs.update(
-            _run_group(system, members, settings, (t0, h, steps, every), width, told, estimate_error is None)
+            _run_group(system, members, settings, (t0, h, steps, every), width, report_progress, estimate_error is None)
         )
         steps_made[number] = steps * len(members)
 
@@ -285,7 +290,7 @@ def simulate_many(
                 future.cancel()
     runs = [finished_runs[k] for k in range(len(variants))]
     for k, run in enumerate(runs):
-        for category, text in run.told:
+        for category, text in run.warnings:
             warnings.warn(f"Variant {k}: {text}", category, stacklevel=2)
     failures = {k: run.failure for k, run in enumerate(runs) if run.failure is not None}
     return ManyRuns([run.trajectory for run in runs], failures, [run.alone for run in runs], width)
@@ -295,69 +300,79 @@ def _run_group(
     system: System,
     members: Mapping[int, Variant],
     settings: Settings,
-    course: tuple[float, float, int, int],
+    time_grid: tuple[float, float, int, int],
     width: int,
-    told: Callable[[int], bool],
-    checked: bool,
-) -> dict[int, _Found]:
-    """The runs of one group, by the number of the variant; `told` returns whether to go on."""
-    t0, h, steps, every = course
+    report_progress: Callable[[int], bool],
+    is_checked: bool,
+) -> dict[int, _Result]:
+    """Results of the runs of one group, by the number of the variant.
+
+    `time_grid`: start and step, s, number of steps, steps per sample; `report_progress`: callback of the completed
+    steps that returns whether to continue; `is_checked`: whether errors are estimated.
+    """
+    t0, h, steps, every = time_grid
     runs: dict[int, _Run] = {}
-    results: dict[int, _Found] = {}
+    results: dict[int, _Result] = {}
     with ExitStack() as stack:
         for k, variant in members.items():
             try:
                 run = _Run(system, variant, settings, t0, h, steps, every)
-                stack.enter_context(attached(run.simulation, run.signals, t0, t0 + steps * h, h))
+                stack.enter_context(attach_inputs(run.simulation, run.signals, t0, t0 + steps * h, h))
                 runs[k] = run
             except SimulationError as error:
-                results[k] = _Found(None, error, 0, [])
+                results[k] = _Result(None, error, 0, [])
             except ValueError as error:
                 raise ValueError(f"Variant {k}: {error}") from error
-        many, going, completed, chunk = Many(prepared(system)[0], width), list(runs.values()), 0, every
-        while completed < steps and going and told(completed):
+        many, running, completed, chunk = Many(prepared(system)[0], width), list(runs.values()), 0, every
+        while completed < steps and running and report_progress(completed):
             n = min(chunk, steps - completed)
-            blocks = [run.rows(completed, n) for run in going]
+            blocks = [run.rows(completed, n) for run in running]
             begin = time.perf_counter()
-            ended = many.run(
-                [run.simulation.instance for run in going], h, n, every, [p[1] for p in blocks], [p[2] for p in blocks]
+            ends = many.run(
+                [run.simulation.instance for run in running],
+                h,
+                n,
+                every,
+                [p[1] for p in blocks],
+                [p[2] for p in blocks],
             )
             spent = time.perf_counter() - begin
-            for run, (row, _, positions), end in zip(going, blocks, ended, strict=True):
-                run.record.take(row, positions)
+            for run, (row, _, positions), end in zip(running, blocks, ends, strict=True):
+                run.record.store(row, positions)
                 run.alone += end.alone
-                run.wall += spent / len(going)
+                run.wall += spent / len(running)
                 run.error = end.error
-                run.simulation.bending.look(run.simulation.time, run.simulation.state.q)
+                run.simulation.bending.observe(run.simulation.time, run.simulation.state.q)
             completed += n
             chunk = next_chunk(chunk, spent, every)
-            going = [run for run in going if run.error is None]
+            running = [run for run in running if run.error is None]
         for k, run in runs.items():
-            results[k] = run.ended(checked)
+            results[k] = run.result(is_checked)
     return results
 
 
-def _checked(number: int, variant: Variant) -> Variant:
-    what = f"Variant {number}"
-    instance_of(Variant, variant, what, "a Variant(...)")
+def _check_variant(number: int, variant: Variant) -> Variant:
+    subject = f"Variant {number}"
+    instance_of(Variant, variant, subject, "a Variant(...)")
     check_values(variant.parameters, f"The parameters of variant {number}")
     check_values(variant.inputs, f"The inputs of variant {number}")
     return variant
 
 
-def _width(asked: int | None, variants: int) -> int:
+def _choose_lanes(lanes: int | None, variants: int) -> int:
+    """Check the number of lanes; None: the widest of the processor that the variants fill."""
     widest = widest_lanes()
-    if asked is None:
+    if lanes is None:
         return next((w for w in WIDTHS if w >= variants), widest) if variants <= widest else widest
-    if asked not in WIDTHS or isinstance(asked, bool):
-        raise ValueError(f"lanes = {asked!r}; it must be 2, 4 or 8.")
-    if asked > widest:
-        raise ValueError(f"lanes = {asked}; this processor has instructions for {widest}.")
-    return asked
+    if lanes not in WIDTHS or isinstance(lanes, bool):
+        raise ValueError(f"lanes = {lanes!r}; it must be 2, 4 or 8.")
+    if lanes > widest:
+        raise ValueError(f"lanes = {lanes}; this processor has instructions for {widest}.")
+    return lanes
 
 
-def _by_inputs(system: System, variants: Sequence[Variant]) -> list[int]:
-    """Numbers of the variants, those with the same inputs side by side, in the order in which inputs first appear."""
+def _order_by_inputs(system: System, variants: Sequence[Variant]) -> list[int]:
+    """Numbers of the variants, sorted so that those with equal inputs are neighbours."""
     groups: dict[Any, list[int]] = {}
     declared = prepared(system)[1]["inputs"]
     for k, variant in enumerate(variants):
@@ -365,14 +380,14 @@ def _by_inputs(system: System, variants: Sequence[Variant]) -> list[int]:
             InputSignals(variant.inputs, declared)
         except ValueError as error:
             raise ValueError(f"Variant {k}: {error}") from error
-        key = tuple(sorted((name, _key(signal)) for name, signal in variant.inputs.items()))
+        key = tuple(sorted((name, _signal_key(signal)) for name, signal in variant.inputs.items()))
         groups.setdefault(key, []).append(k)
     return [k for group in groups.values() for k in group]
 
 
-def _key(signal: Signal) -> Any:
+def _signal_key(signal: Signal) -> Any:
     if callable(signal):
         return ("function", str(id(signal)))
     if isinstance(signal, tuple):
-        return ("table", repr([np.asarray(part, float).tobytes() for part in signal]))
+        return ("table", repr([np.asarray(column, float).tobytes() for column in signal]))
     return ("constant", repr(float(signal)))

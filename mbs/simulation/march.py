@@ -1,4 +1,4 @@
-"""The loop of a run: steps in chunks, with inputs, a record and a progress bar."""
+"""Run in equal steps, in chunks, with inputs, a record and a progress bar."""
 
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -27,12 +27,12 @@ from mbs.simulation.arguments import (
 from mbs.simulation.omitted_sensor_run import omitted_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
-from mbs.simulation.recorded_trajectory import recorded
+from mbs.simulation.recorded_trajectory import recorded_trajectory
 from mbs.simulation.refusal import refusal
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
-CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
+CHUNK_SECONDS = 0.1  # wall time of one call of the kernel, between which progress is shown and Ctrl-C takes effect
 
 
 def march(
@@ -42,17 +42,31 @@ def march(
     inputs: Mapping[str, Signal] | None,
     every: int,
     progress: bool | Callable[[float], None] | None,
-    look: bool = False,
-    wanted: int = 1,
+    records_coordinates: bool = False,
+    samples_per_pose: int = 1,
     watch: Callable[[Array], bool] | None = None,
 ) -> tuple[Trajectory, list[Array]]:
-    """The steps of `Simulation.run`; poses are kept of one of `wanted` samples at most. `watch` is given the samples so
-    far after each eighth of them; where it says so the run ends there.
+    """Run `simulation` in steps of `h`, s, to `t_end`, s; `inputs`, `every` and `progress` as of `simulate`.
+
+    Parameters
+    ----------
+    records_coordinates : bool
+        Whether to return the coordinates at the instants at which two runs are compared.
+    samples_per_pose : int
+        Poses are kept for one of so many samples at most.
+    watch : callable, optional
+        Receives the samples so far after each eighth of the run and returns whether the run ends there.
 
     Returns
     -------
+    trajectory : Trajectory
     positions : list of ndarray, shape (nq,)
-        With `look` the coordinates at the instants where two runs are compared.
+        Empty without `records_coordinates`.
+
+    Raises
+    ------
+    SimulationError
+        A step fails; its `trajectory` holds the samples until then.
     """
     t0, h = simulation.time, check_step(h)
     steps, every = count_steps(t0, t_end, h), check_every(every)
@@ -64,53 +78,55 @@ def march(
     signals = InputSignals(checked_inputs, meta["inputs"])
     values = np.empty((steps // every + 1, len(meta["sensors"])))
     values[0] = list(instance.sensors())
-    left_out = omitted_of_run(simulation, checked_inputs, h, every)
-    compared = [int(k) for k in instants(len(values))] if look else []
-    looks = [int(k) * every for k in instants(len(values))] if simulation.bending.watches else []
+    omitted = omitted_of_run(simulation, checked_inputs, h, every)
+    compared = [int(k) for k in instants(len(values))] if records_coordinates else []
+    pauses = [int(k) * every for k in instants(len(values))] if simulation.bending.has_flexible_bodies else []
     if watch is not None:
-        looks = sorted({*looks, *(len(values) * k // MOST_PARTS * every for k in range(1, MOST_PARTS))})
-    positions = [simulation.state.q] if look else []
-    record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
+        pauses = sorted({*pauses, *(len(values) * k // MOST_PARTS * every for k in range(1, MOST_PARTS))})
+    positions = [simulation.state.q] if records_coordinates else []
+    record = PositionRecord(simulation.system, simulation.state.q, len(values), samples_per_pose)
     steps_done, wall, chunk, before = 0, 0.0, every, simulation.report
-    with progress_for(progress) as bar, attached(simulation, signals, t0, t0 + steps * h, h):
+    with progress_for(progress) as bar, attach_inputs(simulation, signals, t0, t0 + steps * h, h):
         while steps_done < steps:
-            ahead = [k - steps_done for k in looks if k > steps_done]
-            n = min(chunk, steps - steps_done, *ahead[:1])
+            next_pauses = [k - steps_done for k in pauses if k > steps_done]
+            n = min(chunk, steps - steps_done, *next_pauses[:1])
             row = steps_done // every + 1
             block = values[row : (steps_done + n) // every + 1]
             coordinates = record.rows(row, len(block))
-            if look and coordinates is None:
+            if records_coordinates and coordinates is None:
                 coordinates = np.empty((len(block), simulation.system.nq))
-            begin = time.perf_counter()
+            clock_start = time.perf_counter()
             try:
                 instance.run(h, n, None, every, block, coordinates)
             except KernelError as error:
-                good = round((simulation.time - t0) / h) // every + 1
-                wall += time.perf_counter() - begin
-                record.take(row, coordinates)
-                recorded = trajectory_of(simulation, t0, h * every, values[:good], wall, before, record, left_out)
-                what = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
-                raise refusal(simulation, what, error, recorded, step_given=True) from error
-            spent = time.perf_counter() - begin
+                samples = round((simulation.time - t0) / h) // every + 1
+                wall += time.perf_counter() - clock_start
+                record.store(row, coordinates)
+                trajectory = trajectory_of(simulation, t0, h * every, values[:samples], wall, before, record, omitted)
+                subject = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
+                raise refusal(simulation, subject, error, trajectory, step_given=True) from error
+            spent = time.perf_counter() - clock_start
             wall += spent
-            record.take(row, coordinates)
+            record.store(row, coordinates)
             steps_done += n
             positions += [
                 coordinates[k - row].copy() for k in compared if coordinates is not None and row <= k < row + len(block)
             ]
-            if ahead and n == ahead[0] and simulation.bending.watches:
-                simulation.bending.look(simulation.time, simulation.state.q)
+            if next_pauses and n == next_pauses[0] and simulation.bending.has_flexible_bodies:
+                simulation.bending.observe(simulation.time, simulation.state.q)
             bar.update(steps_done / steps)
-            if watch is not None and ahead and n == ahead[0] and watch(values[: steps_done // every + 1]):
+            if watch is not None and next_pauses and n == next_pauses[0] and watch(values[: steps_done // every + 1]):
                 values = values[: steps_done // every + 1]
                 break
             chunk = next_chunk(chunk, spent, every)
-    return trajectory_of(simulation, t0, h * every, values, wall, before, record, left_out), positions
+    return trajectory_of(simulation, t0, h * every, values, wall, before, record, omitted), positions
 
 
 @contextmanager
-def attached(simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, h: float) -> Iterator[None]:
-    """Inputs of a run: the kernel asks for them at the times at which its method evaluates them."""
+def attach_inputs(
+    simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, h: float
+) -> Iterator[None]:
+    """Attach the inputs of a run to the kernel, which evaluates them at the stages of its method."""
     signals.attach_to_steps(simulation.instance, t0, t_end, h)
     try:
         yield
@@ -126,15 +142,21 @@ def trajectory_of(
     wall: float,
     before: Report,
     record: PositionRecord,
-    left_out: Callable[[int], OmittedSensors | None],
+    omitted: Callable[[int], OmittedSensors | None],
 ) -> Trajectory:
-    """What was recorded, with the counters since `before`; `left_out` makes of the number of samples what was not."""
+    """Trajectory of the samples `values` (n, ns), with the counters since `before`.
+
+    `interval`: between samples, s; `wall`: time in the kernel, s; `omitted`: makes the omitted sensors of so many
+    samples.
+    """
     report, settings = simulation.report, simulation.settings
     t = t0 + interval * np.arange(len(values), dtype=float)
     energy = accuracy.energy_text(report, simulation.system, settings.method)
-    estimate = accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings)
+    estimate = accuracy.accuracy_from_energy(report, report.steps - before.steps, report.halvings - before.halvings)
     notices = report.capped_text, energy
-    return recorded(simulation, t, values, settings, wall, record, left_out(len(values)), notices, accuracy=estimate)
+    return recorded_trajectory(
+        simulation, t, values, settings, wall, record, omitted(len(values)), notices, accuracy=estimate
+    )
 
 
 def next_chunk(chunk: int, spent: float, every: int) -> int:

@@ -1,4 +1,4 @@
-"""Choice of a method: candidates by properties of the System, the fastest by coarse runs."""
+"""Choice of a method: candidates by properties of the System, then the fastest in coarse runs."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -15,17 +15,17 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
-FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
-FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002
-LOOSE = 1e-3  # tolerance from which on ALi3-P, of order two, is tried too: it is the cheapest one for what is stiff
-FEWEST = 10  # steps of one call, which itself costs a few evaluations
-LAST = ("radau_5", "runge_kutta_8", "ali3p")  # tried where no other method holds a tolerance
-LOST = 1.1  # times the price of the one that ended first
+FINE = 2e-3  # tolerance below which the method of order eight is the faster one in relative coordinates
+FIRST_BUDGET, BUDGET_GROWTH, STEPS = 100.0, 2.0, 0.002  # work; factor of each round; steps of a call per work
+COARSE = 1e-3  # tolerance from which ALi3-P, of order two, is a candidate: the fastest method for stiff Systems
+FEWEST = 10  # least steps of a call, which itself costs as much as a few evaluations
+LAST = ("radau_5", "runge_kutta_8", "ali3p")  # tried last
+LOST = 1.1  # a run is given up beyond this multiple of the least weighted work
 
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """A method, why, its coarse run, and methods that follow where it cannot hold the tolerance."""
+    """Chosen method, the reason, its coarse run, and methods that are tried if it does not keep the tolerance."""
 
     method: str
     reason: str
@@ -36,17 +36,17 @@ class MethodChoice:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The method and those that follow it."""
+        """The method and those that are tried after it."""
         return self.method, *self.others
 
 
 def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
-    """Methods that may be the fastest for a System, and what of it leaves no others."""
+    """Methods that may be the fastest for a System, and the property that excludes the others."""
     if len(system.arrays["y0"]) > 0:
         return ["ali3p"], "elements with states"
     if np.any(system.arrays["guide_type"] != GuideType.OF_TIME):
         return ["ali3p"], "guides through a filter"
-    coarse = ["ali3p"] if tolerance >= LOOSE else []
+    coarse = ["ali3p"] if tolerance >= COARSE else []
     if not prepared(system)[1]["report"]["no_tree"]:
         return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"
     if len(system.arrays["velocity_row"]) > 0:
@@ -57,16 +57,21 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
 def choose(
     start: Callable[[], SteppedSystem], task: Task, settings: Settings, tolerance: float, coarse: float
 ) -> MethodChoice:
-    """The method for a tolerance, by runs of all candidates at a coarse one, each as long as it can still win."""
+    """Choose the method for a tolerance by runs of all candidates at the tolerance `coarse`.
+
+    Each runs as long as it can still be the fastest. Raises `SimulationError`: none reaches the end.
+    """
     system = start().system
-    names, what = candidates(system, tolerance)
+    names, property_text = candidates(system, tolerance)
     if len(names) == 1:
-        return MethodChoice(names[0], f"chosen: {what}", None, 0.0, 0, tuple(name for name in LAST if name != names[0]))
+        return MethodChoice(
+            names[0], f"chosen: {property_text}", None, 0.0, 0, tuple(name for name in LAST if name != names[0])
+        )
     growth = coarse / tolerance
     runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
     methods = {name: METHOD_TABLE[name] for name in names}
     weights = {name: m.cost * growth ** (1.0 / m.order_of_changing_steps) for name, m in methods.items()}
-    failed = _race(runs, weights)
+    failed = _advance_until_fastest(runs, weights)
     ended = {name: run.work * weights[name] for name, run in runs.items() if run.finished}
     best = min(ended, key=lambda name: ended[name], default="")
     wall = sum(run.wall for run in runs.values())
@@ -78,29 +83,32 @@ def choose(
             task.t0,
             Status.NOT_CONVERGED,
         )
-    lost = [f"{name} {'fails' if name in failed else 'is slower'}" for name in runs if name != best]
+    rejections = [f"{name} {'fails' if name in failed else 'is slower'}" for name in runs if name != best]
     others = tuple(name for name in dict.fromkeys([*runs, *LAST]) if name != best and name not in failed)
-    return MethodChoice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs), others)
+    return MethodChoice(
+        best, f"chosen in coarse runs: {property_text}, {', '.join(rejections)}", runs[best], wall, len(runs), others
+    )
 
 
-def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:
-    """Runs all until one ends, the others until they are dearer; returns those that failed. Prices of work are those
-    that the tolerance will ask for, not the coarse one.
+def _advance_until_fastest(runs: dict[str, ControlledRun], weights: dict[str, float]) -> set[str]:
+    """Advance all runs until one ends and the others exceed its weighted work; return the names of failed runs.
+
+    `weights`: factors of the work of the coarse runs, which give that of runs to the tolerance.
     """
     failed: set[str] = set()
     budget = FIRST_BUDGET
     while len(failed) < len(runs):
         for name, run in runs.items():
-            while name not in failed and not run.finished and run.work * price[name] < budget:
+            while name not in failed and not run.finished and run.work * weights[name] < budget:
                 try:
-                    run.advance(FEWEST + int(STEPS * budget / price[name]))
+                    run.advance(FEWEST + int(STEPS * budget / weights[name]))
                 except (KernelError, StalledError):
                     failed.add(name)
-        ended = [run.work * price[name] for name, run in runs.items() if run.finished]
+        ended = [run.work * weights[name] for name, run in runs.items() if run.finished]
         if ended:
             if budget >= LOST * min(ended):
                 break
             budget = LOST * min(ended)
             continue
-        budget *= MORE
+        budget *= BUDGET_GROWTH
     return failed

@@ -1,4 +1,4 @@
-"""Sensors that a run left out: it is made again when one of them is first read."""
+"""Sensors that a run omits: the run is repeated when one of them is first read."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -10,7 +10,7 @@ from mbs.results.omitted_sensors import OmittedSensors
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation.omitted_sensor_system import NO_PORTS, OmittedSensorSystem, omitted_names
 from mbs.simulation.prepared_system import prepared
-from mbs.simulation.restored_run import restored
+from mbs.simulation.restored_run import restore_system
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
@@ -22,7 +22,7 @@ TO_TOLERANCE = (
 
 
 def omitted_to_tolerance(system: System) -> OmittedSensors | None:
-    """Sensors that a run to a tolerance left out."""
+    """Sensors that a run to a tolerance omits; None if there are none."""
     names = omitted_names(system)
     return OmittedSensors(names, None, TO_TOLERANCE) if names else None
 
@@ -30,9 +30,9 @@ def omitted_to_tolerance(system: System) -> OmittedSensors | None:
 def omitted_of_run(
     simulation: SteppedSystem, inputs: Mapping[str, Signal], h: float, every: int
 ) -> Callable[[int], OmittedSensors | None]:
-    """What makes of the number of samples the sensors that a run leaves out; made at its start.
+    """Function of the number of samples that returns the omitted sensors of a run, made at its start.
 
-    `every`: steps from one sample to the next.
+    `h`: step, s; `every`: steps between two samples.
     """
     names = omitted_names(simulation.system)
     if not names:
@@ -43,13 +43,13 @@ def omitted_of_run(
     state = simulation.instance.save()
 
     def compute(samples: int, stride: int) -> dict[str, Array]:
-        follower, again = OmittedSensorSystem(system), restored(system, settings, roads, state)
-        rows, t0 = [follower.values(again.instance)], again.time
+        omitted, rerun = OmittedSensorSystem(system), restore_system(system, settings, roads, state)
+        rows, t0 = [omitted.values(rerun.instance)], rerun.time
         signals = InputSignals(inputs, prepared(system)[1]["inputs"])
-        signals.attach_to_steps(again.instance, t0, t0 + (samples - 1) * every * h, h)
+        signals.attach_to_steps(rerun.instance, t0, t0 + (samples - 1) * every * h, h)
         for _ in range((samples - 1) // stride):
-            again.instance.run(h, every * stride)
-            rows.append(follower.values(again.instance))
+            rerun.instance.run(h, every * stride)
+            rows.append(omitted.values(rerun.instance))
         return dict(zip(names, np.array(rows).T, strict=True))
 
     return lambda samples: OmittedSensors(names, partial(compute, samples))

@@ -1,16 +1,16 @@
-"""Sensors that a System does not compute, such as the stresses of a rigid car: by a second System, when read."""
+"""Sensors that a System does not compute, such as stresses of a rigid car, evaluated by a second System."""
 
 from collections.abc import Mapping
 from weakref import WeakKeyDictionary
 
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.results.omitted_sensors import refused
+from mbs.results.omitted_sensors import not_computed_text
 from mbs.results.simulation_error import SimulationError
 from mbs.simulation.prepared_system import prepared
 from mbs.system.system import System
 
-_PORTED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, int]] | None] = WeakKeyDictionary()
+_WITH_PORTS: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, int]] | None] = WeakKeyDictionary()
 NO_PORTS = "there is no model with ports that follows it. Compile one that computes it; of a car, fidelity=1, 2 or 3"
 
 
@@ -19,47 +19,47 @@ def omitted_names(system: System) -> list[str]:
     return [s["name"] for s in prepared(system)[1]["sensors"] if not s.get("computed", True)]
 
 
-def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
-    """The System with ports in the kernel's memory and the places of its sensors, made once; None: there is none."""
-    if system not in _PORTED:
+def _loaded_with_ports(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
+    """System with ports in the kernel's memory and indices of its sensors by name, made once; None: there is none."""
+    if system not in _WITH_PORTS:
         ported = system.ported(system) if system.ported is not None else None
         index_of = {} if ported is None else {s["name"]: k for k, s in enumerate(ported.meta["sensors"])}
         loaded = None if ported is None else (LoadedSystem(ported.kernel_bytes()), index_of)
-        _PORTED[system] = loaded if loaded is not None and set(omitted_names(system)) <= set(index_of) else None
-    return _PORTED[system]
+        _WITH_PORTS[system] = loaded if loaded is not None and set(omitted_names(system)) <= set(index_of) else None
+    return _WITH_PORTS[system]
 
 
 class OmittedSensorSystem:
-    """A second System with ports that is moved to the states of a simulation.
+    """A second System with ports that follows the states of a simulation.
 
-    `asked`: name of the requested sensor. Raises `KeyError`: there is none; the sentence names the sensor.
+    `sensor`: the requested one, for the error. Raises `KeyError`: there is no System with ports.
     """
 
-    def __init__(self, system: System, asked: str = "") -> None:
-        loaded, self._names = _ported(system), omitted_names(system)
+    def __init__(self, system: System, sensor: str = "") -> None:
+        loaded, self._names = _loaded_with_ports(system), omitted_names(system)
         if loaded is None:
-            raise KeyError(refused(asked or self._names[0], NO_PORTS))
+            raise KeyError(not_computed_text(sensor or self._names[0], NO_PORTS))
         self._instance = Instance(loaded[0])
         self._columns = [loaded[1][name] for name in self._names]
 
     def values(self, instance: Instance) -> list[float]:
-        """Of the sensors that the System leaves out, at the state of its instance, which stays.
+        """Values of the omitted sensors at the state of `instance`, which is not changed.
 
-        Raises `SimulationError`: the forces at the ports cannot be found.
+        Raises `SimulationError`: the forces at the ports cannot be computed.
         """
         try:
             self._instance.follow(instance)
         except KernelError as error:
-            what = f"The forces at the ports could not be found: {error.message}"
-            raise SimulationError(what, instance.time, error.status) from error
+            message = f"The forces at the ports could not be found: {error.message}"
+            raise SimulationError(message, instance.time, error.status) from error
         values = self._instance.sensors()
         return [values[k] for k in self._columns]
 
 
 class Readings(dict[str, float]):
-    """Sensor values of a state by name; those that the System leaves out are found when one is first read.
+    """Sensor values of a state by name; omitted ones are computed when one is first read.
 
-    `values`: those that the System computes; `instance`: at the state; it may go on.
+    `values`: of the sensors that the System computes; `instance`: at the state, may be advanced later.
     """
 
     def __init__(self, values: Mapping[str, float], system: System, instance: Instance) -> None:

@@ -10,17 +10,17 @@ from ali3.message_text import unit_text
 
 
 class ParameterWarning(UserWarning):
-    """A parameter has a value outside the range in which such models work."""
+    """A parameter has a value outside the range for which its model is made."""
 
 
-def warn_of_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
-    """Warn of a value that is not between those of the entry of the parameter in `System.meta`."""
-    least, most = entry.get("works", (value, value))
-    if not least <= value <= most:
+def warn_of_unusual_value(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
+    """Warn of a parameter value outside the range `works` of its `entry` in `System.meta`."""
+    lower, upper = entry.get("works", (value, value))
+    if not lower <= value <= upper:
         unit = unit_text(entry["unit"])
         warnings.warn(
             f"Parameter {entry['name']!r} is set to {value:g}{unit}, outside the range in which such models work, "
-            f"{least:.4g} to {most:.4g}{unit}.",
+            f"{lower:.4g} to {upper:.4g}{unit}.",
             ParameterWarning,
             stacklevel=stacklevel + 1,
         )

@@ -1,9 +1,9 @@
-"""The coordinates that a run keeps for its poses: at all samples, or at every n-th so that memory is bounded."""
+"""Coordinates that a run records for its poses: at all samples, or at every n-th so that memory is bounded."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.results.poses import Poses, kept_every
+from mbs.results.poses import Poses, pose_interval
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
@@ -21,39 +21,39 @@ class PositionRecord:
     samples : int
         Number of samples, with the first one.
     every : int
-        Keep at most each so many-th sample.
+        Largest density: one of `every` samples.
     """
 
     def __init__(self, system: System, q: Array, samples: int, every: int = 1) -> None:
         self.drawing, nq = system.drawing, system.nq
-        self.every = kept_every(samples, nq, every)
-        self._kept = np.empty(((samples - 1) // self.every + 1, nq)) if self.drawing is not None else None
-        if self._kept is not None:
-            self._kept[0] = q
+        self.every = pose_interval(samples, nq, every)
+        self._q = np.empty(((samples - 1) // self.every + 1, nq)) if self.drawing is not None else None
+        if self._q is not None:
+            self._q[0] = q
 
     def rows(self, first: int, count: int) -> Array | None:
-        """An array for the kernel to write `count` samples from `first` on to, shape (count, nq); None: not needed."""
-        if self._kept is None:
+        """Array (count, nq) to which the kernel writes the samples from `first` on; None: not needed."""
+        if self._q is None:
             return None
-        return self._kept[first : first + count] if self.every == 1 else np.empty((count, self._kept.shape[1]))
+        return self._q[first : first + count] if self.every == 1 else np.empty((count, self._q.shape[1]))
 
-    def take(self, first: int, rows: Array | None) -> None:
-        """Keep samples from `first` on that were written to `rows`, an array of the method `rows`."""
-        if self._kept is None or rows is None or self.every == 1:
+    def store(self, first: int, rows: Array | None) -> None:
+        """Store the samples from `first` on that were written to `rows`, the array of the method `rows`."""
+        if self._q is None or rows is None or self.every == 1:
             return
         begin = -first % self.every
         samples = rows[begin :: self.every]
-        at = (first + begin) // self.every
-        self._kept[at : at + len(samples)] = samples
+        row = (first + begin) // self.every
+        self._q[row : row + len(samples)] = samples
 
     def fill(self, positions: Array) -> None:
-        """Take all samples at once, shape (samples, nq)."""
-        if self._kept is not None:
-            self._kept[:] = positions[:: self.every]
+        """Store all samples at once, shape (samples, nq)."""
+        if self._q is not None:
+            self._q[:] = positions[:: self.every]
 
     def poses(self, t: Array) -> Poses | None:
         """Poses of the samples at the times `t` (n,)."""
-        if self.drawing is None or self._kept is None:
+        if self.drawing is None or self._q is None:
             return None
         times = t[:: self.every]
-        return Poses(times, self.every, self._kept[: len(times)], self.drawing.places)
+        return Poses(times, self.every, self._q[: len(times)], self.drawing.places)

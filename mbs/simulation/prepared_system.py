@@ -1,4 +1,4 @@
-"""A System in the kernel's memory, once for all Simulations of it."""
+"""System in the kernel's memory, loaded once for all its Simulations."""
 
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -13,7 +13,7 @@ _PREPARED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, Any]]] = Weak
 
 
 def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
-    """The System in the kernel's memory and its metadata, shared by all Simulations of it: neither may be changed."""
+    """System in the kernel's memory and its metadata, shared by all its Simulations, so neither may be changed."""
     if system not in _PREPARED:
         loaded = LoadedSystem(system.kernel_bytes())
         if system.native is not None:
@@ -23,7 +23,7 @@ def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
 
 
 def scales_of(system: System) -> NDArray[np.float64]:
-    """Length (m) that belongs to a change of each coordinate by one unit, shape (nq,)."""
+    """Displacement of a unit change of each coordinate, m, shape (nq,)."""
     return np.array(prepared(system)[1].get("coordinate_lengths", [1.0] * system.nq), float)
 
 

@@ -1,4 +1,4 @@
-"""Trajectory made from the records of a run."""
+"""Trajectory of the record of a run."""
 
 from collections.abc import Iterable
 
@@ -12,30 +12,31 @@ from mbs.results.trajectory import Trajectory
 from mbs.settings.settings import Settings
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
-from mbs.simulation.run_roads import run_roads
+from mbs.simulation.run_roads import changed_roads
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 from mbs.system.text import notices_before
 
 Array = NDArray[np.float64]
-NO_FORCE = 1e-6  # of the weight, as `ali3_no_force` has it
+NO_FORCE = 1e-6  # share of the weight below which a force is zero, as in `ali3_no_force`
 
 
-def recorded(
+def recorded_trajectory(
     simulation: SteppedSystem,
     t: Array,
     values: Array,
     settings: Settings,
     wall: float,
     record: PositionRecord,
-    left_out: OmittedSensors | None,
+    omitted: OmittedSensors | None,
     notices: Iterable[str] = (),
     accuracy: Accuracy | None = None,
     control: Control | None = None,
 ) -> Trajectory:
-    """Of a run that ended in `simulation`: `values` (n, ns) at `t` (n,), and what else is known of it.
+    """Trajectory of a run that ended in `simulation`: `values` (n, ns) at the times `t` (n,), s.
 
-    `notices`: sentences beside those of the System; empty ones are none.
+    `wall`: time in the kernel, s; `omitted`: sensors that were not computed; `notices`: sentences beside those of the
+    System; empty ones are dropped.
     """
     sensors = prepared(simulation.system)[1]["sensors"]
     return Trajectory(
@@ -52,24 +53,25 @@ def recorded(
         control,
         record.poses(t),
         record.drawing,
-        run_roads(simulation.system, simulation.instance, simulation.road_paths),
-        left_out,
+        changed_roads(simulation.system, simulation.instance, simulation.road_paths),
+        omitted,
     )
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
-    """What a run reports besides its numbers: `notices_before`, and what sensors with a notice say of their columns,
-    `values` (n, ns) at `t` (n,).
+    """Notices of a run: those of the System, and those of sensors that must be zero and are not.
+
+    `values` (n, ns): samples at the times `t` (n,), s.
     """
     meta = prepared(system)[1]
     notices, sensors = notices_before(meta), meta["sensors"]
     for k, sensor in enumerate(sensors):
-        none = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
-        nonzero = np.flatnonzero(np.abs(values[:, k]) > none if "notice" in sensor else ())
+        threshold = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
+        nonzero = np.flatnonzero(np.abs(values[:, k]) > threshold if "notice" in sensor else ())
         if len(nonzero):
-            most = values[np.argmax(np.abs(values[:, k])), k]
+            peak = values[np.argmax(np.abs(values[:, k])), k]
             notices.append(
                 f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[nonzero[0]]:g} s, "
-                f"at most {most:g} {sensor['unit']}."
+                f"at most {peak:g} {sensor['unit']}."
             )
     return notices

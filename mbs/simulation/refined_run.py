@@ -1,4 +1,4 @@
-"""Estimation of the error of a run by refined runs: choice of their steps, comparison and verdict."""
+"""Estimation of the error of a run by refined runs: choice of their steps, comparison, verdict."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -15,17 +15,17 @@ from mbs.results.comparison import (
     COORDINATES,
     Compared,
     Comparison,
-    compared_in,
     compared_sensors,
     differences,
     instants,
+    select_compared,
     shows_motion,
     sizes_of,
 )
-from mbs.results.convergence import LEAST_ORDER, extrapolated, measured_order, seen_order, unsure
+from mbs.results.convergence import LEAST_ORDER, extrapolate_error, may_change_verdict, measured_order, observed_order
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import nothing_abrupt, unresolved_share
+from mbs.results.smooth_laws import is_smooth, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -79,7 +79,7 @@ class RefinedRuns:
     known : Accuracy or None
         Accuracy as estimated from the last refined run.
     left_alone : bool
-        Whether only the first run changed the assembly mode of a loop.
+        Whether the first run changed the assembly mode of a loop and the last refined run did not.
     compared : dict of str to Compared
         Compared sensors or coordinates, by name.
     rests : bool
@@ -107,23 +107,29 @@ class RefinedRuns:
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
-        self._finer, self._sizes = dict[int, Run](), dict[str, float]()
+        self._refined, self._sizes = dict[int, Run](), dict[str, float]()
         self.length = length_of(self.system)
         settings, report, self.known = self.run[0].settings, self.run[0].report, self.run[0].accuracy
         assert settings is not None
         assert report is not None
-        self.parts = accuracy.divisor(report.steps, report.halvings)
+        self.parts = accuracy.step_divisor(report.steps, report.halvings)
         self.method, span = settings.method, (self.run[0].t[0], self.run[0].t[-1])
         self.unresolved = unresolved_share(self.system, self.method, span, self.inputs)
         self.has_order = self.unresolved > RESOLVED
         angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
         coordinates = dict.fromkeys(self._columns, Compared(COORDINATES, place=True))
-        start = self._coordinates(self.run)
-        at_rest = bool(start) and not sizes_of(start, coordinates, self.length, self.before)
-        guided = len(self.system.arrays["gterm_row"]) > 0
-        self.compared = compared_in(
-            self.run[0], compared_sensors(self.system), self.length, self.before, at_rest, guided, report.energy_floor
+        start_coordinates = self._coordinates(self.run)
+        at_rest = bool(start_coordinates) and not sizes_of(start_coordinates, coordinates, self.length, self.before)
+        has_guides = len(self.system.arrays["gterm_row"]) > 0
+        self.compared = select_compared(
+            self.run[0],
+            compared_sensors(self.system),
+            self.length,
+            self.before,
+            at_rest,
+            has_guides,
+            report.energy_floor,
         )
         self.rests = at_rest and not self.compared
         if shows_motion(self.compared):
@@ -131,40 +137,42 @@ class RefinedRuns:
         elif self.run[1]:
             self.compared |= coordinates
 
-    def finer(self, parts: int) -> Accuracy:
+    def refine(self, parts: int) -> Accuracy:
         """Make a refined run with the step divided by `parts`, and return the accuracy estimated from it.
 
         Raises `SimulationError`: the run fails; `TooDearError`: it exceeds the remaining budget.
         """
-        refined = self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
+        refined = self._refined[parts] = self.rerun(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not refined[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
-        self.known = self.estimated(self.run, refined, self.h / parts, parts / (1.0 + halvings))
+        self.known = self.estimate(self.run, refined, self.h / parts, parts / (1.0 + halvings))
         return self.known
 
     @property
-    def nothing_abrupt(self) -> bool:
+    def is_smooth(self) -> bool:
         """Whether all forces, guides and inputs are smooth within a step."""
-        return nothing_abrupt(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
+        return is_smooth(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
 
     @property
-    def coarse(self) -> bool:
-        """Whether the step of the finest run is above half of the one that just resolves the changes of the velocities;
-        False where errors have an order.
+    def is_coarse(self) -> bool:
+        """Whether the finest step is above half of the one that just resolves the changes of the velocities.
+
+        False if `has_order`.
         """
-        return not self.has_order and 2.0 * self._missed(self._finer[max(self._finer)]) > self.unresolved
+        return not self.has_order and 2.0 * self._missed(self._refined[max(self._refined)]) > self.unresolved
 
     @property
     def finest(self) -> Report:
         """Report of the finest run."""
-        report = self._finer[max(self._finer)][0].report
+        report = self._refined[max(self._refined)][0].report
         assert report is not None
         return report
 
     @property
-    def first(self) -> int:
-        """Divisor of the step for the first refined run: chosen so that the run is not `coarse`, within the remaining
-        budget, at most eight times `parts`.
+    def first_divisor(self) -> int:
+        """Divisor of the step of the first refined run.
+
+        It is chosen so that the run is not `is_coarse`, within the remaining budget, and at most eight times `parts`.
         """
         if self.divisor:
             return max(self.divisor, self.parts)
@@ -185,36 +193,42 @@ class RefinedRuns:
 
         Raises `SimulationError`: a run fails; `TooDearError`: a run would exceed the remaining budget.
         """
-        parts = self.first
-        verdict = self.finer(parts)
-        while not self.divisor and parts < MOST_PARTS * self.parts and (self.coarse or self._unsure(verdict, parts)):
+        parts = self.first_divisor
+        verdict = self.refine(parts)
+        while (
+            not self.divisor and parts < MOST_PARTS * self.parts and (self.is_coarse or self._is_unsure(verdict, parts))
+        ):
             parts *= 2
-            verdict = self.finer(parts)
+            verdict = self.refine(parts)
             if parts > 2 * self.parts:
-                runs = (self.run, self._finer[parts // 2], self._finer[parts])
-                verdict = self.known = extrapolated(
+                runs = (self.run, self._refined[parts // 2], self._refined[parts])
+                verdict, self._sizes = extrapolate_error(
                     verdict, [self._table(r) for r in runs], self.compared, self.before, self.length
                 )
+                self.known = verdict
             if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
                 break
-        if parts == MOST_PARTS * self.parts and self._unsure(verdict, parts):
-            units, sensors = self._differences(self._finer[parts // 2], self._finer[parts])
-            verdict = replace(
-                verdict,
-                units={unit: error + units.get(unit, 0.0) for unit, error in verdict.units.items()},
-                sensors={name: error + sensors.get(name, 0.0) for name, error in verdict.sensors.items()},
-            )
+        if parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
+            _, differences_of_last = self._differences(self._refined[parts // 2], self._refined[parts])
+            sensors = {name: error + differences_of_last.get(name, 0.0) for name, error in verdict.sensors.items()}
+            units = dict[str, float]()
+            for name, error in sensors.items():
+                unit = self.compared[name].unit
+                units[unit] = max(units.get(unit, 0.0), error / self._sizes[name])
+            verdict = replace(verdict, units=units, sensors=sensors)
         return replace(verdict, check_cost=self.cost)
 
-    def _unsure(self, known: Accuracy, parts: int) -> bool:
+    def _is_unsure(self, known: Accuracy, parts: int) -> bool:
         """Whether the error of the finest run itself could change the verdict.
 
         It is estimated with order one from two refined runs, and with the least order from a single one.
         """
-        pair = parts // 2 in self._finer
-        gaps, _ = self._differences(self._finer[parts // 2] if pair else self.run, self._finer[parts])
-        factor = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
-        return unsure(known, {unit: factor * gap for unit, gap in gaps.items()})
+        has_coarser = parts // 2 in self._refined
+        unit_differences, _ = self._differences(
+            self._refined[parts // 2] if has_coarser else self.run, self._refined[parts]
+        )
+        factor = 1.0 if has_coarser else 1.0 / (2.0**LEAST_ORDER - 1.0)
+        return may_change_verdict(known, {unit: factor * difference for unit, difference in unit_differences.items()})
 
     def _differences(self, one: Run, other: Run) -> tuple[dict[str, float], dict[str, float]]:
         """Differences of two runs: per unit, relative to the range in the other run, and per sensor."""
@@ -226,33 +240,46 @@ class RefinedRuns:
         If no run is clearly accurate, one with the step needed according to the order of the errors is made first, as
         far as the budget allows.
         """
-        step, step_errors = accuracy.needed_step(self.h, known), self._offs()
+        step, step_errors = accuracy.needed_step(self.h, known), self._step_errors()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
-        if parts > max(self._finer) and not any(off <= accuracy.CLEAR for _, off in step_errors):
+        if parts > max(self._refined) and not any(error <= accuracy.CLEAR for _, error in step_errors):
             try:
-                self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
+                self._refined[parts] = self.rerun(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):
                 return step_errors
-            return self._offs()
+            return self._step_errors()
         return step_errors
 
-    def _offs(self) -> list[tuple[float, float]]:
-        """Step and error of each refined run: its difference from the finest, plus the error of the finest.
+    def _step_errors(self) -> list[tuple[float, float]]:
+        """Step, s, and error of each refined run: its difference from the finest run, plus the error of the finest.
 
-        The latter is extrapolated with the order observed in the first run and the last two. Empty if there are fewer
-        than two refined runs.
+        The latter is extrapolated with the order observed in the first run and the last two. Empty for fewer than two
+        refined runs.
         """
-        if len(self._finer) < 2:
+        if len(self._refined) < 2:
             return []
-        *_, second_finest, finest = sorted(self._finer)
-        runs, last = {1: self.run, **self._finer}, self._finer[finest]
+        *_, second_finest, finest = sorted(self._refined)
+        runs, last = {1: self.run, **self._refined}, self._refined[finest]
         gaps = {n: max(self._differences(run, last)[0].values(), default=0.0) for n, run in runs.items()}
-        order = seen_order(gaps[1], gaps[second_finest], second_finest, finest, float(METHOD_TABLE[self.method].order))
+        order = observed_order(
+            gaps[1], gaps[second_finest], second_finest, finest, float(METHOD_TABLE[self.method].order)
+        )
         remainder = gaps[second_finest] / ((finest / second_finest) ** order - 1.0)
-        return [(self.h / n, gaps[n] + remainder) for n in sorted(self._finer)]
+        return [(self.h / n, gaps[n] + remainder) for n in sorted(self._refined)]
+
+    def at_least(self, known: Accuracy, error: float) -> Accuracy:
+        """`known` with no smaller errors than `error` of the range, as the energy shows it of a method of high order.
+
+        Past a singular position such a method loses its order, by which a difference from a coarser run is scaled.
+        """
+        return replace(
+            known,
+            units={unit: max(estimate, error) for unit, estimate in known.units.items()},
+            sensors={name: max(estimate, error * self._sizes[name]) for name, estimate in known.sensors.items()},
+        )
 
     def add_ends(self) -> None:
-        """Add the extreme values of the first run to those of the runs before, for the runs that continue it."""
+        """Add the extreme values of the first run to `before`, for the runs that continue it."""
         if self.before is not None:
             extremes = Comparison(self.compared, self.length, self.before)
             extremes.add(self._table(self.run))
@@ -262,22 +289,25 @@ class RefinedRuns:
         """The estimated error in a sentence."""
         return accuracy.error_text(known, self._sizes, self.compared)
 
-    def again(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
-        """Run the motion with other steps and add the cost. Raises `TooDearError`: it exceeds the remaining budget."""
-        spent, self.tried, share = 1.0 + self.cost, h, 0.0
+    def rerun(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
+        """Run the motion in steps of `h`, s, with a sample every `every` steps, and add the cost.
+
+        Raises `TooDearError`: the cost exceeds the remaining budget.
+        """
+        spent_cost, self.tried, share = 1.0 + self.cost, h, 0.0
         if self.cost + cost > self.most:
             raise TooDearError
         self.cost += cost
-        total = 1.0 + self.cost
+        total_cost = 1.0 + self.cost
 
-        def update(done: float) -> None:
+        def update(completed: float) -> None:
             nonlocal share
-            share = done
-            self.update((spent + cost * done) / total)
+            share = completed
+            self.update((spent_cost + cost * completed) / total_cost)
 
         try:
             return self.march(h, every, update, bool(self.run[1]), iterations, watch)
-        except SimulationError:  # it has cost wall time up to here
+        except SimulationError:  # its steps up to the failure count
             share = 1.0
             raise
         finally:
@@ -294,7 +324,9 @@ class RefinedRuns:
         """Compared sensors and coordinates of a run, by name."""
         if not self.run[1]:
             return run[0]
-        return {name: run[0][name] for name, what in self.compared.items() if what.load} | self._coordinates(run)
+        return {name: run[0][name] for name, quantity in self.compared.items() if quantity.load} | self._coordinates(
+            run
+        )
 
     def _coordinates(self, run: Run) -> dict[str, NDArray[np.float64]]:
         """Coordinates of a run at its samples, by name, NaN between recorded instants; empty if none are recorded."""
@@ -304,8 +336,11 @@ class RefinedRuns:
         q[instants(len(q))[: len(run[1])]] = run[1]
         return {name: q[:, i] for name, i in self._columns.items()}
 
-    def estimated(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
-        """Accuracy of the first run from another run. `ratio`: its step over that of the other, below 1 if coarser."""
+    def estimate(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
+        """Accuracy of the run `first` from a run `other` in steps of `h`, s.
+
+        `ratio`: mean step of `first` over that of `other`, below 1 if `other` is coarser.
+        """
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
         assert run.accuracy is not None
@@ -313,7 +348,7 @@ class RefinedRuns:
         units, sensors, self._sizes = differences(*tables, self.compared, self.before, self.length)
         order = float(METHOD_TABLE[run.settings.method].order)
         before, after = coarse[0].report, fine[0].report
-        if round(ratio) < 4 and before is not None and after is not None:  # else the order hardly counts
+        if round(ratio) < 4 and before is not None and after is not None:  # with larger ratios the order hardly matters
             order = measured_order(run.settings.method, before, after, max(ratio, 1.0 / ratio))
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(

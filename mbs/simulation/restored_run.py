@@ -1,4 +1,4 @@
-"""System stepped on from a saved state of another instance."""
+"""System restored at a saved state of another instance."""
 
 from collections.abc import Mapping
 
@@ -9,17 +9,18 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 
-def restored(system: System, settings: Settings, road_paths: Mapping[int, str], state: bytes) -> SteppedSystem:
-    """A System at a state of another instance of it. `state`: by `Instance.save`.
+def restore_system(system: System, settings: Settings, road_paths: Mapping[int, str], state: bytes) -> SteppedSystem:
+    """Make a second instance of a System at a saved state.
 
-    Raises `SimulationError`: the file of a road can no longer be read.
+    `road_paths`: road files by the number of the road; `state`: by `Instance.save`. Raises `SimulationError`: a road
+    file cannot be read any more.
     """
-    other = SteppedSystem(system, settings)
+    simulation = SteppedSystem(system, settings)
     try:
         for road, path in road_paths.items():
-            other.instance.set_road(road, path)
+            simulation.instance.set_road(road, path)
     except KernelError as error:
         raise SimulationError(str(error), 0.0, error.status) from error
-    other.road_paths = dict(road_paths)
-    other.instance.restore(state)
-    return other
+    simulation.road_paths = dict(road_paths)
+    simulation.instance.restore(state)
+    return simulation

@@ -1,4 +1,4 @@
-"""`simulate`: a whole run, in equal steps or to a tolerance."""
+"""Run of a System from start to end, in equal steps or to a tolerance (`simulate`)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
-    asked_tolerance,
     check_end,
     check_estimate,
     check_every,
@@ -28,10 +27,11 @@ from mbs.simulation.arguments import (
     check_tolerance_settings,
     check_values,
     record_times,
+    requested_tolerance,
     warn_of_end,
 )
-from mbs.simulation.chosen_steps import chosen_equal_steps
-from mbs.simulation.fixed_steps import fixed_step_run
+from mbs.simulation.chosen_steps import run_chosen_steps
+from mbs.simulation.fixed_steps import run_fixed_steps
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.state import Pose
 from mbs.simulation.stepping import Simulation
@@ -56,8 +56,7 @@ def simulate(
     tolerance: float | Mapping[str, float] | None = None,
     times: ArrayLike | None = None,
 ) -> Trajectory:
-    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, and warn where the result is not what was
-    asked for.
+    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, with warnings about inaccurate results.
 
     Parameters
     ----------
@@ -94,10 +93,10 @@ def simulate(
         between steps, which costs at most 48 times the run; a number is another multiple. False checks nothing.
         Functions among `inputs` are called again, so they must depend on time.
     tolerance : float or mapping of str to float, optional
-        Largest accepted error over the whole run: of sensors by name, in their units, or of positions, in parts of the
-        model's length (`Model(length=...)`, or
-        the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
-        chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` reports both.
+        Largest accepted error over the whole run: of sensors by name, in their units, or of positions over the model's
+        length (`Model(length=...)`, or the extent of the drawing) and of velocities over that length per time scale of
+        the motion. The kernel then chooses the steps, a second run gives the error, and `Trajectory.control` reports
+        both.
     times : array_like, shape (n,), optional
         Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
 
@@ -138,49 +137,51 @@ def simulate(
     check_progress(progress)
     if times is not None and tolerance is None:
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
-    requested = None if tolerance is None else asked_tolerance(system, tolerance)
+    requested = None if tolerance is None else requested_tolerance(system, tolerance)
     settings = check_settings(settings)
     if requested is not None:
         check_tolerance_settings(settings)
     check_values(parameters, "The parameters")
-    named = method is not None or settings.method != Settings().method
-    chosen = method if method is not None else settings.method if named or requested is None else "auto"
-    if not isinstance(chosen, str) or chosen not in ("auto", settings.method):
-        settings = replace(settings, method=chosen)
+    method_is_named = method is not None or settings.method != Settings().method
+    method_name = method if method is not None else settings.method if method_is_named or requested is None else "auto"
+    if not isinstance(method_name, str) or method_name not in ("auto", settings.method):
+        settings = replace(settings, method=method_name)
     checked_inputs = check_values(inputs, "The inputs")
     declared = prepared(system)[1]["inputs"]
     signals = InputSignals(checked_inputs, declared)
     names = [declared[i]["name"] for i in signals.columns()]
 
-    def start(step: float = 0.0, used: Settings = settings) -> Simulation:
-        first = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
+    def start(step: float = 0.0, run_settings: Settings = settings) -> Simulation:
+        first_values = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
         return Simulation(
             system,
-            settings=used,
-            inputs=dict(zip(names, first.tolist(), strict=True)),
+            settings=run_settings,
+            inputs=dict(zip(names, first_values.tolist(), strict=True)),
             parameters=parameters,
             pose=pose,
             t0=t0,
         )
 
-    def equal_steps(step: float, used: Settings, estimate: bool | float | None) -> Trajectory:
-        return fixed_step_run(system, lambda h: start(h, used), t0, t_end, step, inputs, every, progress, estimate)
+    def equal_steps(step: float, run_settings: Settings, estimate: bool | float | None) -> Trajectory:
+        return run_fixed_steps(
+            system, lambda h: start(h, run_settings), t0, t_end, step, inputs, every, progress, estimate
+        )
 
-    if requested is None and h is not None and chosen != "auto":
+    if requested is None and h is not None and method_name != "auto":
         run = equal_steps(h, settings, estimate_error)
-        _warn_of(run)
+        _warn_of_error(run)
         return run
     if requested is None:
-        run = chosen_equal_steps(
-            start, equal_steps, t0, t_end, h, checked_inputs, settings, chosen, estimate_error, progress
+        run = run_chosen_steps(
+            start, equal_steps, t0, t_end, h, checked_inputs, settings, method_name, estimate_error, progress
         )
-        _warn_of(run)
+        _warn_of_error(run)
         return run
     with progress_for(progress) as bar:
         record = record_times(t0, t_end, h, every, times)
-        return to_tolerance(start, requested, record, checked_inputs, settings, chosen, bar)[0]
+        return to_tolerance(start, requested, record, checked_inputs, settings, method_name, bar)[0]
 
 
-def _warn_of(run: Trajectory) -> None:
+def _warn_of_error(run: Trajectory) -> None:
     if run.accuracy is not None and run.accuracy.message:
         warnings.warn(run.accuracy.message, AccuracyWarning, stacklevel=3)

@@ -1,4 +1,4 @@
-"""Tells of a start beside the road."""
+"""Warning about a start beside the road."""
 
 from collections.abc import Mapping
 
@@ -10,22 +10,22 @@ from mbs.simulation.state import Pose
 from mbs.system.system import System
 
 
-def report_start(system: System, files: Mapping[int, str], pose: Pose | None, stacklevel: int) -> None:
-    """Warn of a scene that starts beside a grid, of a file or of the model.
+def warn_of_start_beside_road(system: System, files: Mapping[int, str], pose: Pose | None, stacklevel: int) -> None:
+    """Warn of a scene that starts beside the grid of a road, of a file or of the model.
 
-    `files`: paths of files in place of roads, by the number of the road; `pose`: None: as drawn.
+    `files`: paths of road files by the number of the road they replace; `pose`: start pose, None: as drawn.
     """
     start, arrays = (0.0, 0.0) if pose is None else (pose.x, pose.y), system.arrays
-    for number, kind in enumerate(arrays["road_type"]):
-        place: Place | None = None
+    for number, road_type in enumerate(arrays["road_type"]):
+        grid: Place | None = None
         if path := files.get(number, ""):
-            place = place_of_file(RoadFile(path))
-        elif kind == RoadType.GRID:
+            grid = place_of_file(RoadFile(path))
+        elif road_type == RoadType.GRID:
             first = arrays["road_real_ptr"][number]
             nx, ny, x, y, dx, dy = arrays["road_real"][first : first + 6].tolist()
-            place = Place((x, y), (dx, dy), (int(nx), int(ny)))
-        if place is None:
+            grid = Place((x, y), (dx, dy), (int(nx), int(ny)))
+        if grid is None:
             continue
-        plausibility = start_plausibility(path or "the road", place, start)
+        plausibility = start_plausibility(path or "the road", grid, start)
         if any(v.quantity is QUANTITIES["away"] for v in plausibility.outside):
             plausibility.warn(RoadWarning, stacklevel + 1)

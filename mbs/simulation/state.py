@@ -35,7 +35,7 @@ class Pose:
 
     def __post_init__(self) -> None:
         for name in ("x", "y", "z", "yaw", "speed", "lateral_speed", "yaw_rate"):
-            check = number if name == "yaw" else finite  # the kernel says which starts are too far and too fast
+            check = number if name == "yaw" else finite  # the kernel refuses starts that are too far or too fast
             object.__setattr__(self, name, check(getattr(self, name), f"The {name} of a pose", ValueError))
 
 

@@ -1,6 +1,4 @@
-"""A fixed step for `simulate` without one: runs with half the step each until their difference shows that the error is
-within the tolerance.
-"""
+"""Choice of a fixed step: it is halved until two runs show that the error is within the tolerance."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -21,12 +19,12 @@ from mbs.simulation.prepared_system import distance
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
-MOST_STEPS = 3_000_000  # of a run
+MOST_STEPS = 3_000_000  # largest number of steps of a run
 
 
 @dataclass(frozen=True)
 class StepChoice:
-    """A step (s), the estimated error of its run in parts of the length, its measured order, and the runs made."""
+    """Step, s, estimated error of its run over the length, its measured order, and the number of runs made."""
 
     h: float
     error: float
@@ -41,17 +39,17 @@ def choose_step(
     inputs: Mapping[str, Signal],
     bar: Progress,
 ) -> StepChoice:
-    """The largest of the steps duration / (50 2^k) whose run errs by less than the tolerance.
+    """Choose the largest of the steps duration / (50 2^k) with an error of the run within the tolerance.
 
-    The error is the difference from the run with twice the step over 2^p - 1, p the order measured with the one before
-    (at most that of the method).
+    The error is the difference from the run with twice the step over 2^p - 1. The order p is measured with the run
+    before, and is at most that of the method.
     """
     simulation = start()
     system, method = simulation.system, simulation.settings.method
     h = (t_end - simulation.time) / INSTANTS
     runs: list[Array | None] = []
     differences: list[float] = []
-    last: tuple[float, float] | None = None
+    last_estimate: tuple[float, float] | None = None
     while True:
         positions = _positions(start, t_end, h, inputs)
         previous = runs[-1] if runs else None
@@ -61,27 +59,27 @@ def choose_step(
         else:
             differences.append(distance(system, positions, previous))
         if len(differences) >= 2:
-            order = _order(differences, METHOD_TABLE[method].order_of_changing_steps)
+            order = _measured_order(differences, METHOD_TABLE[method].order_of_changing_steps)
             error = differences[-1] / (2.0**order - 1.0)
-            last = error, order
-            agree = max(differences[-2:]) <= AGREED * tolerance  # what every step gives right shows no order
-            if error <= tolerance and (order > LEAST_ORDER or agree):
+            last_estimate = error, order
+            are_equal = max(differences[-2:]) <= AGREED * tolerance  # runs that are equal to round-off show no order
+            if error <= tolerance and (order > LEAST_ORDER or are_equal):
                 return StepChoice(h, error, order, len(runs))
         if (t_end - simulation.time) / h > MOST_STEPS / 2:
             break
         h *= 0.5
         bar.update(min(0.5, 0.05 * len(runs)))
-    if last is None:
-        _positions(start, t_end, h, inputs, strict=True)
-        last = math.inf, 0.0
-    return StepChoice(h, *last, len(runs))
+    if last_estimate is None:
+        _positions(start, t_end, h, inputs, raises=True)
+        last_estimate = math.inf, 0.0
+    return StepChoice(h, *last_estimate, len(runs))
 
 
-def _order(differences: list[float], most: int) -> float:
+def _measured_order(differences: list[float], method_order: int) -> float:
     if differences[-1] <= 0.0:
-        return float(most)
+        return float(method_order)
     ratio = differences[-2] / differences[-1]
-    return min(float(most), max(0.1, math.log2(ratio))) if ratio > 0.0 else 0.1
+    return min(float(method_order), max(0.1, math.log2(ratio))) if ratio > 0.0 else 0.1
 
 
 def _positions(
@@ -89,9 +87,9 @@ def _positions(
     t_end: float,
     h: float,
     inputs: Mapping[str, Signal],
-    strict: bool = False,
+    raises: bool = False,
 ) -> Array | None:
-    """Coordinates at 50 instants by steps of h; None where a step fails."""
+    """Coordinates (50, nq) at equal intervals of a run in steps of `h`, s; None if a step fails and not `raises`."""
     simulation = start()
     t0 = simulation.time
     positions = []
@@ -99,7 +97,7 @@ def _positions(
         try:
             march(simulation, t0 + (t_end - t0) * k / INSTANTS, h, inputs, 1, False)
         except SimulationError:
-            if strict:
+            if raises:
                 raise
             return None
         positions.append(simulation.state.q)

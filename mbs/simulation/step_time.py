@@ -1,4 +1,4 @@
-"""Wall times of the steps in the kernel, without preparation."""
+"""Measurement of the time of steps in the kernel, without their preparation."""
 
 from collections.abc import Callable, Mapping
 
@@ -21,18 +21,20 @@ def step_time(
     pose: Pose | None = None,
     warm_up: int = 1,
 ) -> float:
-    """Least time of all steps of a run, s; start and table of inputs are made before.
+    """Least time of all steps of a run over its repeats, s, without the start and the table of inputs.
 
     Parameters
     ----------
     duration, h : float
-        Of the run and of a step, s.
+        Duration of the run and step, s.
+    repeats : int
+        Number of timed runs.
     clock : callable
         Seconds: `time.perf_counter` for wall time, `time.process_time` for that of the processor.
     inputs, parameters, pose
         As `mbs.simulate` takes them; the inputs have their first values before the start is made consistent.
     warm_up : int
-        Runs before those that are timed.
+        Number of runs before the timed ones.
     """
     steps = round(duration / h)
     declared = system.meta["inputs"]
@@ -46,10 +48,10 @@ def step_time(
         table[:, columns] = signals.at(h * np.arange(1.0, steps + 1.0), 1e-6 * h)
     values = np.empty((1, len(system.meta["sensors"])))
 
-    def once() -> float:
+    def time_run() -> float:
         simulation = Simulation(system, inputs=start, parameters=parameters, pose=pose)
         begin = clock()
         simulation.instance.run(h, steps, table, steps, values)
         return clock() - begin
 
-    return min([once() for _ in range(warm_up + repeats)][warm_up:])
+    return min([time_run() for _ in range(warm_up + repeats)][warm_up:])

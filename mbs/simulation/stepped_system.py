@@ -1,4 +1,4 @@
-"""A System in the kernel that steps, with its counters."""
+"""Instance of a System in the kernel that is stepped, with its counters."""
 
 from __future__ import annotations
 
@@ -12,10 +12,9 @@ from mbs.system.system import System
 
 
 class SteppedSystem(SystemInstance):
-    """An instance of the kernel, and what runs and error messages read of it.
+    """Instance of the kernel with the data that runs and error messages read.
 
-    `step_tried`: length of the last step that was tried, s; `road_paths`: files in place of roads, by the number of the
-    road.
+    `step_tried`: last attempted step, s; `road_paths`: road files by the number of the road they replace.
     """
 
     system: System
@@ -39,13 +38,13 @@ class SteppedSystem(SystemInstance):
 
     @property
     def road_text(self) -> str:
-        """A sentence about the wheel that was pressed deepest into a road; empty where there is nothing to say."""
+        """A sentence about the wheel whose rim was pressed deepest into a road; empty if none was."""
         element, text = self.instance.rim_text()
         return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'." if text else ""
 
     @property
     def start_text(self) -> str:
-        """A sentence about a start on a road that is not level; empty where there is nothing to say."""
+        """A sentence about a start on a road that is not level; empty on a level road."""
         remedy = (
             " With Simulation.settle(3.0, h) before the first step it begins at rest in the road, or in its motion "
             "along it."
@@ -53,7 +52,7 @@ class SteppedSystem(SystemInstance):
         return text + remedy if (text := self.instance.start_text()) else ""
 
     def change_settings(self, settings: Settings) -> None:
-        """Solve the steps from now on in another way."""
+        """Use other settings from now on."""
         instance_of(Settings, settings, "The settings", "Settings(...)")
         self.instance.set_settings(**settings.kernel_fields())
         self.settings = settings

@@ -1,4 +1,4 @@
-"""Stepping a System by hand."""
+"""Stepping of a System by the caller (`Simulation`)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,6 @@ from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.settings.tolerance import Tolerance
 from mbs.simulation.arguments import (
-    asked_tolerance,
     check_end,
     check_estimate,
     check_every,
@@ -40,13 +39,14 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
     record_times,
+    requested_tolerance,
 )
-from mbs.simulation.fixed_steps import fixed_step_run
+from mbs.simulation.fixed_steps import run_fixed_steps
 from mbs.simulation.omitted_sensor_system import Readings
-from mbs.simulation.parameter_warning import warn_of_unworkable
+from mbs.simulation.parameter_warning import warn_of_unusual_value
 from mbs.simulation.refusal import refusal
-from mbs.simulation.restored_run import restored
-from mbs.simulation.start_on_road import report_start
+from mbs.simulation.restored_run import restore_system
+from mbs.simulation.start_on_road import warn_of_start_beside_road
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.simulation.tolerance_run import to_tolerance
@@ -93,10 +93,10 @@ class Simulation(SteppedSystem):
         system, settings = check_system(system, "The system of a Simulation"), check_settings(settings)
         start = check_time(t0, "The start t0")
         super().__init__(system, settings)
-        self._warned = self._rim_told = False
+        self._warned = self._rim_reported = False
         self._refined: SteppedSystem | None = None
-        self._parts = 0  # of a step, that it makes
-        self._ends: dict[str, ComparedFields] = {}  # of what moved in runs so far
+        self._divisor = 0  # of the step in the refined run
+        self._extremes: dict[str, ComparedFields] = {}  # of the quantities compared in runs so far
         self._limits = InputSignals({}, self._meta["inputs"])
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False
@@ -105,13 +105,15 @@ class Simulation(SteppedSystem):
                 self.set_parameter(name, entry["start"])
         for name, value in check_values(parameters, "The parameters").items():
             self.set_parameter(name, value)
-        self._warn_of_other_road(check_values(parameters, "The parameters"))
+        self._warn_of_replaced_roads(check_values(parameters, "The parameters"))
         for name, value in check_values(inputs, "The inputs").items():
             self.set_input(name, value)
-        if (placed := check_pose(pose, self._meta)) is not None:
-            self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
+        if (checked_pose := check_pose(pose, self._meta)) is not None:
+            self._call(
+                f"The starting {checked_pose} was refused", lambda: self.instance.set_pose(*astuple(checked_pose))
+            )
         if self._meta["floating"]:
-            report_start(system, self.road_paths, pose, 2)
+            warn_of_start_beside_road(system, self.road_paths, pose, 2)
         self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
         self._started = True
 
@@ -140,7 +142,7 @@ class Simulation(SteppedSystem):
         x = number(value, f"The value of input {name!r}", ValueError)
         self._limits.check(index, self.time, x)
         self.instance.set_input(index, x)
-        self._also(lambda run: run.set_input(index, x))
+        self._apply_to_refined(lambda run: run.set_input(index, x))
 
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Value of a tunable parameter from now on; the next step is the first with it.
@@ -182,20 +184,20 @@ class Simulation(SteppedSystem):
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
-        warn_of_unworkable(entry, x, stacklevel=2 if self._started else 3)
-        self._also(lambda run: run.set_parameter(index, x))
+        warn_of_unusual_value(entry, x, stacklevel=2 if self._started else 3)
+        self._apply_to_refined(lambda run: run.set_parameter(index, x))
 
-    def _also(self, act: Callable[[Instance], object]) -> None:
-        """The same with the refined run of checked runs, which is given up where it does not follow."""
+    def _apply_to_refined(self, change: Callable[[Instance], object]) -> None:
+        """Apply a change to the refined run of checked runs too; drop that run if it fails."""
         try:
             if self._refined is not None:
-                act(self._refined.instance)
+                change(self._refined.instance)
         except KernelError:
             self._refined = None
 
-    def _warn_of_other_road(self, parameters: Mapping[str, Any]) -> None:
-        """A word about parameters of roads that files replace."""
-        files = {e["road"] for n, e in self._road_files.items() if parameters.get(n, e["start"])}
+    def _warn_of_replaced_roads(self, parameters: Mapping[str, Any]) -> None:
+        """Warn of parameters of roads that files replace."""
+        files = {entry["road"] for name, entry in self._road_files.items() if parameters.get(name, entry["start"])}
         for entry in self._meta["parameters"]:
             if entry["name"] in parameters and entry.get("road") in files:
                 warnings.warn(
@@ -247,7 +249,7 @@ class Simulation(SteppedSystem):
             f"Switch {name!r} could not be turned {'on' if on else 'off'} at t = {self.time:g} s",
             lambda: self.instance.set_switch(index, on),
         )
-        self._also(lambda run: run.set_switch(index, on))
+        self._apply_to_refined(lambda run: run.set_switch(index, on))
         return self.report.energy_jump if before != bool(on) else 0.0
 
     def switch(self, name: str) -> bool:
@@ -283,11 +285,11 @@ class Simulation(SteppedSystem):
             None was found; the state is the one before.
         """
         force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
-        most = whole(max_iterations, "max_iterations", 1, MOST_ITERATIONS, ValueError)
+        iterations = whole(max_iterations, "max_iterations", 1, MOST_ITERATIONS, ValueError)
         self._refined = None
         self._call(
             "No static equilibrium was found near the present position",
-            lambda: self.instance.static_equilibrium(self.time, force, most),
+            lambda: self.instance.static_equilibrium(self.time, force, iterations),
         )
 
     def settle(self, duration: float, h: float) -> float:
@@ -317,21 +319,21 @@ class Simulation(SteppedSystem):
         SimulationError
             A step failed; the state is the one before.
         """
-        lasting, length = number(duration, "The duration of settling", ValueError), check_step(h)
-        if not 0.0 <= lasting <= LONGEST_SETTLING:
+        seconds, step = number(duration, "The duration of settling", ValueError), check_step(h)
+        if not 0.0 <= seconds <= LONGEST_SETTLING:
             raise ValueError(
-                f"The duration of settling is {lasting:g} s; it must lie between 0 and {LONGEST_SETTLING:g} s."
+                f"The duration of settling is {seconds:g} s; it must lie between 0 and {LONGEST_SETTLING:g} s."
             )
         if not self._meta.get("floating", True):
             name = self._meta["name"]
             raise ValueError(f"The System {name!r} cannot settle in motion: its joints tie it to the ground.")
-        self._refined, self.step_tried, state = None, length, self.instance.save()
+        self._refined, self.step_tried, state = None, step, self.instance.save()
         try:
-            return self.instance.settle(lasting, length)
+            return self.instance.settle(seconds, step)
         except KernelError as error:
-            failed = refusal(self, "The start did not settle", error, step_given=True)
+            simulation_error = refusal(self, "The start did not settle", error, step_given=True)
             self.instance.restore(state)
-            raise failed from error
+            raise simulation_error from error
 
     def step(self, h: float, n: int = 1) -> None:
         """Make steps with the inputs as they are.
@@ -362,8 +364,8 @@ class Simulation(SteppedSystem):
         check_resolution(self.time, h)
         self.step_tried, self._refined = h, None
         for _ in range(int(n)):
-            what = f"The step from t = {self.time:g} s with h = {h:g} s failed"
-            self._call(what, lambda: self.instance.step(h), step_given=True)
+            subject = f"The step from t = {self.time:g} s with h = {h:g} s failed"
+            self._call(subject, lambda: self.instance.step(h), step_given=True)
         self._warn_once()
 
     def run(
@@ -423,7 +425,7 @@ class Simulation(SteppedSystem):
             Once, when a flexible body bends more within its floating frame than its modes hold for.
         """
         if tolerance is not None:
-            requested = asked_tolerance(self.system, tolerance)
+            requested = requested_tolerance(self.system, tolerance)
             return self._to_tolerance(requested, t_end, h, inputs, every, progress)
         if h is None:
             raise ValueError("A run needs a step h or a tolerance.")
@@ -443,19 +445,19 @@ class Simulation(SteppedSystem):
             if not is_started:
                 is_started = True
                 return self
-            self._refined = existing if existing is not None else self._at(state)
+            self._refined = existing if existing is not None else self._restored(state)
             return self._refined
 
         def equal_steps() -> Trajectory:
-            estimate, divisor = estimate_error if checked else False, self._parts if existing is not None else 0
-            return fixed_step_run(
-                self.system, start, self.time, t_end, h, inputs, every, progress, estimate, self._ends, divisor
+            estimate, divisor = estimate_error if checked else False, self._divisor if existing is not None else 0
+            return run_fixed_steps(
+                self.system, start, self.time, t_end, h, inputs, every, progress, estimate, self._extremes, divisor
             )
 
         trajectory = equal_steps()
         run_accuracy = trajectory.accuracy
         if run_accuracy is not None and run_accuracy.compared_step is not None:
-            self._parts = max(1, round(h / run_accuracy.compared_step))
+            self._divisor = max(1, round(h / run_accuracy.compared_step))
         if run_accuracy is not None and run_accuracy.message and not self._warned:
             self._warned = True
             warnings.warn(run_accuracy.message, AccuracyWarning, stacklevel=2)
@@ -478,19 +480,25 @@ class Simulation(SteppedSystem):
         self._refined = None
         with progress_for(progress) as bar:
             trajectory, ended = to_tolerance(
-                lambda: self._at(state), tolerance, times, checked_inputs, self.settings, self.settings.method, bar
+                lambda: self._restored(state),
+                tolerance,
+                times,
+                checked_inputs,
+                self.settings,
+                self.settings.method,
+                bar,
             )
         self.instance.restore(ended.instance.save())
         self.instance.set_settings(**self.settings.kernel_fields())
         return trajectory
 
-    def _at(self, state: bytes) -> SteppedSystem:
-        return restored(self.system, self.settings, self.road_paths, state)
+    def _restored(self, state: bytes) -> SteppedSystem:
+        return restore_system(self.system, self.settings, self.road_paths, state)
 
     def _warn_once(self, right: bool = False) -> None:
-        """The part of `simulate`'s check that costs nothing; `right`: a refined run shows it despite the balance."""
-        if not self._rim_told and (warning := self.road_text):
-            self._rim_told = True
+        """Warn once each of a rim pressed into a road and of a wrong energy balance, the latter unless `right`."""
+        if not self._rim_reported and (warning := self.road_text):
+            self._rim_reported = True
             warnings.warn(warning, RoadWarning, stacklevel=3)
         if self._warned or right or not self.instance.balance_wrong():
             return
@@ -527,8 +535,8 @@ class Simulation(SteppedSystem):
             raise ValueError(f"There is no {SINGULAR.get(kind, kind[:-1])} {shown(name)}; the System has: {available}.")
         return names.index(name)
 
-    def _call(self, what: str, action: Callable[[], object], *, step_given: bool = False) -> None:
+    def _call(self, subject: str, action: Callable[[], object], *, step_given: bool = False) -> None:
         try:
             action()
         except KernelError as error:
-            raise refusal(self, what, error, step_given=step_given) from error
+            raise refusal(self, subject, error, step_given=step_given) from error

@@ -1,4 +1,4 @@
-"""A System in the kernel: its instance and its state."""
+"""Instance of a System in the kernel and its state."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from mbs.system.compiled_model import CompiledModel
 
 
 class SystemInstance(KernelMemory):
-    """An instance of the kernel, and what is read of it wherever it stands.
+    """Instance of the kernel with access to its time, sensors and state.
 
-    `loaded`: the System in the kernel's memory; `meta`: its names, which are not changed.
+    `loaded`: the System in the kernel's memory; `meta`: its metadata, which are not changed.
     """
 
     _reason = "its state is in the kernel; make another one of the System and let it restore() what save() gave"
@@ -39,4 +39,4 @@ class SystemInstance(KernelMemory):
     @property
     def state(self) -> State:
         """A copy of the state."""
-        return State(*(np.array(part, float) for part in self.instance.get_state()))
+        return State(*(np.array(vector, float) for vector in self.instance.get_state()))

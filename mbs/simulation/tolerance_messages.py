@@ -9,48 +9,53 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.step_control import ALLOWED, Control
 from mbs.results.trajectory import Trajectory
 from mbs.simulation.controlled_run import ControlledRun
-from mbs.simulation.refusal import beyond_reach, refusal
+from mbs.simulation.refusal import end_of_motion_text, refusal
 
-LOOKED_AHEAD = 1e-3  # of the run: how far behind the place where steps end a drive may lead loops no further
-
-
-def _run_at(run: ControlledRun, wanted: float) -> str:
-    """The tolerance of a run beside the one that was asked for."""
-    return f"{wanted:g}" if run.tolerance == wanted else f"{run.tolerance:g} (in a run on the way to {wanted:g})"
+LOOK_AHEAD = 1e-3  # share of the run over which drives are followed beyond the last step
 
 
-def stalled(run: ControlledRun, wanted: float, so_far: Trajectory) -> SimulationError:
-    """That steps err more than they may however short they are, with what was recorded until then."""
-    time, beyond = run.simulation.time, beyond_reach(run.simulation, LOOKED_AHEAD * run.task.span)
+def _tolerance_text(run: ControlledRun, tolerance: float) -> str:
+    """Tolerance of a run, and the requested one if it differs."""
+    return (
+        f"{tolerance:g}" if run.tolerance == tolerance else f"{run.tolerance:g} (in a run on the way to {tolerance:g})"
+    )
+
+
+def stalled_error(run: ControlledRun, tolerance: float, record: Trajectory) -> SimulationError:
+    """Error of a run whose steps exceed their share of the error at any length.
+
+    `tolerance`: the requested one; `record`: trajectory until then.
+    """
+    time, end_of_motion = run.simulation.time, end_of_motion_text(run.simulation, LOOK_AHEAD * run.task.span)
     error = SimulationError(
-        f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
-        f"{run.fields.forced + run.fields.over_share} of {run.fields.accepted} steps erred more than their share of "
-        f"it, even with steps of {run.fields.smallest:.1e} s"
-        f"{f'.{beyond}' if beyond else '; take a larger tolerance or another method.'}",
+        f"A tolerance of {_tolerance_text(run, tolerance)} cannot be held by {run.settings.method!r}: until "
+        f"t = {time:g} s {run.fields.forced + run.fields.over_share} of {run.fields.accepted} steps erred more than "
+        f"their share of it, even with steps of {run.fields.smallest:.1e} s"
+        f"{f'.{end_of_motion}' if end_of_motion else '; take a larger tolerance or another method.'}",
         time,
         Status.NOT_CONVERGED,
-        so_far,
+        record,
     )
-    error.final = bool(beyond)
+    error.final = bool(end_of_motion)
     return error
 
 
-def refused(run: ControlledRun, wanted: float, so_far: Trajectory, error: KernelError) -> SimulationError:
-    """The failure with what was recorded until then."""
+def refused_error(run: ControlledRun, tolerance: float, record: Trajectory, error: KernelError) -> SimulationError:
+    """Error of a run in which a step failed; `tolerance` and `record` as of `stalled_error`."""
     simulation = run.simulation
     if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
-        return refusal(simulation, "The run was refused", error, so_far)
-    what = (
-        f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "
+        return refusal(simulation, "The run was refused", error, record)
+    subject = (
+        f"With a tolerance of {_tolerance_text(run, tolerance)} no step from t = {simulation.time:g} s succeeded, "
         f"the last one tried was {run.fields.h:.2g} s long"
     )
     simulation.step_tried = run.fields.h
-    return refusal(simulation, what, error, so_far, LOOKED_AHEAD * run.task.span)
+    return refusal(simulation, subject, error, record, LOOK_AHEAD * run.task.span)
 
 
-def warn_of_tolerance(control: Control, guess: float) -> None:
-    """Of a run whose `guess` of its error is above what it may be, or much of the motion."""
-    error, moved = guess * control.length, control.moved
+def warn_of_tolerance(control: Control, estimate: float) -> None:
+    """Warn if the estimated error, over the length, exceeds the tolerance or is a large share of the motion."""
+    error, moved = estimate * control.length, control.moved
     if control.kept and not control.sensors and error > WRONG_ERROR * moved and moved > STILL * control.length:
         warnings.warn(
             f"The tolerance of {control.tolerance:g} is relative to the model's length of {control.length:.4g} m, and "

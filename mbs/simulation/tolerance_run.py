@@ -1,4 +1,4 @@
-"""A run to a tolerance: which runs it needs, and by which method."""
+"""Run to a tolerance: runs that are needed, and their methods."""
 
 import math
 import warnings
@@ -25,15 +25,15 @@ from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError
 from mbs.simulation.method_choice import choose
 from mbs.simulation.omitted_sensor_run import omitted_to_tolerance
 from mbs.simulation.position_record import PositionRecord
-from mbs.simulation.recorded_trajectory import recorded
+from mbs.simulation.recorded_trajectory import recorded_trajectory
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.simulation.tolerance_messages import refused, stalled, warn_of_tolerance
+from mbs.simulation.tolerance_messages import refused_error, stalled_error, warn_of_tolerance
 
 Array = NDArray[np.float64]
 FINER = 4.0
-"""How much finer a further run is at least: two of the same tolerance show no error."""
+"""Least ratio of the tolerances of two successive runs, whose difference shows the error."""
 MOST_RUNS = 5
-HANDED_ON = (
+OTHER_METHOD_FAILURES = (
     Status.NOT_CONVERGED,
     Status.TOO_DEAR,
     Status.TOO_STIFF,
@@ -42,7 +42,7 @@ HANDED_ON = (
     Status.WRONG_METHOD,
     Status.NO_TREE,
 )
-"""How a method fails where another one may not."""
+"""Failures of a method after which the next one is tried."""
 
 
 def to_tolerance(
@@ -54,55 +54,75 @@ def to_tolerance(
     method: str,
     bar: Progress,
 ) -> tuple[Trajectory, SteppedSystem]:
-    """Sensor values at `times` (n,), the first of them the start, with an error of about the tolerance, and where it
-    ended. A method that is chosen and fails hands on to the next one, at last to 'ali3p'. One that does not keep the
-    tolerance hands on to one other, and the better of both is given.
+    """Run with an error of about the tolerance; return the trajectory and the simulation at its end.
+
+    A chosen method that fails is followed by the next one, at last by 'ali3p'. One that does not keep the tolerance is
+    followed by one other, and the better run of both is returned.
+
+    Parameters
+    ----------
+    start : callable
+        Makes a simulation at the start.
+    times : ndarray, shape (n,)
+        Instants of the record, s, beginning with the start.
+    method : str
+        Name of the method, or 'auto' for a choice.
+    bar : Progress
+        Shows the progress of all runs.
     """
     first = start()
     t0, t_end = float(times[0]), float(times[-1])
     if t_end <= t0:
         values = np.array([list(first.instance.sensors())])
         record = PositionRecord(first.system, first.state.q, 1)
-        return recorded(first, times, values, settings, 0.0, record, omitted_to_tolerance(first.system)), first
+        return recorded_trajectory(
+            first, times, values, settings, 0.0, record, omitted_to_tolerance(first.system)
+        ), first
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, signals_of(inputs, first))
-    # the first run: its error is known to a share of `WRONG_ERROR` by a last one that keeps the tolerance
-    coarse, previous = min(tolerance.share * (1.0 / WRONG_ERROR), WRONG_ERROR), _Made()
+    # a last run that keeps the tolerance gives the error of the coarse one to a share of `WRONG_ERROR`
+    coarse, previous = min(tolerance.share * (1.0 / WRONG_ERROR), WRONG_ERROR), _RunsMade()
     if method != "auto":
         settings = replace(settings, method=method)
-        return _told(_by(start, first, tolerance, times, task, settings, coarse, bar, previous, ""), first, times)
+        return _warn_and_record(
+            _run_method(start, first, tolerance, times, task, settings, coarse, bar, previous, ""), first, times
+        )
     choice = choose(start, task, settings, min(tolerance.share, coarse / FINER), coarse)
-    previous = _Made(choice.run, choice.runs, choice.wall)
-    failed = list[SimulationError]()
-    best: _Ended | None = None
+    previous = _RunsMade(choice.run, choice.runs, choice.wall)
+    errors = list[SimulationError]()
+    best: _MethodRun | None = None
     for number, name in enumerate(choice.names):
         reason = choice.reason + "".join(f", {k} cannot hold it" for k in choice.names[:number])
-        by = replace(settings, method=name)
+        method_settings = replace(settings, method=name)
         try:
-            ended = _by(start, first, tolerance, times, task, by, coarse, bar, previous, reason)
+            method_run = _run_method(
+                start, first, tolerance, times, task, method_settings, coarse, bar, previous, reason
+            )
         except SimulationError as error:
-            if best is None and (error.status not in HANDED_ON or error.final):
+            if best is None and (error.status not in OTHER_METHOD_FAILURES or error.final):
                 raise
-            failed.append(error)
+            errors.append(error)
             previous = replace(previous, run=None)
             continue
-        previous_best, best = best, ended
-        if previous_best is not None and previous_best.control.error < ended.control.error:
+        previous_best, best = best, method_run
+        if previous_best is not None and previous_best.control.error < method_run.control.error:
             best = replace(
-                previous_best, control=replace(previous_best.control, runs=ended.control.runs), wall=ended.wall
+                previous_best,
+                control=replace(previous_best.control, runs=method_run.control.runs),
+                wall=method_run.wall,
             )
-        if previous_best is not None or ended.control.kept:
+        if previous_best is not None or method_run.control.kept:
             break
-        previous = _Made(None, ended.control.runs, ended.wall)
+        previous = _RunsMade(None, method_run.control.runs, method_run.wall)
     if best is None:
-        raise failed[0]
-    return _told(best, first, times)
+        raise errors[0]
+    return _warn_and_record(best, first, times)
 
 
 @dataclass
-class _Made:
-    """Runs made before a run with a tolerance."""
+class _RunsMade:
+    """Runs that were made so far: the last one, their number and wall time, s."""
 
     run: ControlledRun | None = None
     runs: int = 0
@@ -110,17 +130,17 @@ class _Made:
 
 
 @dataclass(frozen=True)
-class _Ended:
-    """The last run by a method, the one before it, and what is known of its error."""
+class _MethodRun:
+    """Last run by a method, the coarser one before it, its record, estimated error and wall time, s."""
 
     run: ControlledRun
-    before: ControlledRun
+    coarser: ControlledRun
     control: Control
-    guess: float
+    estimate: float
     wall: float
 
 
-def _by(
+def _run_method(
     start: Callable[[], SteppedSystem],
     first: SteppedSystem,
     tolerance: Tolerance,
@@ -129,97 +149,99 @@ def _by(
     settings: Settings,
     coarse: float,
     bar: Progress,
-    made: _Made,
+    runs_made: _RunsMade,
     reason: str,
-) -> _Ended:
-    """Runs by one method.
+) -> _MethodRun:
+    """Run by one method until the estimated error is within the tolerance, at most `MOST_RUNS` times.
 
-    A coarse run and a finer one give the error of the latter: errors fall about as what their steps err, unless the two
-    runs are far apart. Where it is larger than it should be, since the motion lets errors grow, up to three more runs
-    are made with what is then known of that growth; one also where a loop left its assembly mode, which the motion may
-    do or a step.
+    The difference of a coarse run and a finer one gives the error of the latter, as errors fall about in proportion to
+    the step errors unless the two runs are far apart. If the error is too large because the motion amplifies errors, up
+    to three more runs are made with the observed growth. One more run is made if a loop changed its assembly mode,
+    because either the motion or a step may have caused it.
     """
-    before, wall, runs = made.run, made.wall, made.runs
+    coarser, wall, runs = runs_made.run, runs_made.wall, runs_made.runs
     target = tolerance.share
-    aim = min(target, coarse / FINER)
-    if before is None:
-        before = _whole(ControlledRun(start(), task, settings, coarse), target, bar, 0.0, times, first)
-        runs, wall = runs + 1, wall + before.wall
-    error, run, longest = math.inf, None, 1.0
+    run_tolerance = min(target, coarse / FINER)
+    if coarser is None:
+        coarser = _finish(ControlledRun(start(), task, settings, coarse), target, bar, 0.0, times, first)
+        runs, wall = runs + 1, wall + coarser.wall
+    error, run, longest_factor = math.inf, None, 1.0
     for number in range(1, MOST_RUNS):
-        again = ControlledRun(start(), task, settings, aim, longest)
+        next_run = ControlledRun(start(), task, settings, run_tolerance, longest_factor)
         try:
-            again = _whole(again, target, bar, min(0.5, 0.3 * number), times, first)
+            next_run = _finish(next_run, target, bar, min(0.5, 0.3 * number), times, first)
         except (StalledError, SimulationError):
-            wall += again.wall
+            wall += next_run.wall
             if run is None:
                 raise
-            break  # a finer run than the last is beyond round-off
-        run = again
+            break  # the finest possible run was the last one
+        run = next_run
         runs, wall = runs + 1, wall + run.wall
-        pair, far = ControlledPair(run, before, tolerance), run.distance(before)
-        apart, guess = pair.apart, pair.apart * pair.fall
-        error = apart if far > WRONG_ERROR else guess  # runs that are so far apart say nothing of the finer one
-        if error == 0.0 and longest == 1.0:
-            # the longest steps were fine enough both times, so the runs are the same and show no error: half of them
-            before, longest = run, 0.5
+        pair, position_distance = ControlledPair(run, coarser, tolerance), run.distance(coarser)
+        distance, estimate = pair.distance, pair.distance * pair.error_ratio
+        # runs that are far apart show nothing about the finer one
+        error = distance if position_distance > WRONG_ERROR else estimate
+        if error == 0.0 and longest_factor == 1.0:
+            # both runs made the longest steps, so they are equal and show no error: halve these steps
+            coarser, longest_factor = run, 0.5
             continue
-        unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
-        grows = number == 1 and far > before.fields.error_sum  # two coarse runs may be off alike
-        if (error <= (AGREED if grows else 1.0) * target and not unsure) or aim <= ROUND_OFF:
+        mode_changed = number == 1 and run.simulation.branch_change  # both runs may have changed the mode
+        error_grows = number == 1 and position_distance > coarser.fields.error_sum  # both runs may have the same error
+        if (error <= (AGREED if error_grows else 1.0) * target and not mode_changed) or run_tolerance <= ROUND_OFF:
             break
-        before = run
-        aim = max(ROUND_OFF, aim * min(AGREED if unsure else 1.0 / FINER, target / max(guess, target)))
+        coarser = run
+        run_tolerance = max(
+            ROUND_OFF, run_tolerance * min(AGREED if mode_changed else 1.0 / FINER, target / max(estimate, target))
+        )
     assert run is not None
-    c, reported_error = run.fields, 0.0
-    if error > 0.0:  # smaller guesses are too small; what stands still errs by no more than it moves
+    fields, reported_error = run.fields, 0.0
+    if error > 0.0:  # smaller estimates are unreliable; the error is at most the displacement
         reported_error = max(error, min(AGREED * target, run.moved / run.length))
     control = Control(
-        target, run.length, settings.method, reason, reported_error, None, c.accepted, c.rejected, c.failed, c.forced,
-        c.smallest, c.largest, c.side_steps, runs, run.moved, ControlledPair(run, before, tolerance).errors,
+        target, run.length, settings.method, reason, reported_error, None, fields.accepted, fields.rejected,
+        fields.failed, fields.forced, fields.smallest, fields.largest, fields.side_steps, runs, run.moved,
+        ControlledPair(run, coarser, tolerance).errors,
     )  # fmt: skip
-    return _Ended(run, before, control, error, wall)
+    return _MethodRun(run, coarser, control, error, wall)
 
 
-def _told(ended: _Ended, first: SteppedSystem, times: Array) -> tuple[Trajectory, SteppedSystem]:
-    """The run, with warnings of what is wrong with it."""
-    run, before = ended.run, ended.before
-    warn_of_tolerance(ended.control, ended.guess)
-    if run.simulation.branch_change and not before.simulation.branch_change:
+def _warn_and_record(method_run: _MethodRun, first: SteppedSystem, times: Array) -> tuple[Trajectory, SteppedSystem]:
+    """Issue the warnings about a run; return its trajectory and the simulation at its end."""
+    run, coarser = method_run.run, method_run.coarser
+    warn_of_tolerance(method_run.control, method_run.estimate)
+    if run.simulation.branch_change and not coarser.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=4)
-    if rim := run.simulation.road_text:
-        warnings.warn(rim, RoadWarning, stacklevel=4)
+    if road_message := run.simulation.road_text:
+        warnings.warn(road_message, RoadWarning, stacklevel=4)
     for t, q in zip(run.task.times, run.positions, strict=True):
-        run.simulation.bending.look(float(t), np.asarray(q))
+        run.simulation.bending.observe(float(t), np.asarray(q))
     run.simulation.bending.warn(stacklevel=5)
-    return _recorded(run, times, first, ended.control, ended.wall), run.simulation
+    return _record(run, times, first, method_run.control, method_run.wall), run.simulation
 
 
-def _recorded(
-    run: ControlledRun, times: Array, first: SteppedSystem, control: Control | None, wall: float
-) -> Trajectory:
-    """At `times` (n,), the first of them the start."""
-    at = np.searchsorted(run.task.times, times[1:])
-    values = np.vstack([list(first.instance.sensors()), run.values[at]])
+def _record(run: ControlledRun, times: Array, first: SteppedSystem, control: Control | None, wall: float) -> Trajectory:
+    """Trajectory of a run at `times` (n,), s, beginning with the start."""
+    indices = np.searchsorted(run.task.times, times[1:])
+    values = np.vstack([list(first.instance.sensors()), run.values[indices]])
     record = PositionRecord(first.system, first.state.q, len(times))
-    record.fill(np.vstack([first.state.q, run.positions[at]]))
-    left_out = omitted_to_tolerance(first.system)
-    return recorded(run.simulation, times, values, run.settings, wall, record, left_out, control=control)
+    record.fill(np.vstack([first.state.q, run.positions[indices]]))
+    omitted = omitted_to_tolerance(first.system)
+    return recorded_trajectory(run.simulation, times, values, run.settings, wall, record, omitted, control=control)
 
 
-def _whole(
-    run: ControlledRun, wanted: float, bar: Progress, from_share: float, times: Array, first: SteppedSystem
+def _finish(
+    run: ControlledRun, tolerance: float, bar: Progress, from_share: float, times: Array, first: SteppedSystem
 ) -> ControlledRun:
     try:
         run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
     except KernelError as error:
-        raise refused(run, wanted, _so_far(run, times, first), error) from error
+        raise refused_error(run, tolerance, _partial_record(run, times, first), error) from error
     except StalledError:
-        raise stalled(run, wanted, _so_far(run, times, first)) from None
+        raise stalled_error(run, tolerance, _partial_record(run, times, first)) from None
     return run
 
 
-def _so_far(run: ControlledRun, times: Array, first: SteppedSystem) -> Trajectory:
-    recorded_times = run.task.times[: run.done]
-    good = times[1:][times[1:] <= (recorded_times[-1] if len(recorded_times) else run.task.t0)]
-    return _recorded(run, times[: len(good) + 1], first, None, run.wall)
+def _partial_record(run: ControlledRun, times: Array, first: SteppedSystem) -> Trajectory:
+    recorded_times = run.task.times[: run.recorded]
+    reached_times = times[1:][times[1:] <= (recorded_times[-1] if len(recorded_times) else run.task.t0)]
+    return _record(run, times[: len(reached_times) + 1], first, None, run.wall)

@@ -1,4 +1,4 @@
-"""A System at its start, for those who make no steps from there."""
+"""System at its start, without steps."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -13,8 +13,7 @@ from mbs.system.compiled_model import CompiledModel
 
 
 class StandingSystem:
-    """A System at its start, on roads that are no files; the assembly modes of its loops, which take long to find, are
-    not watched.
+    """System at its consistent start, without road files and without the assembly modes of loops, which take long.
 
     `parameters`: values by name, in place of those of the model. Raises `ModelError`: the start cannot be made
     consistent, or a value is out of its range.
@@ -43,7 +42,7 @@ class StandingSystem:
 
 
 def start(instance: StandingInstance, meta: dict[str, Any]) -> None:
-    """Make the start consistent. `meta`: names of the System. Raises `ModelError`: it cannot be."""
+    """Make the start consistent; raise `ModelError` if that fails. `meta`: metadata of the System."""
     try:
         instance.initialise()
     except KernelError as error:
@@ -53,6 +52,6 @@ def start(instance: StandingInstance, meta: dict[str, Any]) -> None:
 
 
 def sensor_values(instance: StandingInstance, meta: dict[str, Any]) -> dict[str, float]:
-    """Values of the sensors that a System computes, by name. `meta`: names of the System."""
+    """Values of the sensors that a System computes, by name. `meta`: metadata of the System."""
     values = zip(meta["sensors"], instance.sensors(), strict=True)
     return {s["name"]: v for s, v in values if s.get("computed", True)}

@@ -11,8 +11,9 @@ from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.methods import cost_growth, dissipative
 from benchmarks.methods import stability as maps
 from benchmarks.methods import work_precision as precision
-from benchmarks.methods.honesty import VERDICTS, honesty_blocks, summary
+from benchmarks.methods.honesty import honesty_blocks, summary
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY
+from benchmarks.methods.random_honesty import verdict_of
 from benchmarks.methods.stability import OUTCOMES
 from benchmarks.methods.stability_margins import margins
 from benchmarks.methods.work_precision import time_at_error, work_blocks
@@ -97,16 +98,16 @@ def test_the_default_warns_where_it_is_wrong_and_nowhere_else(tmp_path, capsys):
     assert honesty.main(["scenes", "--quick", "--json", str(tmp_path / "h.json")]) == 0
     _, rows = read(tmp_path / "h.json")
     verdicts = {(r["scene"], r["h_s"]): r["verdict"] for r in rows}
-    assert set(verdicts.values()) == {"wrong, warned", "right, no warning"}
-    assert verdicts["pendulum", 0.01] == verdicts["printed_crank_slider", 2e-5] == "right, no warning"
+    assert set(verdicts.values()) == {"wrong, warned", "right"}
+    assert verdicts["pendulum", 0.01] == verdicts["printed_crank_slider", 2e-5] == "right"
     assert verdicts["printed_crank_slider", 1e-3] == verdicts["tumbling_body", 0.01] == "wrong, warned"
     estimate = {(r["scene"], r["h_s"]): r["estimate"] / r["error"] for r in rows if r["estimate"] is not None}
     assert 0.8 < estimate["pendulum", 0.05] < 1.2
     assert 0.8 < estimate["printed_crank_slider", 2e-5] < 1.3
     (line,) = summary(rows)
-    assert (line["missed"], line["false alarms"]) == (0, 0)
+    assert (line["silently wrong"], line["false alarms"], line["refused"]) == (0, 0, 0)
     blocks = honesty_blocks(rows)
-    assert "| ALi3-P | 7 | 0 |" in blocks["honesty"]
+    assert "| ALi3-P | 7 |" in blocks["honesty"]
     assert "estimate: none." in blocks["honesty exceptions"]
     assert "wrong, warned" in blocks["honesty crank"]
     assert blocks["honesty"] in capsys.readouterr().out
@@ -114,29 +115,19 @@ def test_the_default_warns_where_it_is_wrong_and_nowhere_else(tmp_path, capsys):
 
 def test_what_goes_against_the_rule_is_counted_and_named():
     def row(error, estimate, warned):
-        wrong = error > 0.05
-        verdict = VERDICTS[2 * wrong + (warned != wrong if wrong else warned)]
-        return {
-            "scene": "s",
-            "method": "radau_5",
-            "h_s": error,
-            "ended": "finished",
-            "error": error,
-            "estimate": estimate,
-        } | {
-            "repeated": "yes" if estimate else "no",
-            "balance": None,
-            "verdict": verdict,
-        }
+        row = {"scene": "s", "method": "radau_5", "h_s": error, "ended": "finished", "error": error, "steps": 1.5}
+        return row | {"estimate": estimate, "balance": None, "verdict": verdict_of(error, 0.05, warned)}
 
     rows = [row(0.2, 0.1, True), row(0.3, 0.01, False), row(0.01, None, False), row(0.02, 0.1, True)]
-    assert [r["verdict"] for r in rows] == ["wrong, warned", "wrong, missed", "right, no warning", "false alarm"]
+    rows.append(row(0.052, 0.04, False))
+    verdicts = [r["verdict"] for r in rows]
+    assert verdicts == ["wrong, warned", "silently wrong", "right", "false alarm", "near"]
     (line,) = summary(rows)
-    assert (line["right"], line["wrong"], line["missed"], line["false alarms"]) == (2, 2, 1, 1)
-    assert line["right without a repeat"] == 0.5
-    assert line["above the estimate"] == 1
+    assert (line["right"], line["wrong, warned"], line["silently wrong"], line["false alarms"]) == (2, 1, 1, 1)
+    assert (line["near the limit"], line["steps over its own"]) == (1, 1.5)
+    assert (line["estimates"], line["within ten times"]) == (4, 0.75)
     exceptions = honesty_blocks(rows)["honesty exceptions"]
-    assert "missed: s at 0.3 s (0.3)" in exceptions
+    assert "silently wrong: s at 0.3 s (0.3)" in exceptions
     assert "false alarm: s at 0.02 s (0.02)" in exceptions
     assert "estimate 1.0e-02" in exceptions
 

@@ -93,7 +93,7 @@ def test_a_wrong_run_without_a_warning_is_found(monkeypatch):
     monkeypatch.setattr(random_honesty.mbs, "simulate", lambda *a, **k: real(*a, **k, estimate_error=False))
     silent = list(random_honesty.rows_of(**case, numbers=[number]))
     assert [(r["kind"], r["verdict"]) for r in (rows[0], silent[0])] == [
-        ("body", "wrong, told"),
+        ("body", "wrong, warned"),
         ("body", "silently wrong"),
     ]
 
@@ -102,7 +102,7 @@ def test_a_wrong_run_without_a_warning_is_found(monkeypatch):
 @pytest.mark.parametrize(
     ("family", "number", "verdicts"),
     [
-        ("switches", 1, ["wrong, told"]),
+        ("switches", 1, ["wrong, warned"]),
         ("jumps", 0, ["right", "right"]),
         ("boxes", 0, ["right", "right"]),
     ],

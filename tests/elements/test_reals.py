@@ -11,7 +11,7 @@ from mbs import ModelError
 from mbs.common.checks import not_negative, positive
 from mbs.elements import EndStops, SpringDamper, fields_in_c
 from mbs.elements.element import Element
-from mbs.elements.integers import Of
+from mbs.elements.integers import IntegerKind
 from mbs.elements.reals import NotNegative, Pair, Real, declared, each_real, reals_of
 from mbs.elements.record import ElementRecord, columns
 from mbs.kernel.header.enumerations import ElementType
@@ -104,21 +104,21 @@ def test_class_and_kernel_refuse_the_same_numbers(name: str):
     thing, use = ELEMENTS[name]
     record = use(thing)
     assert harness.Element(record, n_inputs=6).check() is None
-    said_of = {key: (real, called) for key, real, called in each_real(type(thing))}
+    said_of = {key: (real, noun) for key, real, noun in each_real(type(thing))}
     for k, key in enumerate(record.real_names):
         if key not in said_of:
             continue
-        real, called = said_of[key]
+        real, noun = said_of[key]
         for value in (-1.0, 0.0, 0.5, 1.0, 2.0):
             try:
                 refused = real.check(value, "it") != value
             except ModelError:
                 refused = True
             message = harness.Element(record, n_inputs=6).with_reals({k: value}).check()
-            ours = f"the {called} of {type(thing)._words} {fields_in_c.RANGES[real.check][1]}"
+            ours = f"the {noun} of {type(thing)._noun} {fields_in_c.RANGES[real.check][1]}"
             assert (message == ours) is refused, f"{key} = {value:g}: {message}"
             if refused and isinstance(getattr(thing, key, None), float):
-                with pytest.raises(ModelError, match=rf"(?i){called} of .* is {value:g}\b"):
+                with pytest.raises(ModelError, match=rf"(?i){noun} of .* is {value:g}\b"):
                     use(replace(thing, **{key: value}))
 
 
@@ -126,9 +126,9 @@ def test_class_and_kernel_refuse_the_same_numbers(name: str):
 def test_the_kernel_refuses_inputs_and_roads_that_do_not_exist(name: str):
     thing, use = ELEMENTS[name]
     element = harness.Element(use(thing), n_inputs=6)
-    kinds = {of.of for of, _ in zip(type(thing)._integers, element.element.integer, strict=False)}
-    assert ("input that does not exist" in (element.check(n_inputs=0) or "")) is (Of.INPUTS in kinds)
-    assert ("road that does not exist" in (element.check(n_roads=0) or "")) is (Of.ROADS in kinds)
+    kinds = {integer.kind for integer, _ in zip(type(thing)._integers, element.element.integer, strict=False)}
+    assert ("input that does not exist" in (element.check(n_inputs=0) or "")) is (IntegerKind.INPUTS in kinds)
+    assert ("road that does not exist" in (element.check(n_roads=0) or "")) is (IntegerKind.ROADS in kinds)
 
 
 def test_every_number_and_every_output_has_a_unit_and_a_sentence():

@@ -29,7 +29,7 @@ def _stored(name: str) -> np.ndarray:
 def _spin_run(parts: int, check: bool | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     beam = compile(spinning_beam.build(parts))
     run = simulate(beam, spinning_beam.DURATION, 0.01, progress=False, estimate_error=check)
-    return run.t, *spinning_beam.in_turning_axes(run.t, run["tip.x"], run["tip.y"])
+    return run.t, *spinning_beam.extension_and_deflection(run.t, run["tip.x"], run["tip.y"])
 
 
 @pytest.mark.slow

@@ -81,7 +81,7 @@ def test_the_energy_momentum_step_carries_a_spinning_beam_to_its_deflection() ->
     settings = Settings(method="energy_momentum", max_halvings=0)
     t = simulate(system, spinning_beam.DURATION, 0.02, settings=settings, progress=False)
     when, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
-    _, result = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
+    _, result = spinning_beam.extension_and_deflection(t.t, t["tip.x"], t["tip.y"])
     assert np.abs(np.interp(when, t.t, result) - expected).max() < DEFLECTION * np.abs(expected).max()
 
 

@@ -252,6 +252,20 @@ def test_a_step_that_is_halved_is_made_twice(build: Callable[..., Path], host: H
     assert any(WORDS in m for m in driven.messages)
 
 
+def test_steps_that_are_all_halved_are_compared_with_half_of_their_halves(
+    scene_fmu: Callable[..., Path], host: HostMaker
+) -> None:
+    """Steps of 0.1 s are made as two of 0.05 s, and the slider is off by 24 % of its range."""
+    driven = host(scene_fmu("flyball")).start({"step_size": 0.1})
+    for k in range(100):
+        driven.step(k * 0.1, 0.1)
+    assert driven.get("solver.halvings") >= 100
+    driven.slave.terminate()
+    (warning,) = [m for m in driven.messages if WORDS in m]
+    assert "computed again with 1/4 of it" in warning
+    assert float(re.search(r"([\d.]+) %", warning)[1]) == pytest.approx(24.0, abs=2.0)
+
+
 def test_short_steps_of_a_motion_that_parts_late_are_reported(build: Callable[..., Path], host: HostMaker) -> None:
     """The double pendulum is right for 2 s, and off by a quarter after 3 s."""
     tips, warnings = [], []

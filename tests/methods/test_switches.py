@@ -141,7 +141,7 @@ def test_the_robot_s_error_is_made_before_the_pin_closes_and_grows_after(robot):
     small = 0.002
     whole = puma.replay(robot, 0.02, estimate_error=False)
     first, rest = puma.replay(robot, (0.02, small, small)), puma.replay(robot, (small, 0.02, 0.02))
-    at_pin = np.linalg.norm(first.hand[first.times <= 2.0][-1] - puma.held_at())
+    at_pin = np.linalg.norm(first.hand[first.times <= 2.0][-1] - puma.pinned_position())
     assert first.error == pytest.approx(whole.error, rel=0.1)
     assert rest.error < 0.1 * whole.error
     assert first.error > 10.0 * at_pin

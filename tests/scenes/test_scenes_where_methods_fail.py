@@ -57,7 +57,7 @@ def test_the_squeezer_s_start_closes_as_published():
     first = simulate(system, 1e-5, 1e-5)
     assert first["F.position.x"][0] == pytest.approx(0.007 * np.cos(squeezer.BETA), abs=1e-15)
     assert first["energy.total"][0] == pytest.approx(
-        0.5 * squeezer.STIFFNESS * (np.hypot(*_spring()) - squeezer.REST) ** 2, rel=1e-12
+        0.5 * squeezer.STIFFNESS * (np.hypot(*_spring()) - squeezer.FREE_LENGTH) ** 2, rel=1e-12
     )
 
 

@@ -10,7 +10,7 @@ from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs import AccuracyWarning, Model, Pose, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.header.limits import WRONG_ERROR
-from mbs.results.accuracy import divisor
+from mbs.results.accuracy import step_divisor
 from mbs.results.comparison import compared_sensors
 from mbs.scenes import prototype_car
 from mbs.simulation import fixed_steps
@@ -110,9 +110,9 @@ class TestRepeats:
 
     def test_what_is_halved_inside_is_repeated_with_less_than_its_parts(self):
         """The governor at 0.2 s halves to the steps that 0.05 s makes: a plain half would differ by nothing."""
-        assert divisor(100, 0) == 2
-        assert divisor(100, 100) == 4
-        assert divisor(100, 1500) == 32
+        assert step_divisor(100, 0) == 2
+        assert step_divisor(100, 100) == 4
+        assert step_divisor(100, 1500) == 32
         with pytest.warns(AccuracyWarning) as caught:
             run = simulate(system_of("flyball"), 10.0, 0.2, estimate_error=True, **QUIET)
         assert run.accuracy.halvings_per_step > 0.1

@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import PPoly
 
 import mbs
-from mbs.results.comparison import Compared, Comparison, compared_in, differences, sizes_of
+from mbs.results.comparison import Compared, Comparison, differences, select_compared, sizes_of
 
 RATE, PLACE = Compared("rad/s", always=False), Compared("m", place=True)
 T = np.linspace(0.0, 1.0, 101)
@@ -64,11 +64,11 @@ def test_rates_are_judged_where_no_place_moves_by_itself() -> None:
     """Without guides each place that moves does; with them two motions say so."""
     candidates = {"x": PLACE, "rate": RATE}
     values = {"x": np.sin(T), "rate": np.cos(9.0 * T)}
-    assert set(compared_in(values, candidates, 1.0)) == {"x"}
-    assert set(compared_in(values, candidates, 1.0, guided=True)) == {"x", "rate"}
+    assert set(select_compared(values, candidates, 1.0)) == {"x"}
+    assert set(select_compared(values, candidates, 1.0, guided=True)) == {"x", "rate"}
     still = values | {"x": 0.0 * T}
-    assert set(compared_in(still, candidates, 1.0)) == {"rate"}
-    assert set(compared_in(still, candidates, 1.0, stands=True)) == set()
+    assert set(select_compared(still, candidates, 1.0)) == {"rate"}
+    assert set(select_compared(still, candidates, 1.0, at_rest=True)) == set()
     other = values | {"rate": np.cos(8.0 * T)}
     for moved, units in ((0.0, {"m", "rad/s"}), (1e-3, {"m"})):
         actual, gaps, sizes = differences(values, other | {"x": (1.0 + moved) * values["x"]}, candidates, None, 1.0)
@@ -85,8 +85,8 @@ def test_angles_from_minus_pi_to_pi_are_compared_as_angles() -> None:
     assert sensors["a"] == pytest.approx(0.3)
     assert sizes["a"] == pytest.approx(20.0)
     assert units["rad"] == pytest.approx(0.015)
-    assert set(compared_in({"a": wrapped}, {"a": angle}, 1.0)) == {"a"}
-    assert set(compared_in({"a": wrapped[::10]}, {"a": angle}, 1.0)) == set()
+    assert set(select_compared({"a": wrapped}, {"a": angle}, 1.0)) == {"a"}
+    assert set(select_compared({"a": wrapped[::10]}, {"a": angle}, 1.0)) == set()
     turning = {"a": wrapped[::10], "turning": 0.1 * T[::10]}  # one that is not followed is no size of others
     assert differences(turning, turning, {"a": angle, "turning": Compared("rad", place=True)}, None, 1.0)[2] == {
         "turning": pytest.approx(0.1)
@@ -126,9 +126,17 @@ def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     assert actual == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
 
 
+@pytest.mark.parametrize(("largest", "judged"), [(1e-6, {"x", "spring"}), (1.0, {"x", "spring", "motor"})])
+def test_the_force_of_a_motor_is_round_off_beside_large_forces(largest: float, judged: set[str]) -> None:
+    """A rack that is held straight has 1e-6 N beside springs with 3000 N, and twice that in another motion."""
+    compared = {"x": PLACE, "spring": Compared("N", load=True), "motor": Compared("N", load=True, always=False)}
+    fine = {"x": T, "spring": 3000.0 + T, "motor": largest * np.sin(9.0 * T)}
+    assert set(differences(fine | {"motor": 2.0 * fine["motor"]}, fine, compared, None, 1.0)[1]) == judged
+
+
 def test_a_small_turn_counts_where_nothing_else_moves() -> None:
     judged = {"turn": Compared("rad", place=True), "x": PLACE}
     values = {"turn": 5e-4 * np.sin(9.0 * T), "x": np.sin(T)}
-    assert set(compared_in(values, judged, 1.0)) == {"x"}
-    assert set(compared_in(values | {"x": 0.0 * T}, judged, 1.0)) == {"turn"}
-    assert set(compared_in(values | {"turn": 3.0 * values["turn"]}, judged, 1.0)) == {"turn", "x"}
+    assert set(select_compared(values, judged, 1.0)) == {"x"}
+    assert set(select_compared(values | {"x": 0.0 * T}, judged, 1.0)) == {"turn"}
+    assert set(select_compared(values | {"turn": 3.0 * values["turn"]}, judged, 1.0)) == {"turn", "x"}

@@ -10,7 +10,7 @@ import pytest
 import mbs
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.settings.input_breaks import function_breaks, input_breaks, sampled
+from mbs.settings.input_breaks import function_breaks, input_breaks, sample_function
 from mbs.settings.input_signals import InputSignals
 from tests.simulation.drawn import drawn
 
@@ -177,7 +177,7 @@ def test_a_function_that_fails_is_looked_at_until_then() -> None:
             raise ZeroDivisionError
         return float(t > 0.305)
 
-    t, x = sampled(failing, 0.0, SPAN, H)
+    t, x = sample_function(failing, 0.0, SPAN, H)
     assert t[-1] <= 0.5
     assert input_breaks([(t, x)], 0.0, SPAN, H) == pytest.approx([0.305])
     simulation = mbs.Simulation(sledge())
@@ -185,8 +185,8 @@ def test_a_function_that_fails_is_looked_at_until_then() -> None:
         simulation.run(SPAN, H, inputs={"push": failing}, progress=False, estimate_error=False)
     assert simulation.time == pytest.approx(0.5)
     noise = np.random.default_rng(1)
-    assert len(sampled(lambda t: noise.normal(), 0.0, SPAN, H)[0]) <= 2 * 16 * 50 + 1
-    assert len(sampled(lambda t: 1.0 / 0.0, 0.0, SPAN, H)[0]) == 1
+    assert len(sample_function(lambda t: noise.normal(), 0.0, SPAN, H)[0]) <= 2 * 16 * 50 + 1
+    assert len(sample_function(lambda t: 1.0 / 0.0, 0.0, SPAN, H)[0]) == 1
 
 
 def test_round_off_of_a_constant_parts_no_step() -> None:
@@ -194,11 +194,11 @@ def test_round_off_of_a_constant_parts_no_step() -> None:
         return float(np.sin(np.float32(t)) ** 2 + np.cos(np.float32(t)) ** 2)
 
     for function in (constant, lambda t: 0.1 * (t + 1.0) / (t + 1.0)):
-        t, x = sampled(function, 0.0, SPAN, H)
+        t, x = sample_function(function, 0.0, SPAN, H)
         assert np.ptp(x) > 0.0
         assert len(t) == 16 * 50 + 1
         assert len(input_breaks([(t, x)], 0.0, SPAN, H)) == 0
-    pulse = sampled(lambda t: 1.0 + 1e-5 * (0.305 <= t < 0.31), 0.0, SPAN, H)
+    pulse = sample_function(lambda t: 1.0 + 1e-5 * (0.305 <= t < 0.31), 0.0, SPAN, H)
     assert set(input_breaks([pulse], 0.0, SPAN, H).round(6)) == {0.305, 0.31}
 
 
@@ -211,7 +211,7 @@ def test_a_jump_late_in_a_long_run_lies_between_two_neighbouring_times() -> None
             ((before, behind),) = jumps
             assert before <= when < behind
             assert behind - before <= 2.0 * np.spacing(start)
-    assert len(sampled(lambda t: 1e308 if t > 0.5 else -1e308, 0.0, SPAN, H)[0]) == 1
+    assert len(sample_function(lambda t: 1e308 if t > 0.5 else -1e308, 0.0, SPAN, H)[0]) == 1
 
 
 def test_a_smooth_function_parts_no_step() -> None:

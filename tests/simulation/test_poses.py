@@ -117,10 +117,10 @@ def test_many_samples_are_thinned_and_reported(monkeypatch, every):
 
 
 def test_memory_is_bounded_by_coordinates_too():
-    assert poses_module.kept_every(1_000_000, 3) == 10
-    assert poses_module.kept_every(1_000_000, 400) * 10_000 >= 1_000_000
-    assert poses_module.kept_every(10, 400) == 1
-    assert poses_module.kept_every(1000, 3, 7) == 7
+    assert poses_module.pose_interval(1_000_000, 3) == 10
+    assert poses_module.pose_interval(1_000_000, 400) * 10_000 >= 1_000_000
+    assert poses_module.pose_interval(10, 400) == 1
+    assert poses_module.pose_interval(1000, 3, 7) == 7
 
 
 def test_a_failed_run_has_poses_until_it_failed():

@@ -201,7 +201,7 @@ def test_an_invalid_normal_is_refused() -> None:
 @pytest.mark.parametrize("how", [{"h": 0.002}, {"tolerance": 1e-3}])
 def test_a_normal_that_ends_within_a_run_is_refused_there(how: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
     """By a table, also with a jump, and by a callable; no equation is at fault."""
-    monkeypatch.setattr("mbs.simulation.refusal._worst_equations", lambda *_: " Worst balance.")
+    monkeypatch.setattr("mbs.simulation.refusal._worst_equations_text", lambda *_: " Worst balance.")
     times = ([0.0, 0.02, 0.03], [1.0, 1.0, 0.0])
     jump = ([0.0, 0.02, 0.02, 0.03], [1.0, 1.0, 0.0, 0.0])
     for signal in (times, jump, lambda t: 1.0 if t < 0.02 else 0.0):

@@ -4,7 +4,7 @@
 
 #include "slave.h"
 
-static const double PART = 1e-6; /* of a value's range or size: difference of initial states */
+static const double DIFFERENCE = 1e-6; /* of an initial value, to each side, relative to its range or size */
 
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order,
                               const double *value) {
@@ -33,9 +33,9 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
           slave_say(s, SLAVE_WARNING, "A derivative of the port '%s' was set to %g; 0 is taken. This is reported once.",
                     t->variable[reference[i]].name, value[i]);
     }
-    const double taken = finite ? value[i] : 0.0;
-    if (*slope != taken) slave_forget_refusal(s);
-    *slope = taken;
+    const double slope_value = finite ? value[i] : 0.0;
+    if (*slope != slope_value) slave_forget_refusal(s);
+    *slope = slope_value;
   }
   return worst;
 }
@@ -54,7 +54,7 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   if (status != ALI3_OK) return slave_say(s, SLAVE_ERROR, "No output rates: %s.", ali3_status_text(status));
   for (size_t i = 0; i < n; i++)
     if (t->variable[reference[i]].source != SLAVE_SENSOR || !s->known[t->variable[reference[i]].index] ||
-        slave_left_out(s, &t->variable[reference[i]]))
+        slave_is_omitted(s, &t->variable[reference[i]]))
       return slave_say(s, SLAVE_ERROR,
                        "The rate of '%s' is not known: it depends on forces or accelerations. Positions, angles and "
                        "velocities have rates.",
@@ -64,40 +64,40 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   return SLAVE_OK;
 }
 
-/* Before the first step the outputs are those of the initial state, which is found again, settled, on both sides. */
-static bool initial_change(slave *s, uint32_t reference, double seed, bool left_out, double *out) {
+/* Adds the central difference of the outputs over one initial value; the initial state is computed on both sides. */
+static bool add_initial_difference(slave *s, uint32_t reference, double seed, bool left_out, double *out) {
   const slave_table *t = &slave_the_table;
   const slave_variable *v = &t->variable[reference];
   const double range = v->max - v->min, value = s->value[reference];
   const double size = range > 0.0 && range < 1e6 ? range : fmax(1.0, fabs(value));
-  const double up = fmin(value + PART * size, v->max), down = fmax(value - PART * size, v->min);
+  const double up = fmin(value + DIFFERENCE * size, v->max), down = fmax(value - DIFFERENCE * size, v->min);
   if (seed == 0.0 || !(up > down)) return true;
-  bool good = true;
-  for (int side = 0; side < 2 && good; side++) {
+  bool ok = true;
+  for (int side = 0; side < 2 && ok; side++) {
     s->value[reference] = side == 0 ? up : down;
-    good = slave_initialise(s) && slave_outputs(s) && (!left_out || slave_follow(s, NULL, 0));
+    ok = slave_initialise(s) && slave_outputs(s) && (!left_out || slave_omitted_outputs(s, NULL, 0));
     const double weight = (side == 0 ? seed : -seed) / (up - down);
-    for (size_t i = t->n_known; i < t->n_variables && good; i++)
+    for (size_t i = t->n_known; i < t->n_variables && ok; i++)
       if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->value[i];
   }
   s->value[reference] = value;
-  return good;
+  return ok;
 }
 
 static slave_status initial_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, bool left_out,
                                        double *out) {
-  bool good = true;
-  double starts = 0.0;
-  for (size_t i = 0; i < n; i++) starts += seed[i] != 0.0 ? 2.0 : 0.0;
-  if (starts > 0.0 && slave_settling_steps(s) > slave_settling_left(s, starts))
+  bool ok = true;
+  double n_starts = 0.0;
+  for (size_t i = 0; i < n; i++) n_starts += seed[i] != 0.0 ? 2.0 : 0.0;
+  if (n_starts > 0.0 && slave_settling_steps(s) > slave_settling_left(s, n_starts))
     return slave_say(s, SLAVE_ERROR,
                      "The derivatives take %.0f starts that settle over %.0f inner steps each, and a call that has "
                      "begun cannot be cancelled; it may make %.0f in each. Ask by fewer variables at once, or set "
                      "'step_size' to more or the time that a start settles for to less.",
-                     starts, slave_settling_steps(s), fmax(slave_settling_left(s, starts), 0.0));
-  for (size_t i = 0; i < n && good; i++) good = initial_change(s, known[i], seed[i], left_out, out);
-  slave_stale(s); /* the state itself comes back when it is asked for */
-  return good ? SLAVE_OK : SLAVE_ERROR;
+                     n_starts, slave_settling_steps(s), fmax(slave_settling_left(s, n_starts), 0.0));
+  for (size_t i = 0; i < n && ok; i++) ok = add_initial_difference(s, known[i], seed[i], left_out, out);
+  slave_invalidate(s); /* the next reading of outputs computes the initial state again */
+  return ok ? SLAVE_OK : SLAVE_ERROR;
 }
 
 static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, bool left_out,
@@ -114,19 +114,20 @@ static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, c
   return slave_step_derivative(s, s->direction, left_out, out);
 }
 
-slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
-                               size_t n_known, const double *seed, double *out) {
+slave_status slave_directional_derivative(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
+                                          size_t n_known, const double *seed, double *out) {
   const slave_table *t = &slave_the_table;
   bool left_out = false;
   for (size_t i = 0; i < n_unknown; i++) {
     if (!slave_is_output(unknown[i]))
       return slave_say(s, SLAVE_ERROR, "Value reference %u is not an output; derivatives are those of outputs.",
                        (unsigned)unknown[i]);
-    left_out = left_out || slave_left_out(s, &t->variable[unknown[i]]);
+    left_out = left_out || slave_is_omitted(s, &t->variable[unknown[i]]);
   }
   for (size_t i = 0; i < n_known; i++) {
-    const bool none = known[i] >= t->n_known || t->variable[known[i]].source > SLAVE_POSE;
-    if (none) return slave_say(s, SLAVE_ERROR, "There are no derivatives by value reference %u.", (unsigned)known[i]);
+    const bool excluded = known[i] >= t->n_known || t->variable[known[i]].source > SLAVE_POSE;
+    if (excluded)
+      return slave_say(s, SLAVE_ERROR, "There are no derivatives by value reference %u.", (unsigned)known[i]);
     if (t->variable[known[i]].whole)
       return slave_say(s, SLAVE_ERROR, "There are no derivatives by '%s'; it is a whole number.",
                        t->variable[known[i]].name);

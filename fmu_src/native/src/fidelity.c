@@ -1,10 +1,10 @@
-/* The Systems an FMU offers by its parameter fidelity, one file each; an instance has one of them loaded. */
+/* The Systems of an FMU, one file for each value of the parameter fidelity; an instance has one of them loaded. */
 #include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
-/* Whether the table and the System speak of the same things. */
+/* Whether the indices and counts of the table fit the System. */
 static bool table_fits(const ali3_system *system, size_t fidelity) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(system);
@@ -21,16 +21,16 @@ static bool table_fits(const ali3_system *system, size_t fidelity) {
   return true;
 }
 
-/* Code that was generated for the System is called from now on, and why not. The same bits either way. */
-static void attach(ali3_system *system, size_t number, char *words, size_t size) {
+/* Makes the System call the code generated for it, which gives the same bits; `text`: whether it does, for the log. */
+static void attach_generated(ali3_system *system, size_t number, char *text, size_t size) {
   const ali3_generated *code = slave_the_table.generated[number];
   char why[200];
   if (code == NULL)
-    snprintf(words, size, "Its steps take the loops of the kernel, as no code was generated for it");
+    snprintf(text, size, "Its steps take the loops of the kernel, as no code was generated for it");
   else if (ali3_system_attach(system, code, why, sizeof why) == ALI3_OK)
-    snprintf(words, size, "Its steps take the code that was generated for it");
+    snprintf(text, size, "Its steps take the code that was generated for it");
   else
-    snprintf(words, size, "Its steps take the loops of the kernel: %s", why);
+    snprintf(text, size, "Its steps take the loops of the kernel: %s", why);
 }
 
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
@@ -41,7 +41,7 @@ void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
   memset(loaded, 0, sizeof *loaded);
 }
 
-/* False, and said, if it cannot be loaded; then `loaded` is empty. */
+/* Loads the System of a fidelity. False: an error was logged and `loaded` is empty. */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   char file[32], message[256] = "", code[256] = "";
   const char *why;
@@ -52,7 +52,7 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
     slave_say(s, SLAVE_ERROR, "There is no fidelity %u in this FMU.", (unsigned)number);
     return false;
   }
-  unsigned char *bytes = slave_read(s->resources, file, &s->memory, &size, &why);
+  unsigned char *bytes = slave_read_resource(s->resources, file, &s->memory, &size, &why);
   if (bytes == NULL) {
     slave_say(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s: %s.", file, s->resources, why);
     return false;
@@ -64,7 +64,7 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
     slave_fidelity_free(s, loaded);
     return false;
   }
-  if (status == ALI3_OK) attach(loaded->system, number, code, sizeof code);
+  if (status == ALI3_OK) attach_generated(loaded->system, number, code, sizeof code);
   if (status == ALI3_OK) status = ali3_instance_new(loaded->system, &loaded->kernel);
   if (status == ALI3_OK) {
     loaded->snapshot = s->memory.allocate(1, ali3_snapshot_size(loaded->system));
@@ -85,23 +85,23 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   return true;
 }
 
-void slave_fidelity_take(slave *s, const slave_fidelity *loaded) {
+void slave_fidelity_replace(slave *s, const slave_fidelity *loaded) {
   slave_half_steps_free(s);
   slave_fidelity_free(s, &s->fidelity);
   s->fidelity = *loaded;
 }
 
-/* The System of the fidelity among the values. */
+/* Loads the System that the parameter fidelity selects, if another one is loaded. */
 bool slave_fidelity_choose(slave *s) {
   slave_fidelity loaded;
   if (s->fidelity_reference == slave_the_table.n_variables) return true;
-  const size_t wanted = (size_t)s->value[s->fidelity_reference];
-  if (wanted == s->fidelity.number) return true;
-  if (!slave_fidelity_load(s, wanted, &loaded)) return false;
-  if (!slave_texts_to(s, loaded.kernel, s->text)) {
+  const size_t number = (size_t)s->value[s->fidelity_reference];
+  if (number == s->fidelity.number) return true;
+  if (!slave_fidelity_load(s, number, &loaded)) return false;
+  if (!slave_texts_apply(s, loaded.kernel, s->text)) {
     slave_fidelity_free(s, &loaded);
     return false;
   }
-  slave_fidelity_take(s, &loaded);
+  slave_fidelity_replace(s, &loaded);
   return true;
 }

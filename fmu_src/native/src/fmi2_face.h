@@ -1,4 +1,4 @@
-/* What the files of the FMI 2.0 face share. */
+/* Declarations that the files of the FMI 2.0 interface share. */
 #ifndef ALI3_FMI2_FACE_H
 #define ALI3_FMI2_FACE_H
 #include "fmi2.h"
@@ -11,8 +11,8 @@ typedef struct {
   void *detour; /* of the Python FMU */
 } fmi2_face;
 
-/* The calls that PythonFMU knows. The native FMU makes them at once (fmi2_direct.c); the Python FMU has its class in
- * Python make them (python_slave/detour.c). */
+/* The calls that PythonFMU also has. The native FMU calls the slave directly (fmi2_direct.c), the Python FMU calls it
+ * through its Python class (python_slave/detour.c). */
 slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
                 const char *token, const char *resources);
 void fmi2_free(fmi2_face *face);
@@ -27,11 +27,11 @@ slave_status fmi2_set(slave *s, const uint32_t *reference, size_t n, const doubl
 slave_status fmi2_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value);
 slave_status fmi2_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value);
 
-/* A function of an instance that computes: with the control of the processor that arithmetic here needs. */
+/* Defines a function of an instance, called with the floating-point control that the kernel needs. */
 #define FMI2_ENTRY(name, parameters, arguments)                                                                        \
   SLAVE_ENTRY(FMI2_EXPORT fmi2Status FMI2_NAME(name), fmi2Status, name, c, parameters, arguments)
 
-/* Calls allowed in the states of the standard's table for co-simulation. */
+/* Phases in which calls are allowed, by the standard's table for co-simulation. */
 enum {
   FMI2_ANY = SLAVE_INSTANTIATED | SLAVE_INITIALISING | SLAVE_STEPPING | SLAVE_STEP_FAILED | SLAVE_TERMINATED,
   FMI2_SET = SLAVE_INSTANTIATED | SLAVE_INITIALISING | SLAVE_STEPPING | SLAVE_STEP_FAILED,
@@ -41,7 +41,7 @@ enum {
 };
 
 /* The slave of a component if the function may be called now, else NULL. */
-slave *fmi2_slave(fmi2Component c, const char *function, unsigned mask);
-/* Whether pointers that are needed are there; said if not. */
-bool fmi2_given(slave *s, const char *function, bool given);
+slave *fmi2_slave(fmi2Component c, const char *function, unsigned phases);
+/* Logs an error if a required pointer of the call is NULL; returns `valid`. */
+bool fmi2_check_pointers(slave *s, const char *function, bool valid);
 #endif

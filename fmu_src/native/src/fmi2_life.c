@@ -4,17 +4,17 @@
 
 #include "fmi2_face.h"
 
-slave *fmi2_slave(fmi2Component c, const char *function, unsigned mask) {
+slave *fmi2_slave(fmi2Component c, const char *function, unsigned phases) {
   fmi2_face *face = c;
-  return face != NULL && slave_allowed(face->s, function, mask) ? face->s : NULL;
+  return face != NULL && slave_is_allowed(face->s, function, phases) ? face->s : NULL;
 }
 
-bool fmi2_given(slave *s, const char *function, bool given) {
-  if (!given) slave_say(s, SLAVE_ERROR, "%s was called with a null pointer.", function);
-  return given;
+bool fmi2_check_pointers(slave *s, const char *function, bool valid) {
+  if (!valid) slave_say(s, SLAVE_ERROR, "%s was called with a null pointer.", function);
+  return valid;
 }
 
-/* The text goes out as the format itself, with % and # doubled: hosts that do not format show it all the same. */
+/* The text is the format string itself, with % and # doubled: hosts that do not format it show it too. */
 static void log_to_host(slave *s, slave_status status, const char *category, const char *text) {
   fmi2_face *face = s->host;
   char format[2 * SLAVE_TEXT];
@@ -35,7 +35,7 @@ FMI2_EXPORT const char *FMI2_NAME(fmi2GetTypesPlatform)(void) { return "default"
 
 FMI2_EXPORT const char *FMI2_NAME(fmi2GetVersion)(void) { return "2.0"; }
 
-/* Says why there is no instance; there is no slave yet that could. */
+/* Logs why no instance was made; slave_say needs one. */
 static fmi2Component refuse(const fmi2CallbackFunctions *functions, fmi2String name, fmi2String text) {
   if (functions->logger != NULL)
     functions->logger(functions->componentEnvironment, name != NULL ? name : "", fmi2Error, "logStatusError", text);

@@ -1,11 +1,11 @@
-/* What the files of the FMI 3.0 face share. */
+/* Declarations that the files of the FMI 3.0 interface share. */
 #ifndef ALI3_FMI3_FACE_H
 #define ALI3_FMI3_FACE_H
 #include "fmi3.h"
 #include "slave.h"
 
 /* Arrays of the table's variables, generated with the FMU (table.c): the value reference is the number of an array;
- * its items are variables first[i] .. first[i + 1] - 1 of `item`. Time stands among them, without items. */
+ * its items are variables first[i] .. first[i + 1] - 1 of `item`. Time is one of the arrays, without items. */
 typedef struct {
   const uint32_t *item;
   const size_t *first;
@@ -20,14 +20,14 @@ typedef struct {
   fmi3InstanceEnvironment environment;
   fmi3LogMessageCallback log;
   fmi3IntermediateUpdateCallback update;
-  bool updating; /* the host is in its intermediate update */
+  bool updating; /* during the host's intermediate update */
   slave *s;
-  uint32_t *items[2]; /* work: expanded value references */
-  double *one, *all;  /* work: a value per variable */
-  size_t room;
+  uint32_t *items[2];        /* work: expanded value references, `capacity` each */
+  double *unit, *derivative; /* work: a unit seed and the derivatives by it, `capacity` each */
+  size_t capacity;           /* number of variables */
 } fmi3_face;
 
-/* A function of an instance that computes: with the control of the processor that arithmetic here needs. */
+/* Defines a function of an instance, called with the floating-point control that the kernel needs. */
 #define FMI3_ENTRY(name, parameters, arguments)                                                                        \
   SLAVE_ENTRY(FMI3_EXPORT fmi3Status FMI3_NAME(name), fmi3Status, name, instance, parameters, arguments)
 
@@ -39,13 +39,14 @@ enum {
 };
 
 /* The face of an instance if the function may be called now, else NULL. */
-fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned mask);
-bool fmi3_given(fmi3_face *face, const char *function, bool given);
-/* Numbers of variables of arrays into face->items[which]; false, and said, if a reference is unknown or the count is
- * not n_values. */
-bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference, size_t n, size_t n_values);
-/* Values of one array; time is one value. The reference must be below n_arrays. */
-size_t fmi3_size(fmi3ValueReference reference);
-/* Whether the references, time among them, are known and have n_values values; said if not. */
-bool fmi3_counted(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values);
+fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned phases);
+/* Logs an error if a required pointer of the call is NULL; returns `valid`. */
+bool fmi3_check_pointers(fmi3_face *face, const char *function, bool valid);
+/* Writes the numbers of the variables of arrays to face->items[list]. False: a reference is unknown or the arrays do
+ * not have n_values values, and an error was logged. */
+bool fmi3_expand(fmi3_face *face, int list, const fmi3ValueReference *reference, size_t n, size_t n_values);
+/* Number of values of one array, 1 for time. The reference must be below n_arrays. */
+size_t fmi3_array_size(fmi3ValueReference reference);
+/* Whether the references, which may include time, are known and have n_values values; if not, an error is logged. */
+bool fmi3_check_count(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values);
 #endif

@@ -4,7 +4,7 @@
 
 #include "fmi3_face.h"
 
-fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned mask) {
+fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned phases) {
   fmi3_face *face = instance;
   if (face == NULL) return NULL;
   if (face->updating && strcmp(function, "fmi3SetFloat64") != 0) {
@@ -12,20 +12,20 @@ fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned mask
               function);
     return NULL;
   }
-  return slave_allowed(face->s, function, mask) ? face : NULL;
+  return slave_is_allowed(face->s, function, phases) ? face : NULL;
 }
 
-bool fmi3_given(fmi3_face *face, const char *function, bool given) {
-  if (!given) slave_say(face->s, SLAVE_ERROR, "%s was called with a null pointer.", function);
-  return given;
+bool fmi3_check_pointers(fmi3_face *face, const char *function, bool valid) {
+  if (!valid) slave_say(face->s, SLAVE_ERROR, "%s was called with a null pointer.", function);
+  return valid;
 }
 
-size_t fmi3_size(fmi3ValueReference reference) {
+size_t fmi3_array_size(fmi3ValueReference reference) {
   const fmi3_table *t = &fmi3_the_table;
   return reference != t->time ? t->first[reference + 1] - t->first[reference] : 1;
 }
 
-bool fmi3_counted(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values) {
+bool fmi3_check_count(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values) {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     if (reference[i] >= fmi3_the_table.n_arrays) {
@@ -33,14 +33,14 @@ bool fmi3_counted(fmi3_face *face, const fmi3ValueReference *reference, size_t n
                 (unsigned)reference[i]);
       return false;
     }
-    count += fmi3_size(reference[i]);
+    count += fmi3_array_size(reference[i]);
   }
   if (count == n_values) return true;
   slave_say(face->s, SLAVE_ERROR, "The variables have %zu values, the call gives room for %zu.", count, n_values);
   return false;
 }
 
-bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference, size_t n, size_t n_values) {
+bool fmi3_expand(fmi3_face *face, int list, const fmi3ValueReference *reference, size_t n, size_t n_values) {
   const fmi3_table *t = &fmi3_the_table;
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
@@ -50,11 +50,12 @@ bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference
       return false;
     }
     const size_t size = t->first[reference[i] + 1] - t->first[reference[i]];
-    if (count + size > face->room) {
-      slave_say(face->s, SLAVE_ERROR, "One call asks for more values than this FMU has variables (%zu).", face->room);
+    if (count + size > face->capacity) {
+      slave_say(face->s, SLAVE_ERROR, "One call asks for more values than this FMU has variables (%zu).",
+                face->capacity);
       return false;
     }
-    memcpy(face->items[which] + count, t->item + t->first[reference[i]], size * sizeof(uint32_t));
+    memcpy(face->items[list] + count, t->item + t->first[reference[i]], size * sizeof(uint32_t));
     count += size;
   }
   if (count == n_values) return true;
@@ -70,8 +71,8 @@ static void log_to_host(slave *s, slave_status status, const char *category, con
   slave_call_returns(face, host);
 }
 
-/* The inputs at the end of the inner step that follows; outputs are not there yet. */
-static void ask_host(slave *s, double time) {
+/* Calls the host's intermediate update, which may set inputs at `time`, the end of the next inner step. */
+static void request_inputs(slave *s, double time) {
   fmi3_face *face = s->host;
   fmi3Boolean early = false;
   fmi3Float64 early_time = time;
@@ -90,7 +91,7 @@ FMI3_ENTRY(fmi3SetDebugLogging, (fmi3Instance instance, fmi3Boolean on, size_t n
   return face != NULL ? (fmi3Status)slave_set_logging(face->s, on, n, categories) : fmi3Error;
 }
 
-static void say_no(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, const char *text) {
+static void log_refusal(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, const char *text) {
   if (log != NULL) log(environment, fmi3Error, "logStatusError", text);
 }
 
@@ -99,7 +100,7 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateModelExchange)(fmi3String name
                                                                  fmi3Boolean logging, fmi3InstanceEnvironment env,
                                                                  fmi3LogMessageCallback log) {
   (void)name, (void)token, (void)resources, (void)visible, (void)logging;
-  say_no(env, log, "This FMU is for co-simulation only.");
+  log_refusal(env, log, "This FMU is for co-simulation only.");
   return NULL;
 }
 
@@ -108,14 +109,14 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateScheduledExecution)(
     fmi3InstanceEnvironment env, fmi3LogMessageCallback log, fmi3ClockUpdateCallback clock,
     fmi3LockPreemptionCallback lock, fmi3UnlockPreemptionCallback unlock) {
   (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)clock, (void)lock, (void)unlock;
-  say_no(env, log, "This FMU is for co-simulation only.");
+  log_refusal(env, log, "This FMU is for co-simulation only.");
   return NULL;
 }
 
 static void free_face(fmi3_face *face) {
   slave_free(face->s);
   free(face->items[0]);
-  free(face->one);
+  free(face->unit);
   free(face);
 }
 
@@ -124,21 +125,21 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
     fmi3Boolean event_mode, fmi3Boolean early_return, const fmi3ValueReference intermediate[], size_t n_intermediate,
     fmi3InstanceEnvironment env, fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update) {
   const ali3_memory memory = {calloc, free};
-  const size_t room = slave_the_table.n_variables;
+  const size_t capacity = slave_the_table.n_variables;
   (void)visible;
   if (event_mode) {
-    say_no(env, log, "This FMU has no event mode.");
+    log_refusal(env, log, "This FMU has no event mode.");
     return NULL;
   }
   fmi3_face *face = calloc(1, sizeof *face);
   if (face == NULL) return NULL;
   face->environment = env;
   face->log = log;
-  face->room = room;
-  face->items[0] = calloc(2 * room, sizeof(uint32_t));
-  face->one = calloc(2 * room, sizeof(double));
+  face->capacity = capacity;
+  face->items[0] = calloc(2 * capacity, sizeof(uint32_t));
+  face->unit = calloc(2 * capacity, sizeof(double));
   const ali3_float_control host = slave_call_begins(face);
-  if (face->items[0] != NULL && face->one != NULL)
+  if (face->items[0] != NULL && face->unit != NULL)
     face->s = slave_new(&memory, face, log_to_host, logging, name, token, resources);
   slave_call_ends(face, host);
   if (face->s == NULL) {
@@ -153,10 +154,10 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
     return NULL;
   }
   face->update = update;
-  face->s->ask = update != NULL && n_intermediate > 0 ? ask_host : NULL;
-  face->s->early = early_return;
-  face->items[1] = face->items[0] + room;
-  face->all = face->one + room;
+  face->s->request_inputs = update != NULL && n_intermediate > 0 ? request_inputs : NULL;
+  face->s->early_return = early_return;
+  face->items[1] = face->items[0] + capacity;
+  face->derivative = face->unit + capacity;
   return face;
 }
 

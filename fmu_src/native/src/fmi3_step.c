@@ -1,4 +1,4 @@
-/* FMI 3.0: steps and derivatives. */
+/* FMI 3.0: communication steps and derivatives. */
 #include <string.h>
 
 #include "fmi3_face.h"
@@ -13,7 +13,7 @@ FMI3_ENTRY(fmi3DoStep,
   if (face == NULL) return fmi3Error;
   const slave_status status = slave_step(face->s, time, step);
   if (event_needed != NULL) *event_needed = false;
-  if (terminate != NULL) *terminate = slave_wants_end(face->s);
+  if (terminate != NULL) *terminate = slave_requests_end(face->s);
   if (early_return != NULL) *early_return = face->s->returned_early;
   if (last_successful_time != NULL) *last_successful_time = ali3_time(face->s->fidelity.kernel);
   return (fmi3Status)status;
@@ -24,8 +24,8 @@ FMI3_ENTRY(fmi3GetOutputDerivatives,
             fmi3Float64 value[], size_t n_values),
            (instance, vr, n, order, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetOutputDerivatives", FMI3_DERIVE);
-  const bool given = n == 0 || (vr != NULL && order != NULL && value != NULL);
-  if (face == NULL || !fmi3_given(face, "fmi3GetOutputDerivatives", given)) return fmi3Error;
+  const bool valid = n == 0 || (vr != NULL && order != NULL && value != NULL);
+  if (face == NULL || !fmi3_check_pointers(face, "fmi3GetOutputDerivatives", valid)) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
   int32_t *orders = (int32_t *)face->items[1]; /* one per value */
   for (size_t i = 0, k = 0; i < n; i++)
@@ -33,11 +33,12 @@ FMI3_ENTRY(fmi3GetOutputDerivatives,
   return (fmi3Status)slave_output_rates(face->s, face->items[0], n_values, orders, value);
 }
 
-/* Whether the seeds and sensitivities of a call fit its variables, which are expanded. */
-static bool fits(fmi3_face *face, const char *function, const fmi3ValueReference *unknown, size_t n_unknown,
-                 size_t n_unknown_values, const fmi3ValueReference *known, size_t n_known, size_t n_known_values,
-                 bool given) {
-  return fmi3_given(face, function, given && (n_unknown == 0 || unknown != NULL) && (n_known == 0 || known != NULL)) &&
+/* Expands the unknowns and knowns of a call. False: pointers or counts do not fit, and an error was logged. */
+static bool expand_arguments(fmi3_face *face, const char *function, const fmi3ValueReference *unknown, size_t n_unknown,
+                             size_t n_unknown_values, const fmi3ValueReference *known, size_t n_known,
+                             size_t n_known_values, bool valid) {
+  return fmi3_check_pointers(face, function,
+                             valid && (n_unknown == 0 || unknown != NULL) && (n_known == 0 || known != NULL)) &&
          fmi3_expand(face, 0, unknown, n_unknown, n_unknown_values) &&
          fmi3_expand(face, 1, known, n_known, n_known_values);
 }
@@ -48,33 +49,34 @@ FMI3_ENTRY(fmi3GetDirectionalDerivative,
             fmi3Float64 sensitivity[], size_t n_sensitivity),
            (instance, unknown, n_unknown, known, n_known, seed, n_seed, sensitivity, n_sensitivity)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetDirectionalDerivative", FMI3_DERIVE);
-  const bool given = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
-  if (face == NULL ||
-      !fits(face, "fmi3GetDirectionalDerivative", unknown, n_unknown, n_sensitivity, known, n_known, n_seed, given))
+  const bool valid = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
+  if (face == NULL || !expand_arguments(face, "fmi3GetDirectionalDerivative", unknown, n_unknown, n_sensitivity, known,
+                                        n_known, n_seed, valid))
     return fmi3Error;
-  return (fmi3Status)slave_directional(face->s, face->items[0], n_sensitivity, face->items[1], n_seed, seed,
-                                       sensitivity);
+  return (fmi3Status)slave_directional_derivative(face->s, face->items[0], n_sensitivity, face->items[1], n_seed, seed,
+                                                  sensitivity);
 }
 
-/* One directional derivative per known: there are few inputs. */
+/* One directional derivative for each known, as there are few inputs. */
 FMI3_ENTRY(fmi3GetAdjointDerivative,
            (fmi3Instance instance, const fmi3ValueReference unknown[], size_t n_unknown,
             const fmi3ValueReference known[], size_t n_known, const fmi3Float64 seed[], size_t n_seed,
             fmi3Float64 sensitivity[], size_t n_sensitivity),
            (instance, unknown, n_unknown, known, n_known, seed, n_seed, sensitivity, n_sensitivity)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetAdjointDerivative", FMI3_DERIVE);
-  const bool given = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
-  if (face == NULL ||
-      !fits(face, "fmi3GetAdjointDerivative", unknown, n_unknown, n_seed, known, n_known, n_sensitivity, given))
+  const bool valid = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
+  if (face == NULL || !expand_arguments(face, "fmi3GetAdjointDerivative", unknown, n_unknown, n_seed, known, n_known,
+                                        n_sensitivity, valid))
     return fmi3Error;
   slave_status status = SLAVE_OK;
-  memset(face->one, 0, n_sensitivity * sizeof(double));
+  memset(face->unit, 0, n_sensitivity * sizeof(double));
   for (size_t k = 0; k < n_sensitivity && status == SLAVE_OK; k++) {
-    face->one[k] = 1.0;
-    status = slave_directional(face->s, face->items[0], n_seed, face->items[1], n_sensitivity, face->one, face->all);
-    face->one[k] = 0.0;
+    face->unit[k] = 1.0;
+    status = slave_directional_derivative(face->s, face->items[0], n_seed, face->items[1], n_sensitivity, face->unit,
+                                          face->derivative);
+    face->unit[k] = 0.0;
     double sum = 0.0;
-    for (size_t i = 0; i < n_seed && status == SLAVE_OK; i++) sum += seed[i] * face->all[i];
+    for (size_t i = 0; i < n_seed && status == SLAVE_OK; i++) sum += seed[i] * face->derivative[i];
     if (status == SLAVE_OK) sensitivity[k] = sum;
   }
   return (fmi3Status)status;

@@ -1,23 +1,23 @@
-/* FMI 3.0: functions of what this FMU is not: clocks, events, model exchange, structural parameters. Hosts look all of
- * them up. */
+/* FMI 3.0: functions for features that this FMU does not have: clocks, events, model exchange, structural parameters.
+ * Hosts require that the library has them. */
 #include "fmi3_face.h"
 
-static fmi3Status none(fmi3Instance instance, const char *function, const char *what) {
+static fmi3Status refuse(fmi3Instance instance, const char *function, const char *feature) {
   fmi3_face *face = instance;
   if (face == NULL) return fmi3Error;
-  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: this FMU has no %s.", function, what);
+  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: this FMU has no %s.", function, feature);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EnterEventMode)(fmi3Instance instance) {
-  return none(instance, "fmi3EnterEventMode", "event mode");
+  return refuse(instance, "fmi3EnterEventMode", "event mode");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EnterStepMode)(fmi3Instance instance) {
-  return none(instance, "fmi3EnterStepMode", "event mode");
+  return refuse(instance, "fmi3EnterStepMode", "event mode");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EvaluateDiscreteStates)(fmi3Instance instance) {
-  return none(instance, "fmi3EvaluateDiscreteStates", "event mode");
+  return refuse(instance, "fmi3EvaluateDiscreteStates", "event mode");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3UpdateDiscreteStates)(fmi3Instance instance, fmi3Boolean *more,
@@ -25,77 +25,77 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3UpdateDiscreteStates)(fmi3Instance instance
                                                            fmi3Boolean *values, fmi3Boolean *next_defined,
                                                            fmi3Float64 *next) {
   (void)more, (void)terminate, (void)nominals, (void)values, (void)next_defined, (void)next;
-  return none(instance, "fmi3UpdateDiscreteStates", "event mode");
+  return refuse(instance, "fmi3UpdateDiscreteStates", "event mode");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetIntervalDecimal)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                          fmi3Float64 interval[], fmi3IntervalQualifier qualifier[]) {
   (void)vr, (void)n, (void)interval, (void)qualifier;
-  return none(instance, "fmi3GetIntervalDecimal", "clocks");
+  return refuse(instance, "fmi3GetIntervalDecimal", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetIntervalFraction)(fmi3Instance instance, const fmi3ValueReference vr[],
                                                           size_t n, fmi3UInt64 counter[], fmi3UInt64 resolution[],
                                                           fmi3IntervalQualifier qualifier[]) {
   (void)vr, (void)n, (void)counter, (void)resolution, (void)qualifier;
-  return none(instance, "fmi3GetIntervalFraction", "clocks");
+  return refuse(instance, "fmi3GetIntervalFraction", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetShiftDecimal)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                       fmi3Float64 shift[]) {
   (void)vr, (void)n, (void)shift;
-  return none(instance, "fmi3GetShiftDecimal", "clocks");
+  return refuse(instance, "fmi3GetShiftDecimal", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetShiftFraction)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                        fmi3UInt64 counter[], fmi3UInt64 resolution[]) {
   (void)vr, (void)n, (void)counter, (void)resolution;
-  return none(instance, "fmi3GetShiftFraction", "clocks");
+  return refuse(instance, "fmi3GetShiftFraction", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetIntervalDecimal)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                          const fmi3Float64 interval[]) {
   (void)vr, (void)n, (void)interval;
-  return none(instance, "fmi3SetIntervalDecimal", "clocks");
+  return refuse(instance, "fmi3SetIntervalDecimal", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetIntervalFraction)(fmi3Instance instance, const fmi3ValueReference vr[],
                                                           size_t n, const fmi3UInt64 counter[],
                                                           const fmi3UInt64 resolution[]) {
   (void)vr, (void)n, (void)counter, (void)resolution;
-  return none(instance, "fmi3SetIntervalFraction", "clocks");
+  return refuse(instance, "fmi3SetIntervalFraction", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetShiftDecimal)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                       const fmi3Float64 shift[]) {
   (void)vr, (void)n, (void)shift;
-  return none(instance, "fmi3SetShiftDecimal", "clocks");
+  return refuse(instance, "fmi3SetShiftDecimal", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetShiftFraction)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                        const fmi3UInt64 counter[], const fmi3UInt64 resolution[]) {
   (void)vr, (void)n, (void)counter, (void)resolution;
-  return none(instance, "fmi3SetShiftFraction", "clocks");
+  return refuse(instance, "fmi3SetShiftFraction", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3ActivateModelPartition)(fmi3Instance instance, fmi3ValueReference clock,
                                                              fmi3Float64 time) {
   (void)clock, (void)time;
-  return none(instance, "fmi3ActivateModelPartition", "clocks");
+  return refuse(instance, "fmi3ActivateModelPartition", "clocks");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EnterConfigurationMode)(fmi3Instance instance) {
-  return none(instance, "fmi3EnterConfigurationMode", "structural parameters");
+  return refuse(instance, "fmi3EnterConfigurationMode", "structural parameters");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3ExitConfigurationMode)(fmi3Instance instance) {
-  return none(instance, "fmi3ExitConfigurationMode", "structural parameters");
+  return refuse(instance, "fmi3ExitConfigurationMode", "structural parameters");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetNumberOfVariableDependencies)(fmi3Instance instance, fmi3ValueReference vr,
                                                                       size_t *n) {
   (void)vr, (void)n;
-  return none(instance, "fmi3GetNumberOfVariableDependencies", "dependencies per element");
+  return refuse(instance, "fmi3GetNumberOfVariableDependencies", "dependencies per element");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetVariableDependencies)(fmi3Instance instance, fmi3ValueReference dependent,
@@ -104,56 +104,56 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetVariableDependencies)(fmi3Instance insta
                                                               size_t independent_index[], fmi3DependencyKind kind[],
                                                               size_t n) {
   (void)dependent, (void)dependent_index, (void)independent, (void)independent_index, (void)kind, (void)n;
-  return none(instance, "fmi3GetVariableDependencies", "dependencies per element");
+  return refuse(instance, "fmi3GetVariableDependencies", "dependencies per element");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EnterContinuousTimeMode)(fmi3Instance instance) {
-  return none(instance, "fmi3EnterContinuousTimeMode", "model exchange");
+  return refuse(instance, "fmi3EnterContinuousTimeMode", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3CompletedIntegratorStep)(fmi3Instance instance, fmi3Boolean no_set_state_prior,
                                                               fmi3Boolean *event, fmi3Boolean *terminate) {
   (void)no_set_state_prior, (void)event, (void)terminate;
-  return none(instance, "fmi3CompletedIntegratorStep", "model exchange");
+  return refuse(instance, "fmi3CompletedIntegratorStep", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetTime)(fmi3Instance instance, fmi3Float64 time) {
   (void)time;
-  return none(instance, "fmi3SetTime", "model exchange");
+  return refuse(instance, "fmi3SetTime", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetContinuousStates)(fmi3Instance instance, const fmi3Float64 x[], size_t n) {
   (void)x, (void)n;
-  return none(instance, "fmi3SetContinuousStates", "model exchange");
+  return refuse(instance, "fmi3SetContinuousStates", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetContinuousStateDerivatives)(fmi3Instance instance, fmi3Float64 dx[], size_t n) {
   (void)dx, (void)n;
-  return none(instance, "fmi3GetContinuousStateDerivatives", "model exchange");
+  return refuse(instance, "fmi3GetContinuousStateDerivatives", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetEventIndicators)(fmi3Instance instance, fmi3Float64 z[], size_t n) {
   (void)z, (void)n;
-  return none(instance, "fmi3GetEventIndicators", "model exchange");
+  return refuse(instance, "fmi3GetEventIndicators", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetContinuousStates)(fmi3Instance instance, fmi3Float64 x[], size_t n) {
   (void)x, (void)n;
-  return none(instance, "fmi3GetContinuousStates", "model exchange");
+  return refuse(instance, "fmi3GetContinuousStates", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetNominalsOfContinuousStates)(fmi3Instance instance, fmi3Float64 nominal[],
                                                                     size_t n) {
   (void)nominal, (void)n;
-  return none(instance, "fmi3GetNominalsOfContinuousStates", "model exchange");
+  return refuse(instance, "fmi3GetNominalsOfContinuousStates", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetNumberOfEventIndicators)(fmi3Instance instance, size_t *n) {
   (void)n;
-  return none(instance, "fmi3GetNumberOfEventIndicators", "model exchange");
+  return refuse(instance, "fmi3GetNumberOfEventIndicators", "model exchange");
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetNumberOfContinuousStates)(fmi3Instance instance, size_t *n) {
   (void)n;
-  return none(instance, "fmi3GetNumberOfContinuousStates", "model exchange");
+  return refuse(instance, "fmi3GetNumberOfContinuousStates", "model exchange");
 }

@@ -1,35 +1,36 @@
-/* FMI 3.0: getting and setting. Whole numbers can be read and set as Float64 too, as they were before 0.2. */
+/* FMI 3.0: getting and setting variables. Int32 can be read and set as Float64 too, their type before version 0.2. */
 #include "fmi3_face.h"
 
-static double time_of(const slave *s) {
+static double current_time(const slave *s) {
   const bool before = (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) != 0;
   return before ? s->calls.start_time : ali3_time(s->fidelity.kernel);
 }
 
-/* Time stands anywhere in a call and as often as the host likes; the variables between are read in one piece. */
+/* Time may be read anywhere in a call and more than once; the variables between are read together. */
 FMI3_ENTRY(fmi3GetFloat64,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3Float64 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_ANY);
-  if (face == NULL || !fmi3_given(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
+  if (face == NULL || !fmi3_check_pointers(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL)))
+    return fmi3Error;
   const fmi3ValueReference time = fmi3_the_table.time;
-  if (!fmi3_counted(face, vr, n, n_values)) return fmi3Error;
-  size_t at = 0;
+  if (!fmi3_check_count(face, vr, n, n_values)) return fmi3Error;
+  size_t n_read = 0;
   for (size_t i = 0; i < n;) {
     if (vr[i] == time) {
-      value[at++] = time_of(face->s);
+      value[n_read++] = current_time(face->s);
       i++;
       continue;
     }
-    size_t end = i, count = 0, size = fmi3_size(vr[i]);
-    while (end < n && vr[end] != time && count + (size = fmi3_size(vr[end])) <= face->room) {
+    size_t end = i, count = 0, size = fmi3_array_size(vr[i]);
+    while (end < n && vr[end] != time && count + (size = fmi3_array_size(vr[end])) <= face->capacity) {
       count += size;
       end++;
     }
     if (!fmi3_expand(face, 0, vr + i, end - i, count)) return fmi3Error;
-    const slave_status status = slave_get(face->s, face->items[0], count, value + at);
+    const slave_status status = slave_get(face->s, face->items[0], count, value + n_read);
     if (status != SLAVE_OK) return (fmi3Status)status;
-    at += count;
+    n_read += count;
     i = end;
   }
   return fmi3OK;
@@ -39,7 +40,8 @@ FMI3_ENTRY(fmi3GetInt32,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3Int32 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetInt32", FMI3_ANY);
-  if (face == NULL || !fmi3_given(face, "fmi3GetInt32", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
+  if (face == NULL || !fmi3_check_pointers(face, "fmi3GetInt32", n == 0 || (vr != NULL && value != NULL)))
+    return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_get_whole(face->s, face->items[0], n_values, value);
 }
@@ -48,7 +50,8 @@ FMI3_ENTRY(fmi3SetInt32,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3Int32 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3SetInt32", FMI3_SET);
-  if (face == NULL || !fmi3_given(face, "fmi3SetInt32", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
+  if (face == NULL || !fmi3_check_pointers(face, "fmi3SetInt32", n == 0 || (vr != NULL && value != NULL)))
+    return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_set_whole(face->s, face->items[0], n_values, value);
 }
@@ -57,55 +60,57 @@ FMI3_ENTRY(fmi3SetFloat64,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3Float64 value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3SetFloat64", FMI3_SET);
-  if (face == NULL || !fmi3_given(face, "fmi3SetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
+  if (face == NULL || !fmi3_check_pointers(face, "fmi3SetFloat64", n == 0 || (vr != NULL && value != NULL)))
+    return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
-  return (fmi3Status)(face->updating ? slave_set_asked(face->s, face->items[0], n_values, value)
+  return (fmi3Status)(face->updating ? slave_set_intermediate(face->s, face->items[0], n_values, value)
                                      : slave_set(face->s, face->items[0], n_values, value));
 }
 
-static bool as_many(fmi3_face *face, size_t n, size_t n_values) {
+static bool check_text_count(fmi3_face *face, size_t n, size_t n_values) {
   if (n == n_values) return true;
   slave_say(face->s, SLAVE_ERROR, "The variables have %zu values, the call gives room for %zu.", n, n_values);
   return false;
 }
 
-static fmi3Status other_type(fmi3Instance instance, const char *function, unsigned mask, size_t n) {
-  fmi3_face *face = fmi3_slave(instance, function, mask);
+static fmi3Status refuse_type(fmi3Instance instance, const char *function, unsigned phases, size_t n) {
+  fmi3_face *face = fmi3_slave(instance, function, phases);
   if (face == NULL) return fmi3Error;
   if (n == 0) return fmi3OK;
   return (fmi3Status)slave_say(face->s, SLAVE_ERROR,
                                "%s: all variables of this FMU are of type Float64, Int32 or String.", function);
 }
 
-#define OTHER_TYPE(Type)                                                                                               \
+#define REFUSE_TYPE(Type)                                                                                              \
   FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Get##Type)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,      \
                                                   fmi3##Type value[], size_t n_values) {                               \
     (void)vr, (void)value, (void)n_values;                                                                             \
-    return other_type(instance, "fmi3Get" #Type, FMI3_ANY, n);                                                         \
+    return refuse_type(instance, "fmi3Get" #Type, FMI3_ANY, n);                                                        \
   }                                                                                                                    \
   FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Set##Type)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,      \
                                                   const fmi3##Type value[], size_t n_values) {                         \
     (void)vr, (void)value, (void)n_values;                                                                             \
-    return other_type(instance, "fmi3Set" #Type, FMI3_SET, n);                                                         \
+    return refuse_type(instance, "fmi3Set" #Type, FMI3_SET, n);                                                        \
   }
 
-OTHER_TYPE(Float32)
-OTHER_TYPE(Int8)
-OTHER_TYPE(UInt8)
-OTHER_TYPE(Int16)
-OTHER_TYPE(UInt16)
-OTHER_TYPE(UInt32)
-OTHER_TYPE(Int64)
-OTHER_TYPE(UInt64)
-OTHER_TYPE(Boolean)
+REFUSE_TYPE(Float32)
+REFUSE_TYPE(Int8)
+REFUSE_TYPE(UInt8)
+REFUSE_TYPE(Int16)
+REFUSE_TYPE(UInt16)
+REFUSE_TYPE(UInt32)
+REFUSE_TYPE(Int64)
+REFUSE_TYPE(UInt64)
+REFUSE_TYPE(Boolean)
 
-/* Text variables come after all others. */
+/* Value references of text variables follow those of all others. */
 FMI3_ENTRY(fmi3GetString,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3String value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetString", FMI3_ANY);
-  if (face == NULL || !fmi3_given(face, "fmi3GetString", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
-  if (!as_many(face, n, n_values)) return fmi3Error;
+  if (face == NULL || !fmi3_check_pointers(face, "fmi3GetString", n == 0 || (vr != NULL && value != NULL)))
+    return fmi3Error;
+  if (!check_text_count(face, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_get_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
 }
 
@@ -113,31 +118,32 @@ FMI3_ENTRY(fmi3SetString,
            (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3String value[], size_t n_values),
            (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3SetString", FMI3_SET);
-  if (face == NULL || !fmi3_given(face, "fmi3SetString", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
-  if (!as_many(face, n, n_values)) return fmi3Error;
+  if (face == NULL || !fmi3_check_pointers(face, "fmi3SetString", n == 0 || (vr != NULL && value != NULL)))
+    return fmi3Error;
+  if (!check_text_count(face, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_set_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetBinary)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                 size_t size[], fmi3Binary value[], size_t n_values) {
   (void)vr, (void)size, (void)value, (void)n_values;
-  return other_type(instance, "fmi3GetBinary", FMI3_ANY, n);
+  return refuse_type(instance, "fmi3GetBinary", FMI3_ANY, n);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetBinary)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                 const size_t size[], const fmi3Binary value[], size_t n_values) {
   (void)vr, (void)size, (void)value, (void)n_values;
-  return other_type(instance, "fmi3SetBinary", FMI3_SET, n);
+  return refuse_type(instance, "fmi3SetBinary", FMI3_SET, n);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetClock)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                fmi3Clock value[]) {
   (void)vr, (void)value;
-  return other_type(instance, "fmi3GetClock", FMI3_ANY, n);
+  return refuse_type(instance, "fmi3GetClock", FMI3_ANY, n);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetClock)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                const fmi3Clock value[]) {
   (void)vr, (void)value;
-  return other_type(instance, "fmi3SetClock", FMI3_SET, n);
+  return refuse_type(instance, "fmi3SetClock", FMI3_SET, n);
 }

@@ -1,14 +1,14 @@
-/* The initial state, found from the values set so far. */
+/* The initial state, computed from the values set so far. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
-enum { POSE_HEIGHT = 2 }; /* place in a pose, the last of lengths */
+enum { POSE_HEIGHT = 2 }; /* index in a pose: the last length */
 
-/* " Worst constraint: ..." or nothing. */
-const char *slave_worst_row(slave *s, char *text, size_t size) {
+/* Writes " Worst constraint: ..." or nothing to `text` and returns it. */
+const char *slave_worst_row_text(slave *s, char *text, size_t size) {
   ali3_report report;
   text[0] = 0;
   const slave_table *t = &slave_the_table;
@@ -20,7 +20,7 @@ const char *slave_worst_row(slave *s, char *text, size_t size) {
   return text;
 }
 
-void slave_beyond_table(slave *s, char *text, size_t size) {
+void slave_beyond_table_text(slave *s, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
   const size_t first = t->first_coordinate[s->fidelity.number], n = t->first_coordinate[s->fidelity.number + 1] - first;
   int32_t column;
@@ -31,8 +31,8 @@ void slave_beyond_table(slave *s, char *text, size_t size) {
              x[0], x[1], x[2]);
 }
 
-/* " 'initial.x' is 1e+300 m." or nothing. */
-static const char *farthest(const slave *s, char *text, size_t size) {
+/* Writes " 'initial.x' is 1e+300 m." or nothing. */
+static const char *farthest_pose(const slave *s, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
   text[0] = 0;
   for (size_t i = 0; i < t->n_known; i++) {
@@ -43,50 +43,50 @@ static const char *farthest(const slave *s, char *text, size_t size) {
   return text;
 }
 
-/* Which element refuses a start, why, and what height it would accept. */
-static const char *refused(const slave *s, char *text, size_t size) {
+/* Writes the element that refuses the start, the reason, and the height at which it would not. */
+static const char *refused_start(const slave *s, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
-  const char *words = "";
+  const char *reason = "";
   int32_t element = -1;
-  const double height = ali3_start_excess(s->fidelity.kernel, &element, &words);
+  const double height = ali3_start_excess(s->fidelity.kernel, &element, &reason);
   const char *name = element < 0 ? "" : t->element[t->first_element[s->fidelity.number] + (size_t)element];
-  snprintf(text, size, " '%.64s' %s. %.3g m higher it would be clear of it.", name, words, height);
+  snprintf(text, size, " '%.64s' %s. %.3g m higher it would be clear of it.", name, reason, height);
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_POSE && t->variable[i].index == POSE_HEIGHT)
-      snprintf(text, size, " '%.64s' %s. '%.64s' is %g m; from %.3g m on it is clear.", name, words,
+      snprintf(text, size, " '%.64s' %s. '%.64s' is %g m; from %.3g m on it is clear.", name, reason,
                t->variable[i].name, s->value[i], s->value[i] + height);
   return text;
 }
 
-/* The parameter that was moved by most of its range; of those in `unit`, if there is one. */
-static const char *most_changed(const slave *s, const char *unit, char *text, size_t size) {
+/* Writes the parameter with the largest change relative to its range; `unit`: only those in it, NULL: all. */
+static const char *most_changed_parameter(const slave *s, const char *unit, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
-  double most = 0.0;
+  double largest = 0.0;
   text[0] = 0;
   for (size_t i = 0; i < t->n_known; i++) {
     const slave_variable *v = &t->variable[i];
     const double share = fabs(s->value[i] - v->start) / (v->max - v->min);
-    if (v->source != SLAVE_PARAMETER || !(share > most) || (unit != NULL && strcmp(v->unit, unit) != 0)) continue;
-    most = share;
+    if (v->source != SLAVE_PARAMETER || !(share > largest) || (unit != NULL && strcmp(v->unit, unit) != 0)) continue;
+    largest = share;
     snprintf(text, size, " '%.64s' is %g%s, farthest from its start value %g.", v->name, s->value[i], v->unit,
              v->start);
   }
   return text;
 }
 
-/* What is wrong with a start, in numbers. */
-static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
-  if (status == ALI3_TOO_FAR) return farthest(s, text, size);
-  if (status == ALI3_NO_EQUILIBRIUM) return most_changed(s, NULL, text, size);
-  if (status == ALI3_BAD_INERTIA) return most_changed(s, " kg.m2", text, size);
+/* Writes details of a failed start. */
+static const char *start_details(slave *s, ali3_status status, char *text, size_t size) {
+  if (status == ALI3_TOO_FAR) return farthest_pose(s, text, size);
+  if (status == ALI3_NO_EQUILIBRIUM) return most_changed_parameter(s, NULL, text, size);
+  if (status == ALI3_BAD_INERTIA) return most_changed_parameter(s, " kg.m2", text, size);
   if (status == ALI3_ROAD_LOST) snprintf(text, size, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
   if (status == ALI3_ROAD_LOST) return text;
-  if (status == ALI3_START_REFUSED) return refused(s, text, size);
+  if (status == ALI3_START_REFUSED) return refused_start(s, text, size);
   text[0] = 0;
-  return ali3_status_cause(status) == ALI3_CAUSE_CALL ? text : slave_worst_row(s, text, size);
+  return ali3_status_cause(status) == ALI3_CAUSE_CALL ? text : slave_worst_row_text(s, text, size);
 }
 
-/* The limit of the iterations of a step; the other settings are the kernel's. */
+/* Sets the limit of iterations of a step and leaves the other settings. */
 static ali3_status apply_limit(slave *s) {
   ali3_settings settings;
   const ali3_status status = ali3_get_settings(s->fidelity.kernel, &settings);
@@ -94,7 +94,7 @@ static ali3_status apply_limit(slave *s) {
   return status == ALI3_OK ? ali3_set_settings(s->fidelity.kernel, &settings) : status;
 }
 
-static ali3_status apply(slave *s) {
+static ali3_status apply_values(slave *s) {
   const slave_table *t = &slave_the_table;
   double pose[ALI3_POSE] = {0.0};
   bool posed = false;
@@ -112,32 +112,32 @@ static ali3_status apply(slave *s) {
   return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 
-/* Whether a start fits into what is left of the call; said if not. */
-static bool affordable(slave *s) {
-  const double steps = slave_settling_steps(s), left = slave_settling_left(s, 1.0);
-  if (steps <= left) return true;
+/* Whether the settling of a start fits into the remaining work of the call; if not, an error is logged. */
+static bool check_work(slave *s) {
+  const double steps = slave_settling_steps(s), available = slave_settling_left(s, 1.0);
+  if (steps <= available) return true;
   slave_say(s, SLAVE_ERROR,
             "The start would settle over %.0f inner steps of %g s, and a call that has begun cannot be cancelled; it "
             "may make %.0f of them. Set '%.64s' to less, or 'step_size' to more.",
-            steps, s->value[s->step_reference], fmax(left, 0.0), steps > 0.0 ? slave_settling(s)->name : "");
+            steps, s->value[s->step_reference], fmax(available, 0.0), steps > 0.0 ? slave_settling(s)->name : "");
   return false;
 }
 
 bool slave_initialise(slave *s) {
   char text[SLAVE_TEXT / 2];
-  slave_stale(s);
-  if (!affordable(s)) return false;
-  slave_work_of_start(s);
+  slave_invalidate(s);
+  if (!check_work(s)) return false;
+  slave_count_start(s);
   if (!slave_fidelity_choose(s)) return false;
   slave_hold_normals(s);
-  ali3_status status = apply(s);
+  ali3_status status = apply_values(s);
   const slave_variable *settling = status == ALI3_OK ? slave_settling(s) : NULL;
   if (settling != NULL)
     status =
         ali3_settle(s->fidelity.kernel, s->value[settling - slave_the_table.variable], s->value[s->step_reference]);
   s->calls.initialised = status == ALI3_OK;
   s->calls.capped_residual = 0.0;
-  s->made.n = 0;
+  s->completed.n = 0;
   slave_half_steps_begin(s);
   s->outputs = SLAVE_STALE;
   if (status != ALI3_OK && settling != NULL) {
@@ -148,13 +148,13 @@ bool slave_initialise(slave *s) {
       slave_say(s, SLAVE_ERROR,
                 "The start did not settle while its motion was held, as '%.64s' asks for: %s.%s Set it to %s.",
                 settling->name, slave_reason(s, status),
-                status == ALI3_ROAD_LOST ? hint(s, status, text, sizeof text) : "",
+                status == ALI3_ROAD_LOST ? start_details(s, status, text, sizeof text) : "",
                 s->work_left <= 0 ? "less, or 'step_size' to more" : "0, or 'step_size' to less");
     return false;
   }
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s%s%s", ali3_status_text(status),
-              hint(s, status, text, sizeof text), slave_is_of_step(status) ? "" : " ",
+              start_details(s, status, text, sizeof text), slave_is_of_step(status) ? "" : " ",
               slave_is_of_step(status) ? "" : ali3_status_remedy(status));
     return false;
   }

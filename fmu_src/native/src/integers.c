@@ -1,9 +1,9 @@
-/* Whole numbers: the same calls as for real ones, one variable at a time; a call with one bad value changes nothing. */
+/* Getting and setting integers, by the functions of real variables; a call with one bad value changes nothing. */
 #include <math.h>
 
 #include "slave.h"
 
-/* Whether all are whole numbers; said if not. */
+/* Whether all are integer variables; if not, an error is logged. */
 static bool all_whole(slave *s, const uint32_t *reference, size_t n) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < n; i++) {
@@ -33,10 +33,10 @@ slave_status slave_get_whole(slave *s, const uint32_t *reference, size_t n, int3
 slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value) {
   slave_status worst = SLAVE_OK;
   if (!all_whole(s, reference, n)) return SLAVE_ERROR;
-  for (int pass = 0; pass < 2; pass++) /* first whether all can be taken */
+  for (int pass = 0; pass < 2; pass++) /* all are checked before one is set */
     for (size_t i = 0; i < n; i++) {
       const double x = value[i];
-      const slave_status status = pass == 0 ? slave_may_set(s, reference[i], x) : slave_set(s, &reference[i], 1, &x);
+      const slave_status status = pass == 0 ? slave_check_set(s, reference[i], x) : slave_set(s, &reference[i], 1, &x);
       if (status > SLAVE_WARNING) return status;
       if (status > worst) worst = status;
     }

@@ -1,11 +1,12 @@
-/* Kinks in a communication step: elements that pass to another smooth piece of their law in it, as at a stop that is met
- * or where friction begins to slip. There a derivative depends on where within an inner step that is. */
+/* Kinks in a communication step: elements that change between smooth pieces of their law, as at an end stop or where
+ * friction starts to slip. There a derivative depends on the instant of the change within an inner step. */
 #include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
-/* `beside`: the replay before, of other inputs, has the same pieces where no kink lies between both. */
+/* `beside`: compare with the start of the replay before, whose pieces differ if a kink lies between the inputs of
+ * both. */
 void slave_kinks_begin(slave_kinks *k, ali3_instance *kernel, bool beside) {
   uint32_t *const other = k->begin;
   k->begin = k->other;
@@ -19,18 +20,18 @@ void slave_kinks_after(slave_kinks *k, ali3_instance *kernel) {
   for (int32_t e = 0; e < k->ne; e++) k->passed[e] |= k->now[e] != k->begin[e];
 }
 
-/* The first element that passes by its name, the others by their count. */
-slave_status slave_kinks_say(slave *s, const slave_kinks *k) {
+/* Logs the first element with a kink by its name and the number of others. */
+slave_status slave_kinks_report(slave *s, const slave_kinks *k) {
   const slave_table *t = &slave_the_table;
   const char *const *name = t->element + t->first_element[s->fidelity.number], *first = NULL;
-  char more[SLAVE_TEXT / 8] = "";
+  char others[SLAVE_TEXT / 8] = "";
   size_t count = 0;
   for (int32_t e = 0; e < k->ne; e++)
     if (k->passed[e] && count++ == 0) first = name[e];
   if (count == 0) return SLAVE_OK;
-  if (count > 1) snprintf(more, sizeof more, " (as do %zu more elements)", count - 1);
+  if (count > 1) snprintf(others, sizeof others, " (as do %zu more elements)", count - 1);
   return slave_say(s, SLAVE_ERROR,
                    "There is no directional derivative of this communication step: in it '%.128s' passes a kink of its "
                    "law%s: a stop is met or left, friction sticks or slips, or a limit is reached.",
-                   first, more);
+                   first, others);
 }

@@ -5,29 +5,29 @@
 #include "slave.h"
 
 /* Allocates one block for all arrays of the instance; false if there is no memory. */
-static bool take_arrays(slave *s) {
+static bool allocate_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t numbers = 2 * t->n_variables + 2 * t->n_known * SLAVE_TERMS + (size_t)z.nu;
-  const size_t rhythms = t->n_known * sizeof *s->rhythm;
-  const size_t texts = t->n_texts * sizeof *s->text;
-  const size_t marks = 2 * t->n_known + t->n_variables + (size_t)z.ns;
-  const size_t lists = t->n_variables * (sizeof *s->number + sizeof *s->place);
-  double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythms + texts + lists + marks + 1);
+  const size_t rhythm_size = t->n_known * sizeof *s->rhythm;
+  const size_t text_size = t->n_texts * sizeof *s->text;
+  const size_t flag_size = 2 * t->n_known + t->n_variables + (size_t)z.ns;
+  const size_t list_size = t->n_variables * (sizeof *s->sensor + sizeof *s->output);
+  double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythm_size + text_size + list_size + flag_size + 1);
   if (pool == NULL) {
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
   }
   s->value = pool;
   s->slope = s->value + t->n_variables;
-  s->made_slope = s->slope + t->n_known * SLAVE_TERMS;
-  s->sensors = s->made_slope + t->n_known * SLAVE_TERMS;
+  s->completed_slope = s->slope + t->n_known * SLAVE_TERMS;
+  s->sensors = s->completed_slope + t->n_known * SLAVE_TERMS;
   s->direction = s->sensors + t->n_variables;
   s->rhythm = (slave_rhythm *)(s->direction + z.nu);
   s->text = (slave_text_value *)(s->rhythm + t->n_known);
-  s->number = (int32_t *)(s->text + t->n_texts);
-  s->place = (uint32_t *)(s->number + t->n_variables);
-  s->pending = (unsigned char *)(s->place + t->n_variables);
+  s->sensor = (int32_t *)(s->text + t->n_texts);
+  s->output = (uint32_t *)(s->sensor + t->n_variables);
+  s->pending = (unsigned char *)(s->output + t->n_variables);
   s->said = s->pending + t->n_known;
   s->fresh = s->said + t->n_known;
   s->known = s->fresh + t->n_variables;
@@ -56,7 +56,7 @@ static bool load(slave *s, const char *resources) {
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
   }
-  return slave_fidelity_load(s, fidelity, &s->fidelity) && take_arrays(s);
+  return slave_fidelity_load(s, fidelity, &s->fidelity) && allocate_arrays(s);
 }
 
 /* Sets all variables to their start values and forgets every earlier step and warning. */
@@ -65,8 +65,8 @@ static void start_values(slave *s) {
   const slave_call_state calls = {.phase = SLAVE_INSTANTIATED, .stop_time = HUGE_VAL};
   s->calls = calls;
   s->last_step = SLAVE_OK;
-  s->made.n = 0;
-  s->asked.n = 0;
+  s->completed.n = 0;
+  s->intermediate.n = 0;
   slave_half_steps_free(s);
   slave_forget_refusal(s);
   s->outputs = SLAVE_STALE;
@@ -94,7 +94,7 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
   s->logging = logging;
   s->all_categories = true;
   s->name = copy_of(memory, name != NULL ? name : "");
-  bool good = false;
+  bool loaded = false;
   if (s->name == NULL)
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
   else if (name == NULL || name[0] == 0)
@@ -105,13 +105,13 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
   else if (resources == NULL)
     slave_say(s, SLAVE_ERROR, "The location of the resources is missing; this FMU reads its System there.");
   else
-    good = load(s, resources);
-  if (!good) {
+    loaded = load(s, resources);
+  if (!loaded) {
     slave_free(s);
     return NULL;
   }
   start_values(s);
-  if (slave_texts_start(s)) return s;
+  if (slave_texts_reset(s)) return s;
   slave_free(s);
   return NULL;
 }
@@ -122,7 +122,7 @@ void slave_free(slave *s) {
   slave_half_steps_end(s);
   if (s->value != NULL) release(s->value);
   slave_half_steps_free(s);
-  slave_asked_free(s);
+  slave_intermediate_free(s);
   slave_fidelity_free(s, &s->fidelity);
   slave_fidelity_free(s, &s->follower);
   if (s->resources != NULL) release(s->resources);
@@ -137,7 +137,7 @@ slave_status slave_setup(slave *s, double start_time, bool stop_defined, double 
     return slave_say(s, SLAVE_ERROR, "The stop time %g s lies before the start time %g s.", stop_time, start_time);
   s->calls.start_time = start_time;
   s->calls.stop_time = stop_defined ? stop_time : HUGE_VAL;
-  slave_stale(s);
+  slave_invalidate(s);
   return SLAVE_OK;
 }
 
@@ -149,7 +149,7 @@ slave_status slave_enter(slave *s) {
 slave_status slave_exit(slave *s) {
   if (!s->calls.initialised && !slave_initialise(s)) return SLAVE_ERROR;
   s->calls.phase = SLAVE_STEPPING;
-  slave_texts_remark(s);
+  slave_texts_warn(s);
   slave_watch_start(s);
   return slave_say(s, SLAVE_OK, "Initialised at %g s.", s->calls.start_time);
 }
@@ -164,5 +164,5 @@ slave_status slave_reset(slave *s) {
   slave_half_steps_end(s);
   ali3_reset(s->fidelity.kernel);
   start_values(s);
-  return slave_texts_start(s) ? SLAVE_OK : SLAVE_ERROR;
+  return slave_texts_reset(s) ? SLAVE_OK : SLAVE_ERROR;
 }

@@ -1,19 +1,19 @@
-/* Messages: categories, what a host asked to hear; where each call begins, and calls out of order. */
+/* Log messages: categories, selection by the host; checks of the order of calls. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
-/* Those of the statuses from SLAVE_WARNING on come first. */
+/* The first ones are those of the statuses from SLAVE_WARNING on. */
 static const char *const category_name[] = {"logStatusWarning", "logStatusDiscard", "logStatusError",
                                             "logStatusFatal",   "logNotComputed",   "logAll"};
 enum { CATEGORIES = sizeof category_name / sizeof *category_name, ALL = CATEGORIES - 1, NOT_COMPUTED = ALL - 1 };
 
 static int category_of(slave_status status) { return status == SLAVE_OK ? ALL : (int)status - 1; }
 
-/* Problems are always logged, other messages on request; a host that named categories gets those. */
-static bool wanted(const slave *s, slave_status status, int category) {
+/* Warnings and errors are always logged, other messages on request; a host that named categories gets those. */
+static bool is_logged(const slave *s, slave_status status, int category) {
   if (s->all_categories) return s->logging || status != SLAVE_OK;
   return (s->categories & (1u << category | 1u << ALL)) != 0;
 }
@@ -22,7 +22,7 @@ slave_status slave_say(slave *s, slave_status status, const char *format, ...) {
   char text[SLAVE_TEXT];
   va_list list;
   const int category = category_of(status);
-  if (s->logger == NULL || !wanted(s, status, category)) return status;
+  if (s->logger == NULL || !is_logged(s, status, category)) return status;
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
   va_end(list);
@@ -30,12 +30,12 @@ slave_status slave_say(slave *s, slave_status status, const char *format, ...) {
   return status;
 }
 
-/* A category of its own: a host that reads all outputs because it writes all need not pass it on. */
+/* Logs that an output is not computed, in a category of its own, which hosts that read all outputs may ignore. */
 void slave_say_uncomputed(slave *s, const slave_variable *v) {
   char text[SLAVE_TEXT], remedy[SLAVE_TEXT / 4] = "";
   const slave_table *t = &slave_the_table;
   size_t n = 0;
-  if (s->logger == NULL || !wanted(s, SLAVE_WARNING, NOT_COMPUTED)) return;
+  if (s->logger == NULL || !is_logged(s, SLAVE_WARNING, NOT_COMPUTED)) return;
   for (size_t k = 0; k < t->n_systems && n < sizeof remedy / 2; k++)
     if (!(v->uncomputed >> k & 1)) n += (size_t)snprintf(remedy + n, sizeof remedy - n, "%s%zu", n > 0 ? ", " : "", k);
   if (n == 0)
@@ -51,7 +51,7 @@ void slave_say_uncomputed(slave *s, const slave_variable *v) {
 }
 
 slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories) {
-  unsigned chosen = 0;
+  unsigned selected = 0;
   if (n > 0 && categories == NULL) return slave_say(s, SLAVE_ERROR, "The list of log categories is missing.");
   for (size_t i = 0; i < n; i++) {
     int k = 0;
@@ -59,11 +59,11 @@ slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *c
     if (k == CATEGORIES)
       return slave_say(s, SLAVE_ERROR, "There is no log category '%.64s'; see modelDescription.xml for their names.",
                        categories[i] != NULL ? categories[i] : "");
-    chosen |= 1u << k;
+    selected |= 1u << k;
   }
   s->logging = on;
   s->all_categories = n == 0 || !on;
-  s->categories = on ? chosen : 0;
+  s->categories = on ? selected : 0;
   return SLAVE_OK;
 }
 
@@ -82,8 +82,8 @@ const char *slave_phase_name(slave_phase phase) {
   }
 }
 
-bool slave_allowed(slave *s, const char *function, unsigned mask) {
-  slave_work_begins(s);
+bool slave_is_allowed(slave *s, const char *function, unsigned mask) {
+  slave_reset_work(s);
   if (s->calls.phase & mask) return true;
   slave_say(s, SLAVE_ERROR, "%s is not allowed %s.", function, slave_phase_name(s->calls.phase));
   return false;

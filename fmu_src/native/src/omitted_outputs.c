@@ -1,37 +1,37 @@
-/* Outputs that the System at work leaves out, such as the stresses of a rigid frame: computed when they are read, by the
- * same model with ports, which takes over the state and gives nothing back. */
+/* Outputs that the loaded System omits, such as the stresses of a rigid frame: computed when they are read, by the
+ * follower, a System of the same model with ports, which copies the state and has no effect on it. */
 #include "slave.h"
 
 static int32_t follower_of(const slave *s) { return slave_the_table.follower[s->fidelity.number]; }
 
-/* Whether the System at work does not compute it. */
-bool slave_left_out(const slave *s, const slave_variable *v) { return v->uncomputed >> s->fidelity.number & 1; }
+/* Whether the loaded System does not compute the output. */
+bool slave_is_omitted(const slave *s, const slave_variable *v) { return v->uncomputed >> s->fidelity.number & 1; }
 
 bool slave_has_follower(const slave *s) { return follower_of(s) >= 0; }
 
-static bool load(slave *s) {
+static bool load_follower(slave *s) {
   const size_t number = (size_t)follower_of(s);
   if (s->follower.kernel != NULL && s->follower.number == number) return true;
   slave_fidelity_free(s, &s->follower);
   return slave_fidelity_load(s, number, &s->follower);
 }
 
-/* Those of the outputs that are left out, at the present state; false, and said, where they cannot be found. NULL: of all
- * outputs. The other outputs are fresh. Without a follower they stay what the System at work gives. */
-bool slave_follow(slave *s, const uint32_t *reference, size_t n) {
+/* Computes the omitted ones of the n outputs, NULL: of all, at the present state; the others are computed already.
+ * False: an error was logged. Without a follower they keep the values of the loaded System. */
+bool slave_omitted_outputs(slave *s, const uint32_t *reference, size_t n) {
   const slave_table *t = &slave_the_table;
   if (!slave_has_follower(s)) return true;
-  if (!load(s)) return false;
-  ali3_status status = s->followed ? ALI3_OK : ali3_ports_follow(s->follower.kernel, s->fidelity.kernel);
+  if (!load_follower(s)) return false;
+  ali3_status status = s->follower_current ? ALI3_OK : ali3_ports_follow(s->follower.kernel, s->fidelity.kernel);
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The forces at the ports could not be found: %s.", ali3_status_text(status));
     return false;
   }
-  s->followed = true;
-  size_t wanted = 0;
+  s->follower_current = true;
+  size_t n_sensors = 0;
   for (size_t k = 0; k < (reference != NULL ? n : t->n_variables - t->n_known); k++) {
     const uint32_t i = reference != NULL ? reference[k] : (uint32_t)(t->n_known + k);
-    if (slave_left_out(s, &t->variable[i])) slave_will_read(s, &wanted, i);
+    if (slave_is_omitted(s, &t->variable[i])) slave_request_sensor(s, &n_sensors, i);
   }
-  return slave_read_sensors(s, s->follower.kernel, wanted);
+  return slave_read_sensors(s, s->follower.kernel, n_sensors);
 }

@@ -1,5 +1,5 @@
-/* Refused steps: the first time the host may go on from the last good state, by a shorter step or other values; asked
- * again unchanged the slave wishes the end of the simulation; then it is an error. */
+/* Refused steps. The first time the host may continue from the state before the step, with a shorter step or other
+ * values; if it repeats the step unchanged, the slave requests the end of the simulation; after that it is an error. */
 #include <stdio.h>
 
 #include "slave.h"
@@ -11,9 +11,10 @@ bool slave_is_of_step(ali3_status status) {
 
 void slave_forget_refusal(slave *s) { s->refusal.count = 0; }
 
-bool slave_wants_end(const slave *s) { return s->refusal.count > 1; }
+bool slave_requests_end(const slave *s) { return s->refusal.count > 1; }
 
-/* Where no step_size helps: what does. A bad normal came up within the step: at its start the last one is held. */
+/* Remedy other than a smaller step_size; NULL: there is none. After a bad normal within the step, the last one is held
+ * at its start. */
 static const char *remedy(const slave *s, ali3_status status, bool jumped) {
   if (status == ALI3_TOO_DEAR && s->work_left <= 0) return "Take shorter communication steps.";
   if (jumped && status != ALI3_ROAD_LOST && status != ALI3_BAD_NORMAL)
@@ -25,7 +26,7 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
                                const slave_variable *jumped) {
   slave_refusal *r = &s->refusal;
   const double h = s->value[s->step_reference];
-  const char *const instead = remedy(s, status, jumped != NULL);
+  const char *const other_remedy = remedy(s, status, jumped != NULL);
   char jump[SLAVE_TEXT / 4] = "";
   r->count = r->count > 0 && r->time == time && r->step == step ? r->count + 1 : 1;
   r->time = time;
@@ -34,10 +35,10 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
   if (jumped != NULL)
     snprintf(jump, sizeof jump, " It began with a jump of the answer '%s' to %.6g m.", jumped->name,
              s->value[jumped - slave_the_table.variable]);
-  if (instead != NULL)
+  if (other_remedy != NULL)
     return slave_say(s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
                      "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s%s %s", time,
-                     step, r->count > 1 ? " again" : "", time, slave_reason(s, status), worst, jump, instead);
+                     step, r->count > 1 ? " again" : "", time, slave_reason(s, status), worst, jump, other_remedy);
   if (r->count == 1)
     return slave_say(
         s, SLAVE_DISCARD,

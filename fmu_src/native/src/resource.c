@@ -1,18 +1,18 @@
-/* The folder of the resources: from a URI to a path, and a file in it. */
+/* The folder of the resources: its path from a URI, and reading of a file in it. */
 #include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
-enum { MOST_BYTES = 1 << 30 };
+enum { MAX_BYTES = 1 << 30 };
 
-/* Of the kernel: regular files by a path in UTF-8. */
+/* Functions of the kernel for regular files by a path in UTF-8. */
 typedef struct ali3_file ali3_file;
 ali3_file *ali3_file_open(const char *path, int64_t *size, const char **why);
 int ali3_file_read(ali3_file *file, int64_t from, void *to, size_t size);
 void ali3_file_close(ali3_file *file);
 
-static int hex(char c) {
+static int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
@@ -27,12 +27,13 @@ static bool is_file_uri(const char *uri) {
   return scheme[n] == 0;
 }
 
-/* file:, file:/, file:// or file://host/ and any %xx; a plain path stays. False if it does not fit. */
+/* Converts file:, file:/, file:// or file://host/ with any %xx to a path; a plain path is copied. False: it is too
+ * long. */
 bool slave_path_of_uri(const char *uri, char *path, size_t size) {
   size_t n = 0;
-  bool coded = false;
+  bool encoded = false;
   if (is_file_uri(uri)) {
-    coded = true;
+    encoded = true;
     uri += 5;
     if (strncmp(uri, "//", 2) == 0) {
       uri += 2;
@@ -44,8 +45,8 @@ bool slave_path_of_uri(const char *uri, char *path, size_t size) {
   }
   for (; *uri != 0; uri++, n++) {
     if (n + 1 >= size) return false;
-    if (coded && uri[0] == '%' && hex(uri[1]) >= 0 && hex(uri[2]) >= 0) {
-      path[n] = (char)(16 * hex(uri[1]) + hex(uri[2]));
+    if (encoded && uri[0] == '%' && hex_digit(uri[1]) >= 0 && hex_digit(uri[2]) >= 0) {
+      path[n] = (char)(16 * hex_digit(uri[1]) + hex_digit(uri[2]));
       uri += 2;
     } else {
       path[n] = *uri;
@@ -56,15 +57,15 @@ bool slave_path_of_uri(const char *uri, char *path, size_t size) {
   return true;
 }
 
-unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size,
-                          const char **why) {
+unsigned char *slave_read_resource(const char *folder, const char *name, const ali3_memory *memory, size_t *size,
+                                   const char **why) {
   char path[SLAVE_PATH + 64];
   int64_t length = 0;
   snprintf(path, sizeof path, "%s/%s", folder, name);
   ali3_file *file = ali3_file_open(path, &length, why);
   if (file == NULL) return NULL;
   unsigned char *bytes = NULL;
-  const bool fits = length > 0 && length < MOST_BYTES;
+  const bool fits = length > 0 && length < MAX_BYTES;
   if (fits) bytes = memory->allocate(1, (size_t)length);
   *why = fits && bytes == NULL ? "there is not enough memory" : "it is too short, too long or breaks off";
   if (bytes != NULL && !ali3_file_read(file, 0, bytes, (size_t)length)) {

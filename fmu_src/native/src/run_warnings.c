@@ -1,10 +1,10 @@
-/* What a run says about itself after a step, once: that its numbers are not what was asked. */
+/* Warnings of a run after a step, each logged once: conditions under which its results are not those of the model. */
 #include <math.h>
 #include <stdio.h>
 
 #include "slave.h"
 
-static const double MUCH_LEFT = 1e-3; /* m */
+static const double LARGE_RESIDUAL = 1e-3; /* m */
 static const double QUARTER_TURN = 1.5707963267948966;
 
 static slave_status watch_energy(slave *s, const ali3_report *report) {
@@ -27,24 +27,28 @@ static slave_status watch_modes(slave *s, const ali3_report *report) {
   return slave_say(s, SLAVE_WARNING, "%s This is reported once.", text);
 }
 
-/* The first step that ended at the limit of its iterations, and the first that left much: the first is often harmless. */
+/* Warns of the first step that ended at the limit of its iterations, and of the first with a large residual, as the
+ * first is often harmless. */
 static slave_status watch_limit(slave *s, const ali3_report *report) {
-  const double left = s->calls.capped_residual;
-  const int said = report->capped == 0 ? SLAVE_NOT_CAPPED : left > MUCH_LEFT ? SLAVE_CAPPED_BADLY : SLAVE_CAPPED;
-  if (said <= s->calls.capped_warned) return SLAVE_OK;
-  s->calls.capped_warned = said;
-  char off[SLAVE_TEXT / 4] = "the balance of energy or an abrupt force is not resolved";
-  if (left > 0.0) snprintf(off, sizeof off, "positions are off by about %.2g mm", 1e3 * left);
+  const double residual = s->calls.capped_residual;
+  const int level = report->capped == 0         ? SLAVE_NOT_CAPPED
+                    : residual > LARGE_RESIDUAL ? SLAVE_CAPPED_BADLY
+                                                : SLAVE_CAPPED;
+  if (level <= s->calls.capped_warned) return SLAVE_OK;
+  s->calls.capped_warned = level;
+  char effect[SLAVE_TEXT / 4] = "the balance of energy or an abrupt force is not resolved";
+  if (residual > 0.0) snprintf(effect, sizeof effect, "positions are off by about %.2g mm", 1e3 * residual);
   return slave_say(s, SLAVE_WARNING,
                    "Up to %.6g s %lld of %lld steps ended at the limit of their iterations, solver.step_iterations = "
                    "%g; after this one %s. If that is too much, raise the limit or take a step_size below %g s. %s",
                    ali3_time(s->fidelity.kernel), (long long)report->capped, (long long)report->steps,
-                   s->value[s->iterations_reference], off, s->value[s->step_reference],
-                   said == SLAVE_CAPPED ? "This is reported again only where it is more than 1 mm."
-                                        : "This is reported once.");
+                   s->value[s->iterations_reference], effect, s->value[s->step_reference],
+                   level == SLAVE_CAPPED ? "This is reported again only where it is more than 1 mm."
+                                         : "This is reported once.");
 }
 
-/* A wheel that hit a wall or fell deep into the ground: the step converges, so that nothing else tells it. */
+/* Warns of a wheel that hit a wall or fell deep into the ground: the step converges, so that there is no other
+ * message. */
 static slave_status watch_rims(slave *s, const ali3_report *report) {
   const slave_table *t = &slave_the_table;
   char text[SLAVE_TEXT / 2];
@@ -79,17 +83,17 @@ void slave_watch_outputs(slave *s) {
       ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
 }
 
-/* What its System tells; a vehicle that is too heavy for its springs, or stands on uneven ground. */
+/* Warnings of the System at the start; of a vehicle that is too heavy for its springs or stands on uneven ground. */
 void slave_watch_start(slave *s) {
   const slave_table *t = &slave_the_table;
   for (size_t k = t->first_notice[s->fidelity.number]; k < t->first_notice[s->fidelity.number + 1]; k++)
     slave_say(s, SLAVE_WARNING, "%s", t->notice[k]);
   if (t->ground >= t->n_variables || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return;
   const slave_variable *v = &t->variable[t->ground];
-  const double pressed = s->sensors[v->index]; /* under a name of another program it may count the other way */
-  if (pressed > ali3_no_force(s->fidelity.kernel))
+  const double ground_force = s->sensors[v->index]; /* under a name of another program its sign may differ */
+  if (ground_force > ali3_no_force(s->fidelity.kernel))
     slave_say(s, SLAVE_WARNING,
               "At the start the vehicle rests on its body: %s is %.4g%s, which its wheels do not bear. Set masses, "
               "springs and tyres, or the place on the road, so that it is 0.",
-              v->name, v->scale * pressed, v->unit);
+              v->name, v->scale * ground_force, v->unit);
 }

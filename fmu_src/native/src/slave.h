@@ -1,5 +1,5 @@
-/* The slave behind both faces of FMI: life cycle, values, steps, states, derivatives of one instance. Knows the System
- * file and the table of variables; nothing of the FMI version and nothing of the model. */
+/* The slave behind the interfaces of both FMI versions: life cycle, values, steps, states and derivatives of one
+ * instance. It knows the System file and the table of variables, but neither the FMI version nor the model. */
 #ifndef ALI3_SLAVE_H
 #define ALI3_SLAVE_H
 #include <stdbool.h>
@@ -8,7 +8,7 @@
 
 #include "ali3.h"
 
-/* The table, generated with the FMU (table.c); the place of a variable is its number. */
+/* The table of variables, generated with the FMU (table.c); the index of a variable in it is its value reference. */
 typedef enum {
   SLAVE_INPUT,
   SLAVE_PARAMETER,
@@ -17,40 +17,39 @@ typedef enum {
   SLAVE_FIDELITY,
   SLAVE_STEP_ITERATIONS,
   SLAVE_SETTLING,
-  SLAVE_LEAD, /* of what is ahead, in communication steps */
+  SLAVE_LEAD, /* time ahead of SLAVE_AHEAD, in communication steps */
   SLAVE_SENSOR,
-  SLAVE_SOLVER,          /* what the solver says about itself: ali3_solver_value */
+  SLAVE_SOLVER,          /* a diagnostic of the solver: ali3_solver_value */
   SLAVE_CAPPED_RESIDUAL, /* of the last communication step */
-  SLAVE_AHEAD, /* an output communication steps later, by its rate */
-  SLAVE_CONSTANT /* the start is its value */
+  SLAVE_AHEAD, /* an output extrapolated by its rate over the time ahead */
+  SLAVE_CONSTANT /* always its start value */
 } slave_source;
 
-/* What inputs at ports are: x of the normal of a road, whose y and z follow; x of an answer on the road; x of the force
- * on a hub. */
+/* Roles of inputs at ports: x of the normal of a road, of the point of an answer on the road, of the force on a hub;
+ * the other components follow. */
 enum { SLAVE_NO_ROLE, SLAVE_NORMAL, SLAVE_ANSWER, SLAVE_HUB };
 
 typedef struct {
-  const char *name, *unit; /* the unit as it stands behind a number */
+  const char *name, *unit; /* the unit as printed after a number */
   slave_source source;
-  int32_t index; /* of that input, parameter, sensor, variable ahead or ALI3_SOLVER_*; place in x, y, z, yaw, speed */
+  int32_t index; /* of the input, parameter, sensor, extrapolated variable or ALI3_SOLVER_*; in x, y, z, yaw, speed */
   double start, min, max; /* infinite where open */
   bool whole; /* an integer of FMI */
   bool fixed; /* a parameter that can be set before the first step only */
   bool port; /* an input that another program sets at every step */
-  int32_t road; /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
-  uint64_t uncomputed; /* bits of the fidelities whose System leaves it out */
-  double least, most; /* between which a parameter works; infinite where that is not known */
+  int32_t road; /* road whose built-in form the parameter describes, without effect on a road file; -1: none */
+  uint64_t uncomputed; /* bits of the fidelities whose System omits it */
+  double least, most; /* range in which vehicles work with the parameter; infinite where it is not known */
   int32_t role; /* of an input, SLAVE_NO_ROLE ... */
-  int32_t
-      other; /* variable: of an answer the x of the wheel it is for, of a hub its velocity, ahead: the rate; or -1 */
-  double scale; /* of inputs and sensors: the value is this times that of the System */
+  int32_t other; /* variable: x of the wheel of an answer, x of the velocity of a hub, rate of SLAVE_AHEAD; -1: none */
+  double scale; /* of inputs and sensors: value of the variable over that of the System */
   double figure[4]; /* of a hub, see mbs.model.records.Role */
   ali3_judged judged; /* how two motions are compared by it; unit -1: not */
 } slave_variable;
 
 typedef struct {
   const char *name;
-  int32_t road; /* whose file it names */
+  int32_t road; /* number of the road whose file it names */
   const char *start;
 } slave_text;
 
@@ -58,24 +57,23 @@ typedef struct {
   const char *token; /* GUID or instantiation token */
   unsigned char identity[16]; /* the same as bytes */
   const slave_variable *variable;
-  size_t n_variables, n_known; /* known: inputs and parameters; then come outputs, then constants */
+  size_t n_variables, n_known; /* known: inputs and parameters; outputs follow, then constants */
   const char *const *row; /* names of the constraint rows of all Systems */
   const size_t *first_row; /* n_systems + 1 */
   const char *const *element; /* names of the force elements of all Systems */
   const size_t *first_element; /* n_systems + 1 */
-  const char *const *coordinate; /* names of the coordinates of all Systems that tables are over; of others "" */
+  const char *const *coordinate; /* of all Systems: names of coordinates that are arguments of tables; else "" */
   const size_t *first_coordinate; /* n_systems + 1 */
-  const char *const *notice; /* what a start of each System tells beside its numbers */
+  const char *const *notice; /* warnings at the start of all Systems */
   const size_t *first_notice; /* n_systems + 1 */
-  size_t n_systems; /* to choose from by the fidelity */
-  const int32_t *follower; /* n_systems: the one with ports that computes what each leaves out; -1: none */
-  const ali3_generated *const *generated; /* n_systems: code for the algebra of each; NULL: there is none */
-  const slave_text *text; /* variables that are text; numbered by themselves */
+  size_t n_systems; /* one for each value of the parameter fidelity */
+  const int32_t *follower; /* n_systems: System with ports that computes the outputs that each omits; -1: none */
+  const ali3_generated *const *generated; /* n_systems: code for the algebra of each; NULL: none */
+  const slave_text *text; /* text variables, with numbers of their own */
   size_t n_texts;
-  size_t
-      roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
-  size_t ground; /* output that is not 0 at the start of a vehicle that does not stand on its wheels alone; the same */
-  double length; /* of the model, m */
+  size_t roll; /* roll angle of the vehicle, an output; n_variables: none */
+  size_t ground; /* contact force of the body on the ground, an output; n_variables: none */
+  double length; /* characteristic length of the model, m */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -87,13 +85,13 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_INSTANTIATED = 1,
                SLAVE_INITIALISING = 2,
                SLAVE_STEPPING = 4,
-               SLAVE_STEP_FAILED = 8, /* the last good state is kept; the host may go on from it */
+               SLAVE_STEP_FAILED = 8, /* the state before the failed step is restored; the host may continue from it */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
 enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
-enum { SLAVE_TERMS = SLAVE_MOST_ORDERS + 1 }; /* of an input along its derivatives, from order 0 on, see slopes.c */
-typedef char slave_text_value[SLAVE_MOST_TEXT]; /* with zeros behind its end */
+enum { SLAVE_TERMS = SLAVE_MOST_ORDERS + 1 }; /* Taylor terms of an input, from order 0 on, see slopes.c */
+typedef char slave_text_value[SLAVE_MOST_TEXT]; /* padded with zeros */
 
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
@@ -104,139 +102,142 @@ enum {
   SLAVE_HELD_LAST = 4,
   SLAVE_HELD_FLAT = 8,
   SLAVE_HELD_NORMAL = 16,
-  SLAVE_FAR = 32, /* also of a hub: that it is slow for the step */
-  SLAVE_JUMPED = 64, /* also of a hub: that its forces stay what they are */
-  SLAVE_TURNED = 128 /* also of y of an answer: that the road bends too much */
-}; /* bits of an input: set by the host, said once */
-enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
-enum { SLAVE_SHORTER_STEPS = 1, SLAVE_LONGER_STEPS }; /* and of inner steps that are not step_size */
+  SLAVE_FAR = 32, /* of a hub: steps too long for its tyre */
+  SLAVE_JUMPED = 64, /* of a hub: constant forces */
+  SLAVE_TURNED = 128 /* of y of an answer: curvature of the road */
+}; /* bits of an input: set by the host, and warnings that were logged */
+enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* logged warnings on limited iterations */
+enum { SLAVE_SHORTER_STEPS = 1, SLAVE_LONGER_STEPS }; /* logged warnings on inner steps other than step_size */
 
-typedef struct { /* what a state is beside the kernel's bytes; numbers only */
+typedef struct { /* numbers of a state besides the kernel's bytes */
   slave_phase phase;
-  int32_t initialised, step_warned, energy_warned, mode_warned,
-      capped_warned; /* said once a run, the first and the last twice */
-  double start_time, stop_time; /* infinite where not given */
+  int32_t initialised, step_warned, energy_warned, mode_warned, capped_warned; /* warnings of a run that were logged */
+  double start_time, stop_time; /* s; infinite where not given */
   double capped_residual; /* m, largest of the last communication step */
 } slave_call_state;
 
-typedef struct { /* a step that was refused and what the host did since: nothing, or count is 0 */
-  int32_t count; /* how often the same step was refused */
-  double time, step;
+typedef struct { /* the last refused step, while the host has changed nothing since */
+  int32_t count; /* of refusals of this step; 0: none, or the host has changed a value */
+  double time, step; /* s */
 } slave_refusal;
 
-typedef struct { /* the last good communication step, whose start the fidelity keeps */
+typedef struct { /* the last completed communication step; the fidelity has the snapshot of its start */
   int64_t n; /* inner steps; 0: there is none */
-  double h; /* s */
-  bool sloped; /* along derivatives of the inputs, which are kept */
-} slave_made;
+  double h; /* s, of an inner step */
+  bool sloped; /* inputs varied along their derivatives */
+} slave_completed;
 
-typedef struct { /* inputs that the host gave within the last communication step, see intermediate_update.c */
-  int64_t n, room; /* inner steps that rows are kept of, 0: none were given; that there is room for */
-  double *row, *next; /* (n + 1) x nu: at the ends of inner steps, from the start on; the one that is asked for */
-  double *value; /* n_known: what was given last */
-  unsigned char *given; /* n_known */
-} slave_asked;
+typedef struct { /* inputs that the host set in intermediate updates of the last communication step */
+  int64_t n, capacity; /* inner steps that have rows, 0: no input was set; allocated rows */
+  double *row, *next; /* (n + 1) x nu: inputs at the start and at the ends of inner steps; the row of the next end */
+  double *value; /* n_known: the values set last */
+  unsigned char *given; /* n_known: whether they were set */
+} slave_intermediate;
 
-typedef struct { /* a communication step that waits to be made a second time, see half_steps.c */
+typedef struct { /* a communication step that the second motion has not computed yet, see half_steps.c */
   int64_t n; /* inner steps */
-  double h, end; /* s: one of them; time at its end */
-  double span; /* s from its start on for which the other motion follows, as it was abrupt; 0: it was not */
-  double driven; /* that of slave_half_steps, then */
-  double *number; /* inputs; what is compared at its end */
+  double h, end; /* s: length of an inner step; time at the end of the communication step */
+  int64_t parts; /* of an inner step in the second motion */
+  double ratio; /* of the mean step that the first motion made, halved or not, to that of the second */
+  double span; /* s, for which the second motion runs from its start, as a force changed abruptly; 0: it did not */
+  double simulated; /* s, as in slave_half_steps */
+  double *values; /* inputs at its start, then compared outputs at its end */
   double *parameter;
-  bool sloped, starts; /* inputs have slopes; the other motion starts here from `start` if it rests */
+  bool sloped, starts; /* inputs have slopes; the second motion may start here from `start` */
 } slave_late_step;
 
-typedef struct { /* of a motion that is made a second time with half the step, see half_steps.c */
-  void *end, *other, *start; /* snapshots: this motion after the communication step, the other one, where it starts
-                                next; NULL: not needed yet */
-  double *input; /* work */
-  /* what is compared, n: how; what was seen; by which sensor, as which variable; work, what it is held against */
+typedef struct { /* the second motion, with half the step, see half_steps.c */
+  void *end, *second, *start; /* snapshots: the first motion after the step, the second motion, its next start;
+                                 NULL: not needed yet */
+  double *input; /* work: nu */
+  /* n compared outputs: how they are compared, differences so far, sensor, variable; work: values, reference sizes */
   int32_t n, *sensor;
-  ali3_judged *what;
-  ali3_compared *seen;
+  ali3_judged *judged;
+  ali3_compared *compared;
   size_t *variable;
-  double *shown, *size;
-  slave_late_step *late; /* communication steps that wait, a ring of n_late from first on */
+  double *output, *size;
+  slave_late_step *late; /* ring of n_late late steps, from `first` on */
   size_t first, n_late;
-  double sure; /* s: time up to which the other motion will go at least */
-  int64_t made; /* inner steps of the other motion in the one that waits longest */
-  int64_t iterations, cost; /* of this motion so far; of the other one in its last step */
-  double left, spent, driven; /* s: of the time that is made twice, 0: nothing is; made twice so far; of all steps */
-  double apart, time, h; /* largest difference that is not judged yet, of its size; when, s; inner step there, s */
-  double origin; /* s: what was driven when the state was set that the run goes on from */
-  double before, then; /* largest difference in the second quarter of a start, and since, of its size */
-  double checked, foretold; /* s: up to when steps were made twice, and when by its growth the error is large */
-  int32_t worst; /* of what is compared: where it is `then` */
-  int64_t abrupt; /* abrupt steps that were seen */
-  bool started; /* a step that waits may need `start` */
-  bool begins; /* no step was made since the start */
+  double scheduled; /* s: time up to which the second motion runs at least */
+  int64_t n_made; /* inner steps of the second motion in the first late step */
+  int64_t iterations, cost; /* of the first motion so far; of the last inner step of the second motion */
+  double remaining, spent, simulated; /* s: still to run by the second motion, 0: it rests; run by it; by the first */
+  double difference, time; /* largest unreported relative difference; its time, s */
+  double h, ratio; /* there: inner step, s; as in slave_late_step */
+  int64_t parts; /* the same */
+  double origin; /* s: `simulated` when the state was last set */
+  double early_difference, late_difference; /* largest in the second quarter of a start, and after it; relative */
+  double checked, predicted; /* s: end of the comparison of a start; time at which the growing error is large */
+  int32_t worst; /* compared output that has late_difference */
+  int64_t abrupt, halvings; /* abrupt steps so far; halvings */
+  bool start_needed; /* a late step may use `start` */
+  bool at_start; /* no step since the start */
 } slave_half_steps;
 
-typedef struct { /* when an input at a port was set */
-  double given, longest; /* s: the last time; most of what lay between two of them */
+typedef struct { /* times at which an input at a port was set */
+  double given, longest; /* s: the last time; longest interval between two of them */
   double changed, span,
-      held; /* s: the last time to another value; from the one before to it; the less of the last two */
-  double seen, way; /* of a hub: when its wheel was looked at last, s; how far it went under forces that stay, m */
-  double times; /* how often, as far as it is counted; below 0: it was said that it is no more */
+      held; /* s: last change of the value; interval before it; the shorter one of the last two intervals */
+  double seen, way; /* of a hub: time of the last check, s; path of its wheel under constant forces, m */
+  double times; /* number of times, up to a limit; negative: a warning was logged that it is no longer set */
 } slave_rhythm;
 
-typedef struct { /* a System of the FMU at work */
+typedef struct { /* a loaded System of the FMU and its instance */
   size_t number;
   ali3_system *system;
   ali3_instance *kernel;
-  void *snapshot; /* of the kernel before the step, which may be taken back */
-  void *start; /* the same of the last good communication step */
+  void *snapshot; /* of the kernel before the step, to undo it */
+  void *start; /* of the kernel before the last completed communication step */
 } slave_fidelity;
 
-/* Outputs of the present state: none, those that were read, all but those that the System at work leaves out. */
+/* Computed outputs of the present state: none, those that were read, all but the omitted ones. */
 typedef enum { SLAVE_STALE, SLAVE_SOME, SLAVE_FRESH } slave_freshness;
 
 struct slave {
-  void *host; /* what the face needs for its logger */
+  void *host; /* the instance of the FMI interface */
   slave_logger *logger;
   ali3_memory memory;
   char *name, *resources;
   bool logging, all_categories;
   unsigned categories; /* bits, see category_of in log.c */
-  slave_fidelity fidelity, follower; /* the second is loaded when it is first needed */
+  slave_fidelity fidelity, follower; /* the second is loaded when an omitted output is first read */
   slave_call_state calls;
   slave_refusal refusal;
-  slave_made made;
+  slave_completed completed;
   slave_half_steps half_steps;
-  slave_asked asked;
-  void (*ask)(slave *s, double time); /* of the host for the inputs at a time within a step; NULL: it is not asked */
-  bool early, returned_early; /* a step may end before its end; the last one did */
-  slave_status last_step; /* what the last step was answered with */
-  double *value; /* per variable; the outputs are filled when they are asked for */
+  slave_intermediate intermediate;
+  void (*request_inputs)(slave *s, double time); /* intermediate update of the host at a time, s; NULL: none */
+  bool early_return, returned_early; /* the host allows early return; the last step did so */
+  slave_status last_step; /* status of the last step */
+  double *value; /* per variable; outputs are computed when they are read */
   double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
-  double *made_slope; /* those of the last communication step */
+  double *completed_slope; /* those of the last completed communication step */
   slave_rhythm *rhythm; /* per known variable, of ports */
-  unsigned char *pending; /* per known variable: set and not yet with the kernel */
-  unsigned char *said; /* per known variable: SLAVE_GIVEN and what was said once */
-  slave_text_value *text; /* per text variable: the one whose road the kernel has */
+  unsigned char *pending; /* per known variable: set and not yet passed to the kernel */
+  unsigned char *said; /* per known variable: SLAVE_GIVEN and logged warnings */
+  slave_text_value *text; /* per text variable: file of the road that the kernel has */
   slave_freshness outputs;
-  bool followed; /* the follower is at the present state */
-  bool uncomputed_said; /* that an output was read which is not computed, once a run */
-  /* once a run: that the vehicle lies upside down, that a rim was pressed in, that a contact or a stop was too quick */
-  bool overturned_said, rim_said, event_said, unchecked_said; /* and that steps are not made twice */
+  bool follower_current; /* the follower has the present state */
+  bool uncomputed_said; /* warning of a run logged: an output that is not computed was read */
+  /* warnings of a run logged: rollover, a rim on the road, steps too long for a contact or a stop */
+  bool overturned_said, rim_said, event_said, unchecked_said; /* and the end of the second motion */
   double *sensors, *direction; /* work: n_variables, nu */
-  int32_t *number; /* work: n_variables, sensors that are evaluated */
-  uint32_t *place; /* work: n_variables, the outputs that they are */
-  unsigned char *fresh; /* per variable: an output of the present state, where SLAVE_SOME are */
+  int32_t *sensor; /* work: n_variables, sensors to evaluate */
+  uint32_t *output; /* work: n_variables, their variables */
+  unsigned char *fresh; /* per variable: an output of the present state, with SLAVE_SOME */
   unsigned char *known; /* work: ns */
   size_t step_reference, iterations_reference, lead_reference;
-  size_t fidelity_reference; /* n_variables where there is no choice */
+  size_t fidelity_reference; /* n_variables: there is one System only */
   int64_t work_left; /* of the present call, see work.c */
 };
 
-/* float_control.c: the face of an instance begins with the control of its host */
-ali3_float_control slave_call_begins(void *instance); /* result: that of the host; 0: the same, and nothing was done */
+/* float_control.c: the first member of `instance` is the control of the host */
+ali3_float_control slave_call_begins(void *instance); /* returns that of the host; 0: it is the same */
 void slave_call_ends(void *instance, ali3_float_control host);
-ali3_float_control slave_call_leaves(void *instance); /* into a function of the host */
+ali3_float_control slave_call_leaves(void *instance); /* before a callback of the host */
 void slave_call_returns(void *instance, ali3_float_control host);
 
-/* A function of a face around what it does, whose body follows; compiled apart, so that no arithmetic leaves it. */
+/* Defines a function of the interface, whose body follows; it is not inlined, to keep arithmetic inside the control. */
 #define SLAVE_ENTRY(function, type, name, instance, parameters, arguments)                                             \
   static __attribute__((noinline)) type name##_inside parameters;                                                      \
   function parameters {                                                                                                \
@@ -253,35 +254,35 @@ slave_status slave_say(slave *s, slave_status status, const char *format, ...);
 void slave_say_uncomputed(slave *s, const slave_variable *v);
 slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories);
 const char *slave_phase_name(slave_phase phase);
-bool slave_allowed(slave *s, const char *function, unsigned mask);
+bool slave_is_allowed(slave *s, const char *function, unsigned mask);
 
 /* resource.c */
 bool slave_path_of_uri(const char *uri, char *path, size_t size);
-unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size,
-                          const char **why);
+unsigned char *slave_read_resource(const char *folder, const char *name, const ali3_memory *memory, size_t *size,
+                                   const char **why);
 
 /* fidelity.c */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded);
-void slave_fidelity_take(slave *s, const slave_fidelity *loaded);
+void slave_fidelity_replace(slave *s, const slave_fidelity *loaded);
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
 bool slave_fidelity_choose(slave *s);
 
 /* read_sensors.c */
-void slave_will_read(slave *s, size_t *n, uint32_t reference);
+void slave_request_sensor(slave *s, size_t *n, uint32_t reference);
 bool slave_read_sensors(slave *s, ali3_instance *kernel, size_t n);
 
 /* omitted_outputs.c */
-bool slave_left_out(const slave *s, const slave_variable *v);
+bool slave_is_omitted(const slave *s, const slave_variable *v);
 bool slave_has_follower(const slave *s);
-bool slave_follow(slave *s, const uint32_t *reference, size_t n);
+bool slave_omitted_outputs(slave *s, const uint32_t *reference, size_t n);
 
-/* texts.c: n numbers of text variables, the first of which is `first`, and as many texts */
+/* texts.c: n value references and texts; `first`: value reference of the first text variable */
 slave_status slave_get_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char **value);
 slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char *const *value);
-bool slave_texts_to(slave *s, ali3_instance *kernel, const slave_text_value *value);
-bool slave_texts_start(slave *s);
-void slave_texts_remark(slave *s);
-bool slave_without_effect(const slave *s, const slave_variable *v);
+bool slave_texts_apply(slave *s, ali3_instance *kernel, const slave_text_value *value);
+bool slave_texts_reset(slave *s);
+void slave_texts_warn(slave *s);
+bool slave_has_no_effect(const slave *s, const slave_variable *v);
 
 /* life_cycle.c */
 slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,
@@ -293,39 +294,39 @@ slave_status slave_exit(slave *s);
 slave_status slave_terminate(slave *s);
 slave_status slave_reset(slave *s);
 
-/* What was computed is no longer that of the values: the start is sought again, outputs are computed again. */
-static inline void slave_stale(slave *s) {
+/* Marks the initial state and the outputs as out of date. */
+static inline void slave_invalidate(slave *s) {
   s->calls.initialised = 0;
   s->outputs = SLAVE_STALE;
 }
 
-/* work.c: the bound of a call; the kernel takes what it does off it */
+/* work.c: the limit of work in a call, from which the kernel subtracts its own */
 #define SLAVE_MOST_WORK 2000000 /* a million steps of one iteration each: half a minute of a rigid car */
-void slave_work_begins(slave *s);
+void slave_reset_work(slave *s);
 double slave_steps_left(const slave *s); /* inner steps of one iteration each */
-const slave_variable *slave_settling(const slave *s); /* the time that a start settles for; NULL: it does not */
+const slave_variable *slave_settling(const slave *s); /* settling time of the start; NULL: it is zero */
 double slave_settling_steps(const slave *s); /* inner steps that settle a start */
-double slave_settling_left(const slave *s, double starts); /* how many so many starts may have each; below 0: none */
-void slave_work_of_start(slave *s);
-const char *slave_reason(const slave *s, ali3_status status); /* the text of the status, or that the bound is reached */
+double slave_settling_left(const slave *s, double starts); /* inner steps for each of `starts` starts; negative: none */
+void slave_count_start(slave *s);
+const char *slave_reason(const slave *s, ali3_status status); /* text of the status or of the limit of work */
 
 /* initial.c */
 bool slave_initialise(slave *s);
-const char *slave_worst_row(slave *s, char *text, size_t size);
+const char *slave_worst_row_text(slave *s, char *text, size_t size);
 /* " 'wheel travel FL' is ..." or nothing. */
-void slave_beyond_table(slave *s, char *text, size_t size);
+void slave_beyond_table_text(slave *s, char *text, size_t size);
 
-/* values.c: n numbers of variables and as many values */
+/* values.c: n value references and values */
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
 bool slave_outputs(slave *s);
 void slave_ahead(const slave *s, double *derivative);
 bool slave_is_output(uint32_t reference);
 
-slave_status slave_taken(slave *s, uint32_t reference, double value, double *taken); /* of an input, and said once */
-slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
+slave_status slave_clamp(slave *s, uint32_t reference, double value, double *clamped); /* of an input, with a warning */
+slave_status slave_check_set(slave *s, uint32_t reference, double value); /* status of setting; nothing is set */
 
-/* integers.c: the same of whole numbers */
+/* integers.c: n value references and integer values */
 slave_status slave_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value);
 slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value);
 
@@ -335,58 +336,58 @@ slave_status slave_step(slave *s, double time, double step);
 /* slopes.c */
 void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input);
 void slave_add_slopes(const double *slope, double elapsed, double *input);
-void slave_asked_at(const slave *s, double elapsed, double h, double *input);
+void slave_intermediate_at(const slave *s, double elapsed, double h, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
 /* intermediate_update.c */
-bool slave_asked_room(slave *s, int64_t n);
-void slave_asked_free(slave *s);
-slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, const double *value);
-ali3_status slave_asked_steps(slave *s, int64_t *n, double h, double *left);
-void slave_asked_taken(slave *s);
+bool slave_intermediate_reserve(slave *s, int64_t n);
+void slave_intermediate_free(slave *s);
+slave_status slave_set_intermediate(slave *s, const uint32_t *reference, size_t n, const double *value);
+ali3_status slave_intermediate_steps(slave *s, int64_t *n, double h, double *left);
+void slave_intermediate_accept(slave *s);
 
-/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0091. */
+/* Largest difference of unit normals of two answers on a road without an edge, see docs/decisions/0091. */
 static const double SLAVE_EDGE = 0.3;
 
-/* road_ramps.c: answers on the road for the end of a step go there from the last ones */
-double slave_reached(const slave *s, size_t i);
+/* road_ramps.c: linear change to answers on the road that hold at the end of a step */
+double slave_reached_input(const slave *s, size_t i);
 bool slave_is_answer(size_t i);
 bool slave_is_ramp(const double *slope, size_t i);
 void slave_begin_ramps(slave *s, double step);
 void slave_end_ramps(slave *s);
 
 /* half_steps.c */
-slave_status slave_halve_steps(slave *s);
+slave_status slave_half_steps_advance(slave *s);
 void slave_half_steps_begin(slave *s);
-void slave_half_steps_look(slave *s);
+void slave_half_steps_observe(slave *s);
 void slave_half_steps_end(slave *s);
 void slave_half_steps_free(slave *s);
 
-/* repeated_step.c: parameters and inputs of the step that was made; the same set in the state of its start */
-void slave_look_at_step(const slave *s, double *parameter, double *input);
-ali3_status slave_set_step(const slave *s, const double *parameter, const double *input);
+/* repeated_step.c: parameters (np) and inputs (nu) of the kernel */
+void slave_read_step(const slave *s, double *parameter, double *input);
+ali3_status slave_restore_step(const slave *s, const double *parameter, const double *input);
 
 /* replay.c */
 slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out);
 
 /* kinks.c: pieces of the elements' laws along replays of a step, ne each */
 typedef struct {
-  uint32_t *now, *begin, *other; /* in this replay, at its begin, at that of the one before */
-  unsigned char *passed; /* whether it changes */
+  uint32_t *now, *begin, *other; /* now, at the start of this replay, at the start of the replay before */
+  unsigned char *passed; /* whether the piece changes */
   int32_t ne;
 } slave_kinks;
 void slave_kinks_begin(slave_kinks *k, ali3_instance *kernel, bool beside);
 void slave_kinks_after(slave_kinks *k, ali3_instance *kernel);
-slave_status slave_kinks_say(slave *s, const slave_kinks *k);
+slave_status slave_kinks_report(slave *s, const slave_kinks *k);
 
-/* refused_step.c: a host that asks for a refused step again is stopped */
+/* refused_step.c: statuses of refused and repeated steps */
 slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst,
                                const slave_variable *jumped);
 void slave_forget_refusal(slave *s);
-bool slave_wants_end(const slave *s);
+bool slave_requests_end(const slave *s);
 bool slave_is_of_step(ali3_status status); /* a smaller step_size may pass */
 
-/* run_warnings.c: what a run says about itself, once */
+/* run_warnings.c: warnings of a run, each logged once */
 slave_status slave_watch(slave *s);
 void slave_watch_outputs(slave *s);
 void slave_watch_start(slave *s);
@@ -395,18 +396,17 @@ void slave_watch_start(slave *s);
 void slave_port_given(slave *s, size_t i, bool changed);
 void slave_watch_ports(slave *s, double begin);
 
-/* wheel_answers.c: normals that are none hold the last ones; answers that jump or are far from a wheel, and steps that
- * are long for a tyre, are told */
+/* wheel_answers.c and road_jumps.c: checks of normals, answers on the road and forces on hubs */
 void slave_hold_normals(slave *s);
 const slave_variable *slave_watch_jumps(slave *s);
-void slave_bad_normal(const slave *s, char *text, size_t size);
+void slave_bad_normal_text(const slave *s, char *text, size_t size);
 void slave_watch_answers(slave *s);
 
 /* derivatives.c */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);
 slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, const int32_t *order, double *value);
-slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
-                               size_t n_known, const double *seed, double *out);
+slave_status slave_directional_derivative(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
+                                          size_t n_known, const double *seed, double *out);
 
 /* state.c */
 typedef struct slave_state slave_state;

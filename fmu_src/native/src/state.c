@@ -1,20 +1,23 @@
-/* A state as bytes: header with magic, version, the FMU's identity, size and checksum; the slave's own numbers, the start
- * of the last communication step, of which there are derivatives, then the kernel's bytes. Flat, without pointers, so that it continues bit for bit anywhere. */
+/* A state as bytes: a header with magic, version, identity of the FMU, size and checksum; numbers of the slave; the
+ * start of the last communication step, for its derivatives; the kernel's bytes; intermediate inputs. It has no
+ * pointers, so that a run continues from it bit for bit in any process. */
 #include <math.h>
 #include <string.h>
 
 #include "slave.h"
 
-typedef struct { /* 104 bytes without holes */
+typedef struct { /* 104 bytes without padding */
   char magic[8];
   uint32_t version, crc;
   uint64_t size;
   unsigned char identity[16];
   uint8_t phase, initialised, step_warned, energy_warned, mode_warned, capped_warned, sloped, zero;
-  uint32_t fidelity, n_known; /* fidelity of the kernel's bytes; the value may be set for the next initialisation */
+  uint32_t fidelity,
+      n_known; /* fidelity of the kernel's bytes; its parameter may have another value for the next initialisation */
   double start_time, stop_time, capped_residual;
-  int64_t made_n, asked_n; /* the last communication step; of how many inner steps of it inputs were given */
-  double made_h;
+  int64_t completed_n,
+      intermediate_n; /* inner steps of the last communication step, and those of them with intermediate inputs */
+  double completed_h;
 } header;
 
 struct slave_state {
@@ -23,37 +26,37 @@ struct slave_state {
 };
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
-/* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 9, CRC_AT = 12, CHECKED_FROM = 16 };
+/* The checksum covers the bytes after it; only serialized states have one. */
+enum { STATE_VERSION = 9, CRC_OFFSET = 12, CRC_START = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
 static size_t texts_size(void) { return slave_the_table.n_texts * sizeof(slave_text_value); }
 
-static size_t own_size(void) {
+static size_t slave_size(void) {
   const size_t n = slave_the_table.n_known;
   return sizeof(header) + n * (1 + 2 * SLAVE_TERMS) * sizeof(double) + n * (sizeof(slave_rhythm) + 2) + texts_size();
 }
 
 static size_t start_size(const slave_fidelity *fidelity) { return ali3_snapshot_size(fidelity->system); }
 
-/* Inputs that were given within the last communication step. */
-static size_t asked_size(const slave_fidelity *fidelity, int64_t n) {
+/* Size of the intermediate inputs of n inner steps, bytes. */
+static size_t intermediate_size(const slave_fidelity *fidelity, int64_t n) {
   return n > 0 ? (size_t)(n + 1) * (size_t)ali3_system_sizes(fidelity->system).nu * sizeof(double) : 0;
 }
 
-static size_t whole_size(const slave *s, int64_t asked_n) {
-  return own_size() + start_size(&s->fidelity) + ali3_state_size(s->fidelity.system) +
-         asked_size(&s->fidelity, asked_n);
+static size_t state_size(const slave *s, int64_t intermediate_n) {
+  return slave_size() + start_size(&s->fidelity) + ali3_state_size(s->fidelity.system) +
+         intermediate_size(&s->fidelity, intermediate_n);
 }
 
-static void put(unsigned char **to, const void *from, size_t size) {
+static void write(unsigned char **to, const void *from, size_t size) {
   memcpy(*to, from, size);
   *to += size;
 }
 
-static void save(const slave *s, unsigned char *bytes) {
-  const size_t n = slave_the_table.n_known, size = whole_size(s, s->asked.n);
+static void write_state(const slave *s, unsigned char *bytes) {
+  const size_t n = slave_the_table.n_known, size = state_size(s, s->intermediate.n);
   const slave_call_state *c = &s->calls;
   header head = {.version = STATE_VERSION,
                  .size = size,
@@ -68,31 +71,31 @@ static void save(const slave *s, unsigned char *bytes) {
                  .start_time = c->start_time,
                  .stop_time = c->stop_time,
                  .capped_residual = c->capped_residual,
-                 .sloped = (uint8_t)(s->made.n > 0 && s->made.sloped),
-                 .made_n = s->made.n,
-                 .asked_n = s->asked.n,
-                 .made_h = s->made.n > 0 ? s->made.h : 0.0};
+                 .sloped = (uint8_t)(s->completed.n > 0 && s->completed.sloped),
+                 .completed_n = s->completed.n,
+                 .intermediate_n = s->intermediate.n,
+                 .completed_h = s->completed.n > 0 ? s->completed.h : 0.0};
   unsigned char *p = bytes;
   memcpy(head.magic, MAGIC, sizeof MAGIC);
   memcpy(head.identity, slave_the_table.identity, sizeof head.identity);
-  put(&p, &head, sizeof head);
-  put(&p, s->value, n * sizeof(double));
-  put(&p, s->slope, n * SLAVE_TERMS * sizeof(double));
-  put(&p, s->made_slope, n * SLAVE_TERMS * sizeof(double));
-  put(&p, s->rhythm, n * sizeof *s->rhythm);
-  put(&p, s->pending, n);
-  put(&p, s->said, n);
-  put(&p, s->text, texts_size());
+  write(&p, &head, sizeof head);
+  write(&p, s->value, n * sizeof(double));
+  write(&p, s->slope, n * SLAVE_TERMS * sizeof(double));
+  write(&p, s->completed_slope, n * SLAVE_TERMS * sizeof(double));
+  write(&p, s->rhythm, n * sizeof *s->rhythm);
+  write(&p, s->pending, n);
+  write(&p, s->said, n);
+  write(&p, s->text, texts_size());
   memset(p, 0, start_size(&s->fidelity));
-  if (s->made.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
+  if (s->completed.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
   p += start_size(&s->fidelity);
   ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
   p += ali3_state_size(s->fidelity.system);
-  if (s->asked.n > 0) memcpy(p, s->asked.row, asked_size(&s->fidelity, s->asked.n));
+  if (s->intermediate.n > 0) memcpy(p, s->intermediate.row, intermediate_size(&s->fidelity, s->intermediate.n));
 }
 
-/* One sentence on what is wrong with the bytes, or NULL. */
-static const char *problem(const slave *s, const unsigned char *bytes, size_t size) {
+/* What is wrong with the header or the size, or NULL. */
+static const char *header_error(const slave *s, const unsigned char *bytes, size_t size) {
   header head;
   if (size < sizeof head) return "they are too short";
   memcpy(&head, bytes, sizeof head);
@@ -100,24 +103,25 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.version != STATE_VERSION) return "they are of another version; save one again with this FMU";
   if (memcmp(head.identity, slave_the_table.identity, sizeof head.identity) != 0)
     return "only states of the same build can be set";
-  if (head.size != size || size < own_size() || head.n_known != slave_the_table.n_known)
+  if (head.size != size || size < slave_size() || head.n_known != slave_the_table.n_known)
     return "they have another size";
   if (head.fidelity >= slave_the_table.n_systems) return "their header is inconsistent";
-  if (head.asked_n != 0 && head.asked_n != head.made_n) return "their header is inconsistent";
-  if (head.asked_n < 0 || (uint64_t)head.asked_n > size) return "their header is inconsistent";
-  if (head.fidelity == s->fidelity.number && size != whole_size(s, head.asked_n)) return "they have another size";
+  if (head.intermediate_n != 0 && head.intermediate_n != head.completed_n) return "their header is inconsistent";
+  if (head.intermediate_n < 0 || (uint64_t)head.intermediate_n > size) return "their header is inconsistent";
+  if (head.fidelity == s->fidelity.number && size != state_size(s, head.intermediate_n))
+    return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > SLAVE_LONGER_STEPS || head.energy_warned > 1 || head.mode_warned > 1 ||
-      head.capped_warned > SLAVE_CAPPED_BADLY || head.sloped > 1 || head.zero != 0 || head.made_n < 0 ||
-      !(head.made_h >= 0.0) || !(head.made_h < HUGE_VAL) || !(fabs(head.start_time) < HUGE_VAL) ||
+      head.capped_warned > SLAVE_CAPPED_BADLY || head.sloped > 1 || head.zero != 0 || head.completed_n < 0 ||
+      !(head.completed_h >= 0.0) || !(head.completed_h < HUGE_VAL) || !(fabs(head.start_time) < HUGE_VAL) ||
       !(head.stop_time >= head.start_time) || !(head.capped_residual >= 0.0) || !(head.capped_residual < HUGE_VAL))
     return "their header is inconsistent";
   if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header is inconsistent";
   return NULL;
 }
 
-/* The numbers of the table must be ones that could have been set. */
-static const char *bad_value(const unsigned char *p) {
+/* What is wrong with the values after the header, or NULL: they must be ones that can be set. */
+static const char *value_error(const unsigned char *p) {
   const slave_table *t = &slave_the_table;
   double v;
   const size_t numbers = t->n_known * (1 + 2 * SLAVE_TERMS);
@@ -144,26 +148,27 @@ static const char *bad_value(const unsigned char *p) {
   return NULL;
 }
 
-static void get(void *to, const unsigned char **from, size_t size) {
+static void read(void *to, const unsigned char **from, size_t size) {
   memcpy(to, *from, size);
   *from += size;
 }
 
-/* The state of the kernel, of another System or on other roads too; false, said and nothing changed, if that fails. */
+/* Restores the kernel, if need be with another System or other roads. False: an error was logged and nothing
+ * changed. */
 static bool restore_kernel(slave *s, const header *head, const unsigned char *texts, const unsigned char *bytes,
                            size_t size) {
   const size_t fidelity = head->fidelity;
   slave_fidelity other = s->fidelity;
   const bool same = fidelity == s->fidelity.number && (texts_size() == 0 || memcmp(texts, s->text, texts_size()) == 0);
   if (!same && !slave_fidelity_load(s, fidelity, &other)) return false;
-  if (!same && !slave_texts_to(s, other.kernel, (const slave_text_value *)texts)) {
+  if (!same && !slave_texts_apply(s, other.kernel, (const slave_text_value *)texts)) {
     slave_fidelity_free(s, &other);
     return false;
   }
-  const size_t start = start_size(&other), asked = asked_size(&other, head->asked_n);
-  ali3_status status = size > start + asked ? ALI3_OK : ALI3_BAD_STATE;
-  if (status == ALI3_OK && head->made_n > 0) status = ali3_snapshot_check(other.kernel, bytes);
-  if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + start, size - start - asked);
+  const size_t start = start_size(&other), intermediate = intermediate_size(&other, head->intermediate_n);
+  ali3_status status = size > start + intermediate ? ALI3_OK : ALI3_BAD_STATE;
+  if (status == ALI3_OK && head->completed_n > 0) status = ali3_snapshot_check(other.kernel, bytes);
+  if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + start, size - start - intermediate);
   if (status == ALI3_OK) memcpy(other.start, bytes, start);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
@@ -171,24 +176,24 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
               ali3_status_remedy(status));
     return false;
   }
-  if (!same) slave_fidelity_take(s, &other);
-  s->asked.n = head->asked_n;
-  if (asked > 0) memcpy(s->asked.row, bytes + size - asked, asked);
+  if (!same) slave_fidelity_replace(s, &other);
+  s->intermediate.n = head->intermediate_n;
+  if (intermediate > 0) memcpy(s->intermediate.row, bytes + size - intermediate, intermediate);
   return true;
 }
 
-static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
+static slave_status read_state(slave *s, const unsigned char *bytes, size_t size) {
   const size_t n = slave_the_table.n_known;
   const unsigned char *p = bytes + sizeof(header);
-  const char *why = problem(s, bytes, size);
+  const char *why = header_error(s, bytes, size);
   header head;
-  if (why == NULL) why = bad_value(p);
+  if (why == NULL) why = value_error(p);
   if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
   memcpy(&head, bytes, sizeof head);
-  if (head.asked_n > 0 && !slave_asked_room(s, head.asked_n))
+  if (head.intermediate_n > 0 && !slave_intermediate_reserve(s, head.intermediate_n))
     return slave_say(s, SLAVE_ERROR, "There is not enough memory for a state.");
-  const unsigned char *texts = bytes + own_size() - texts_size();
-  if (!restore_kernel(s, &head, texts, bytes + own_size(), size - own_size())) return SLAVE_ERROR;
+  const unsigned char *texts = bytes + slave_size() - texts_size();
+  if (!restore_kernel(s, &head, texts, bytes + slave_size(), size - slave_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
   s->calls.initialised = (int32_t)head.initialised;
   s->calls.step_warned = (int32_t)head.step_warned;
@@ -197,40 +202,40 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   s->calls.capped_warned = (int32_t)head.capped_warned;
   s->calls.capped_residual = head.capped_residual;
   slave_forget_refusal(s);
-  s->made.n = head.made_n;
-  s->made.h = head.made_h;
-  s->made.sloped = head.sloped;
+  s->completed.n = head.completed_n;
+  s->completed.h = head.completed_h;
+  s->completed.sloped = head.sloped;
   slave_half_steps_begin(s);
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;
-  get(s->value, &p, n * sizeof(double));
-  get(s->slope, &p, n * SLAVE_TERMS * sizeof(double));
-  get(s->made_slope, &p, n * SLAVE_TERMS * sizeof(double));
-  get(s->rhythm, &p, n * sizeof *s->rhythm);
-  get(s->pending, &p, n);
-  get(s->said, &p, n);
-  get(s->text, &p, texts_size());
+  read(s->value, &p, n * sizeof(double));
+  read(s->slope, &p, n * SLAVE_TERMS * sizeof(double));
+  read(s->completed_slope, &p, n * SLAVE_TERMS * sizeof(double));
+  read(s->rhythm, &p, n * sizeof *s->rhythm);
+  read(s->pending, &p, n);
+  read(s->said, &p, n);
+  read(s->text, &p, texts_size());
   s->outputs = SLAVE_STALE;
   return SLAVE_OK;
 }
 
-static slave_status room(slave *s, size_t size, slave_state **state) {
-  if (*state != NULL && (*state)->size == size) return SLAVE_OK; /* a state that is there is written over */
-  slave_state *fresh = s->memory.allocate(1, sizeof **state + size);
-  if (fresh == NULL) return slave_say(s, SLAVE_ERROR, "There is not enough memory for a state.");
+static slave_status allocate(slave *s, size_t size, slave_state **state) {
+  if (*state != NULL && (*state)->size == size) return SLAVE_OK; /* an allocated state is overwritten */
+  slave_state *allocated = s->memory.allocate(1, sizeof **state + size);
+  if (allocated == NULL) return slave_say(s, SLAVE_ERROR, "There is not enough memory for a state.");
   if (*state != NULL) s->memory.release(*state);
-  fresh->size = size;
-  *state = fresh;
+  allocated->size = size;
+  *state = allocated;
   return SLAVE_OK;
 }
 
 slave_status slave_state_get(slave *s, slave_state **state) {
-  if (room(s, whole_size(s, s->asked.n), state) != SLAVE_OK) return SLAVE_ERROR;
-  save(s, (*state)->bytes);
+  if (allocate(s, state_size(s, s->intermediate.n), state) != SLAVE_OK) return SLAVE_ERROR;
+  write_state(s, (*state)->bytes);
   return SLAVE_OK;
 }
 
-slave_status slave_state_set(slave *s, const slave_state *state) { return restore(s, state->bytes, state->size); }
+slave_status slave_state_set(slave *s, const slave_state *state) { return read_state(s, state->bytes, state->size); }
 
 slave_status slave_state_free(slave *s, slave_state **state) {
   if (*state != NULL) s->memory.release(*state);
@@ -248,18 +253,18 @@ slave_status slave_state_write(slave *s, const slave_state *state, unsigned char
   if (size < state->size)
     return slave_say(s, SLAVE_ERROR, "The state needs %zu bytes, there is room for %zu.", state->size, size);
   memcpy(bytes, state->bytes, state->size);
-  const uint32_t crc = ali3_crc32(bytes + CHECKED_FROM, state->size - CHECKED_FROM);
-  memcpy(bytes + CRC_AT, &crc, sizeof crc);
+  const uint32_t crc = ali3_crc32(bytes + CRC_START, state->size - CRC_START);
+  memcpy(bytes + CRC_OFFSET, &crc, sizeof crc);
   return SLAVE_OK;
 }
 
 slave_status slave_state_read(slave *s, const unsigned char *bytes, size_t size, slave_state **state) {
-  const char *why = problem(s, bytes, size);
+  const char *why = header_error(s, bytes, size);
   uint32_t crc = 0;
-  if (size >= CHECKED_FROM) memcpy(&crc, bytes + CRC_AT, sizeof crc);
-  if (why == NULL && crc != ali3_crc32(bytes + CHECKED_FROM, size - CHECKED_FROM)) why = "they were altered";
+  if (size >= CRC_START) memcpy(&crc, bytes + CRC_OFFSET, sizeof crc);
+  if (why == NULL && crc != ali3_crc32(bytes + CRC_START, size - CRC_START)) why = "they were altered";
   if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
-  if (room(s, size, state) != SLAVE_OK) return SLAVE_ERROR;
+  if (allocate(s, size, state) != SLAVE_OK) return SLAVE_ERROR;
   memcpy((*state)->bytes, bytes, size);
   return SLAVE_OK;
 }

@@ -1,11 +1,12 @@
-/* Variables that are text: the files of roads, fixed parameters. The kernel has the road that the text names, so what
- * is refused is refused when it is set. */
+/* Text variables: the files of roads, which are fixed parameters. The kernel loads a road when its text is set, so that
+ * errors are reported then. */
 #include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
-/* A name without a folder lies in the resources. False, and said, if the path is too long. */
+/* Writes the path of a road file; a name without a folder is one in the resources. False: the path is too long, and an
+ * error was logged. */
 static bool path_of(slave *s, const char *name, const char *value, char *path) {
   if (strchr(value, '/') == NULL && strchr(value, '\\') == NULL) {
     const int n = snprintf(path, SLAVE_PATH, "%s/roads/%s", s->resources, value);
@@ -17,8 +18,8 @@ static bool path_of(slave *s, const char *name, const char *value, char *path) {
   return false;
 }
 
-/* The road of a text in a kernel; said if it is refused, then the kernel keeps the one it has. */
-static bool put(slave *s, ali3_instance *kernel, const slave_text *t, const char *value) {
+/* Loads the road of a text into a kernel. False: an error was logged and the kernel keeps its road. */
+static bool set_road(slave *s, ali3_instance *kernel, const slave_text *t, const char *value) {
   char path[SLAVE_PATH] = "", why[256];
   if (value[0] != 0 && !path_of(s, t->name, value, path)) return false;
   const ali3_status status = ali3_set_road(kernel, t->road, path, why, sizeof why);
@@ -28,25 +29,25 @@ static bool put(slave *s, ali3_instance *kernel, const slave_text *t, const char
   return false;
 }
 
-bool slave_texts_to(slave *s, ali3_instance *kernel, const slave_text_value *value) {
+bool slave_texts_apply(slave *s, ali3_instance *kernel, const slave_text_value *value) {
   for (size_t k = 0; k < slave_the_table.n_texts; k++)
-    if (!put(s, kernel, &slave_the_table.text[k], value[k])) return false;
+    if (!set_road(s, kernel, &slave_the_table.text[k], value[k])) return false;
   return true;
 }
 
-bool slave_texts_start(slave *s) {
+bool slave_texts_reset(slave *s) {
   slave_text_value start;
   for (size_t k = 0; k < slave_the_table.n_texts; k++) {
     const slave_text *t = &slave_the_table.text[k];
     memset(start, 0, sizeof start);
     snprintf(start, sizeof start, "%s", t->start);
-    if (memcmp(s->text[k], start, sizeof start) != 0 && !put(s, s->fidelity.kernel, t, start)) return false;
+    if (memcmp(s->text[k], start, sizeof start) != 0 && !set_road(s, s->fidelity.kernel, t, start)) return false;
     memcpy(s->text[k], start, sizeof start);
   }
   return true;
 }
 
-static bool known(slave *s, uint32_t first, const uint32_t *reference, size_t n) {
+static bool are_texts(slave *s, uint32_t first, const uint32_t *reference, size_t n) {
   for (size_t i = 0; i < n; i++)
     if (reference[i] < first || reference[i] - first >= slave_the_table.n_texts) {
       slave_say(s, SLAVE_ERROR, "There is no text variable with value reference %u.", (unsigned)reference[i]);
@@ -56,13 +57,13 @@ static bool known(slave *s, uint32_t first, const uint32_t *reference, size_t n)
 }
 
 slave_status slave_get_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char **value) {
-  if (!known(s, first, reference, n)) return SLAVE_ERROR;
+  if (!are_texts(s, first, reference, n)) return SLAVE_ERROR;
   for (size_t i = 0; i < n; i++) value[i] = s->text[reference[i] - first];
   return SLAVE_OK;
 }
 
 slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char *const *value) {
-  if (!known(s, first, reference, n)) return SLAVE_ERROR;
+  if (!are_texts(s, first, reference, n)) return SLAVE_ERROR;
   for (size_t i = 0; i < n; i++) {
     const char *name = slave_the_table.text[reference[i] - first].name;
     if (!(s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)))
@@ -74,10 +75,10 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
                        strlen(value[i]), SLAVE_MOST_TEXT - 1);
   }
   for (size_t i = 0; i < n; i++)
-    if (!put(s, s->fidelity.kernel, &slave_the_table.text[reference[i] - first], value[i])) {
-      while (i-- > 0) { /* nothing half changed */
+    if (!set_road(s, s->fidelity.kernel, &slave_the_table.text[reference[i] - first], value[i])) {
+      while (i-- > 0) { /* restores the roads that were changed */
         const size_t k = reference[i] - first;
-        put(s, s->fidelity.kernel, &slave_the_table.text[k], s->text[k]);
+        set_road(s, s->fidelity.kernel, &slave_the_table.text[k], s->text[k]);
       }
       return SLAVE_ERROR;
     }
@@ -87,31 +88,31 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
     memmove(to, value[i], length);
     memset(to + length, 0, SLAVE_MOST_TEXT - length);
   }
-  slave_stale(s);
+  slave_invalidate(s);
   return SLAVE_OK;
 }
 
-static const double STILL = 0.01; /* m/s */
+static const double REST_SPEED = 0.01; /* m/s */
 
-/* What is worth a word about a start: on a road from a file, or that settles. */
-void slave_texts_remark(slave *s) {
+/* Warnings after the start: on a road from a file, of a start that has not settled, of parameters without effect. */
+void slave_texts_warn(slave *s) {
   char text[SLAVE_TEXT / 2];
   if (ali3_start_text(s->fidelity.kernel, text, sizeof text) == ALI3_OK && text[0] != 0)
     slave_say(s, SLAVE_WARNING,
               "%s With 'initial.settling' of 3 it begins at rest in the road, or in its motion along it.", text);
-  if (ali3_unsettled(s->fidelity.kernel) > STILL)
+  if (ali3_unsettled(s->fidelity.kernel) > REST_SPEED)
     slave_say(s, SLAVE_WARNING,
               "The start has not settled: parts still move at %.1g m/s; 'initial.settling' should be longer.",
               ali3_unsettled(s->fidelity.kernel));
   for (size_t i = 0; i < slave_the_table.n_known; i++) {
     const slave_variable *v = &slave_the_table.variable[i];
-    if (s->value[i] != v->start && slave_without_effect(s, v))
+    if (s->value[i] != v->start && slave_has_no_effect(s, v))
       slave_say(s, SLAVE_WARNING, "'%s' is %.10g%s, without effect: it is of the built-in road.", v->name, s->value[i],
                 v->unit);
   }
 }
 
-bool slave_without_effect(const slave *s, const slave_variable *v) {
+bool slave_has_no_effect(const slave *s, const slave_variable *v) {
   for (size_t k = 0; k < slave_the_table.n_texts; k++)
     if (slave_the_table.text[k].road == v->road && s->text[k][0] != 0) return true;
   return false;

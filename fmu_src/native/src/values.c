@@ -1,4 +1,4 @@
-/* Getting and setting variables: ranges, phases, NaN; a call with one bad value changes nothing. */
+/* Getting and setting variables: checks of ranges, phases and finiteness; a call with one bad value changes nothing. */
 #include <math.h>
 #include <string.h>
 
@@ -11,32 +11,33 @@ bool slave_is_output(uint32_t reference) {
   return reference >= t->n_known && reference < t->n_variables && t->variable[reference].source != SLAVE_CONSTANT;
 }
 
-/* After communication steps like the last one, before the first of an inner step. */
-static double ahead(const slave *s, const slave_variable *v, const double *value) {
-  const double step = s->made.n > 0 ? (double)s->made.n * s->made.h : s->value[s->step_reference];
+/* Value of a SLAVE_AHEAD variable, extrapolated by its rate over communication steps like the last one, or before any
+ * over inner steps. */
+static double extrapolated(const slave *s, const slave_variable *v, const double *value) {
+  const double step = s->completed.n > 0 ? (double)s->completed.n * s->completed.h : s->value[s->step_reference];
   return value[v->index] + s->value[s->lead_reference] * step * value[v->other];
 }
 
-/* Of the derivatives of sensors, those of what is ahead. */
+/* Fills the derivatives of SLAVE_AHEAD variables from those of sensors. */
 void slave_ahead(const slave *s, double *derivative) {
   const slave_table *t = &slave_the_table;
   for (size_t i = t->n_known; i < t->n_variables; i++)
-    if (t->variable[i].source == SLAVE_AHEAD) derivative[i] = ahead(s, &t->variable[i], derivative);
+    if (t->variable[i].source == SLAVE_AHEAD) derivative[i] = extrapolated(s, &t->variable[i], derivative);
 }
 
-/* The value of an output of the present state; `sensor`: that of the kernel, of a sensor. */
-static double output(const slave *s, const slave_variable *v, double sensor) {
+/* Value of an output at the present state; `sensor`: the kernel's value if it is a sensor. */
+static double output_value(const slave *s, const slave_variable *v, double sensor) {
   return v->source == SLAVE_SENSOR   ? v->scale * sensor
          : v->source == SLAVE_SOLVER ? ali3_solver_value(s->fidelity.kernel, v->index)
-         : v->source == SLAVE_AHEAD  ? ahead(s, v, s->value) /* of sensors, which stand before */
+         : v->source == SLAVE_AHEAD  ? extrapolated(s, v, s->value) /* sensors precede these variables */
                                      : s->calls.capped_residual;
 }
 
-/* Before outputs are computed; false where there is no state. */
-static bool begin(slave *s) {
+/* Prepares the computation of outputs; false: there is no valid state. */
+static bool prepare_outputs(slave *s) {
   if (!s->calls.initialised && !slave_initialise(s)) return false;
   memset(s->fresh, 0, slave_the_table.n_variables);
-  s->followed = false;
+  s->follower_current = false;
   return true;
 }
 
@@ -44,11 +45,11 @@ bool slave_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
   const bool first = s->outputs == SLAVE_STALE;
   if (s->outputs == SLAVE_FRESH) return true;
-  if (!begin(s) || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return false;
+  if (!prepare_outputs(s) || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return false;
   for (size_t i = t->n_known; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->source == SLAVE_CONSTANT) break; /* they come last */
-    s->value[i] = output(s, v, s->sensors[v->index]);
+    if (v->source == SLAVE_CONSTANT) break; /* constants come last */
+    s->value[i] = output_value(s, v, s->sensors[v->index]);
   }
   s->outputs = SLAVE_FRESH;
   if (!first) return true;
@@ -57,45 +58,46 @@ bool slave_outputs(slave *s) {
   return true;
 }
 
-/* Whether answers of other programs are watched, by outputs of each step. */
+/* Whether inputs of other programs are checked, which needs the outputs of each step. */
 static bool watches_answers(void) {
   for (size_t i = 0; i < slave_the_table.n_known; i++)
     if (slave_the_table.variable[i].role == SLAVE_ANSWER || slave_the_table.variable[i].role == SLAVE_HUB) return true;
   return false;
 }
 
-/* The outputs among these, but for those of a follower. */
-static bool some_outputs(slave *s, const uint32_t *reference, size_t n) {
+/* Computes those of n variables that are outputs, but for those of a follower. */
+static bool compute_outputs(slave *s, const uint32_t *reference, size_t n) {
   const slave_table *t = &slave_the_table;
   const bool first = s->outputs == SLAVE_STALE;
-  size_t wanted = 0;
+  size_t n_sensors = 0;
   if (s->outputs == SLAVE_FRESH || watches_answers()) return slave_outputs(s);
-  if (first && !begin(s)) return false;
-  const bool followed = slave_has_follower(s); /* of the fidelity, which `begin` may change */
-  if (first && t->roll < t->n_variables) slave_will_read(s, &wanted, (uint32_t)t->roll);
+  if (first && !prepare_outputs(s)) return false;
+  const bool has_follower = slave_has_follower(s); /* asked after the fidelity may have changed */
+  if (first && t->roll < t->n_variables) slave_request_sensor(s, &n_sensors, (uint32_t)t->roll);
   for (size_t k = 0; k < n; k++) {
     const slave_variable *v = &t->variable[reference[k]];
     if (!slave_is_output(reference[k])) continue;
-    if (v->source == SLAVE_SENSOR && !(followed && slave_left_out(s, v))) slave_will_read(s, &wanted, reference[k]);
-    if (v->source == SLAVE_AHEAD) slave_will_read(s, &wanted, (uint32_t)v->index);
-    if (v->source == SLAVE_AHEAD) slave_will_read(s, &wanted, (uint32_t)v->other);
+    if (v->source == SLAVE_SENSOR && !(has_follower && slave_is_omitted(s, v)))
+      slave_request_sensor(s, &n_sensors, reference[k]);
+    if (v->source == SLAVE_AHEAD) slave_request_sensor(s, &n_sensors, (uint32_t)v->index);
+    if (v->source == SLAVE_AHEAD) slave_request_sensor(s, &n_sensors, (uint32_t)v->other);
   }
-  if (!slave_read_sensors(s, s->fidelity.kernel, wanted)) return false;
+  if (!slave_read_sensors(s, s->fidelity.kernel, n_sensors)) return false;
   s->outputs = SLAVE_SOME;
   for (size_t k = 0; k < n; k++) {
     const slave_variable *v = &t->variable[reference[k]];
-    if (slave_is_output(reference[k]) && v->source != SLAVE_SENSOR) s->value[reference[k]] = output(s, v, 0.0);
+    if (slave_is_output(reference[k]) && v->source != SLAVE_SENSOR) s->value[reference[k]] = output_value(s, v, 0.0);
   }
   if (first) slave_watch_outputs(s);
   return true;
 }
 
-/* Of outputs that the System at work leaves out: from its follower; without one it is said, once a run. */
-static bool left_out(slave *s, const uint32_t *reference, size_t n) {
+/* Computes the omitted outputs by the follower; without one a warning is logged once a run. */
+static bool compute_omitted(slave *s, const uint32_t *reference, size_t n) {
   for (size_t i = 0; i < n; i++) {
     const slave_variable *v = &slave_the_table.variable[reference[i]];
-    if (!slave_left_out(s, v)) continue;
-    if (slave_has_follower(s)) return slave_follow(s, reference, n);
+    if (!slave_is_omitted(s, v)) continue;
+    if (slave_has_follower(s)) return slave_omitted_outputs(s, reference, n);
     if (!s->uncomputed_said) slave_say_uncomputed(s, v);
     s->uncomputed_said = true;
     return true;
@@ -105,7 +107,7 @@ static bool left_out(slave *s, const uint32_t *reference, size_t n) {
 
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value) {
   const slave_table *t = &slave_the_table;
-  bool outputs = false;
+  bool any_output = false;
   for (size_t i = 0; i < n; i++) {
     if (reference[i] >= t->n_variables)
       return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference[i]);
@@ -113,15 +115,16 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
     if (s->calls.phase == SLAVE_INSTANTIATED)
       return slave_say(s, SLAVE_ERROR, "'%s' is an output without a start value; it is there in initialisation mode.",
                        t->variable[reference[i]].name);
-    outputs = true;
+    any_output = true;
   }
-  if (outputs && !(some_outputs(s, reference, n) && left_out(s, reference, n))) return SLAVE_ERROR;
+  if (any_output && !(compute_outputs(s, reference, n) && compute_omitted(s, reference, n))) return SLAVE_ERROR;
   for (size_t i = 0; i < n; i++) value[i] = s->value[reference[i]];
   return SLAVE_OK;
 }
 
-/* Whether a value is taken; *clamped where an input is held at an end of its range, or a port at its last value. */
-static slave_status check(slave *s, uint32_t reference, double value, double *clamped) {
+/* Checks a value. *clamped: what is stored, after a warning the end of the range of an input or the last value of a
+ * port. */
+static slave_status check_value(slave *s, uint32_t reference, double value, double *clamped) {
   const slave_table *t = &slave_the_table;
   if (reference >= t->n_variables)
     return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference);
@@ -148,8 +151,7 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
   return SLAVE_WARNING;
 }
 
-/* Only the kernel knows whether a parameter in its range makes sense with the others; it is asked before the value is
- * taken, and left as it was. */
+/* Asks the kernel, without changing it, whether a parameter in its range is consistent with the others. */
 static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   if (v->source != SLAVE_PARAMETER) return SLAVE_OK;
@@ -159,10 +161,10 @@ static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   return SLAVE_OK;
 }
 
-static void take(slave *s, uint32_t reference, double value) {
+static void store_value(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   if (value == s->value[reference]) return;
-  if ((s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED)) && slave_without_effect(s, v))
+  if ((s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED)) && slave_has_no_effect(s, v))
     slave_say(s, SLAVE_WARNING, "'%s' was set to %.10g%s, without effect: it is of the built-in road.", v->name, value,
               v->unit);
   if (value < v->least || value > v->most)
@@ -172,49 +174,49 @@ static void take(slave *s, uint32_t reference, double value) {
   s->value[reference] = value;
   slave_forget_refusal(s);
   if (v->source == SLAVE_INPUT || v->source == SLAVE_PARAMETER) s->pending[reference] = 1;
-  if (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) slave_stale(s);
+  if (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) slave_invalidate(s);
 }
 
-slave_status slave_may_set(slave *s, uint32_t reference, double value) {
+slave_status slave_check_set(slave *s, uint32_t reference, double value) {
   double clamped;
-  const slave_status status = check(s, reference, value, &clamped);
+  const slave_status status = check_value(s, reference, value, &clamped);
   if (status > SLAVE_WARNING || clamped == s->value[reference]) return status;
   return try_parameter(s, reference, clamped) == SLAVE_OK ? status : SLAVE_ERROR;
 }
 
-/* An input that is held at an end of its range, or a port that keeps its value: said once each. */
-static slave_status say_held(slave *s, uint32_t reference, double value, double held) {
+/* Warns once of an input that is clamped to its range, and once of a port that keeps its last value. */
+static slave_status warn_clamped(slave *s, uint32_t reference, double value, double clamped_value) {
   const slave_variable *v = &slave_the_table.variable[reference];
-  const unsigned char which = fabs(value) < HUGE_VAL ? SLAVE_HELD_AT_END : SLAVE_HELD_LAST;
-  if (s->said[reference] & which) return SLAVE_OK;
-  s->said[reference] |= which;
-  if (which == SLAVE_HELD_LAST)
+  const unsigned char warning = fabs(value) < HUGE_VAL ? SLAVE_HELD_AT_END : SLAVE_HELD_LAST;
+  if (s->said[reference] & warning) return SLAVE_OK;
+  s->said[reference] |= warning;
+  if (warning == SLAVE_HELD_LAST)
     return slave_say(s, SLAVE_WARNING,
                      "The port '%s' was set to %g and holds its last value %g%s. This is reported once.", v->name,
-                     value, held, v->unit);
+                     value, clamped_value, v->unit);
   return slave_say(s, SLAVE_WARNING,
                    "'%s' was set to %.10g%s and is held at %g, the end of its range %g to %g. This is reported once.",
-                   v->name, value, v->unit, held, v->min, v->max);
+                   v->name, value, v->unit, clamped_value, v->min, v->max);
 }
 
-slave_status slave_taken(slave *s, uint32_t reference, double value, double *taken) {
-  const slave_status status = check(s, reference, value, taken);
-  return status == SLAVE_WARNING ? say_held(s, reference, value, *taken) : status;
+slave_status slave_clamp(slave *s, uint32_t reference, double value, double *taken) {
+  const slave_status status = check_value(s, reference, value, taken);
+  return status == SLAVE_WARNING ? warn_clamped(s, reference, value, *taken) : status;
 }
 
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
   slave_status worst = SLAVE_OK;
   double clamped;
   for (size_t i = 0; i < n; i++) {
-    const slave_status status = slave_may_set(s, reference[i], value[i]);
+    const slave_status status = slave_check_set(s, reference[i], value[i]);
     if (status > SLAVE_WARNING) return status;
   }
   for (size_t i = 0; i < n; i++) {
-    const bool held = check(s, reference[i], value[i], &clamped) == SLAVE_WARNING;
-    if (held && say_held(s, reference[i], value[i], clamped) == SLAVE_WARNING) worst = SLAVE_WARNING;
+    const bool clamped_value = check_value(s, reference[i], value[i], &clamped) == SLAVE_WARNING;
+    if (clamped_value && warn_clamped(s, reference[i], value[i], clamped) == SLAVE_WARNING) worst = SLAVE_WARNING;
     s->said[reference[i]] |= SLAVE_GIVEN;
     if (fabs(value[i]) < HUGE_VAL) slave_port_given(s, reference[i], clamped != s->value[reference[i]]);
-    take(s, reference[i], clamped);
+    store_value(s, reference[i], clamped);
   }
   return worst;
 }

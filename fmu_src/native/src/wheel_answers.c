@@ -1,15 +1,17 @@
-/* What other programs answer for a wheel: a normal of the road that is none holds the last one, an answer on a place far
- * from the wheel is told, and so is a tyre whose step is long for it. */
+/* Checks of inputs that other programs compute for a wheel: invalid normals of the road are replaced by the last ones;
+ * warnings of answers for a point far from the wheel and of steps that are too long for a tyre. */
 #include <math.h>
 #include <stdio.h>
 
 #include "slave.h"
 
 static const double FAR_AWAY = 10.0; /* m */
-static const double CALM = 0.85; /* of the step from which on a wheel shakes; measured, see docs/decisions/0225 */
-enum { HUB = 6 }; /* force and moment */
+static const double STABLE =
+    0.85; /* of the step at which a wheel becomes unstable; measured, see docs/decisions/0225 */
+enum { HUB_SIZE = 6 }; /* force and moment */
 
-/* Before a step or a start. The last normal is that of the kernel, at a start that of the table. */
+/* Replaces invalid normals before a step or a start by the last ones of the kernel, at a start by those of the
+ * table. */
 void slave_hold_normals(slave *s) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i + 2 < t->n_known; i++) {
@@ -32,8 +34,9 @@ void slave_hold_normals(slave *s) {
   }
 }
 
-/* After ALI3_BAD_NORMAL: the port whose normal derivatives led astray, by the inputs of the inner step in s->direction. */
-void slave_bad_normal(const slave *s, char *text, size_t size) {
+/* After ALI3_BAD_NORMAL: writes the port whose normal became invalid by its derivatives, from the inputs of the inner
+ * step in s->direction. */
+void slave_bad_normal_text(const slave *s, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
   text[0] = 0;
   for (size_t i = 0; i + 2 < t->n_known; i++) {
@@ -50,7 +53,7 @@ void slave_bad_normal(const slave *s, char *text, size_t size) {
   }
 }
 
-static void watch_answer(slave *s, size_t i) {
+static void check_answer(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   double square = 0.0;
   for (size_t k = 0; k < 3; k++) {
@@ -65,80 +68,83 @@ static void watch_answer(slave *s, size_t i) {
             ali3_time(s->fidelity.kernel), v->name, s->value[i], s->value[i + 1], s->value[i + 2], sqrt(square));
 }
 
-/* Whether a derivative of the force or moment on a hub was set for the step that was made. */
-static bool follows(const slave *s, size_t hub) {
-  const double *slope = &s->made_slope[hub * SLAVE_TERMS];
-  for (size_t k = 0; s->made.sloped && k < HUB * SLAVE_TERMS; k++)
+/* Whether a derivative of the force or moment on a hub was set for the last step. */
+static bool has_derivative(const slave *s, size_t hub) {
+  const double *slope = &s->completed_slope[hub * SLAVE_TERMS];
+  for (size_t k = 0; s->completed.sloped && k < HUB_SIZE * SLAVE_TERMS; k++)
     if (slope[k] != 0.0) return true;
   return false;
 }
 
-/* The step up to which a wheel with a tyre like its own is calm. The spin turns on the spring of the carcass, whose force
- * comes late; settling times are the damping, which a delay takes away: held forces, used in the step that follows or
- * one later, have that of 1/2 or 3/2 of a step, lines of the last two, used at once, the delay of its cube. */
-static double calm_step(const slave_variable *v, double speed, bool followed, bool late) {
+/* Longest step, s, with which a wheel with a tyre like its own is stable. The spin oscillates on the spring of the
+ * carcass, whose force is delayed; its settling time is the damping, which a delay reduces: constant forces, used in
+ * the next step or the one after it, are delayed by 1/2 or 3/2 of a step; lines through the last two forces, used at
+ * once, by its cube. */
+static double stable_step(const slave_variable *v, double speed, bool has_slopes, bool delayed) {
   const double settling = v->figure[0] / (1.0 + v->figure[1] * speed * speed) + v->figure[2] * speed;
-  if (late) return CALM * 2.0 / 3.0 * settling;
-  return CALM * (followed ? cbrt(4.0 * settling / v->figure[3]) : 2.0 * settling);
+  if (delayed) return STABLE * 2.0 / 3.0 * settling;
+  return STABLE * (has_slopes ? cbrt(4.0 * settling / v->figure[3]) : 2.0 * settling);
 }
 
-/* Of force and moment on a hub: when one changed last, and for how long they are held, at least a step. */
+/* Time of the last change of the force and moment on a hub, s; *held: for how long they are constant, s, at least a
+ * step. */
 static double last_change(const slave *s, size_t hub, double step, double *held) {
-  double changed = s->calls.start_time, least = HUGE_VAL;
-  for (size_t k = 0; k < HUB; k++) {
+  double changed = s->calls.start_time, shortest = HUGE_VAL;
+  for (size_t k = 0; k < HUB_SIZE; k++) {
     const slave_rhythm *r = &s->rhythm[hub + k];
     changed = fmax(changed, r->changed);
-    if (r->held > 0.0) least = fmin(least, r->held);
+    if (r->held > 0.0) shortest = fmin(shortest, r->held);
   }
-  *held = least < HUGE_VAL ? fmax(step, least) : step;
+  *held = shortest < HUGE_VAL ? fmax(step, shortest) : step;
   return changed;
 }
 
-/* How far the wheel of a hub went under forces that stay what they are since they `changed`, m; none while it is in the
- * air, where no tyre has any. */
-static double way_under(slave *s, size_t hub, double speed, double changed, double time) {
+/* Path of the wheel of a hub under forces that are constant since `changed`, m; 0 while it is in the air, where a tyre
+ * has no forces. */
+static double path_under(slave *s, size_t hub, double speed, double changed, double time) {
   slave_rhythm *r = &s->rhythm[hub];
-  bool pressed = false;
-  for (size_t k = 0; k < HUB; k++) pressed = pressed || s->value[hub + k] != 0.0;
-  r->way = pressed ? (changed >= r->seen ? 0.0 : r->way) + speed * (time - fmax(r->seen, changed)) : 0.0;
+  bool loaded = false;
+  for (size_t k = 0; k < HUB_SIZE; k++) loaded = loaded || s->value[hub + k] != 0.0;
+  r->way = loaded ? (changed >= r->seen ? 0.0 : r->way) + speed * (time - fmax(r->seen, changed)) : 0.0;
   r->seen = time;
   return r->way;
 }
 
-/* A tyre that answers once in a long step, or in several steps, shakes its wheel. The first step knows no derivative. */
-static void watch_hub(slave *s, size_t i) {
+/* Warns of forces on a hub that are constant for too long, which make its wheel unstable. The first step has no
+ * derivative yet. */
+static void check_hub(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
-  const double step = (double)s->made.n * s->made.h, *velocity = &s->value[v->other];
+  const double step = (double)s->completed.n * s->completed.h, *velocity = &s->value[v->other];
   const double speed = sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
-  const bool followed = follows(s, i);
-  const double late = calm_step(v, speed, followed, true), time = ali3_time(s->fidelity.kernel);
+  const bool has_slopes = has_derivative(s, i);
+  const double delayed = stable_step(v, speed, has_slopes, true), time = ali3_time(s->fidelity.kernel);
   double held;
-  const double changed = last_change(s, i, step, &held), way = way_under(s, i, speed, changed, time);
-  if (!followed && way > FAR_AWAY && !(s->said[i] & SLAVE_JUMPED)) {
+  const double changed = last_change(s, i, step, &held), path = path_under(s, i, speed, changed, time);
+  if (!has_slopes && path > FAR_AWAY && !(s->said[i] & SLAVE_JUMPED)) {
     s->said[i] |= SLAVE_JUMPED;
     slave_say(s, SLAVE_WARNING,
               "At %.6g s force and moment on the hub at '%s' are those of %.6g s, and its wheel went %.3g m since, on "
               "which those of a tyre change; another program must set them at every step. This is reported once.",
-              time, v->name, changed, way);
+              time, v->name, changed, path);
   }
-  if (s->said[i] & SLAVE_FAR || !(held > 1.001 * late) || time - s->calls.start_time < 1.5 * step) return;
+  if (s->said[i] & SLAVE_FAR || !(held > 1.001 * delayed) || time - s->calls.start_time < 1.5 * step) return;
   s->said[i] |= SLAVE_FAR;
   slave_say(s, SLAVE_WARNING,
             "At %.6g s the wheel at '%s' moves at %.3g m/s and its forces come every %g s: those of a tyre like the "
             "one left out that %s for longer than %.2g ms may shake it, where all programs step at once for longer "
             "than %.2g ms. Take shorter communication steps%s. This is reported once.",
-            time, v->name, speed, held, followed ? "follow derivatives" : "are held",
-            1e3 * calm_step(v, speed, followed, false), 1e3 * late,
+            time, v->name, speed, held, has_slopes ? "follow derivatives" : "are held",
+            1e3 * stable_step(v, speed, has_slopes, false), 1e3 * delayed,
             held > 1.5 * step ? ", also in the program of the tyre" : "");
 }
 
-/* After the outputs are known. */
+/* Called after the outputs are computed. */
 void slave_watch_answers(slave *s) {
   const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i + 2 < t->n_known && s->made.n > 0; i++) {
+  for (size_t i = 0; i + 2 < t->n_known && s->completed.n > 0; i++) {
     const slave_variable *v = &t->variable[i];
     if (v->other < 0) continue;
-    if (v->role == SLAVE_ANSWER && !(s->said[i] & SLAVE_FAR)) watch_answer(s, i);
-    if (v->role == SLAVE_HUB) watch_hub(s, i);
+    if (v->role == SLAVE_ANSWER && !(s->said[i] & SLAVE_FAR)) check_answer(s, i);
+    if (v->role == SLAVE_HUB) check_hub(s, i);
   }
 }

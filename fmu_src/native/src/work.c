@@ -1,15 +1,20 @@
-/* What one call of FMI may cost, for none can be cancelled: inner steps, parts of them and iterations together. */
+/* Limit of work in one call of FMI, which cannot be cancelled: inner steps, parts of them and iterations are counted
+ * together. */
 #include <math.h>
 
 #include "slave.h"
 
-enum { OF_STEP = 2, OF_START = 20, OF_SETTLING = OF_STEP + ALI3_SETTLING_WORK }; /* at least; starts as measured */
+enum {
+  STEP_WORK = 2,
+  START_WORK = 20,
+  SETTLING_WORK = STEP_WORK + ALI3_SETTLING_WORK
+}; /* at least; START_WORK: as measured */
 #define TEXT_OF(number) #number
-#define IN_WORDS(number) TEXT_OF(number)
+#define TEXT_OF_VALUE(number) TEXT_OF(number)
 
-void slave_work_begins(slave *s) { s->work_left = SLAVE_MOST_WORK; }
+void slave_reset_work(slave *s) { s->work_left = SLAVE_MOST_WORK; }
 
-double slave_steps_left(const slave *s) { return floor((double)s->work_left / OF_STEP); }
+double slave_steps_left(const slave *s) { return floor((double)s->work_left / STEP_WORK); }
 
 const slave_variable *slave_settling(const slave *s) {
   const slave_table *t = &slave_the_table;
@@ -24,13 +29,13 @@ double slave_settling_steps(const slave *s) {
 }
 
 double slave_settling_left(const slave *s, double starts) {
-  return floor(((double)s->work_left - starts * OF_START) / (starts * OF_SETTLING));
+  return floor(((double)s->work_left - starts * START_WORK) / (starts * SETTLING_WORK));
 }
 
-void slave_work_of_start(slave *s) { s->work_left -= OF_START; }
+void slave_count_start(slave *s) { s->work_left -= START_WORK; }
 
 const char *slave_reason(const slave *s, ali3_status status) {
   if (status != ALI3_TOO_DEAR || s->work_left > 0) return ali3_status_text(status);
-  return "the call has made as many inner steps, parts of them and iterations as one may, " IN_WORDS(
+  return "the call has made as many inner steps, parts of them and iterations as one may, " TEXT_OF_VALUE(
       SLAVE_MOST_WORK) " together";
 }

@@ -25,21 +25,21 @@ def build() -> Model:
     """
     m = Model("PUMA 560", dimension=3, gravity=(0.0, 0.0, -GRAVITY))
     m.stop_time = sum(STAGES_S)
-    before = m.ground
+    parent = m.ground
     pose, links = frames(START_DEG), []
     for k, link in enumerate(LINKS):
         (base, origin), (R, p) = pose[k], pose[k + 1]
         body = m.body(link.name, mass=link.mass, com=p + R @ link.com, inertia=R @ np.diag(link.inertia) @ R.T)
         axis = base[:, 2]
-        m.revolute(f"joint {k + 1}", before, body, point=origin, axis=axis)
-        angle = m.relative_angle(f"angle.{k + 1}", before, body, axis=axis, zero=float(np.deg2rad(START_DEG[k])))
+        m.revolute(f"joint {k + 1}", parent, body, point=origin, axis=axis)
+        angle = m.relative_angle(f"angle.{k + 1}", parent, body, axis=axis, zero=float(np.deg2rad(START_DEG[k])))
         m.armature(f"motor {k + 1}", angle, inertia=link.armature)
         torque = m.input(
             TORQUES[k], start=float(_table()[0, 2 + k]), unit="N m", description=f"torque at joint {k + 1}"
         )
         m.torque_on(f"torque {k + 1}", angle, input=torque)
         m.sense_coordinate(f"angle.{k + 1}", angle, description=f"angle of joint {k + 1}")
-        before = body
+        parent = body
         links.append(body)
     shoulder = m.relative_angle(
         "forearm against waist",
@@ -51,10 +51,10 @@ def build() -> Model:
     m.armature("forearm excess", shoulder, inertia=FOREARM_EXCESS)
     R, p = pose[-1]
     hand = p + R @ HAND_POINT
-    m.pin(PIN, before, hand)
+    m.pin(PIN, parent, hand)
     for component in "xyz":
         m.sense_position(
-            f"hand.position.{component}", before, hand, component, description=f"position of the hand along {component}"
+            f"hand.position.{component}", parent, hand, component, description=f"position of the hand along {component}"
         )
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     return m
@@ -77,7 +77,7 @@ class Replay:
         return float(np.linalg.norm(self.hand[-1] - self.hand[0]))
 
     def path_error(self) -> float:
-        """Largest distance of the hand from the path that the torques were made for, m, at the table's times."""
+        """Largest distance of the hand, at the times of the table, from the path to which the torques belong, m."""
         table = _table()
         expected = np.column_stack([np.interp(self.times, table[:, 1], table[:, k]) for k in (8, 9, 10)])
         on_table = np.abs(self.times * 100.0 - np.round(self.times * 100.0)) < 1e-6
@@ -90,7 +90,7 @@ def replay(
     settings: Settings | None = None,
     estimate_error: bool | float | None = None,
 ) -> Replay:
-    """Two seconds from rest to rest, four with the hand pinned, two back: torques from the table, steps of `h`.
+    """Replay the manoeuvre with the torques of the table: 2 s from rest to rest, 4 s with the hand pinned, 2 s back.
 
     `system`: of `build`; `h`: s; one step, or one for each stage; `estimate_error`: as of `Simulation.run`. Raises
     `SimulationError` when a step fails.
@@ -107,7 +107,7 @@ def stages(
     jumps: list[float] | None = None,
     estimate_error: bool | float | None = None,
 ) -> Iterator[Trajectory]:
-    """The three runs of the replay, one after the other.
+    """Run the three stages of the replay, one after the other.
 
     Parameters
     ----------
@@ -139,13 +139,13 @@ def stages(
         yield simulation.run(end, step, inputs=inputs, progress=False, estimate_error=estimate_error)
 
 
-def held_at() -> NDArray[np.float64]:
-    """Position of the pinned hand on the path for which the torques were computed, m; shape (3,)."""
+def pinned_position() -> NDArray[np.float64]:
+    """Position of the pinned hand on the path for which the torques were computed, m, shape (3,)."""
     table = _table()
     return np.array(table[table[:, 0] == 2][0, 8:11])
 
 
 def _table() -> NDArray[np.float64]:
-    """Stage, time, six torques and the position of the hand; shape (804, 11)."""
+    """Table of stage, time, s, six torques, N m, and position of the hand, m; shape (804, 11)."""
     text = files("mbs.scenes.puma").joinpath("manoeuvre.csv").read_text(encoding="utf-8")
     return np.array([[float(v) for v in line.split(",")] for line in text.splitlines()[1:]])

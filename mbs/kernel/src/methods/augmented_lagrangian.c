@@ -34,7 +34,7 @@
 #include "steps.h"
 
 /* Arguments for the forces of the present iterate. */
-static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
+static ali3_force_call iterate_call(ali3_instance *in, double h, bool tangent) {
   ali3_vectors *to = &in->next;
   return (ali3_force_call){.q = to->q,
                            .qd = to->qd,
@@ -62,14 +62,14 @@ ALI3_INLINED void evaluate(ali3_instance *in, double h, bool tangent) {
             ALI3_AT(w) = ALI3_AT(D) - ALI3_AT(d0))
   ali3_constraints(in, to->q, to->s, in->step.Phi, in->tangent.J);
   if (in->system->n_velocity_row > 0) ali3_velocity_values(in, in->tangent.J, to->qd, rate, in->step.Phi);
-  const ali3_force_call call = call_of(in, h, tangent);
+  const ali3_force_call call = iterate_call(in, h, tangent);
   ali3_forces(in, &call);
   ali3_mass_times(in, w, r);
   ALI3_EACH(0, nq, ALI3_AT(r) -= c * ALI3_AT(Q))
 }
 
-/* Reports the size of the residual with the multipliers; false if it is not finite. */
-ALI3_INLINED bool judge(ali3_instance *in) {
+/* Writes the size of the residual with the multipliers to the report; false: it is not finite. */
+ALI3_INLINED bool report_residual(ali3_instance *in) {
   const double c = in->rule.c, *r = in->step.r;
   double *x = in->step.x;
   ali3_rows_transposed(in->system, in->tangent.J, in->next.lam, x);
@@ -126,58 +126,60 @@ static ali3_status tangent(ali3_instance *in, double alpha) {
   return ali3_factorise(in, in->tangent.F);
 }
 
-/* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->step.x then
- * has the judged residual. `mixes`: this correction is accelerated with the one before it. The Phi_q that the penalty
- * multiplies is always that of the tangent: the penalty would amplify what a later one has outside its range. */
-ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept, bool mixes) {
+/* One Newton correction (21) and the multiplier update. `reused`: the tangent is that of an earlier iterate, and
+ * in->step.x has the reported residual. `accelerated`: the correction is combined with the one before it. The penalty
+ * uses the Phi_q of the tangent, as it would amplify the part of a later Phi_q outside its range. */
+ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool reused,
+                                 bool accelerated) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
   double *lam = in->next.lam, *mu = in->step.mu, *x = in->step.x, *D = in->step.D, *change = in->step.lam;
-  const double *balance = kept ? x : in->step.r, *Phi = in->step.Phi, *w = in->step.w, *opening = in->step.gamma;
-  if (kept)
+  const double *residual = reused ? x : in->step.r, *Phi = in->step.Phi, *w = in->step.w, *opening = in->step.gamma;
+  if (reused)
     ALI3_EACH(0, nc, ALI3_AT(mu) = 0.0 + alpha * ALI3_AT(Phi))
   else
     ALI3_EACH(0, nc, ALI3_AT(mu) = ALI3_AT(lam) + alpha * ALI3_AT(Phi))
   ali3_rows_transposed(S, in->tangent.J_made, mu, in->step.w);
-  ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(balance) + c * ALI3_AT(w)))
+  ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(residual) + c * ALI3_AT(w)))
   ali3_solve(in, in->tangent.F, x);
   if (!ali3_finite_inlined(x, nq)) return ALI3_NOT_FINITE;
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, h, iteration, true);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
     ali3_rows_times(S, in->tangent.J_made, x, in->step.gamma);
     ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
-    ali3_accelerate(in, mixes);
+    ali3_accelerate(in, accelerated);
     ali3_add(lam, change, nc);
   }
   ali3_add(D, x, nq);
   return ALI3_OK;
 }
 
-/* Takes the last iterate at the limit of iterations, unless it is far from the rows. */
-static ali3_status capped(ali3_instance *in) {
-  const double left = fmax(in->report.residual, in->report.violation);
-  if (left > ALI3_LOST * in->system->fine) return ALI3_NOT_CONVERGED;
+/* Accepts the last iterate at the limit of iterations, unless its residual or violation is large. */
+static ali3_status accept_capped(ali3_instance *in) {
+  const double residual = fmax(in->report.residual, in->report.violation);
+  if (residual > ALI3_LOST * in->system->fine) return ALI3_NOT_CONVERGED;
   in->bound.capped = true;
-  in->bound.capped_residual = left;
+  in->bound.capped_residual = residual;
   return ALI3_OK;
 }
 
-/* With a limit of a whole step the iterations go up to its part's share of them, at most as many as without. */
+/* Newton's iteration. With a limit for the whole step, a part of the step has its share of it, but not more than
+ * without. */
 ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, double alpha) {
   const double h = request->h;
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
-  const int64_t share = request->iterations_end - in->report.iterations, any = settings->max_iterations;
-  const int64_t most = limited && share < any ? share : any;
-  bool kept = false, mixes = false;
+  const int64_t share = request->iterations_end - in->report.iterations, own_limit = settings->max_iterations;
+  const int64_t most_iterations = limited && share < own_limit ? share : own_limit;
+  bool reused = false, accelerated = false;
   const double fine = in->system->fine;
-  double before = HUGE_VAL, open = HUGE_VAL;
+  double last_residual = HUGE_VAL, last_violation = HUGE_VAL;
   evaluate(in, h, true);
   in->report.last_iterations = 0;
-  while (in->report.last_iterations < most) {
-    ali3_status status = kept ? ALI3_OK : tangent(in, alpha);
-    if (status == ALI3_OK) status = correct(in, h, alpha, in->report.last_iterations, kept, mixes);
+  while (in->report.last_iterations < most_iterations) {
+    ali3_status status = reused ? ALI3_OK : tangent(in, alpha);
+    if (status == ALI3_OK) status = correct(in, h, alpha, in->report.last_iterations, reused, accelerated);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     in->report.iterations++;
     in->report.last_iterations++;
@@ -185,29 +187,29 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     evaluate(in, h, false);
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->step.Phi[k];
-    if (!judge(in)) return ALI3_NOT_FINITE;
+    if (!report_residual(in)) return ALI3_NOT_FINITE;
     if (in->report.residual <= fine * settings->tolerance_r) {
       if (ali3_closed(in->system, in->step.Phi, fine * settings->tolerance_phi)) return ALI3_OK;
-      if (in->report.violation > CLOSES * open && /* far from the drawing no iteration closes rows further */
+      if (in->report.violation > CLOSES * last_violation && /* far from the origin no iteration reduces it further */
           ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
         return ALI3_OK;
     }
-    open = in->report.violation;
-    kept = settings->update == ALI3_UPDATE_LINEARISED &&
-           in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
-           in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
-    const bool settles = ali3_settles(in->system, in->report.last_iterations) && in->report.residual <= before;
-    mixes = kept || !settles;
-    before = in->report.residual;
-    if (kept) continue;
-    ali3_force_call call = call_of(in, h, true); /* cheaper than tangents that nothing asks for */
+    last_violation = in->report.violation;
+    reused = settings->update == ALI3_UPDATE_LINEARISED &&
+             in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
+             in->report.residual <= KEPT_RESIDUAL * last_residual; /* (16) converges too slowly for more */
+    const bool settles = ali3_settles(in->system, in->report.last_iterations) && in->report.residual <= last_residual;
+    accelerated = reused || !settles;
+    last_residual = in->report.residual;
+    if (reused) continue;
+    ali3_force_call call = iterate_call(in, h, true); /* again, now with tangents, as a tangent is needed */
     if (settles) call.reach = REACH * in->rule.rate * in->report.residual;
     ali3_elements_forces(in, &call);
   }
-  if (most > 0 && in->report.residual <= fine * settings->tolerance_r &&
+  if (most_iterations > 0 && in->report.residual <= fine * settings->tolerance_r &&
       ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
-    return ALI3_OK; /* far from the drawing no iteration closes rows further */
-  return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
+    return ALI3_OK; /* far from the origin no iteration reduces it further */
+  return limited && most_iterations > 0 ? accept_capped(in) : ALI3_NOT_CONVERGED;
 }
 
 ALI3_BY_PROCESSOR(in->system, ali3_status, newton, (ali3_instance * in, const ali3_request *request, double alpha),
@@ -229,18 +231,18 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
-  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
-  const double turning = in->settings.project ? fastest_turn(in) : 0.0;
-  if (turning * h > MOST_TURN && in->settings.step_iterations == 0) {
-    in->report.fastest_rate = turning;
+  const bool generalised_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
+  const double turn_rate = in->settings.project ? fastest_turn(in) : 0.0;
+  if (turn_rate * h > MOST_TURN && in->settings.step_iterations == 0) {
+    in->report.fastest_rate = turn_rate;
     return ALI3_TURNS_TOO_FAR;
   }
-  in->bound.capped |= turning * h > MOST_TURN;
+  in->bound.capped |= turn_rate * h > MOST_TURN;
   ali3_status status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, request->t, h);
   const bool from_past = ali3_predict(in, request, true);
-  if (is_alpha)
+  if (generalised_alpha)
     ali3_alpha_rule(in, h);
   else
     trapezoidal(in, h);
@@ -250,7 +252,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
   status = ali3_newton(in, request, alpha);
-  if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
+  if (status != ALI3_OK && from_past) { /* near a singular position extrapolated multipliers may prevent convergence */
     ali3_predict(in, request, false);
     status = ali3_newton(in, request, alpha);
   }
@@ -258,7 +260,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   const double *D = in->step.D, *d0 = in->step.d0;
   double *qdd = to->qdd;
   ALI3_EACH(0, nq, ALI3_AT(qdd) = (ALI3_AT(D) - ALI3_AT(d0)) / c)
-  if (is_alpha)
+  if (generalised_alpha)
     ali3_alpha_accept(in, h);
   else
     to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
@@ -275,26 +277,26 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   ali3_forces_accept(in, &call);
   if (ali3_contact_event(in, request) || ali3_divides(in, request)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
-  ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
+  ali3_predict_accept(in, h); /* before the projection: the next step needs the multipliers of the balance (20) */
   ali3_constraint_rate(in, to->q, to, in->step.Phit);
-  double guides = 0.0;
+  double guide_work = 0.0;
   if (in->settings.project) {
     const double left = ali3_round_left(S, c);
-    double kinetic, end, open, work = ali3_constraint_work(in, h, &guides);
+    double kinetic, end, open_power, work = ali3_constraint_work(in, h, &guide_work);
     turning_rates(in, in->step.mu, in->step.Phit);
     in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE,
                                                  left * in->rule.rate, MAX_SWEEPS, true);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->step.gamma);
     ali3_project(in, c * alpha, in->step.gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS, false);
-    /* with the work that the forces did in this step which the last (25) left without balance */
-    work += ali3_projection_work(in, &kinetic, &end, &open, &guides) + 0.5 * h * in->report.open_power;
-    const ali3_status resolved = ali3_energy_watch(in, request, work, kinetic, end, open);
+    /* includes the work in this step of the forces that the last (25) left unbalanced */
+    work += ali3_projection_work(in, &kinetic, &end, &open_power, &guide_work) + 0.5 * h * in->report.open_power;
+    const ali3_status resolved = ali3_energy_watch(in, request, work, kinetic, end, open_power);
     if (resolved != ALI3_OK) return resolved;
   } else {
-    if (S->n_guide_work > 0) ali3_constraint_work(in, h, &guides);
+    if (S->n_guide_work > 0) ali3_constraint_work(in, h, &guide_work);
     in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, 0.0, 0.0, 0, false);
   }
-  ali3_guides_work(in, to, guides);
+  ali3_guides_work(in, to, guide_work);
   ali3_work_step(in, 0.5);
   return ali3_accept(in);
 }

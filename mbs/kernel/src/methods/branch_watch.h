@@ -1,4 +1,4 @@
-/* Steps that may change an assembly mode. */
+/* Detection of changes of the assembly mode in a step. */
 #ifndef ALI3_BRANCH_WATCH_H
 #define ALI3_BRANCH_WATCH_H
 #include "../instance.h"

@@ -1,9 +1,9 @@
-/* Conditions of methods on the Systems that they take. */
+/* Conditions that Systems must fulfil for a method. */
 #ifndef ALI3_CHECK_METHOD_H
 #define ALI3_CHECK_METHOD_H
 #include "../instance.h"
 
-/* The parts of a System that ali3_needs_no_states refuses, in words for users. */
+/* What ali3_needs_no_states excludes, for messages. */
 #define ALI3_STATES_IN_WORDS "element states or filtered guides"
 ali3_status ali3_needs_no_states(const ali3_instance *in);
 bool ali3_conservative(const ali3_instance *in);

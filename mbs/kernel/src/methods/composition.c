@@ -1,5 +1,5 @@
 /* Order four by symmetric composition (Suzuki 1990) of energy-momentum steps: a h, a h, (1 - 4 a) h, a h, a h with
- * a = 1 / (4 - 4^(1/3)). The third goes backwards in time, so nothing may dissipate. */
+ * a = 1 / (4 - 4^(1/3)). The third is backwards in time, so that no element may dissipate energy. */
 #include "../instance.h"
 #include "../method.h"
 #include "../state/vectors.h"
@@ -10,7 +10,7 @@
 enum { STAGES = 5 };
 static const double OUTER = 0.41449077179437573714;
 
-/* By the last of the steps that a step of h is composed of. */
+/* Restarts with the length of the last of the composed steps. */
 static void before(ali3_instance *in, const ali3_request *request) {
   ali3_energy_momentum_restart(in, OUTER * request->h, request->controlled);
 }
@@ -18,13 +18,14 @@ static void before(ali3_instance *in, const ali3_request *request) {
 static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const double t = request->t, h = request->h;
   const double share[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
-  int32_t iterations = 0, most = in->report.max_iterations;
-  double done = -1.0; /* time from the end of the step, in steps */
+  int32_t iterations = 0, most_iterations = in->report.max_iterations;
+  double end_time = -1.0; /* time after the end of the step, in steps */
   ali3_vectors_copy(in, &in->kept.whole, &in->now);
   for (int stage = 0; stage < STAGES; stage++) {
-    done = stage == STAGES - 1 ? 0.0 : done + share[stage];
-    const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, 1.0 + done - 0.5 * share[stage],
-                                                    stage == STAGES - 1 && request->reading != ALI3_READ_NOTHING);
+    end_time = stage == STAGES - 1 ? 0.0 : end_time + share[stage];
+    const ali3_status status =
+        ali3_energy_momentum(in, t + end_time * h, share[stage] * h, 1.0 + end_time - 0.5 * share[stage],
+                             stage == STAGES - 1 && request->reading != ALI3_READ_NOTHING);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->kept.whole);
       return status;
@@ -32,7 +33,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
     iterations += in->report.last_iterations;
   }
   in->report.last_iterations = iterations;
-  in->report.max_iterations = iterations > most ? iterations : most;
+  in->report.max_iterations = iterations > most_iterations ? iterations : most_iterations;
   return ALI3_OK;
 }
 

@@ -1,6 +1,6 @@
 /* Location of contact events: a step in which an end stop is met or left is divided at that time. The force has a kink
- * there; the error that the trapezoidal rule makes of it depends on its position in the step, so that errors at two step
- * sizes could not be compared. The time is that of the last trial step, and is computed again in its parts. */
+ * there, whose error by the trapezoidal rule depends on its position in the step, so that errors of two step sizes
+ * would not be comparable. The time is located in the last trial step, and again in its parts. */
 #include "contact_event.h"
 
 #include <math.h>
@@ -9,12 +9,12 @@
 #include "../elements/element.h"
 #include "abrupt_force.h"
 
-enum { EVENTS = 4 }; /* most events at which a step is divided */
+enum { MAX_EVENTS = 4 }; /* in a requested step */
 
-/* Begins a requested step, whose parts may be halved `depth` times. Not for Systems with roads: for cars the location of
- * events costs more than it gains (theory.md). */
+/* Begins a requested step, whose parts may be halved `depth` times. Without events in Systems with roads: for cars
+ * their location costs more than it gains (theory.md). */
 void ali3_events_begin(ali3_instance *in, int32_t depth) {
-  in->parting.events_left = depth > 0 && in->system->nr == 0 ? EVENTS : -1;
+  in->parting.events_left = depth > 0 && in->system->nr == 0 ? MAX_EVENTS : -1;
 }
 
 /* Share of the step from in->now to in->next at which the first element reports an event; 1 if none does. */

@@ -1,8 +1,7 @@
-/* The state at any time of a controlled step: positions, velocities and accelerations at its start, centre and end give
- * the polynomial of degree eight (Hermite interpolation), accelerations, multipliers and outputs of the elements come
- * from the equations of index one there. Where these say that the polynomial errs by more than the tolerance, and
- * where there are element states or filtered guides, a step of the method is made to that time instead, and discarded.
- * */
+/* The state at any time of a controlled step. Positions, velocities and accelerations at its start, centre and end give
+ * a polynomial of degree eight (Hermite interpolation); accelerations, multipliers and outputs of elements follow from
+ * the equations of index one. Where their accelerations show an error above the tolerance, and with element states or
+ * filtered guides, a step of the method is made to that time and discarded afterwards. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +18,7 @@
 #include "error_control.h"
 
 enum { NODES = 3, DATA = 3 * NODES };
-/* Hermite basis of a step, x = -1 to 1: parts of q, dq/dx, d2q/dx2 at x = -1, 0, 1 in the coefficient of x^k. */
+/* Hermite basis of a step, x = -1 to 1: contribution of q, dq/dx, d2q/dx2 at x = -1, 0, 1 to the coefficient of x^k. */
 static const double basis[DATA][DATA] = {
     {0.0, 0.0, 0.0, -35.0 / 16, 3.0, 21.0 / 8, -4.0, -15.0 / 16, 1.5},
     {0.0, 0.0, 0.0, -11.0 / 16, 13.0 / 16, 9.0 / 8, -11.0 / 8, -7.0 / 16, 9.0 / 16},
@@ -31,10 +30,10 @@ static const double basis[DATA][DATA] = {
     {0.0, 0.0, 0.0, -11.0 / 16, -13.0 / 16, 9.0 / 8, 11.0 / 8, -7.0 / 16, -9.0 / 16},
     {0.0, 0.0, 0.0, 1.0 / 16, 1.0 / 16, -1.0 / 8, -1.0 / 8, 1.0 / 16, 1.0 / 16},
 };
-/* Error of positions over h^2 times the defect of the accelerations, of velocities over h times it, at most. */
-static const double OF_POSITION = 0.01, OF_VELOCITY = 0.05;
-static const double NEAR = 1e-6; /* of a step: there the state of its end serves */
-static const double LEAST_PART = 1e-3; /* of a step: a shorter one would read forces from round-off */
+/* Bounds of the error of positions over h^2, and of velocities over h, times the defect of the accelerations. */
+static const double POSITION_FACTOR = 0.01, VELOCITY_FACTOR = 0.05;
+static const double END_SHARE = 1e-6; /* of a step: nearer to its end the state of its end is used */
+static const double MIN_SHARE = 1e-3; /* of a step: in a shorter one forces would be dominated by round-off */
 
 /* Weights of the nine vectors in the polynomial (order 0) or its first or second derivative by x. */
 static void weights(double x, int order, double weight[DATA]) {
@@ -65,8 +64,8 @@ void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors 
   }
 }
 
-/* in->next from the polynomial and the equations of index one; false: they do not agree within the tolerance. */
-static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t, double h, double when) {
+/* Computes in->next from the polynomial and the equations of index one; false: the error exceeds the tolerance. */
+static bool evaluate_polynomial(ali3_instance *in, const ali3_measure *measure, double t, double h, double when) {
   const int32_t nq = in->system->size.nq;
   const double x = 2.0 * (when - t) / h - 1.0;
   ali3_vectors *at = &in->next;
@@ -77,31 +76,32 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
   in->clock.now = when;
   ali3_status status = ali3_inputs_begin(in, when, 0.0);
   if (status == ALI3_OK) status = ali3_index_one(in, at);
-  in->report.iterations--; /* nothing that the motion needed */
+  in->report.iterations--; /* not an evaluation of the motion */
   if (status != ALI3_OK) return false;
   for (int32_t i = 0; i < nq; i++) {
     const double defect = at->qdd[i] - in->step.D[i];
-    in->step.w[i] = OF_POSITION * h * h * defect;
-    in->step.r[i] = OF_VELOCITY * h * defect;
+    in->step.w[i] = POSITION_FACTOR * h * h * defect;
+    in->step.r[i] = VELOCITY_FACTOR * h * defect;
   }
   return ali3_distance(in, measure, in->step.w, in->step.r, ali3_rate(in, measure, false)) <=
          measure->control->tolerance;
 }
 
-/* Forces and states just behind the start with the motion of the polynomial; needed with element states or filtered
- * guides. */
-static void beside_start(ali3_instance *in, double t, double h, double when) {
+/* Computes in->next close to the start from the polynomial, with the forces and states of the start; with element
+ * states or filtered guides. */
+static void evaluate_near_start(ali3_instance *in, double t, double h, double when) {
   ali3_vectors_copy(in, &in->next, &in->kept.origin);
   ali3_interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
   ali3_guides_time(in, &in->next, when);
   ali3_work_beside(in, when - t);
 }
 
-/* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->kept.coarse. */
-static ali3_status side_step(ali3_instance *in, double t, double h, double when) {
+/* Computes in->next by a step of the method from the start or the centre; in->now is saved in in->kept.coarse
+ * meanwhile. */
+static ali3_status repeat_step(ali3_instance *in, double t, double h, double when) {
   const ali3_report before = in->report;
   const double middle = t + 0.5 * h;
-  const bool second = when > middle + LEAST_PART * h;
+  const bool second = when > middle + MIN_SHARE * h;
   const double from = second ? middle : t;
   ali3_vectors_copy(in, &in->kept.coarse, &in->now);
   ali3_vectors_copy(in, &in->now, second ? &in->kept.centre : &in->kept.origin);
@@ -112,7 +112,7 @@ static ali3_status side_step(ali3_instance *in, double t, double h, double when)
   return status;
 }
 
-static void look(ali3_instance *in, double *out, double *positions) {
+static void record(ali3_instance *in, double *out, double *positions) {
   if (out != NULL) ali3_sensors_evaluate(in, out);
   if (positions != NULL) memcpy(positions, in->now.q, (size_t)in->system->size.nq * sizeof(double));
 }
@@ -122,23 +122,23 @@ static void look(ali3_instance *in, double *out, double *positions) {
 ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
                               double *out, double *positions) {
   const bool relative = ali3_method_of(in)->relative;
-  const bool at_end = when >= t + h - NEAR * h;
-  const bool sums = in->system->n_work + in->system->n_guide_work > 0; /* work is known at the ends of steps */
-  const bool smooth = ali3_states_are_coordinates(in->system) && (at_end || !sums);
+  const bool at_end = when >= t + h - END_SHARE * h;
+  const bool has_work = in->system->n_work + in->system->n_guide_work > 0; /* work is known at the ends of steps */
+  const bool smooth = ali3_states_are_coordinates(in->system) && (at_end || !has_work);
   if (at_end && !relative) {
-    look(in, out, positions);
+    record(in, out, positions);
     return ALI3_OK;
   }
-  if (!smooth && when < t + LEAST_PART * h) {
-    beside_start(in, t, h, when);
-  } else if (!smooth || !polynomial(in, measure, t, h, at_end ? t + h : when)) {
-    const ali3_status status = side_step(in, t, h, when);
+  if (!smooth && when < t + MIN_SHARE * h) {
+    evaluate_near_start(in, t, h, when);
+  } else if (!smooth || !evaluate_polynomial(in, measure, t, h, at_end ? t + h : when)) {
+    const ali3_status status = repeat_step(in, t, h, when);
     measure->control->side_steps++;
     if (status != ALI3_OK) return status;
   }
   const ali3_vectors end = in->now;
   in->now = in->next;
-  look(in, out, positions);
+  record(in, out, positions);
   in->next = in->now;
   in->now = end;
   memcpy(in->inputs.set, end.used, (size_t)in->system->size.nu * sizeof(double));

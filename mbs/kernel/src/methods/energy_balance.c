@@ -1,5 +1,5 @@
-/* Measures of the accuracy of a run at no cost: the energy balance, how far velocities turn, and their error against
- * the simplest prediction. They do not influence the steps. */
+/* Accuracy measures of a run, without influence on its steps: energy balance, change of velocities, and its error by
+ * the simplest prediction. */
 #include <math.h>
 
 #include "../algebra/number_pairs.h"
@@ -10,9 +10,10 @@
 #include "abrupt_force.h"
 #include "energy_balance.h"
 
-static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
+static const double REST = 1e-6; /* m/s: a slower motion is rest, without energy error */
 
-/* Potential energy of v; flexible bodies prepared at its position. `weight`: that of gravity, NULL: it is not known. */
+/* Potential energy of v, J; flexible bodies are prepared at its position. `weight`: the energy of gravity, J, NULL: not
+ * computed yet. */
 static double potential(const ali3_instance *in, const ali3_vectors *v, const double *weight) {
   const ali3_system *S = in->system;
   double gravity = in->mass.gravity_const, elastic = 0.0;
@@ -44,7 +45,7 @@ double ali3_energy(ali3_instance *in) {
   return kinetic + potential(in, &in->now, NULL);
 }
 
-/* The energy of in->now, from which the next step counts where the method has a balance. */
+/* Starts the energy balance of a method that has one at in->now. */
 void ali3_balance_open(ali3_instance *in, bool balanced) {
   in->report.open_power = in->report.energy_floor = 0.0;
   if (!balanced) return;
@@ -57,8 +58,8 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
   kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now, NULL));
 }
 
-/* A step to in->next with the kinetic energy there and an error of the energy: what else has changed is work. `weight`:
- * the energy of gravity there where it is known, of a System without flexible and tabled bodies; else NULL. */
+/* Adds a step to in->next with its kinetic energy and energy error, J, to the balance; the remaining change of energy
+ * is work. `weight`: energy of gravity, J, known for Systems without flexible and tabled bodies, else NULL. */
 void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight) {
   ali3_report *r = &in->report;
   const double energy = kinetic + potential(in, &in->next, weight);
@@ -67,7 +68,8 @@ void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const 
   kinetic_energy(r, kinetic, energy);
 }
 
-/* Squares of the velocity at the end of a step, of its change, and of its distance from v + h a. */
+/* Adds a step to the accuracy measures: squares of the velocity at its end, of its change, and of its difference from v
+ * + h a. */
 void ali3_balance_motion(ali3_instance *in, double speed, double change, double miss) {
   ali3_report *report = &in->report;
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
@@ -110,20 +112,21 @@ ALI3_BY_PROCESSOR(in->system, void, balance_squares,
                    double out[3]),
                   (in, h, v0, a, v1, out))
 
-/* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
+/* Adds a step of natural coordinates from velocities v0 and accelerations a to velocities v1 to the accuracy
+ * measures. */
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
   double square[3];
   ali3_balance_squares(in, h, v0, a, v1, square);
   ali3_balance_motion(in, square[0], square[1], square[2]);
 }
 
-/* After a step from the state that is now in in->next, by velocities and accelerations of the states. */
+/* Adds the step from in->next to in->now to the accuracy measures. */
 void ali3_balance_step(ali3_instance *in, double h) {
   ali3_balance_change(in, h, in->next.qd, in->next.qdd, in->now.qd);
 }
 
-/* After a step that may be longer than impacts: by the accelerations of the end that misses more. Those at the start
- * alone miss little of a step that begins deep in a contact, or of one that grazes it. */
+/* Adds a step that may be longer than impacts, with the accelerations of the end with the larger error, as those at the
+ * start fit a step that begins deep in a contact, or grazes one. */
 void ali3_balance_long_step(ali3_instance *in, double h) {
   double square[3], back[3];
   balance_squares(in, h, in->next.qd, in->next.qdd, in->now.qd, square);
@@ -131,7 +134,7 @@ void ali3_balance_long_step(ali3_instance *in, double h) {
   ali3_balance_motion(in, square[0], square[1], fmax(square[2], back[2]));
 }
 
-/* The energy balance as it was before a step that was refused. */
+/* Restores the energy balance before a refused step. */
 void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->energy_error = before->energy_error;
   report->open_power = before->open_power;

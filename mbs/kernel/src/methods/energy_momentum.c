@@ -1,9 +1,9 @@
-/* One energy-momentum step of index 3. With D = q1 - q0, v1 = 2 D/h - v0 and everything in the middle of the step,
+/* One energy-momentum step of index 3. With D = q1 - q0, v1 = 2 D/h - v0 and all quantities in the middle of the step,
  *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
- * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: constraint
- * forces do no work, springs are conservative, dampers and inputs account for the rest. The step carries its own
- * velocity; the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is
- * taken at both ends (discrete_inertia.c). */
+ * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q has discrete gradients: constraint
+ * forces do no work, springs are conservative, only dampers and inputs change the energy. The method carries its own
+ * velocity; the reported one fulfils the constraints with the same kinetic energy. With flexible bodies M v is taken at
+ * both ends (discrete_inertia.c). */
 #include <math.h>
 #include <string.h>
 
@@ -31,27 +31,28 @@
 #include "predict.h"
 #include "steps.h"
 
-enum { REFINEMENTS = 2, REFINEMENTS_COMPOSED = 4, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
-static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is computed again */
-static const double TWO_MORE = 10.0; /* tolerances: computed again also if two more iterations with the old end above */
+enum { REFINEMENTS = 2, REFINEMENTS_COMPOSED = 4, COMPOSED_PAST = 3, MAX_DIVERGING = 2, ATTEMPTS = 4 };
+static const double SLOW_RATIO = 0.1;      /* ratio of two errors above which the tangent is computed again */
+static const double REFACTORISE_ERROR = 10.0; /* tolerances: also if two more iterations are predicted to end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
 static const double EPS_SHARE = 1e-3; /* of eps_rel */
-static const double SHARE = 1e-2, ROUND_OFF = 1e-12; /* of accelerations: what may be left of what the method errs by */
-static const double STRADDLE = 1e5, MOST_RAISED = 100.0; /* of penalties */
-static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0}; /* factors of the penalty; the last with patience */
+/* Limits of the correction relative to accelerations: share of the error of the method, round-off. */
+static const double SHARE = 1e-2, ROUND_OFF = 1e-12;
+static const double SIGN_CHANGE = 1e5, MAX_RAISE = 100.0; /* of penalties */
+/* Factors of the penalty; the last attempt is not stopped when it diverges. */
+static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0};
 
-/* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
- * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones convert the
- * round-off of rows that turn far in a step into forces. */
+/* c alpha, dimensionless as rows are mass-normalised. Tried from 1e-13 to 1e-4: with much larger ones rows that are
+ * nearly redundant at singular positions do not converge, with much smaller ones round-off of rows that turn far in a
+ * step causes forces. */
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h) {
   return 0.5 * h * h * ali3_penalty(in, h) / EPS_SHARE;
 }
 
-/* The penalty of this step. A row that loses its lever a at a singular position has one of either sign at the ends of
- * the step that crosses it, and the iteration contracts by 1 / (1 + c alpha a_mean a_end): it diverges where that
- * product lies between -2 and 0. Levers grow with the turn of the rows in a step, so the rule's penalty is raised where
- * they turn little. */
+/* The penalty of this step. The lever a of a row that vanishes at a singular position has opposite signs at the ends of
+ * the step, and the iteration contracts by 1 / (1 + c alpha a_mean a_end): it diverges if that product is between -2
+ * and 0. Levers grow with the turn of the rows in a step, so the penalty is raised where rows turn little. */
 static double raised_penalty(const ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   const double weight = ali3_energy_momentum_penalty(in, h);
@@ -65,8 +66,8 @@ static double raised_penalty(const ali3_instance *in, double h) {
     }
     if (square > turn) turn = square;
   }
-  const double most = MOST_RAISED * 0.5 / (in->settings.eps_rel * EPS_SHARE);
-  return fmax(weight, fmin(most, STRADDLE / turn));
+  const double most_refinements = MAX_RAISE * 0.5 / (in->settings.eps_rel * EPS_SHARE);
+  return fmax(weight, fmin(most_refinements, SIGN_CHANGE / turn));
 }
 
 static void evaluate(ali3_instance *in, double h) {
@@ -111,8 +112,8 @@ static void evaluate(ali3_instance *in, double h) {
   ALI3_EACH(0, nq, ALI3_AT(r) += c * (ALI3_AT(x) - ALI3_AT(Q)))
 }
 
-/* Whether in->discrete.J0 is Phi_q of v, bit for bit; `remember`: it is now. */
-static bool same_place(ali3_instance *in, const ali3_vectors *v, bool remember) {
+/* Whether in->discrete.J0 is Phi_q at v, bit for bit; `remember`: marks it so. */
+static bool has_same_rows(ali3_instance *in, const ali3_vectors *v, bool remember) {
   const ali3_sizes *z = &in->system->size;
   const double *part[3] = {v->q, v->s, v->on};
   const int32_t n[3] = {z->nq, z->ng, z->n_switch};
@@ -161,32 +162,33 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
   return ALI3_OK;
 }
 
-/* The larger of what is left of the balance and of the rows, each in parts of its tolerance. */
-static double error(const ali3_instance *in, double *r, double *v) {
+/* Larger one of the residual *r and the violation *v, each relative to its tolerance. */
+static double relative_error(const ali3_instance *in, double *r, double *v) {
   *r = in->report.residual / (in->system->fine * in->settings.tolerance_r);
   *v = ali3_opening(in->system, in->step.Phi) / (in->system->fine * in->settings.tolerance_phi);
   return fmax(*r, *v);
 }
 
-/* Back to the iterate before the last correction. */
-static ali3_status undo(ali3_instance *in, double h) {
+/* Restores the iterate before the last correction. */
+static ali3_status undo_correction(ali3_instance *in, double h) {
   for (int32_t i = 0; i < in->system->size.nq; i++) in->step.D[i] -= in->mixing.step_q[i];
   for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->mixing.step_lam[k];
   evaluate(in, h);
   return ali3_judge(in, in->step.r) ? ALI3_OK : ALI3_NOT_FINITE;
 }
 
-/* First guess and all that belongs to it. */
-static bool start(ali3_instance *in, double h) {
-  const int32_t past = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST;
-  ali3_history_predict(in, 0.5 * h, ali3_history_order(in, past), in->step.d0, in->next.lam);
+/* Predicts the increment and multipliers and evaluates them; false: not finite. */
+static bool predict(ali3_instance *in, double h) {
+  const int32_t n_past = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST;
+  ali3_history_predict(in, 0.5 * h, ali3_history_order(in, n_past), in->step.d0, in->next.lam);
   for (int32_t i = 0; i < in->system->size.nq; i++) in->step.D[i] = h * in->now.own[i] + 0.5 * h * h * in->step.d0[i];
   evaluate(in, h);
   return ali3_judge(in, in->step.r);
 }
 
-/* Size of the last correction in parts of what accelerations add to the step, in the metric of the masses. */
-static double change_of(const ali3_instance *in) {
+/* Size of the last correction relative to the contribution of accelerations to the step, in the metric of the
+ * masses. */
+static double relative_correction(const ali3_instance *in) {
   double change = 0.0, size = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
     const double m = in->mass.floor[i];
@@ -196,9 +198,9 @@ static double change_of(const ali3_instance *in) {
   return size > 0.0 ? sqrt(change / size) : 0.0;
 }
 
-/* Limit of change_of for a sub-step of order four: a part of the error of the method, the fourth power of the change of
- * the accelerations from one sub-step to the next. A tolerance in metres spoils the order at small steps. */
-static double need_of(const ali3_instance *in, double h) {
+/* Limit of relative_correction for a sub-step of order four: a share of the error of the method, the fourth power of
+ * the change of accelerations between sub-steps. A tolerance in metres would spoil the order at small steps. */
+static double correction_limit(const ali3_instance *in, double h) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq;
   const double *time = v->history + ALI3_HISTORY_TIME;
@@ -214,53 +216,54 @@ static double need_of(const ali3_instance *in, double h) {
   return fmax(ROUND_OFF, SHARE * square * square);
 }
 
-/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
- * the errors, which fall by the same ratio with each iteration, show that a new one is cheaper. Without patience an
- * iteration that new tangents make worse is given up. */
+/* Newton's iteration. It continues below the tolerances while that is cheap, as energy errors follow from residuals. A
+ * tangent is reused until the ratio of the errors shows that a new one is cheaper. Unless `patient`, an iteration that
+ * diverges with new tangents is stopped. */
 static ali3_status newton(ali3_instance *in, double h, double weight, bool patient, int32_t *iterations) {
   const ali3_settings *settings = &in->settings;
-  const bool composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
+  const bool is_composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
   const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
-  const double least_r = composed ? refine : REFINE_R * fabs(h), least_v = composed ? refine : REFINE_PHI;
-  const int32_t most = composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
-  double r, v, last = error(in, &r, &v), need = composed ? need_of(in, h) : 0.0;
-  int32_t refinements = 0, worse = 0;
-  bool fresh = true;
+  const double least_r = is_composed ? refine : REFINE_R * fabs(h), least_v = is_composed ? refine : REFINE_PHI;
+  const int32_t most_refinements = is_composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
+  double r, v, last = relative_error(in, &r, &v), limit = is_composed ? correction_limit(in, h) : 0.0;
+  int32_t refinements = 0, diverging = 0;
+  bool new_tangent = true;
   for (int32_t k = 0; k < settings->max_iterations; k++) {
-    ali3_status status = fresh ? factorise(in, h, weight) : ALI3_OK;
+    ali3_status status = new_tangent ? factorise(in, h, weight) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, weight, alpha, k);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     ++*iterations;
     evaluate(in, h);
     if (!ali3_judge(in, in->step.r)) return ALI3_NOT_FINITE;
-    const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
-    if (r <= least_r && v <= least_v && (!composed || change_of(in) * fmin(1.0, ratio) <= need)) return ALI3_OK;
-    if (last <= 1.0 && size > last) return undo(in, h);
-    if (!patient && fresh && size > last && ++worse == MOST_WORSE) return ALI3_NOT_CONVERGED;
-    const bool slow = k > 0 && ratio > SLOW;
-    if (size <= 1.0 && (refinements++ == most || slow)) return ALI3_OK;
-    fresh = slow || (size > 1.0 && size * ratio * ratio > TWO_MORE);
+    const double size = relative_error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
+    if (r <= least_r && v <= least_v && (!is_composed || relative_correction(in) * fmin(1.0, ratio) <= limit))
+      return ALI3_OK;
+    if (last <= 1.0 && size > last) return undo_correction(in, h);
+    if (!patient && new_tangent && size > last && ++diverging == MAX_DIVERGING) return ALI3_NOT_CONVERGED;
+    const bool slow = k > 0 && ratio > SLOW_RATIO;
+    if (size <= 1.0 && (refinements++ == most_refinements || slow)) return ALI3_OK;
+    new_tangent = slow || (size > 1.0 && size * ratio * ratio > REFACTORISE_ERROR);
     last = size;
   }
   return last <= 1.0 ? ALI3_OK : ALI3_NOT_CONVERGED;
 }
 
-/* The iteration with its penalty, and where it fails with others; *weight is the one that converged. */
+/* Solves the step with the raised penalty, after failures with others; *weight: the one that converged. */
 static ali3_status solve(ali3_instance *in, double h, double *weight, int32_t *iterations) {
-  if (!start(in, h)) return ALI3_NOT_FINITE;
-  const double usual = raised_penalty(in, h);
+  if (!predict(in, h)) return ALI3_NOT_FINITE;
+  const double initial_penalty = raised_penalty(in, h);
   ali3_status status = ALI3_NOT_CONVERGED;
   for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
-    *weight = ATTEMPT[attempt] * usual;
-    if (attempt > 0 && !start(in, h)) return ALI3_NOT_FINITE;
+    *weight = ATTEMPT[attempt] * initial_penalty;
+    if (attempt > 0 && !predict(in, h)) return ALI3_NOT_FINITE;
     status = newton(in, h, *weight, attempt == ATTEMPTS - 1, iterations);
     if (status != ALI3_NOT_CONVERGED && status != ALI3_SINGULAR) break;
   }
   return status;
 }
 
-/* Removes the part of lam that causes no force (redundant rows): round-off that extrapolation would let grow. */
-static void clean(ali3_instance *in, double weight, double *lam) {
+/* Removes the part of lam that causes no force (redundant rows), whose round-off would grow by extrapolation. */
+static void remove_redundant(ali3_instance *in, double weight, double *lam) {
   const ali3_system *S = in->system;
   ali3_rows_transposed(S, in->discrete.A_made, lam, in->step.x);
   ali3_solve_lu(in, 1, in->tangent.F, in->step.x);
@@ -268,8 +271,7 @@ static void clean(ali3_instance *in, double weight, double *lam) {
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
 }
 
-/* The kinetic energy of the carried velocity changes by D'(Q - A' lam): of that what driven rows give, the force of the
- * step along its own travel. */
+/* Work of driven rows: D' A' lam is the force of the step times its displacement. */
 static double work_of_drives(ali3_instance *in) {
   const ali3_system *S = in->system;
   double work = 0.0;
@@ -278,15 +280,15 @@ static double work_of_drives(ali3_instance *in) {
   return work;
 }
 
-/* Energy bounds what the carried velocity has off the rows, but not in coordinates without mass, which flexible bodies
- * have many of: there it changes sign with every step and grows with the rate at which they turn. These Systems carry
- * the reported velocity. Not in a composition, whose steps must be symmetric. */
+/* Whether the method carries the projected velocity. Energy bounds the deviation of the carried velocity from the rows,
+ * except in coordinates without mass, which flexible bodies have: there it alternates in sign and grows with their
+ * rotation. Not in compositions, whose steps must be symmetric. */
 static bool carries_projected(const ali3_instance *in) {
   return in->system->n_flexible > 0 && in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM;
 }
 
-/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
- * The middle of this step is that share of the one that was given to ali3_inputs_begin. */
+/* Makes a step from in->now to in->next; in->now changes only if it succeeds. t: time at its end, s; h, s, may be
+ * negative; `share`: its middle as a share of the step of ali3_inputs_begin. */
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -298,23 +300,23 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   ali3_status status = ali3_inputs_at(in, share);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
-  if (!same_place(in, from, false)) {
+  if (!has_same_rows(in, from, false)) {
     ali3_constraints(in, from->q, from->s, in->step.Phi, in->discrete.J0);
-    same_place(in, from, true);
+    has_same_rows(in, from, true);
   }
   if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->step.hat);
   status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
   ali3_iterations_since(in, in->report.iterations - iterations);
   if (status != ALI3_OK) return status;
-  const double twice = 2.0 / h, square = h * h, *D = in->step.D, *before = from->own;
+  const double two_rates = 2.0 / h, square = h * h, *D = in->step.D, *before = from->own;
   double *own = to->own, *d0 = in->step.d0;
-  ALI3_EACH(0, nq, ALI3_AT(own) = twice * ALI3_AT(D) - ALI3_AT(before);
+  ALI3_EACH(0, nq, ALI3_AT(own) = two_rates * ALI3_AT(D) - ALI3_AT(before);
             ALI3_AT(d0) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(before)) / square)
   ali3_work_step(in, 1.0);
   if (S->n_guide_work > 0) to->work[S->n_work] = from->work[S->n_work] + work_of_drives(in);
   ali3_predict_rates(in, h);
-  clean(in, weight, to->lam);
+  remove_redundant(in, weight, to->lam);
   ali3_history_append(in, h, in->step.d0);
   if (S->size.ny > 0) {
     ali3_history_velocity(in, h, in->step.w);
@@ -333,7 +335,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   }
   to->h_last[0] = 0.0;
   if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->step.Phi, in->tangent.J); /* A at the end */
-  same_place(in, to, true);
+  has_same_rows(in, to, true);
   memcpy(in->discrete.J0, in->tangent.J, (size_t)S->size.nnz_rows * sizeof(double));
   if (carries_projected(in)) ali3_energy_momentum_carry(in, to, weight);
   if (reported) status = ali3_energy_momentum_show(in, to);
@@ -348,16 +350,16 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ali3_energy_momentum(in, request->t, request->h, 0.5, request->reading != ALI3_READ_NOTHING);
 }
 
-/* Energy balance of the carried velocities after steps from `from`. */
+/* Adds steps from `from`, with the carried velocities, to the accuracy measures. */
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
-  const bool past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
-                    from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
-  ali3_balance_change(in, h, past ? from->own : from->qd, past ? from->past_a : from->qdd, in->now.own);
+  const bool n_past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
+                      from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
+  ali3_balance_change(in, h, n_past ? from->own : from->qd, n_past ? from->past_a : from->qdd, in->now.own);
 }
 
 static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->next, h); }
 
-/* A discrete derivative of their functions is missing. */
+/* Tabled bodies have no discrete derivatives. */
 static ali3_status takes(const ali3_instance *in) { return in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ALI3_OK; }
 
 const ali3_method ali3_method_energy_momentum = {.step = step,

@@ -1,4 +1,4 @@
-/* Energy that constraint forces and projections bring into a step. */
+/* Energy errors of steps. */
 #ifndef ALI3_ENERGY_WATCH_H
 #define ALI3_ENERGY_WATCH_H
 #include "../algebra/real.h"

@@ -1,8 +1,8 @@
-/* Step sizes from the error: each step may err by its share of the tolerance (error per unit step), so that the errors
- * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at
- * a singular position) it may err by a fixed share, and where its error does not fall at all it is accepted and
- * counted. Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential
- * Equations II", second edition, IV.2). */
+/* Step sizes from the error: the error of each step may be its share of the tolerance (error per unit step), so that
+ * the errors of a run add up to the tolerance. Where a shorter step does not reduce the error in proportion (a kink of
+ * a force, a velocity jump at a singular position) its error may be a fixed share, and where the error does not
+ * decrease at all the step is accepted and counted. Proportional-integral controller of Gustafsson 1991 (Hairer,
+ * Wanner, "Solving Ordinary Differential Equations II", second edition, IV.2). */
 #include <math.h>
 #include <string.h>
 
@@ -18,24 +18,25 @@
 #include "energy_balance.h"
 #include "error_control.h"
 
-static const double LEAST_SHARE = 1e-3; /* of the tolerance */
-static const double AIM = 0.4; /* of what a step may err */
+static const double MIN_SHARE = 1e-3; /* of the tolerance */
+static const double TARGET = 0.4; /* of the allowed error of a step */
 static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
-static const double AGAIN = 1.5; /* after a step that stays without a share of its own */
+static const double AFTER_OVER_SHARE = 1.5; /* factor of the step after one accepted above its share */
 static const double SHRINK = 0.15, GROW = 4.0, MOST_OF_REJECTED = 0.9, AFTER_FAILURE = 0.25;
-/* Shortest steps, in parts of the time scale of the motion: shorter ones are not made for the sake of the error, since
- * round-off of index three grows there, and not for that of convergence. */
+/* Shortest steps, relative to the time scale of the motion: for the error, as round-off of index three grows in shorter
+ * ones, and for convergence. */
 static const double SHORTEST[] = {
     [ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_COLLOCATION] = 1e-6, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
 static const double SHORTEST_TRIED[] = {
     [ALI3_ROUND_OFF_INDEX_3] = 1e-6, [ALI3_ROUND_OFF_COLLOCATION] = 1e-7, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
-static const double KINK = 0.5, KICK = 0.7; /* error over the one before: in parts of the steps' ratio, and plainly */
-enum { KICKS = 2 };                         /* so often in one step */
+/* Ratios of the errors of two trials: at a kink, over the ratio of their steps; at a jump of velocity. */
+static const double KINK_RATIO = 0.5, KICK_RATIO = 0.7;
+enum { MAX_KICKS = 2 };                         /* in one step */
 static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
-static const double FIRST = 1e-3;       /* of the span: first step where none is given */
-static const double ON_A_ROAD = 0.05;   /* lengths on the way in a step: bumps between two evaluations are not seen */
-static const double LEAST_ERROR = 1e-4; /* parts of what a step may err: below, errors are round-off */
+static const double FIRST_STEP = 1e-3;       /* first step over the span, if none is given */
+static const double ROAD_LENGTHS = 0.05; /* largest path in a step, in lengths: bumps within a step are missed */
+static const double MIN_ERROR = 1e-4; /* of the allowed error of a step: smaller errors are round-off */
 
 static bool valid(const ali3_control *c) {
   return c != NULL && c->tolerance > 0.0 && c->tolerance < 1e300 && c->length > 0.0 && c->length < 1e300 &&
@@ -50,7 +51,7 @@ static void set_time(ali3_instance *in, double t) {
   in->clock.now = t;
 }
 
-/* Restarts where inputs or guides jump: accelerations and multipliers behind the jump, without a past. */
+/* Computes accelerations and multipliers after a jump of inputs or guides and clears the history. */
 ali3_status ali3_refresh(ali3_instance *in) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   if (!in->start.initialised) return ALI3_NOT_INITIALISED;
@@ -69,13 +70,13 @@ ali3_status ali3_refresh(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* A step of at most h towards `end`, so that no sliver is left before it. */
-static double fitted(double h, double left) {
-  if (h >= left * (1.0 - 1e-9)) return left;
-  return h > 0.5 * left ? 0.5 * left : h;
+/* A step of at most h towards `end` that does not leave a very short one before it. */
+static double fit_step(double h, double remaining) {
+  if (h >= remaining * (1.0 - 1e-9)) return remaining;
+  return h > 0.5 * remaining ? 0.5 * remaining : h;
 }
 
-/* x^k for positive x, the same bits everywhere; the logarithm by the series of 2 artanh. */
+/* x^k for positive x, bit-identical on all platforms; the logarithm by the series of 2 artanh. */
 static double power(double x, double k) {
   int exponent = 0;
   const double m = frexp(x, &exponent), z = (m - 1.0) / (m + 1.0), square = z * z;
@@ -84,10 +85,12 @@ static double power(double x, double k) {
   return ali3_exp(k * (2.0 * z * sum + 0.6931471805599453 * exponent));
 }
 
-/* Ratio of the next step to this one; `part`, `last`: errors over their limits; last = 0: unknown or of no use. */
-static double factor(double part, double last, int32_t order) {
-  const double k = 1.0 / (order + 1), e = fmax(part, LEAST_ERROR) / AIM;
-  const double f = last > 0.0 ? power(e, -INTEGRAL * k) * power(last / AIM, PROPORTIONAL * k) : power(e, -k);
+/* Ratio of the next step to this one; `relative_error`, `last_error`: errors over their limits; last_error = 0:
+ * unknown. */
+static double factor(double relative_error, double last_error, int32_t order) {
+  const double k = 1.0 / (order + 1), e = fmax(relative_error, MIN_ERROR) / TARGET;
+  const double f =
+      last_error > 0.0 ? power(e, -INTEGRAL * k) * power(last_error / TARGET, PROPORTIONAL * k) : power(e, -k);
   return fmin(GROW, fmax(SHRINK, f));
 }
 
@@ -96,42 +99,42 @@ static double shortest(const ali3_instance *in, const ali3_measure *measure, dou
               ROUND_OFF * fabs(t));
 }
 
-/* Record of the tries of one step. */
+/* Trials of one step. */
 typedef struct {
-  double first, h, error; /* the first one that erred too much, and the last with its error; 0: none */
+  double first, h, error; /* the first one with too large an error; the last one and its error, 0: none */
   int32_t kicks;
   bool rejected, force;
-} tries;
+} step_trials;
 
 enum { REJECT = 0, ACCEPT, OVER_SHARE, FORCE };
 
-/* Whether a step of h that errs so much stays: REJECT, ACCEPT, OVER_SHARE (accepted, though above its share), FORCE (the
- * tolerance does not hold). Much shorter steps than usual are a sign of a singular position: with index three those have least
- * to gain there, and in the end only round-off. */
-static int judge(const ali3_control *c, tries *seen, double h, double error, bool least) {
-  const bool small = error <= c->tolerance * LEAST_SHARE;
+/* Verdict on a step of h by its error: REJECT, ACCEPT, OVER_SHARE (accepted, though above its share), FORCE (accepted
+ * above the tolerance). Much shorter steps than usual occur at singular positions, where with index three shorter ones
+ * gain little and end in round-off. */
+static int judge_error(const ali3_control *c, step_trials *trials, double h, double error, bool is_shortest) {
+  const bool small = error <= c->tolerance * MIN_SHARE;
   if (error <= c->tolerance * h / c->span) return ACCEPT;
   if (small && h < UNUSUAL * c->usual) return OVER_SHARE;
-  if (seen->force || least) return small ? OVER_SHARE : FORCE;
-  if (seen->h > 0.0) {
-    const double fall = error / seen->error;
-    if (small && fall > KINK * h / seen->h) return OVER_SHARE;
-    seen->kicks = fall > KICK && h < KICK * seen->h ? seen->kicks + 1 : 0;
+  if (trials->force || is_shortest) return small ? OVER_SHARE : FORCE;
+  if (trials->h > 0.0) {
+    const double fall = error / trials->error;
+    if (small && fall > KINK_RATIO * h / trials->h) return OVER_SHARE;
+    trials->kicks = fall > KICK_RATIO && h < KICK_RATIO * trials->h ? trials->kicks + 1 : 0;
   } else {
-    seen->first = h;
+    trials->first = h;
   }
-  seen->h = h;
-  seen->error = error;
-  seen->force = seen->kicks == KICKS;
+  trials->h = h;
+  trials->error = error;
+  trials->force = trials->kicks == MAX_KICKS;
   return REJECT;
 }
 
-static void accepted(ali3_control *c, double h, double error, double part, int verdict) {
+static void record_accepted(ali3_control *c, double h, double error, double relative_error, int verdict) {
   if (c->accepted == 0 || h < c->smallest) c->smallest = h;
   if (h > c->largest) c->largest = h;
   c->accepted++;
   c->error_sum += error;
-  c->last = fmax(part, LEAST_ERROR);
+  c->last = fmax(relative_error, MIN_ERROR);
   c->usual += (c->accepted > USUAL_STEPS ? 1.0 / USUAL_STEPS : 1.0 / (double)c->accepted) * (h - c->usual);
   if (verdict == OVER_SHARE) c->over_share++;
   if (verdict != FORCE) return;
@@ -139,82 +142,88 @@ static void accepted(ali3_control *c, double h, double error, double part, int v
   c->forced_error += error;
 }
 
-/* The next step after one of `tried` s, when `size` was wished; a step cut short by the end of the call says little. */
-static double next_step(const ali3_control *c, double size, double tried, double part, bool rejected, int32_t order) {
-  const double next = tried * factor(part, c->last, order);
+/* The next step after one of `tried` s where `wanted` s were planned; a step that was cut short by the end of the call
+ * has little information. */
+static double next_step(const ali3_control *c, double wanted, double tried, double relative_error, bool rejected,
+                        int32_t order) {
+  const double next = tried * factor(relative_error, c->last, order);
   if (rejected) return fmin(next, tried);
-  return tried < size ? fmax(next, fmin(size, GROW * next)) : next;
+  return tried < wanted ? fmax(next, fmin(wanted, GROW * next)) : next;
 }
 
-/* Back to before a step that was made and is not kept. */
-static void take_back(ali3_instance *in, const ali3_report *before) {
+/* Restores the state before a step that is not accepted. */
+static void undo_step(ali3_instance *in, const ali3_report *end_before) {
   ali3_vectors_copy(in, &in->now, &in->kept.origin);
-  in->report.steps = before->steps;
-  ali3_balance_restore(&in->report, before);
+  in->report.steps = end_before->steps;
+  ali3_balance_restore(&in->report, end_before);
 }
 
-/* The longest step, s: as given, and shorter where the motion may hold more than its error shows. */
-static double longest(const ali3_instance *in, const ali3_measure *measure) {
-  const double given = measure->control->longest;
-  if (in->system->nr > 0) return fmin(given, ON_A_ROAD / ali3_rate(in, measure, false));
-  /* In closed loops what a drive turns or moves in a step, h w, shows in no error: half of what steps resolve. */
-  return in->system->n_mode_triad > 0 ? fmin(given, ALI3_RESOLVED / ali3_rate(in, measure, true)) : given;
+/* The longest step, s: as given, and shorter where errors of the motion may not show in the estimate. */
+static double longest_step(const ali3_instance *in, const ali3_measure *measure) {
+  const double limit = measure->control->longest;
+  if (in->system->nr > 0) return fmin(limit, ROAD_LENGTHS / ali3_rate(in, measure, false));
+  /* in closed loops the error of a drive's displacement in a step, h w, does not show: half of what steps resolve */
+  return in->system->n_mode_triad > 0 ? fmin(limit, ALI3_RESOLVED / ali3_rate(in, measure, true)) : limit;
 }
 
-/* One accepted step from t, at most to `end`; *h is its length. */
+/* Makes one accepted step from t, at most to `end`; *h is its length. */
 static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measure, double t, double end, double *h) {
   ali3_control *c = measure->control;
   const int32_t order = ali3_method_order(in);
-  const double least = shortest(in, measure, t, SHORTEST), end_of_tries = shortest(in, measure, t, SHORTEST_TRIED);
-  const double most = longest(in, measure);
-  tries seen = {0};
+  const double is_shortest = shortest(in, measure, t, SHORTEST),
+               shortest_trial = shortest(in, measure, t, SHORTEST_TRIED);
+  const double longest_h = longest_step(in, measure);
+  step_trials trials = {0};
   for (;;) {
     double error = 0.0;
-    const ali3_report before = in->report;
-    const double size = fmin(c->h, most), tried = fitted(size, end - t);
+    const ali3_report end_before = in->report;
+    const double wanted = fmin(c->h, longest_h), tried = fit_step(wanted, end - t);
     const ali3_status status = ali3_step_doubling(in, measure, t, tried, &error);
     *h = tried;
     if (status == ALI3_BAD_ARGUMENT || ali3_roads_status(in) != ALI3_OK) return status;
     if (status != ALI3_OK) {
       in->report.failures++;
       c->failed++;
-      if (tried <= 1.5 * end_of_tries) return status;
-      c->h = fmax(AFTER_FAILURE * tried, end_of_tries);
+      if (tried <= 1.5 * shortest_trial) return status;
+      c->h = fmax(AFTER_FAILURE * tried, shortest_trial);
       c->last = 0.0;
-      seen.rejected = true;
+      trials.rejected = true;
       continue;
     }
-    const double part = error * c->span / (c->tolerance * tried);
-    const int verdict = judge(c, &seen, tried, error, tried <= 1.5 * least);
-    const double share = verdict == ACCEPT && tried > 1.5 * least ? ali3_branch_share(in, measure, t, tried) : 1.0;
+    const double relative_error = error * c->span / (c->tolerance * tried);
+    const int verdict = judge_error(c, &trials, tried, error, tried <= 1.5 * is_shortest);
+    const double share =
+        verdict == ACCEPT && tried > 1.5 * is_shortest ? ali3_branch_share(in, measure, t, tried) : 1.0;
     if (share < 1.0) {
-      seen.rejected = true;
+      trials.rejected = true;
       c->rejected++;
-      c->h = fmax(least, share * tried);
-      take_back(in, &before);
+      c->h = fmax(is_shortest, share * tried);
+      undo_step(in, &end_before);
       continue;
     }
     if (verdict != REJECT) {
-      c->h = verdict == ACCEPT ? fmax(least, next_step(c, size, tried, part, seen.rejected, order)) : AGAIN * tried;
-      accepted(c, tried, error, verdict == ACCEPT ? part : 1.0, verdict);
+      c->h = verdict == ACCEPT ? fmax(is_shortest, next_step(c, wanted, tried, relative_error, trials.rejected, order))
+                               : AFTER_OVER_SHARE * tried;
+      record_accepted(c, tried, error, verdict == ACCEPT ? relative_error : 1.0, verdict);
       return ALI3_OK;
     }
     c->rejected++;
-    c->h = seen.force ? seen.first : fmax(least, tried * fmin(MOST_OF_REJECTED, factor(part, 0.0, order)));
-    seen.rejected = true;
-    take_back(in, &before);
+    c->h = trials.force ? trials.first
+                        : fmax(is_shortest, tried * fmin(MOST_OF_REJECTED, factor(relative_error, 0.0, order)));
+    trials.rejected = true;
+    undo_step(in, &end_before);
   }
 }
 
-/* Sets the report to the state in in->now, which was not read while steps were made. */
-static void finish(ali3_instance *in) {
+/* Updates the report for in->now, which was not read during the steps. */
+static void update_report(ali3_instance *in) {
   const ali3_method *method = ali3_method_of(in);
   if (method->after_sampled != NULL && in->now.history[ALI3_HISTORY_OWNER] == (double)method->owner)
     method->after_sampled(in);
 }
 
-/* Whether inputs are others than those that the last step ended with. */
-static bool jumped(ali3_instance *in) {
+/* Whether inputs differ from those at the end of the last step. */
+static bool inputs_have_jumped(ali3_instance *in) {
   if (in->inputs.function == NULL)
     return memcmp(in->inputs.set, in->now.used, (size_t)in->system->size.nu * sizeof(double)) != 0;
   in->clock.now = ali3_time(in);
@@ -227,13 +236,13 @@ static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_
   ali3_status status = ALI3_OK;
   double t = ali3_time(in);
   for (int64_t n = 0; n < most_steps && t < t_end && status == ALI3_OK; n++) {
-    const double until = ali3_guides_until(in, t, t_end);
-    const double before = fmax(t, until - 4.0 * 2.3e-16 * fabs(until)); /* the guide's piece that ends there */
+    const double piece_end = ali3_guides_until(in, t, t_end);
+    const double end_before = fmax(t, piece_end - 4.0 * 2.3e-16 * fabs(piece_end)); /* still in this piece */
     double h = 0.0;
-    status = controlled_step(in, measure, t, until < t_end ? before : t_end, &h);
+    status = controlled_step(in, measure, t, piece_end < t_end ? end_before : t_end, &h);
     if (status != ALI3_OK) break;
     double next = t + h;
-    if (next >= until - ROUND_OFF * fabs(until)) next = until;
+    if (next >= piece_end - ROUND_OFF * fabs(piece_end)) next = piece_end;
     for (; *done < record->n && record->time[*done] <= next && status == ALI3_OK; ++*done)
       status = ali3_dense_output(in, measure, t, h, record->time[*done],
                                  record->sensors != NULL ? record->sensors + *done * ns : NULL,
@@ -241,7 +250,7 @@ static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_
     t = next;
     set_time(in, t);
     ali3_branch_look(in, t);
-    if (t == until && until < t_end && status == ALI3_OK) status = ali3_refresh(in);
+    if (t == piece_end && piece_end < t_end && status == ALI3_OK) status = ali3_refresh(in);
   }
   return status;
 }
@@ -256,12 +265,12 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   if (status != ALI3_OK) return status;
   const ali3_measure measure = {control, scale};
   ali3_roads_forgive(in);
-  if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
-  if (jumped(in)) status = ali3_refresh(in);
+  if (control->h == 0.0) control->h = fmin(control->longest, FIRST_STEP * control->span);
+  if (inputs_have_jumped(in)) status = ali3_refresh(in);
   if (status == ALI3_OK) status = ali3_inputs_aim(in, 0.0, NULL);
-  ali3_branch_before(in); /* the modes of the start, where they have not been evaluated yet */
+  ali3_branch_before(in); /* assembly modes of the start, if not evaluated yet */
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);
-  finish(in);
+  update_report(in);
   in->report.last_status = (int32_t)status;
   return status;
 }

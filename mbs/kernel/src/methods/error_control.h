@@ -1,10 +1,10 @@
-/* Functions common to the files of the error control. */
+/* Functions that the files of the error control share. */
 #ifndef ALI3_ERROR_CONTROL_H
 #define ALI3_ERROR_CONTROL_H
 #include "../instance.h"
 #include "../request.h"
 
-/* Settings of a controlled run; scale is the size of a unit of each coordinate, m (nq), or NULL: 1 m each. */
+/* Settings of a controlled run; scale (nq): length of a unit of each coordinate, m; NULL: 1 m each. */
 typedef struct {
   ali3_control *control;
   const double *scale;

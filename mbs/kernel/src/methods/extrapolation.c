@@ -1,27 +1,27 @@
-/* Past steps go on: Lagrange's polynomial through what they were. */
+/* Extrapolation of past steps by Lagrange's polynomial. */
 #include "extrapolation.h"
 
 #include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 
-static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
-static const double FAR = 2.0;     /* times the last step that the next may be long */
-static const double CONTROLLED_FAR = 4.5; /* of a controlled one: the last was a half, and steps grow */
+static const double SMOOTH_RATIO = 0.25; /* largest prediction error over the last change of the accelerations */
+static const double MAX_RATIO = 2.0;     /* longest next step over the last one */
+static const double CONTROLLED_MAX_RATIO = 4.5; /* of controlled steps: the last was a half, and steps grow */
 
-/* Weights (Lagrange) with which values at the n times extrapolate to time t. */
+/* Lagrange weights (n) by which values at n times extrapolate to time t. */
 void ali3_lagrange(const real *time, int32_t n, real t, real *weight) {
   for (int32_t k = 0; k < n; k++) {
-    real above = ali3_same(1.0), below = above;
+    real numerator = ali3_same(1.0), denominator = numerator;
     for (int32_t j = 0; j < n; j++) {
       if (j == k) continue;
-      above *= t - time[j];
-      below *= time[k] - time[j];
+      numerator *= t - time[j];
+      denominator *= time[k] - time[j];
     }
-    weight[k] = above / below;
+    weight[k] = numerator / denominator;
   }
 }
 
-/* in->step.w: the last mean acceleration without what the n steps before, with these weights, would have predicted. */
+/* Writes the last mean acceleration minus its prediction from the n steps before, with these weights, to in->step.w. */
 ALI3_INLINED void history_miss(const ali3_instance *in, int32_t n, const real *weight) {
   const int32_t nq = in->system->size.nq;
   const real *a = in->now.past_a, *before = a + nq, first = weight[0];
@@ -33,29 +33,28 @@ ALI3_INLINED void history_miss(const ali3_instance *in, int32_t n, const real *w
 ALI3_BY_PROCESSOR(in->system, void, history_miss, (const ali3_instance *in, int32_t n, const real *weight),
                   (in, n, weight))
 
-/* Before a step h: whether the n steps before the last would have predicted the last much better than assuming no
- * change. */
+/* Whether, before a step h, the n steps before the last predict it much better than constant acceleration. */
 ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled) {
   const int32_t nq = in->system->size.nq;
   const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->step.w;
   real weight[ALI3_PAST], error = {0}, change = {0};
-  const truth near =
-      (history[ALI3_HISTORY_COUNT] > (double)n) & ((controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
+  const truth near = (history[ALI3_HISTORY_COUNT] > (double)n) &
+                     ((controlled ? CONTROLLED_MAX_RATIO : MAX_RATIO) * (time[0] - time[1]) > h);
   if (!ali3_any(near)) return near;
   ali3_lagrange(time + 1, n, time[0], weight);
   history_miss(in, n, weight);
   for (int32_t i = 0; i < nq; i++) {
-    const real m = in->mass.floor[i], one = a[i] - a[nq + i];
+    const real m = in->mass.floor[i], difference = a[i] - a[nq + i];
     error += m * miss[i] * miss[i];
-    change += m * one * one;
+    change += m * difference * difference;
   }
-  return near & (error < SMOOTH * SMOOTH * change);
+  return near & (error < SMOOTH_RATIO * SMOOTH_RATIO * change);
 }
 
 ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, int32_t n, double h, bool controlled),
                   (in, n, h, controlled))
 
-/* Sum of the n vectors of a length with these weights. */
+/* Weighted sum of n vectors of a length. */
 ALI3_INLINED void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight,
                                int32_t n) {
   const real w = weight[0];
@@ -63,15 +62,16 @@ ALI3_INLINED void weighted_sum(real *restrict to, const real *restrict from, int
   for (int32_t k = 1; k < n; k++) ali3_add_multiple(to, from + k * length, weight[k], length);
 }
 
-/* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from n > 0 past ones. */
-ALI3_INLINED void extrapolate(const ali3_instance *in, double when, int32_t n, real *a, real *lam) {
+/* Acceleration a (nq) and multipliers (nc) at `time_ahead` from now, extrapolated from n > 0 past ones. */
+ALI3_INLINED void extrapolate(const ali3_instance *in, double time_ahead, int32_t n, real *a, real *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   real weight[ALI3_PAST];
-  ali3_lagrange(v->history + ALI3_HISTORY_TIME, n, ali3_same(when), weight);
+  ali3_lagrange(v->history + ALI3_HISTORY_TIME, n, ali3_same(time_ahead), weight);
   weighted_sum(a, v->past_a, nq, weight, n);
   weighted_sum(lam, v->past_lam, nc, weight, n);
 }
 
-ALI3_BY_PROCESSOR(in->system, void, extrapolate, (const ali3_instance *in, double when, int32_t n, real *a, real *lam),
-                  (in, when, n, a, lam))
+ALI3_BY_PROCESSOR(in->system, void, extrapolate,
+                  (const ali3_instance *in, double time_ahead, int32_t n, real *a, real *lam),
+                  (in, time_ahead, n, a, lam))

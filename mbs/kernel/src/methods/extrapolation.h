@@ -1,4 +1,4 @@
-/* Polynomials through past steps. */
+/* Extrapolation of past accelerations and multipliers. */
 #ifndef ALI3_EXTRAPOLATION_H
 #define ALI3_EXTRAPOLATION_H
 #include "../algebra/real.h"

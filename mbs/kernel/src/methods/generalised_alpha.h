@@ -1,4 +1,4 @@
-/* Generalised-alpha. */
+/* The integration rule of generalised-alpha. */
 #ifndef ALI3_GENERALISED_ALPHA_H
 #define ALI3_GENERALISED_ALPHA_H
 #include "../instance.h"

@@ -1,5 +1,5 @@
-/* History of the methods beside q, qd, qdd, and the start values that it gives: mean accelerations
- * and multipliers of past steps, extrapolated by the polynomial through their middles. */
+/* History of the methods besides q, qd, qdd, and start values from it: mean accelerations and multipliers of past
+ * steps, extrapolated by the polynomial through the middles of the steps. */
 #include <math.h>
 #include <string.h>
 
@@ -8,15 +8,15 @@
 #include "extrapolation.h"
 #include "history.h"
 
-static const double WELL = 1e-4;   /* squared relative error of a good guess */
+static const double GOOD_GUESS = 1e-4;   /* squared relative error of a good guess */
 
 /* Number of past steps, at most `most`; a restored state may hold any number there. */
-static int32_t past(const ali3_vectors *v, int32_t most) {
+static int32_t past_count(const ali3_vectors *v, int32_t most) {
   const double count = v->history[ALI3_HISTORY_COUNT];
   return count < (double)most ? (count > 0.0 ? (int32_t)count : 0) : most;
 }
 
-/* The history belongs to `method`; a new owner starts from `own` (nq) and without a past. */
+/* Makes `method` the owner of the history; a new owner starts with `own` (nq) and no past steps. */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   double *history = in->now.history;
   if (history[ALI3_HISTORY_OWNER] == (double)method) return;
@@ -26,13 +26,13 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
-/* Number of past steps, at most `most`, to extrapolate from: as many as would have predicted the last one best; all if
- * all before it would have, or well enough. Where an oscillation turns within a few steps, old ones mislead. */
+/* Number of past steps, at most `most`, to extrapolate from: those that predict the last step best; all if all before
+ * it do, or well enough. In fast oscillations old steps are misleading. */
 int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   const ali3_vectors *v = &in->now;
-  const int32_t nq = in->system->size.nq, n = past(v, most);
+  const int32_t nq = in->system->size.nq, n = past_count(v, most);
   const double *time = v->history + ALI3_HISTORY_TIME;
-  double least = HUGE_VAL, weight[ALI3_PAST];
+  double smallest = HUGE_VAL, weight[ALI3_PAST];
   int32_t best = n;
   if (n <= 2) return n;
   for (int32_t m = n - 1; m > 0; m--) {
@@ -43,35 +43,35 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
       error += in->step.w[i] * in->step.w[i];
       square += v->past_a[i] * v->past_a[i];
     }
-    if (error < least) {
-      least = error;
+    if (error < smallest) {
+      smallest = error;
       best = m == n - 1 ? n : m;
     }
-    if (least <= WELL * square) break;
+    if (smallest <= GOOD_GUESS * square) break;
   }
   return best;
 }
 
-/* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from at most `most` past ones; without a
+/* Acceleration a (nq) and multipliers (nc) at `time_ahead` from now, extrapolated from at most `most` past ones; without a
  * past those of the state. */
-void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam) {
+void ali3_history_predict(const ali3_instance *in, double time_ahead, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
-  const int32_t n = past(v, most);
+  const int32_t n = past_count(v, most);
   if (n == 0) {
     memcpy(a, v->qdd, (size_t)nq * sizeof *a);
     memcpy(lam, v->lam, (size_t)nc * sizeof *lam);
     return;
   }
-  ali3_extrapolate(in, when, n, a, lam);
+  ali3_extrapolate(in, time_ahead, n, a, lam);
 }
 
-/* in->next goes on from in->now with the step h just made, whose mean acceleration and multipliers the caller puts
- * before those of the past. */
+/* Shifts the history of in->now by the completed step h into in->next; the caller writes the first mean acceleration
+ * and multipliers. */
 void ali3_history_shift(ali3_instance *in, double h) {
   const ali3_vectors *from = &in->now, *to = &in->next;
   const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
-  const int32_t n = past(from, ALI3_PAST);
+  const int32_t n = past_count(from, ALI3_PAST);
   to->history[ALI3_HISTORY_OWNER] = from->history[ALI3_HISTORY_OWNER];
   to->history[ALI3_HISTORY_COUNT] = n < ALI3_PAST ? n + 1 : n;
   to->history[ALI3_HISTORY_TIME] = -0.5 * h;
@@ -88,9 +88,9 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
   memcpy(in->next.past_lam, in->next.lam, (size_t)in->system->size.nc * sizeof *a);
 }
 
-/* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step
- * and the last. What the carried one has beside it changes sign with every step; a sticking tyre or brake would follow
- * that as a motion, and creep. Over many steps these velocities add up to the displacement. */
+/* Velocity at the end of the step for the states of elements: linear through the mean velocities of this step and the
+ * last. The deviation of the carried velocity from it alternates in sign; a sticking tyre or brake would follow it as a
+ * motion, and creep. Summed over many steps these velocities give the displacement. */
 void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
   const ali3_vectors *from = &in->now;
   const int32_t nq = in->system->size.nq;
@@ -100,14 +100,14 @@ void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
     return;
   }
   const double share = 0.5 * h / (0.5 * h + half);
-  double along = 0.0, square = 0.0;
+  double projection = 0.0, square = 0.0;
   for (int32_t i = 0; i < nq; i++) {
     const double last = from->own[i] - half * from->past_a[i];
-    const double line = share * (in->discrete.rate[i] - last), m = in->mass.floor[i];
+    const double linear = share * (in->discrete.rate[i] - last), m = in->mass.floor[i];
     v[i] = in->next.own[i] - in->discrete.rate[i];
-    along += m * v[i] * line;
+    projection += m * v[i] * linear;
     square += m * v[i] * v[i];
   }
-  const double part = square > 0.0 ? fmin(1.0, fmax(0.0, along / square)) : 0.0;
-  for (int32_t i = 0; i < nq; i++) v[i] = in->discrete.rate[i] + part * v[i];
+  const double factor = square > 0.0 ? fmin(1.0, fmax(0.0, projection / square)) : 0.0;
+  for (int32_t i = 0; i < nq; i++) v[i] = in->discrete.rate[i] + factor * v[i];
 }

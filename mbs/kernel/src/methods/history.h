@@ -1,4 +1,4 @@
-/* History that methods carry from step to step. */
+/* History that methods keep from step to step. */
 #ifndef ALI3_HISTORY_H
 #define ALI3_HISTORY_H
 #include "../instance.h"

@@ -1,6 +1,6 @@
-/* Accelerations and multipliers at the start of a step where inputs jump: the trapezoidal rule takes its forces from
- * them, and those before the jump would make every force late by half a step. A guide that follows an input needs
- * nothing: its rate is continuous, and the mean force of a row comes from the end of the step. */
+/* Accelerations and multipliers at the start of a step where inputs jump: the trapezoidal rule uses them, and those
+ * before the jump would delay every force by half a step. A guide that follows an input has a continuous rate and needs
+ * no change. */
 #include <string.h>
 
 #include "../algebra/fronts.h"
@@ -15,8 +15,8 @@
 #include "../state/work.h"
 #include "input_jump.h"
 
-/* Forces at in->now with given inputs, and the states of elements, whose rates follow from them. */
-static void forces(ali3_instance *in, const double *input, double *Q, double *y, double *potential) {
+/* Evaluates forces at in->now with given inputs, and the states of elements, whose rates depend on them. */
+static void evaluate_forces(ali3_instance *in, const double *input, double *Q, double *y, double *potential) {
   const ali3_vectors *v = &in->now;
   const ali3_force_call call = {
       .q = v->q, .qd = v->qd, .y_old = v->y, .Q = Q, .y_new = y, .out = in->element.out, .potential = potential};
@@ -29,22 +29,22 @@ static void add(double *to, const double *change, int32_t n) {
   for (int32_t i = 0; i < n; i++) to[i] += change[i];
 }
 
-/* in->step.x and in->step.lam: by how much accelerations and multipliers at in->now change when inputs do; nothing is
- * solved where no force changes, then *jumps is false. `force` gets the watched forces before, in->watch.now has those
- * behind; in->next.y and in->element.y have the states of elements. M x + Phi_q' lam = change of Q, Phi_q x = 0 by the
- * penalty; modes of flexible bodies that the step h does not resolve follow as slowly as the trapezoidal rule lets
- * them, by the weights of its tangent: else they would ring. */
-static ali3_status input_change(ali3_instance *in, double h, const double *before, const double *behind, double *force,
-                                bool *jumps) {
+/* Computes the changes of accelerations, in->step.x, and multipliers, in->step.lam, at in->now by a change of inputs;
+ * *force_changes false: no force changes and nothing is solved. `force` receives the forces of elements with work
+ * sensors before, in->watch.now has those after it; in->next.y and in->element.y have the states of elements. M x +
+ * Phi_q' lam = change of Q, Phi_q x = 0 by the penalty, with the tangent of the trapezoidal rule for flexible bodies,
+ * whose unresolved modes would oscillate otherwise. */
+static ali3_status input_change(ali3_instance *in, double h, const double *before, const double *after, double *force,
+                                bool *force_changes) {
   const ali3_system *S = in->system;
   const ali3_vectors *v = &in->now;
   const int32_t nq = S->size.nq;
-  forces(in, before, in->step.x, in->next.y, in->next.potential); /* of a step that is to come: it writes them again */
+  evaluate_forces(in, before, in->step.x, in->next.y, in->next.potential); /* overwritten by the next step */
   for (int32_t i = 0; i < S->n_work_force; i++) force[i] = in->watch.now[S->n_work + i];
-  forces(in, behind, in->step.Q, in->element.y, in->element.potential);
+  evaluate_forces(in, after, in->step.Q, in->element.y, in->element.potential);
   ali3_work_of_inputs(in, in->next.potential, in->element.potential);
-  *jumps = memcmp(in->step.x, in->step.Q, (size_t)nq * sizeof(double)) != 0;
-  if (!*jumps) return ALI3_OK;
+  *force_changes = memcmp(in->step.x, in->step.Q, (size_t)nq * sizeof(double)) != 0;
+  if (!*force_changes) return ALI3_OK;
   for (int32_t i = 0; i < nq; i++) in->step.x[i] = in->step.Q[i] - in->step.x[i];
   ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
   ali3_mass_to_fronts(in, in->tangent.F);
@@ -58,22 +58,22 @@ static ali3_status input_change(ali3_instance *in, double h, const double *befor
   return ALI3_OK;
 }
 
-/* Before a step h: in->now goes to what comes behind a jump, past accelerations and multipliers with it, so that they
- * predict the next ones. */
+/* Before a step h: updates in->now after a jump of inputs, and past accelerations and multipliers, which predict the
+ * next ones. */
 ali3_status ali3_input_jump(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   ali3_vectors *v = &in->now;
-  double *before = in->kept.direction.step_force, *watched = v->watched + S->n_work;
-  bool jumps;
+  double *before = in->kept.direction.step_force, *work_force = v->watched + S->n_work;
+  bool force_changes;
   if (!ali3_inputs_jump(in)) return ALI3_OK;
   ali3_back_up(in);
-  const ali3_status status = input_change(in, h, v->used, in->inputs.begin, before, &jumps);
+  const ali3_status status = input_change(in, h, v->used, in->inputs.begin, before, &force_changes);
   if (status != ALI3_OK) return status;
-  /* By their change: Newton's loop balanced forces of elements with states half a step before these. */
-  for (int32_t i = 0; i < S->n_work_force; i++) watched[i] += in->watch.now[S->n_work + i] - before[i];
+  /* by the change only: Newton's iteration used states of elements half a step earlier */
+  for (int32_t i = 0; i < S->n_work_force; i++) work_force[i] += in->watch.now[S->n_work + i] - before[i];
   memcpy(v->used, in->inputs.begin, (size_t)S->size.nu * sizeof(double));
-  if (!jumps) return ALI3_OK;
+  if (!force_changes) return ALI3_OK;
   add(v->qdd, in->step.x, nq);
   add(v->lam, in->step.lam, nc);
   for (int32_t i = 0; i < S->size.ny; i++) v->y[i] += in->element.y[i] - in->next.y[i];

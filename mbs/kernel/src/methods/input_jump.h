@@ -1,4 +1,4 @@
-/* Accelerations behind a jump of inputs. */
+/* Accelerations after a jump of inputs. */
 #ifndef ALI3_INPUT_JUMP_H
 #define ALI3_INPUT_JUMP_H
 #include "../instance.h"

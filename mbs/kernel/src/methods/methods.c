@@ -1,4 +1,4 @@
-/* The methods by their numbers. */
+/* Table of the methods. */
 #include "../method.h"
 
 static const ali3_method *const methods[ALI3_METHOD_COUNT] = {
@@ -19,7 +19,7 @@ const char *ali3_method_excludes(const ali3_instance *in) {
   return in == NULL || ali3_method_of(in)->excludes == NULL ? "" : ali3_method_of(in)->excludes;
 }
 
-/* ALI3_OK, or why the method of the settings cannot take the System. */
+/* ALI3_OK, or a status if the method of the settings does not accept the System. */
 ali3_status ali3_check_method(const ali3_instance *in) {
   const ali3_method *method = ali3_method_of(in);
   return method->takes != NULL ? method->takes(in) : ALI3_OK;

@@ -1,10 +1,10 @@
-/* Functions common to Newton's iterations. */
+/* Functions of Newton's iteration that methods share. */
 #ifndef ALI3_NEWTON_H
 #define ALI3_NEWTON_H
 #include "../algebra/real.h"
 #include "../instance.h"
 
-#define ALI3_LOST 1.0 /* m or so: rows this far open belong to an iteration that diverged */
+#define ALI3_LOST 1.0 /* m: a larger violation is divergence */
 
 double ali3_penalty(const ali3_instance *in, double h);
 bool ali3_judge(ali3_instance *in, const double *r);

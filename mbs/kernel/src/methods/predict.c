@@ -1,8 +1,7 @@
-/* First guess of the increment and the multipliers of an ALi3-P step. Where the motion has been smooth, mean
- * accelerations and multipliers go on along the parabola through those of the last three steps; else the present ones
- * stay. Flexible bodies have modes that vibrate faster than the step can follow; the trapezoidal rule lets their rates
- * and accelerations oscillate, and with them those of all that is tied to them, but not the positions. There the mean
- * rates of the last two steps go on. */
+/* Prediction of the increment and multipliers of an ALi3-P step. After smooth motion mean accelerations and multipliers
+ * are extrapolated by the parabola through the last three steps; otherwise the present ones are used. Flexible bodies
+ * have modes that steps do not resolve; the trapezoidal rule lets their rates and accelerations oscillate, but not
+ * their positions, so that the mean velocities of the last two steps are extrapolated. */
 #include <string.h>
 
 #include "../algebra/number_pairs.h"
@@ -12,7 +11,7 @@
 #include "history.h"
 #include "predict.h"
 
-/* Returns whether past steps were used; `from_past` false ignores them. */
+/* Writes the prediction; returns whether past steps were used. `from_past` false: they are not. */
 ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool from_past) {
   const double h = request->h;
   const ali3_system *S = in->system;
@@ -24,14 +23,14 @@ ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool f
     return false;
   }
   ali3_history_own(in, in->settings.method, from->qdd);
-  const bool goes_on = from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA &&
-                       ali3_history_smooth(in, ALI3_PARABOLA, h, request->controlled);
-  ali3_history_predict(in, 0.5 * h, goes_on ? ALI3_PARABOLA : 0, in->step.x, lam);
+  const bool extrapolates = from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA &&
+                            ali3_history_smooth(in, ALI3_PARABOLA, h, request->controlled);
+  ali3_history_predict(in, 0.5 * h, extrapolates ? ALI3_PARABOLA : 0, in->step.x, lam);
   const double *last = from->lam, *qd = from->qd, *x = in->step.x, half = 0.5 * h * h;
   double *D = in->step.D;
   ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_SHARE * (ALI3_AT(lam) - ALI3_AT(last)))
   ALI3_EACH(0, S->size.nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
-  return goes_on;
+  return extrapolates;
 }
 
 ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, const ali3_request *request, bool from_past),

@@ -1,12 +1,12 @@
-/* Start values of a step. */
+/* Prediction of the increment and multipliers of a step. */
 #ifndef ALI3_PREDICT_H
 #define ALI3_PREDICT_H
 #include "../instance.h"
 #include "../request.h"
 
 enum { ALI3_PARABOLA = 3 };
-/* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows or has
- * right about rows that lose their lever, and whole extrapolations of that would grow. */
+/* Share of the extrapolated change of multipliers that is used: errors along dependent rows, and of rows whose lever
+ * vanishes, are not corrected by the step and would grow by full extrapolation. */
 static const double ALI3_SHARE = 0.5;
 
 bool ali3_predict(ali3_instance *in, const ali3_request *request, bool from_past);

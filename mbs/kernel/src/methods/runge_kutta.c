@@ -1,8 +1,8 @@
 /* Explicit Runge-Kutta method of order eight with twelve stages (coefficients of Dormand and Prince, in Hairer,
- * Norsett, Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: every
- * stage solves for accelerations and multipliers, positions and velocities return to the rows at the end of a step. For
- * smooth motion without stiff forces, away from singular positions; the last stage of a step is the first of the
- * next. */
+ * Norsett, Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: each
+ * stage solves for accelerations and multipliers, positions and velocities are projected onto the rows at the end of a
+ * step. For smooth motion without stiff forces, away from singular positions; the last stage of a step is the first of
+ * the next. */
 #include <math.h>
 #include <string.h>
 
@@ -30,8 +30,8 @@ enum { STAGES = ALI3_STAGES, SWEEPS = 3 };
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 static const double VELOCITY_TOLERANCE = 1e-12;
 
-/* Power of the forces in in->step.Q and of drives at the state that has just been solved. */
-static double power(ali3_instance *in, const ali3_vectors *v) {
+/* Power of the forces in in->step.Q and of drives at the state that was solved last, W. */
+static double force_power(ali3_instance *in, const ali3_vectors *v) {
   double sum = 0.0;
   ali3_constraint_rate(in, v->q, v, in->step.Phit);
   for (int32_t i = 0; i < in->system->size.nq; i++) sum += v->qd[i] * in->step.Q[i];
@@ -39,23 +39,23 @@ static double power(ali3_instance *in, const ali3_vectors *v) {
   return sum;
 }
 
-/* State of a stage: positions and velocities from the accelerations of the `stages` before it. `row` are its weights,
- * `second` those of the double integral. */
-static void combine(ali3_instance *in, double h, double time, const double *row, int stages) {
+/* Sets positions and velocities of a stage from the accelerations of the `stages` before it. `weights`: weights of the
+ * stage; `second`: those of the double integral. */
+static void combine(ali3_instance *in, double h, double time, const double *weights, int stages) {
   const int32_t nq = in->system->size.nq;
   double second[STAGES] = {0.0};
   for (int i = 0; i < stages; i++)
-    for (int j = 0; j < i; j++) second[j] += row[i] * ali3_order_8.stage_weight[i][j];
+    for (int j = 0; j < i; j++) second[j] += weights[i] * ali3_order_8.stage_weight[i][j];
   for (int32_t i = 0; i < nq; i++) {
     in->next.qd[i] = 0.0;
     in->next.q[i] = 0.0;
   }
   for (int j = 0; j < stages; j++) {
-    const double *restrict a = in->step.stage + (int64_t)j * nq, first = row[j], twice = second[j];
-    if (first == 0.0 && twice == 0.0) continue;
+    const double *restrict a = in->step.stage + (int64_t)j * nq, weight = weights[j], second_weight = second[j];
+    if (weight == 0.0 && second_weight == 0.0) continue;
     for (int32_t i = 0; i < nq; i++) {
-      in->next.qd[i] += first * a[i];
-      in->next.q[i] += twice * a[i];
+      in->next.qd[i] += weight * a[i];
+      in->next.q[i] += second_weight * a[i];
     }
   }
   for (int32_t i = 0; i < nq; i++) {
@@ -64,8 +64,9 @@ static void combine(ali3_instance *in, double h, double time, const double *row,
   }
 }
 
-/* Back to Phi = 0 and Phi_q qd + Phi_t = 0 with the tangent of the last stage, which was at the end of the step too. */
-static ali3_status close(ali3_instance *in) {
+/* Projects onto Phi = 0 and Phi_q qd + Phi_t = 0 with the tangent of the last stage, which is at the end of the step
+ * too. */
+static ali3_status project(ali3_instance *in) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
   memcpy(in->tangent.J_made, in->tangent.J, (size_t)S->size.nnz_rows * sizeof(double));
@@ -86,9 +87,9 @@ static ali3_status close(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Sets accelerations and multipliers of in->next, a copy of in->now, to those behind a jump of inputs at the start of
- * the step: its first stage then is not the last one of the step before. */
-static ali3_status after_jump(ali3_instance *in) {
+/* Sets accelerations and multipliers of in->next, a copy of in->now, to those after a jump of inputs at the start of
+ * the step: then its first stage is not the last one of the step before. */
+static ali3_status accelerations_after_jump(ali3_instance *in) {
   if (!ali3_inputs_jump(in)) return ALI3_OK;
   const ali3_status status = ali3_inputs_at(in, 0.0);
   if (status != ALI3_OK) return status;
@@ -97,7 +98,7 @@ static ali3_status after_jump(ali3_instance *in) {
   return solved;
 }
 
-/* From in->now to in->next, a copy of it; in->now changes only when the step is good. t is the time at its end. */
+/* Makes a step from in->now to in->next, a copy of it; in->now changes only if it succeeds. */
 static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const double t = request->t, h = request->h;
   const ali3_system *S = in->system;
@@ -105,16 +106,16 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const int64_t before = in->report.iterations;
   ali3_vectors *from = &in->now, *to = &in->next;
   in->inputs.forces = in->inputs.middle;
-  ali3_status status = after_jump(in);
+  ali3_status status = accelerations_after_jump(in);
   memcpy(in->step.stage, to->qdd, (size_t)nq * sizeof(double));
   memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
-  const bool watched = S->n_flexible + S->n_tabled == 0; /* else M changes, and in->step.Q has inertia forces */
-  const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->step.r) : 0.0;
+  const bool has_energy_check = S->n_flexible + S->n_tabled == 0; /* else in->step.Q has inertia forces too */
+  const double kinetic = has_energy_check ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->step.r) : 0.0;
   double work =
-      watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->step.stage, in->step.r) : 0.0;
+      has_energy_check ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->step.stage, in->step.r) : 0.0;
   ali3_work_stage(in, h * ali3_order_8.weight[0], to->watched, to->work);
   const bool guides = S->n_guide_work > 0;
-  double drives = guides ? h * ali3_order_8.weight[0] * ali3_guides_power(in, to) : 0.0;
+  double guide_work = guides ? h * ali3_order_8.weight[0] * ali3_guides_power(in, to) : 0.0;
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
     combine(in, h, ali3_order_8.node[stage], ali3_order_8.stage_weight[stage], stage);
     ali3_guides_time(in, to, t - (1.0 - ali3_order_8.node[stage]) * h);
@@ -122,25 +123,26 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
     if (status != ALI3_OK) break;
     status = ali3_index_one(in, to);
     ali3_work_stage(in, h * ali3_order_8.weight[stage], in->watch.now, to->work);
-    if (guides) drives += h * ali3_order_8.weight[stage] * ali3_guides_power(in, to);
-    if (watched) work += h * ali3_order_8.weight[stage] * power(in, to);
+    if (guides) guide_work += h * ali3_order_8.weight[stage] * ali3_guides_power(in, to);
+    if (has_energy_check) work += h * ali3_order_8.weight[stage] * force_power(in, to);
     memcpy(in->step.stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
   }
   in->inputs.forces = in->inputs.set;
   if (status == ALI3_OK) {
     combine(in, h, 1.0, ali3_order_8.weight, STAGES);
     ali3_guides_time(in, to, t);
-    status = close(in);
+    status = project(in);
   }
   if (status == ALI3_OK) status = ali3_index_one(in, to);
   ali3_work_store(in, to);
-  if (status == ALI3_OK && watched) {
-    const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->step.r) - kinetic;
-    status = ali3_energy_watch(in, request, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);
+  if (status == ALI3_OK && has_energy_check) {
+    const double kinetic_change = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->step.r) - kinetic;
+    status = ali3_energy_watch(in, request, kinetic_change - work, kinetic + fmax(kinetic_change, 0.0),
+                               kinetic + kinetic_change, 0.0);
   }
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
-  ali3_guides_work(in, to, drives);
+  ali3_guides_work(in, to, guide_work);
   to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
   for (int32_t i = 0; i < nq; i++) in->step.D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);

@@ -78,8 +78,8 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
                           : unit == ALI3_JUDGED_N   ? energy / length
                           : unit == ALI3_JUDGED_N_M ? energy
                                                     : 0.0;
-    const double rest =
-        fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most), unseen);
+    const double in_unit = fmax(largest[group], largest[group ^ 1]); /* beside large forces small ones are round-off */
+    const double rest = fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(in_unit, most), unseen);
     size[i] = !(moved[group] > rest) || !follows(seen + i) ? 0.0
               : what[i].kind & ALI3_JUDGED_LOAD            ? largest[group]
                                                            : moved[group];
