@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def problems(root: Path, tag: str | None) -> list[str]:
-    """Sentences about what does not fit."""
+    """Sentences on disagreements between the files of a release."""
     version = version_of(root)
     results = []
     cited = _first(r"^version: *(\S+)$", root / "CITATION.cff")
@@ -38,7 +38,7 @@ def problems(root: Path, tag: str | None) -> list[str]:
 
 
 def version_of(root: Path) -> str | None:
-    """The version of pyproject.toml."""
+    """Version in pyproject.toml."""
     return _first(r'^version = "(.+)"$', root / "pyproject.toml")
 
 
@@ -57,12 +57,12 @@ def _first(pattern: str, file: Path) -> str | None:
 def main() -> int:
     """Run the command."""
     tag = sys.argv[1] if len(sys.argv) > 1 else None
-    found = problems(ROOT, tag)
-    for sentence in found:
+    faults = problems(ROOT, tag)
+    for sentence in faults:
         print(f"error: {sentence}", file=sys.stderr)
-    if not found and tag is not None:
+    if not faults and tag is not None:
         print(section(ROOT, version_of(ROOT))[1])
-    return 1 if found else 0
+    return 1 if faults else 0
 
 
 if __name__ == "__main__":

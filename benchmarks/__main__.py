@@ -8,13 +8,13 @@ FOLDER = Path(__file__).parent
 
 
 def commands() -> dict[str, Path]:
-    """Files of the commands by name: those of this folder, and packages that can be run."""
+    """Files of the commands by name: modules of this folder, and packages with a `__main__`."""
     files = {file.stem: file for file in FOLDER.glob("*.py") if not file.stem.startswith("__")}
     return files | {file.parent.name: file for file in FOLDER.glob("*/__main__.py")}
 
 
 def main() -> int:
-    """Print each command with the first words of its documentation."""
+    """Print each command with the beginning of its docstring."""
     descriptions = {
         name: ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) for name, file in commands().items()
     }

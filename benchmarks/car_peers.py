@@ -1,11 +1,11 @@
 """A step of a car beside those of other programs: ``python -m benchmarks.car_peers [--json FILE]``.
 
-The prototype with links and by tables, alone and in lanes; a MuJoCo car of the same mass, wheelbase and track on four
-sprung wheels (`benchmarks.peers.mujoco_car`), by `mujoco.rollout` one after the other and on all cores; an Exudyn car
-with the wheel rates and damping of the prototype too (`benchmarks.peers.exudyn_car`); CommonRoad's multi-body car
-(`benchmarks.peers.commonroad_car`). The first two are given the angles of the rigid car's front wheels, the last one
-their mean. All make the same steps of the same manoeuvres in turn; of three rounds the least is taken, in seconds in
-which threads had a core. What is not installed is left out with a word.
+Compared are the prototype with links and by tables, alone and in lanes; a MuJoCo car of the same mass, wheelbase and
+track on four sprung wheels (`benchmarks.peers.mujoco_car`), by `mujoco.rollout` one after the other and on all cores;
+an Exudyn car with the same wheel rates and damping too (`benchmarks.peers.exudyn_car`); CommonRoad's multi-body car
+(`benchmarks.peers.commonroad_car`). MuJoCo and Exudyn get the angles of the rigid car's front wheels, CommonRoad their
+mean. All make the same steps of the same manoeuvres in turn; the least processor time of three rounds counts. Programs
+that are not installed are left out and named.
 """
 
 import importlib.util
@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.car import lanes, manoeuvres, rig
-from benchmarks.shared.command import Part, run, say_missing, watched
+from benchmarks.shared.command import Part, report_missing, run, watched
 from benchmarks.shared.pages import Row, table
 from mbs import Trajectory, compile, simulate
 from mbs.scenes import prototype_car
@@ -28,45 +28,47 @@ from mbs.vehicle import Car, load
 
 Array: TypeAlias = NDArray[np.float64]
 Drive: TypeAlias = Callable[[], tuple[tuple[Array, Array], float]]
-"""Gives the yaw rate and the speed of a car, and the seconds that a core took for all of them."""
+"""Returns yaw rate, rad/s, and speed, m/s, of a car, shape (steps,), and the processor time of all cars, s."""
 SCENES = (("slalom", "slalom", 0.005), ("lane change", "double_lane_change_replay", 0.01))
 FIDELITIES = {"links": 0, "tables": 10}
-OURS = {"links": "with links", "tables": "by tables"}
+TITLES = {"links": "with links", "tables": "by tables"}
 ROUNDS = 3
-PEERS = {"MuJoCo": ("mujoco",), "Exudyn": ("exudyn",), "CommonRoad": ("numba", "vehiclemodels")}
-"""Cars of other programs and the modules that they need."""
+MODULES = {"MuJoCo": ("mujoco",), "Exudyn": ("exudyn",), "CommonRoad": ("numba", "vehiclemodels")}
+"""Other programs and the modules that their cars need."""
 
 
 def _rows(options: Namespace) -> list[dict[str, Any]]:
-    missing = [car for car, needs in PEERS.items() if not all(importlib.util.find_spec(module) for module in needs)]
+    missing = [
+        car for car, modules in MODULES.items() if not all(importlib.util.find_spec(module) for module in modules)
+    ]
     for car in missing:
-        say_missing(f"{car}'s car: {' and '.join(PEERS[car])} not installed (python -m pip install 'ali3[peers]')")
-    installed = [car for car in PEERS if car not in missing]
+        report_missing(f"{car}'s car: {' and '.join(MODULES[car])} not installed (python -m pip install 'ali3[peers]')")
+    installed = [car for car in MODULES if car not in missing]
     return [row for scene in watched(SCENES) for row in measure(*scene, peers=installed)]
 
 
 def measure(
-    scene: str, name: str, h: float, seconds: float = lanes.SECONDS, peers: Sequence[str] = tuple(PEERS)
+    scene: str, name: str, h: float, seconds: float = lanes.SECONDS, peers: Sequence[str] = tuple(MODULES)
 ) -> list[dict[str, Any]]:
-    """Rows of one scene."""
+    """Rows of a scene. `name`: of its manoeuvre; `h`: step, s; `seconds`: length of the run, s."""
     runs = {car: _run(name, h, fidelity, seconds) for car, fidelity in FIDELITIES.items()}
-    guide = runs["links"]
-    angles = np.column_stack([guide[f"wheel_{w}.steer"][1:] for w in ("FL", "FR")])
-    measured = {car: _PEERS[car](float(guide["speed"][0]), h, angles) for car in peers}
-    spent: dict[tuple[str, str], float] = {}
-    moved = {kind: (run["chassis.wz"], run["speed"]) for kind, run in runs.items()}
+    linked = runs["links"]
+    angles = np.column_stack([linked[f"wheel_{w}.steer"][1:] for w in ("FL", "FR")])
+    drives = {car: _DRIVES[car](float(linked["speed"][0]), h, angles) for car in peers}
+    times: dict[tuple[str, str], float] = {}
+    motions = {kind: (run["chassis.wz"], run["speed"]) for kind, run in runs.items()}
 
-    def take(car: str, way: str, us: float) -> None:
-        spent[car, way] = min(us, spent.get((car, way), np.inf))
+    def record(car: str, way: str, us: float) -> None:
+        times[car, way] = min(us, times.get((car, way), np.inf))
 
     for _ in range(ROUNDS):
         for kind, fidelity in FIDELITIES.items():
             for row in lanes.measure(scene, h, partial(lanes.varied_cars, name, fidelity), seconds):
-                take(kind, row["way"], row["us_a_step"])
-        for car, ways in measured.items():
+                record(kind, row["way"], row["us_a_step"])
+        for car, ways in drives.items():
             for way, drive in ways.items():
-                moved[car], used = drive()
-                take(car, way, 1e6 * used / (lanes.CARS * len(angles)))
+                motions[car], cpu_time = drive()
+                record(car, way, 1e6 * cpu_time / (lanes.CARS * len(angles)))
     return [
         {
             "scene": scene,
@@ -74,10 +76,10 @@ def measure(
             "car": kind,
             "way": way,
             "us_a_step": us,
-            "yaw_rate": float(np.abs(moved[kind][0]).max()),
-            "speed": float(moved[kind][1][-1]),
+            "yaw_rate": float(np.abs(motions[kind][0]).max()),
+            "speed": float(motions[kind][1][-1]),
         }
-        for (kind, way), us in spent.items()
+        for (kind, way), us in times.items()
     ]
 
 
@@ -88,8 +90,8 @@ def _mujoco(speed: float, h: float, angles: Array) -> dict[str, Drive]:
     models = [mujoco_car.model(*_prototype(), h, 1.0 + 0.01 * k) for k in range(lanes.CARS)]
 
     def run(threads: int) -> tuple[tuple[Array, Array], float]:
-        rates, used = mujoco_car.drive(models, speed, angles, threads)
-        return (rates[0, :, 5], np.linalg.norm(rates[0, :, :2], axis=1)), used
+        rates, cpu_time = mujoco_car.drive(models, speed, angles, threads)
+        return (rates[0, :, 5], np.linalg.norm(rates[0, :, :2], axis=1)), cpu_time
 
     return {"single": partial(run, 0), f"rollout, {cores} threads": partial(run, cores)}
 
@@ -101,8 +103,8 @@ def _exudyn(speed: float, h: float, angles: Array) -> dict[str, Drive]:
     curves = rig.kinematics(car)
 
     def run() -> tuple[tuple[Array, Array], float]:
-        rates, used = exudyn_car.drive(car, mass, speed, h, angles, curves, lanes.CARS)
-        return (rates[:, exudyn_car.YAW], np.linalg.norm(rates[:, :2], axis=1)), used
+        rates, cpu_time = exudyn_car.drive(car, mass, speed, h, angles, curves, lanes.CARS)
+        return (rates[:, exudyn_car.YAW], np.linalg.norm(rates[:, :2], axis=1)), cpu_time
 
     return {"single": run}
 
@@ -111,13 +113,13 @@ def _commonroad(speed: float, h: float, angles: Array) -> dict[str, Drive]:
     from benchmarks.peers import commonroad_car
 
     def run() -> tuple[tuple[Array, Array], float]:
-        states, used = commonroad_car.drive(lanes.CARS, speed, h, angles.mean(axis=1))
-        return commonroad_car.motion(states), used
+        states, cpu_time = commonroad_car.drive(lanes.CARS, speed, h, angles.mean(axis=1))
+        return commonroad_car.motion(states), cpu_time
 
     return {"single": run}
 
 
-_PEERS = {"MuJoCo": _mujoco, "Exudyn": _exudyn, "CommonRoad": _commonroad}
+_DRIVES = {"MuJoCo": _mujoco, "Exudyn": _exudyn, "CommonRoad": _commonroad}
 
 
 def _prototype() -> tuple[Car, float]:
@@ -127,7 +129,7 @@ def _prototype() -> tuple[Car, float]:
 
 
 def _run(name: str, h: float, fidelity: int, seconds: float) -> Trajectory:
-    """The car through the manoeuvre, for its motion alone."""
+    """Simulate the car in the manoeuvre."""
     manoeuvre, system = manoeuvres.load(name), compile(prototype_car.build(fidelity=fidelity))
     parameters, pose = manoeuvres.start_of(manoeuvre, system)
     inputs = manoeuvres.inputs_of(manoeuvre, system)
@@ -135,10 +137,12 @@ def _run(name: str, h: float, fidelity: int, seconds: float) -> Trajectory:
 
 
 def peer_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """us of a core for a step by car, way and scene."""
+    """Table of the processor time of a step, us, by car, way and scene."""
     lines: dict[tuple[str, str], dict[str, Any]] = {}
     for row in rows:
-        line = lines.setdefault((row["car"], row["way"]), {"car": OURS.get(row["car"], row["car"]), "way": row["way"]})
+        line = lines.setdefault(
+            (row["car"], row["way"]), {"car": TITLES.get(row["car"], row["car"]), "way": row["way"]}
+        )
         line[lanes.scene_of(row)] = row["us_a_step"]
     columns = {"car": "", "way": ""} | dict.fromkeys(map(lanes.scene_of, rows), ".1f")
     return {"car peers": table(list(lines.values()), columns)}

@@ -1,4 +1,4 @@
-"""What FMUs cost: ``python -m benchmarks.fmu PART``: calls, WebAssembly, cars in Python, studies of many runs."""
+"""Cost of FMUs: ``python -m benchmarks.fmu PART``: calls, WebAssembly, cars in Python, studies of many runs."""
 
 import sys
 import tempfile
@@ -27,24 +27,24 @@ def _calls(options: Namespace) -> list[dict[str, Any]]:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         for kind in watched(list(KINDS)):
             fmu = build_fmu(system, name, Path(folder), [fmpy.platform], kind=kind)
-            requested = options.steps, min(options.repeats, 64), options.instances
-            rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *requested)
+            counts = options.steps, min(options.repeats, 64), options.instances
+            rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *counts)
     return rows
 
 
 def _held(options: Namespace) -> list[dict[str, Any]]:
     system = manoeuvres.system_of("drop")
-    kinds = dict.fromkeys(kind for kind, *_ in held_inputs.WAYS.values())
+    kinds = dict.fromkeys(kind for kind, *_ in held_inputs.INTERPOLATIONS.values())
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         fmus = {kind: build_fmu(system, "car", Path(folder), [fmpy.platform], kind=kind) for kind in watched([*kinds])}
-        return held_inputs.measured(fmus, options.only)
+        return held_inputs.measure(fmus, options.only)
 
 
 def _plant(options: Namespace) -> list[dict[str, Any]]:
     from benchmarks.car import plant_steps  # needs the extra `learn`
 
-    requested = options.several, options.repeats, options.steps
-    return [row for name in watched(plant_steps.ENVIRONMENTS) for row in plant_steps.measure(name, *requested)]
+    counts = options.several, options.repeats, options.steps
+    return [row for name in watched(plant_steps.ENVIRONMENTS) for row in plant_steps.measure(name, *counts)]
 
 
 def _plant_blocks(rows: Sequence[Row]) -> dict[str, str]:

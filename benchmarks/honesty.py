@@ -1,9 +1,10 @@
-"""Whether a run reports that it is wrong: ``python -m benchmarks.honesty --family F --random N --seed S``, or ``PART``.
+"""Whether wrong runs warn: ``python -m benchmarks.honesty --family F --random N --seed S``, or ``PART``.
 
-The true error of a run beside its estimate, as `mbs.simulate` makes it at coarse and fine steps. A run is wrong when a
-judged sensor is off by more than 5 % of its range at one of 51 instants, under a tolerance beyond ten of it; a warning
-then is right, and is a false alarm elsewhere; runs between 4.5 and 5.5 % count neither way. Truth is an exact motion,
-for random cases Newton and Euler's equations under DOP853, for cars and flexible bodies two methods in short steps.
+Compares the true error of a run with its estimate by `mbs.simulate`, for coarse and fine steps. A run is wrong when the
+error of a compared sensor is more than 5 % of its range at one of 51 instants, or with a tolerance more than ten times
+the tolerance. A warning is right for a wrong run, else a false alarm; runs with 4.5 to 5.5 % are not judged. References
+are exact motions; for random cases Newton's and Euler's equations solved by DOP853; for cars and flexible bodies two
+methods with small steps.
 """
 
 import sys
@@ -33,8 +34,8 @@ def _scenes(options: Namespace) -> list[dict[str, Any]]:
 def _random(options: Namespace) -> list[dict[str, Any]]:
     if unknown := sorted({*options.family} - {*FAMILIES}):
         raise UserError(f"There is no family {unknown[0]!r}; there are {', '.join(FAMILIES)}.")
-    requested = [(family, number) for family in options.family for number in range(options.random)]
-    return [row for family, number in watched(requested) for row in rows_of(family, options.seed, [number])]
+    cases = [(family, number) for family in options.family for number in range(options.random)]
+    return [row for family, number in watched(cases) for row in rows_of(family, options.seed, [number])]
 
 
 PARTS = {
@@ -48,8 +49,8 @@ PARTS = {
         },
         pages=("accuracy.md",),
         blocks=random_honesty.random_blocks,
-        words=random_honesty.words,
-        meant=True,
+        words=random_honesty.text_of,
+        is_default=True,
     ),
     "scenes": Part(
         "every scene, method and manoeuvre of the prototype",

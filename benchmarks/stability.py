@@ -1,6 +1,6 @@
-"""Where methods break: ``python -m benchmarks.stability [--only SCENE ...]``.
+"""Stability of the methods: ``python -m benchmarks.stability [--only SCENE ...]``.
 
-A map over step and penalty (or its counterpart) for each method and scene: fine, wrong, refused or diverged.
+A map over step and penalty (or Baumgarte's factor) for each method and scene: fine, wrong, refused or diverged.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""Error against time: ``python -m benchmarks.work_precision PART``: methods, tolerances, other engines."""
+"""Error over computing time: ``python -m benchmarks.work_precision PART``: methods, tolerances, other engines."""
 
 import sys
 from argparse import Namespace
@@ -9,10 +9,10 @@ from typing import Any
 
 from benchmarks import peers
 from benchmarks.methods import dissipative, error_control, free_runs, unreduced_models, work_precision
-from benchmarks.methods.work_precision_chart import LOST, draw
+from benchmarks.methods.work_precision_chart import LARGEST_ERROR, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.coarse_runs import expected_errors
-from benchmarks.shared.command import Part, run, say_missing, watched
+from benchmarks.shared.command import Part, report_missing, run, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
 from mbs.settings.methods import METHOD_TABLE
@@ -22,15 +22,15 @@ from mbs.settings.methods import METHOD_TABLE
 def _charts(options: Namespace) -> list[dict[str, Any]]:
     engines, missing = peers.available()
     for name in missing:
-        say_missing(f"{name} is not installed (python -m pip install 'ali3[peers]')")
+        report_missing(f"{name} is not installed (python -m pip install 'ali3[peers]')")
     repeats = 1 if options.quick else options.repeats
     return [row for scene in options.only for row in work_precision.measure(scene, options.quick, engines, repeats)]
 
 
 def _draw(rows: Sequence[Row], folder: Path) -> None:
     for scene in dict.fromkeys(row["scene"] for row in rows):
-        part = [row for row in rows if row["scene"] == scene]
-        draw(part, CASES[scene], LOST * size_of(scene), folder / f"work_{scene}.png")
+        scene_rows = [row for row in rows if row["scene"] == scene]
+        draw(scene_rows, CASES[scene], LARGEST_ERROR * size_of(scene), folder / f"work_{scene}.png")
 
 
 def _control(options: Namespace) -> list[dict[str, Any]]:
@@ -39,9 +39,9 @@ def _control(options: Namespace) -> list[dict[str, Any]]:
     for scene, tolerance in [(scene, tolerance) for scene in options.only for tolerance in tolerances]:
         names = [*error_control.methods_of(scene, tolerance), error_control.CHOSEN]
         repeats = 1 if options.quick else error_control.REPEATS
-        part = [error_control.measure(scene, tolerance, method, repeats) for method in watched(names)]
-        error_control.compare(part)
-        rows += part
+        scene_rows = [error_control.measure(scene, tolerance, method, repeats) for method in watched(names)]
+        error_control.compare(scene_rows)
+        rows += scene_rows
     return rows
 
 
@@ -49,9 +49,9 @@ def _control(options: Namespace) -> list[dict[str, Any]]:
 def _dissipative(options: Namespace) -> list[dict[str, Any]]:
     scenes = dissipative.QUICK if options.quick else options.only
     methods = ("ali3p",) if options.quick else dissipative.METHODS
-    todo = [(scene, method) for scene in scenes for method in methods]
+    pairs = [(scene, method) for scene in scenes for method in methods]
     steps = {scene: (0.01,) if options.quick else dissipative.SCENES[scene].steps for scene in scenes}
-    return [dissipative.measure(*one, h) for one in watched(todo) for h in steps[one[0]]]
+    return [dissipative.measure(*pair, h) for pair in watched(pairs) for h in steps[pair[0]]]
 
 
 def _free(options: Namespace) -> list[dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""Systems with one array changed, for what a loader must refuse."""
+"""Systems with changed arrays, for tests of a loader."""
 
 from collections.abc import Callable
 
@@ -10,7 +10,7 @@ Change = Callable[[np.ndarray], np.ndarray]
 
 
 def put(index: int, value: float) -> Change:
-    """Another value at one place."""
+    """Function that sets one element of an array."""
 
     def change(values: np.ndarray) -> np.ndarray:
         values[index] = value
@@ -20,7 +20,7 @@ def put(index: int, value: float) -> Change:
 
 
 def altered(system: System, **changes: Change) -> bytes:
-    """The file of a System some of whose arrays are changed."""
+    """Bytes of a System with changed arrays. `changes`: functions of arrays by name."""
     arrays = {name: np.array(values) for name, values in system.arrays.items()}
     for name, change in changes.items():
         arrays[name] = change(arrays[name])

@@ -1,10 +1,10 @@
-"""The kernel's own tests over a kernel with checks compiled in.
+"""Tests of the kernel with a kernel that is compiled with sanitizers.
 
     python -m tests.sanitize [arguments for pytest]
 
-With gcc or clang: addresses (reading or writing beside a block of memory) and undefined behaviour (overflow, an index
-outside an array, a null pointer). Where there is neither: undefined behaviour alone, with the compiler of `ziglang`.
-An error ends the process that ran the test, with the line of the kernel, and the test has failed.
+With gcc or clang: addresses (access beside a block of memory) and undefined behaviour (overflow, an index outside an
+array, a null pointer). Without them: undefined behaviour alone, with the compiler of `ziglang`. An error ends the
+process of the test and names the line of the kernel.
 """
 
 import hashlib
@@ -49,7 +49,7 @@ OPTIONS = {
 
 
 def runtimes(compiler: str) -> list[str]:
-    """Libraries that have to be there before Python starts; empty where the compiler has no checks of addresses."""
+    """Libraries to preload before Python; empty if the compiler has no address sanitizer."""
     names = ["libasan.so", "libubsan.so"] if "gcc" in compiler else [f"libclang_rt.asan-{os.uname().machine}.so"]
     results = []
     for name in names:
@@ -59,7 +59,7 @@ def runtimes(compiler: str) -> list[str]:
 
 
 def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> list[str]:
-    """Compile what a folder does not hold, by what the preprocessor makes of it: wherever the sources lie.
+    """Object files of C sources in a folder, compiled if there is none for the same command and preprocessed text.
 
     Raises `subprocess.CalledProcessError`: the compiler refuses a source.
     """
@@ -81,7 +81,7 @@ def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> li
 
 
 def compiled(library: Path) -> tuple[str, dict[str, str]]:
-    """Compile the kernel; what is checked, and the environment for it."""
+    """Compile the kernel as a library; returns what is checked, as text, and the environment variables for it."""
     for compiler in filter(shutil.which, ("gcc", "clang") if sys.platform == "linux" else ()):
         preload = runtimes(compiler)
         if not preload:
@@ -101,11 +101,11 @@ def compiled(library: Path) -> tuple[str, dict[str, str]]:
 
 
 def main(arguments: list[str]) -> int:
-    """Exit code of pytest, or of the check that ended it."""
+    """Run pytest with the compiled kernel; returns 0 if all tests pass, otherwise 1."""
     with tempfile.TemporaryDirectory(prefix="ali3-sanitize-") as folder:
         library = Path(folder) / build.library_name(build.host_target())
-        what, environment = compiled(library)
-        print(f"Checked: {what}.", flush=True)
+        checks, environment = compiled(library)
+        print(f"Checked: {checks}.", flush=True)
         chosen = ["-n", "auto", "-m", "not proof", *(f"--deselect={test}" for test in REPEATED)]
         chosen += (test for test in TESTS if test not in LEFT_OUT)
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *(arguments or chosen)]

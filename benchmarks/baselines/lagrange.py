@@ -8,7 +8,7 @@ import scipy.linalg
 from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
 SINGULAR = 1e-14
-"""Reciprocal condition below which the bordered matrix counts as singular."""
+"""Reciprocal condition number below which the bordered matrix counts as singular."""
 CUT = 1e-6
 """Share of the largest singular value below which the minimum-norm solver drops a direction."""
 
@@ -16,9 +16,9 @@ CUT = 1e-6
 class Lagrange:
     """``[M Phi_q'; Phi_q 0] [qdd; lam] = [Q; -gamma - 2 b Phi' - b^2 Phi]``.
 
-    `penalty`: b, 1/s: both Baumgarte factors; the counterpart of the penalty; `minimum_norm`: solve for the least
-    acceleration (in the metric of M) that the rows allow beside the free one, so that redundant rows pass; where a
-    coordinate has no mass, for the least accelerations and multipliers. LU otherwise.
+    `penalty`: b of both Baumgarte terms, 1/s; `minimum_norm`: add to the unconstrained acceleration the smallest one
+    (in the metric of M) that satisfies the constraints, which may be redundant; where a coordinate has no mass,
+    minimise accelerations and multipliers. LU otherwise.
     """
 
     def __init__(self, mechanism: Mechanism, penalty: float = 10.0, minimum_norm: bool = False) -> None:
@@ -36,7 +36,7 @@ class Lagrange:
         right_side = -gamma - 2.0 * self.b * (J @ qd) - self.b**2 * phi
         m.factorizations += 1
         if self.root is not None:
-            # qdd = free + L^-T y with y the least one that J L^-T y = right - J free allows
+            # qdd = free + L^-T y, y of minimum norm with J L^-T y = right - J free
             free = scipy.linalg.cho_solve((self.root, True), Q)
             scaled = scipy.linalg.solve_triangular(self.root, J.T, lower=True).T
             y = np.linalg.lstsq(scaled, right_side - J @ free, rcond=CUT)[0]

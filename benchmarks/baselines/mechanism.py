@@ -9,11 +9,10 @@ import mbs
 from mbs.kernel.header.enumerations import ElementType, SensorType
 
 Array = NDArray[np.float64]
-SPRING = ElementType.SPRING_DAMPER  # whose energy is counted
 
 
 class RefusedError(Exception):
-    """A method that cannot go on; the message says why, `time` when."""
+    """A method cannot continue; the message says why, `time` when, s."""
 
     def __init__(self, reason: str, time: float) -> None:
         super().__init__(reason)
@@ -21,9 +20,9 @@ class RefusedError(Exception):
 
 
 class Mechanism:
-    """Dense mass matrix (nq, nq), rows and forces of a System without inputs that change or element states.
+    """Dense mass matrix (nq, nq), constraints and forces of a System with constant inputs and without element states.
 
-    The rows and forces are computed by the kernel, which is compiled; everything else is NumPy.
+    The compiled kernel evaluates constraints and forces; everything else is NumPy.
     """
 
     def __init__(self, system: mbs.System) -> None:
@@ -47,7 +46,7 @@ class Mechanism:
         return np.array(v["phi"]), jacobian, np.array(v["gamma"]), np.array(v["force"])
 
     def rank(self, t: float, q: Array) -> str:
-        """The smallest singular values of the constraint rows at a position, in words."""
+        """The smallest singular values of Phi_q at a position, as text."""
         if not np.isfinite(q).all():
             return "positions are infinite"
         values = np.linalg.svd(self.evaluate(t, q, np.zeros(self.nq))[1], compute_uv=False)
@@ -57,7 +56,7 @@ class Mechanism:
         """Kinetic, gravity and spring energy, J."""
         a = self.arrays
         total = 0.5 * qd @ self.M @ qd + float(a["gravity_const"][0]) - a["gravity_force"] @ q
-        for e in np.flatnonzero(a["el_type"] == SPRING):
+        for e in np.flatnonzero(a["el_type"] == ElementType.SPRING_DAMPER):
             first, last = a["el_sig_ptr"][e : e + 2]
             gap = [self._signal(int(a["el_sig"][k]), q) for k in range(first, last)]
             real = a["el_real"][a["el_real_ptr"][e] :]

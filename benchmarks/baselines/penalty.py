@@ -1,4 +1,4 @@
-"""Penalty and index-1 augmented Lagrangian formulations, which have no multipliers as unknowns.
+"""Penalty and index-1 augmented Lagrangian formulations, whose unknowns are accelerations alone.
 
 E. Bayo, J. García de Jalón, M. A. Serna, A modified Lagrangian formulation for the dynamic analysis of constrained
 mechanical systems, 1988; projections: E. Bayo, R. Ledesma, Augmented Lagrangian and mass-orthogonal projection methods
@@ -21,9 +21,9 @@ CLOSED = 1e-12  # converged mass-normalised Phi
 class Penalty:
     """``(M + Phi_q' a Phi_q) qdd = Q - Phi_q' a (gamma + 2 z w Phi_q qd + w^2 Phi)``, z `DAMPING`, w `FREQUENCY`.
 
-    `penalty`: a, of the mass-normalised rows; `augmented`: iterate on the accelerations until the rows are met (index-1
-    augmented Lagrangian) and project positions and velocities onto the constraints, in the metric of M, after each
-    step.
+    `penalty`: a, of the mass-normalised constraints; `augmented`: iterate on the accelerations until they satisfy the
+    constraints (index-1 augmented Lagrangian) and project positions and velocities onto the constraints, in the metric
+    of M, after each step.
     """
 
     def __init__(self, mechanism: Mechanism, penalty: float = 1e7, augmented: bool = False) -> None:
@@ -40,7 +40,7 @@ class Penalty:
         right_side = J.T @ (self.a * (gamma + 2.0 * DAMPING * FREQUENCY * (J @ qd) + FREQUENCY**2 * phi))
         qdd = scipy.linalg.cho_solve(factor, Q - right_side)
         for _ in range(ITERATIONS if self.augmented else 0):
-            # M qdd_new = M qdd - Phi_q' a Phi'' in the limit: multipliers that take over what the penalty left
+            # converged, M qdd_new = M qdd - Phi_q' a Phi'': multipliers in place of the penalty's remaining violation
             next_qdd = scipy.linalg.cho_solve(factor, m.M @ qdd - right_side)
             change = np.abs(next_qdd - qdd).max()
             qdd = next_qdd
@@ -48,7 +48,7 @@ class Penalty:
                 break
         return np.concatenate([qd, qdd])
 
-    def settle(self, t: float, x: Array) -> Array:
+    def project(self, t: float, x: Array) -> Array:
         """Mass-orthogonal projection of positions and velocities after a step."""
         if not self.augmented:
             return x

@@ -1,4 +1,4 @@
-"""Run a classical method over a System at a fixed step, or under one of scipy's integrators."""
+"""Run a classical method on a System with a fixed step, or by one of SciPy's integrators."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -14,7 +14,7 @@ from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 from benchmarks.baselines.penalty import Penalty
 from benchmarks.baselines.velocity_transformation import VelocityTransformation
 
-FAR = 1e6  # m, m/s: beyond it the motion counts as diverged
+DIVERGED = 1e6  # m, m/s: from here on the motion counts as diverged
 Method = Callable[..., Any]
 METHODS: dict[str, Method] = {
     "index-1 augmented Lagrangian, projected": lambda m, **k: Penalty(m, augmented=True, **k),
@@ -23,14 +23,14 @@ METHODS: dict[str, Method] = {
     "velocity transformation": lambda m, **k: VelocityTransformation(m, **k),
     "penalty": lambda m, **k: Penalty(m, **k),
 }
-"""By name; `penalty` is a mass-normalised penalty, 1/s, or for the Lagrange forms Baumgarte's factor, 1/s."""
+"""Methods by name; `penalty`: mass-normalised penalty, 1/s^2, or for the Lagrange forms Baumgarte's factor, 1/s."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """Results of a run: position sensors (n, k) and energies (n,) at times t (n,), and how it ended.
+    """Result of a run: position sensors (n, k), m, and energies (n,), J, at times t (n,), s, and its end.
 
-    `status` is "finished", "refused" or "diverged"; `reason` one line; counts of evaluations and factorizations.
+    `status`: "finished", "refused" or "diverged"; `reason`: one line; `stopped_at`: s.
     """
 
     t: Array
@@ -57,24 +57,24 @@ def run(
     solver: str = "RK4",
     rtol: float = 1e-8,
 ) -> Run:
-    """Run one method.
+    """Run a method.
 
     Parameters
     ----------
     t_end, h : float
-        End and step, s; under a scipy solver h is the distance of results.
+        End and step, s; with a SciPy solver h is the interval between results.
     method : str
         One of `METHODS`.
     sensors : sequence of str
-        Position sensors to report.
+        Position sensors to record.
     penalty : float, optional
-        By default the method's own.
+        By default that of the method.
     every : int
-        Report each so many steps.
+        Number of steps from one recorded instant to the next.
     solver : str
-        "RK4" with the fixed step, or a name that `scipy.integrate.solve_ivp` knows.
+        "RK4" with the fixed step, or a method of `scipy.integrate.solve_ivp`.
     rtol : float
-        Tolerance of a scipy solver, relative; absolute a hundredth of it.
+        Relative tolerance of a SciPy solver; the absolute tolerance is a hundredth of it.
     """
     mechanism = Mechanism(system)
     options = {} if penalty is None else {"penalty": penalty}
@@ -128,8 +128,8 @@ def run(
 
 
 def _runge_kutta(method: Any, x: Array, h: float, steps: int) -> Any:
-    """Classical order four; yields (step, state)."""
-    settle = getattr(method, "settle", None)
+    """Classical Runge-Kutta method of order four; yields the number of each step and its state."""
+    project = getattr(method, "project", None)
     for k in range(steps):
         t = k * h
         k1 = method.rates(t, x)
@@ -137,8 +137,8 @@ def _runge_kutta(method: Any, x: Array, h: float, steps: int) -> Any:
         k3 = method.rates(t + 0.5 * h, x + 0.5 * h * k2)
         k4 = method.rates(t + h, x + h * k3)
         x = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-        if not np.abs(x).max() < FAR:
+        if not np.abs(x).max() < DIVERGED:
             raise RefusedError("the motion became infinite (or faster than 1e6 m/s)", t + h)
-        if settle is not None:
-            x = settle(t + h, x)
+        if project is not None:
+            x = project(t + h, x)
         yield k + 1, x

@@ -1,4 +1,4 @@
-"""Velocity transformation with independent coordinates chosen once, at the start."""
+"""Velocity transformation with independent coordinates that are chosen once, at the start."""
 
 import warnings
 
@@ -8,15 +8,15 @@ import scipy.linalg
 from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
 RANK = 1e-9
-"""Share of the largest pivot below which a row counts as redundant at the start."""
-SINGULAR = 1e-12
-NEWTON = 20
-CLOSED = 1e-12
-OPEN = 1e-8
+"""Share of the largest pivot below which a constraint counts as redundant at the start."""
+SINGULAR = 1e-12  # reciprocal condition number
+ITERATIONS = 20  # largest number of Newton iterations
+CLOSED = 1e-12  # converged mass-normalised Phi
+OPEN = 1e-8  # mass-normalised Phi from which there is no solution
 
 
 class VelocityTransformation:
-    """qd = R z', R' M R z'' = R' (Q - M S); the dependent coordinates follow from the rows by Newton's method.
+    """qd = R z', R' M R z'' = R' (Q - M S); Newton's method solves the constraints for the dependent coordinates.
 
     `penalty` is not used: the method has none.
     """
@@ -34,7 +34,7 @@ class VelocityTransformation:
     def rates(self, t: float, x: Array) -> Array:
         """x' of x = (q, qd); only its independent part is used."""
         m, d, i = self.mechanism, self.dependent, self.independent
-        q, qd = self._complete(t, x)
+        q, qd = self._solve_dependent(t, x)
         _, J, gamma, Q = m.evaluate(t, q, qd)
         R, S = np.zeros((m.nq, len(i))), np.zeros(m.nq)
         factor = self._factor(t, q, J)
@@ -44,14 +44,14 @@ class VelocityTransformation:
         zdd = np.linalg.lstsq(R.T @ m.M @ R, R.T @ (Q - m.M @ S), rcond=None)[0]
         return np.concatenate([qd, R @ zdd + S])
 
-    def settle(self, t: float, x: Array) -> Array:
-        """Dependent coordinates and velocities from the independent ones."""
-        return np.concatenate(self._complete(t, x))
+    def project(self, t: float, x: Array) -> Array:
+        """Compute dependent coordinates and velocities from the independent ones after a step."""
+        return np.concatenate(self._solve_dependent(t, x))
 
-    def _complete(self, t: float, x: Array) -> tuple[Array, Array]:
+    def _solve_dependent(self, t: float, x: Array) -> tuple[Array, Array]:
         m, d, i = self.mechanism, self.dependent, self.independent
         q, qd = x[: m.nq].copy(), x[m.nq :].copy()
-        for _ in range(NEWTON):
+        for _ in range(ITERATIONS):
             phi, J, _, _ = m.evaluate(t, q, qd)
             factor = self._factor(t, q, J)
             if np.abs(phi[self.rows]).max(initial=0.0) < CLOSED:

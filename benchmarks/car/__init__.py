@@ -1,1 +1,1 @@
-"""The prototype car: manoeuvres, reference trajectories, fidelities of its frame, cost of its FMU."""
+"""Cars: manoeuvres, reference trajectories, fidelities of frames, cost of FMUs."""

@@ -1,8 +1,8 @@
-"""Cars: ``python -m benchmarks.car PART``: accuracy and cost of manoeuvres, of models and fidelities; what cars do.
+"""Cars: ``python -m benchmarks.car PART``: accuracy and cost of manoeuvres, models and fidelities; measures of cars.
 
-Errors of a manoeuvre are against a stored reference, which ``references`` makes. Path: largest distance between the
-car's reference point and its place in the reference at the same time, m, or over the length of the way. Wheel load:
-largest error over the largest load of the manoeuvre. Times are the least processor time of the kernel.
+Errors of a manoeuvre are against a stored reference, which ``references`` writes. Path error: largest distance of the
+car's reference point from its position in the reference at the same time, m, or over the length of the path. Error of
+the wheel loads: largest error over the largest load of the manoeuvre. Times are the least processor time of the kernel.
 """
 
 import sys
@@ -43,26 +43,26 @@ def _car(options: Namespace) -> str:
 
 
 def _accuracy(options: Namespace) -> list[dict[str, Any]]:
-    car, todo = _car(options), [(name, h) for name in options.only for h in accuracy.STEPS]
+    car, runs = _car(options), [(name, h) for name in options.only for h in accuracy.STEPS]
     with tempfile.TemporaryDirectory() as folder:
         fmu = None if options.no_fmu else accuracy.build_fmu_of(Path(folder), car)
-        return [accuracy.measure(name, h, fmu, options.repeats, car) for name, h in watched(todo)]
+        return [accuracy.measure(name, h, fmu, options.repeats, car) for name, h in watched(runs)]
 
 
 def _tables(options: Namespace) -> list[dict[str, Any]]:
-    todo = [(car, name) for car in options.cars for name in trajectories.referenced(car) if name in options.only]
-    return [tabled_cars.compare(*one, tabled_cars.STEP, options.repeats) for one in watched(todo)]
+    runs = [(car, name) for car in options.cars for name in trajectories.referenced(car) if name in options.only]
+    return [tabled_cars.compare(*run, tabled_cars.STEP, options.repeats) for run in watched(runs)]
 
 
 def _handling(options: Namespace) -> list[dict[str, Any]]:
-    # axles by curves have no links to be measured
+    # axles given by curves have no links
     names = options.cars or [name for name in car_names() if load(name).linked]
     return measures.measure_rows({name: measures.measure(load(name)) for name in watched(names)})
 
 
 def _fidelity(options: Namespace) -> list[dict[str, Any]]:
-    todo = [(name, f, h) for name in options.only for f in fidelity.COMPARED for h in fidelity.STEPS]
-    return [fidelity.measure(*one, options.repeats) for one in watched(todo)]
+    runs = [(name, f, h) for name in options.only for f in fidelity.COMPARED for h in fidelity.STEPS]
+    return [fidelity.measure(*run, options.repeats) for run in watched(runs)]
 
 
 def _references(options: Namespace) -> None:

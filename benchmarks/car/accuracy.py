@@ -1,4 +1,4 @@
-"""Accuracy and speed of a car over its manoeuvres: rows, verdict, tables of the pages."""
+"""Accuracy and speed of a car in its manoeuvres: rows, and tables of the pages."""
 
 import sys
 import time
@@ -22,7 +22,7 @@ from mbs import Trajectory
 STEPS = (0.01, 0.005, 0.002, 0.001)  # s
 PATH_BOUND = 0.01  # of the path length
 LOAD_BOUND = 0.03  # of the largest wheel load
-BEFORE = 1e-8  # s: at a jump of an input the value before it
+BEFORE = 1e-8  # s: before a jump of an input
 ERRORS = ("path_error_rel", "wheel_load_error_rel")
 TITLES = {
     "launch_and_brake": "launch and brake",
@@ -36,10 +36,10 @@ TITLES = {
     "kerb_lock_brake": "8 cm kerb at 20 m/s, full lock and brake at once",
 }
 SMALLER = {"kerb_lock_brake": (0.002,)}
-"""Steps beside those of 10 and 5 ms, s."""
+"""Further steps in the table, beside 10 and 5 ms, s."""
 HELD = ("the same through the FMU, inputs held",)
 TIMES = ("us per step", "times real time")
-SHOWN = 0.005
+SHOWN = 0.005  # s, step in the table of errors
 WITHOUT_INPUTS = ("kerb_drop", "drop")
 
 
@@ -53,10 +53,10 @@ def start_of_fmu(name: str, car: str = manoeuvres.PROTOTYPE) -> dict[str, Value]
 def run_of_fmu(
     file: Path, name: str, h: float, follow: bool, car: str = manoeuvres.PROTOTYPE, inner: float | None = None
 ) -> dict[str, Column]:
-    """Signals of a reference through the FMU with communication steps of `h`, s, at the reference's times among them.
+    """Signals of the FMU with communication steps of `h`, s, at those times of the reference that are among them.
 
-    The inputs are held over a communication step, or follow their first derivatives (`follow`). `inner`: step of the
-    engine within them, s; by default `h`.
+    The inputs are constant in a communication step, or if `follow` linear by their first derivatives. `inner`: step of
+    the engine, s; by default `h`.
     """
     manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
     names, every = trajectories.SENSORS, max(1, round(manoeuvres.sampling(name, car) / h))
@@ -77,7 +77,7 @@ def run_of_fmu(
 
 
 def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = manoeuvres.PROTOTYPE) -> dict[str, Any]:
-    """One row: a manoeuvre with one step."""
+    """Row of a manoeuvre with one step."""
     t, values, length = trajectories.read(name, car)
     trajectory: Trajectory = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
     report = trajectory.report
@@ -115,7 +115,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
 
 
 def build_fmu_of(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
-    """The FMU of the car for this platform, or None when it cannot be had."""
+    """Build the FMU of the car for this platform; None if FMPy is not installed."""
     try:
         import fmpy
     except ImportError as error:
@@ -131,7 +131,7 @@ def _errors(row: Row, suffix: str = "") -> str | None:
 
 
 def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Speed and accuracy by manoeuvre, and what held inputs cost."""
+    """Tables of errors by manoeuvre, and of errors with inputs that are constant in a step."""
     order = list(TITLES)
     known_rows = sorted((r for r in rows if r["manoeuvre"] in TITLES), key=lambda r: order.index(r["manoeuvre"]))
     lines: list[dict[str, Any]] = []
@@ -162,7 +162,7 @@ def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 
 def error_table(rows: Sequence[Row]) -> str:
-    """Errors and cost in the kernel by manoeuvre, with steps of 5 ms."""
+    """Table of errors and cost of the kernel by manoeuvre, with steps of 5 ms."""
     lines = [
         {
             "manoeuvre": r["manoeuvre"].replace("_", " "),

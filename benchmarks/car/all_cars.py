@@ -1,10 +1,10 @@
 """One table of all cars against their references.
 
-Of each car, over the manoeuvres that it has references of, with steps of 5 ms: the largest error of the path over its
-length and of a wheel load over the largest one, each with its manoeuvre; that of the load against loads up to half a
-step before and after, of a run of 0.2 ms; the manoeuvres outside of 1 % and 3 %, and the step that keeps them inside;
-times real time of the slowest manoeuvre, by processor time; instructions of a step of the slalom, where valgrind is
-installed.
+For each car, over the manoeuvres that have references, with steps of 5 ms: the largest path error over the path length
+and the largest wheel-load error over the largest load, each with its manoeuvre; the wheel-load error against loads of a
+run of 0.2 ms up to half a step before and after; the manoeuvres with errors above 1 % and 3 %, and the step that keeps
+them below; simulated time over processor time of the slowest manoeuvre; instructions of a step of the slalom, where
+valgrind is installed.
 """
 
 import json
@@ -22,12 +22,12 @@ from benchmarks.shared.pages import Row, table
 STEP = 0.005  # s
 SMALLER = (0.002, 0.001)  # s
 FINE = 0.0002  # s
-COUNTED = 500  # steps
+COUNTED = 500  # steps whose instructions are counted
 STORED = Path(__file__).parents[1] / "data" / "car_table.json"
 
 
 def measure(cars: Sequence[str], repeats: int) -> list[dict[str, Any]]:
-    """Rows of these cars, then those of the others that are stored, in the order of the cars."""
+    """Rows of all cars in their order: new ones of these cars, stored ones of the others."""
     with tempfile.TemporaryDirectory() as folder:
         program = compiled(Path(folder))
         rows = [row_of(car, repeats, program, Path(folder)) for car in watched(cars)]
@@ -35,20 +35,20 @@ def measure(cars: Sequence[str], repeats: int) -> list[dict[str, Any]]:
     return [rows_by_car[car] for car in manoeuvres.CARS if car in rows_by_car]
 
 
-def inside(row: Row) -> bool:
-    """Whether both errors are within their bounds."""
+def within_bounds(row: Row) -> bool:
+    """Whether both errors of a row are within their bounds."""
     return bool(row["path_error_rel"] <= accuracy.PATH_BOUND and row["wheel_load_error_rel"] <= accuracy.LOAD_BOUND)
 
 
 def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any]:
-    """The row of a car: its errors against its references, and its cost."""
+    """Row of a car: its errors against its references, and its cost."""
     rows = [accuracy.measure(name, STEP, None, repeats, car) for name in trajectories.referenced(car)]
     path, load = (max(rows, key=lambda row: row[key]) for key in accuracy.ERRORS)
     needs: dict[str, float | None] = {}
     for row in rows:
-        if not inside(row):
+        if not within_bounds(row):
             finer = (accuracy.measure(row["manoeuvre"], h, None, 1, car) for h in SMALLER)
-            needs[row["manoeuvre"]] = next((r["h_s"] for r in finer if inside(r)), None)
+            needs[row["manoeuvre"]] = next((r["h_s"] for r in finer if within_bounds(r)), None)
     worst_manoeuvre = load["manoeuvre"]
     result, fine = (manoeuvres.run(worst_manoeuvre, h, car=car) for h in (STEP, FINE))
     slowest = min(rows, key=lambda row: row["realtime_factor"])
@@ -66,19 +66,19 @@ def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any
 
 
 def text_of(rows: Sequence[Row]) -> str:
-    """The table of the page."""
+    """Table of the page."""
     lines = [
         {
             "car": f"`{r['car']}`",
-            "largest path error": f"{r['path']['path_error_rel']:.1e} ({_words(r['path']['manoeuvre'])})",
+            "largest path error": f"{r['path']['path_error_rel']:.1e} ({_title(r['path']['manoeuvre'])})",
             "largest wheel-load error": f"{100.0 * r['load']['wheel_load_error_rel']:.2g} % "
-            f"({_words(r['load']['manoeuvre'])})",
+            f"({_title(r['load']['manoeuvre'])})",
             "within half a step in time": f"{100.0 * r['load_in_time']:.2g} %",
             "outside of 1 %, 3 %; inside with": "; ".join(
-                f"{_words(name)}; {'–' if h is None else f'{1e3 * h:g} ms'}" for name, h in r["needs"].items()
+                f"{_title(name)}; {'–' if h is None else f'{1e3 * h:g} ms'}" for name, h in r["needs"].items()
             )
             or "none",
-            "times real time": f"{r['realtime']['realtime_factor']:.0f} ({_words(r['realtime']['manoeuvre'])})",
+            "times real time": f"{r['realtime']['realtime_factor']:.0f} ({_title(r['realtime']['manoeuvre'])})",
             "instructions a step": r["instructions"],
         }
         for r in rows
@@ -86,5 +86,5 @@ def text_of(rows: Sequence[Row]) -> str:
     return table(lines, dict.fromkeys(lines[0], "") | {"instructions a step": ",d"})
 
 
-def _words(name: str) -> str:
+def _title(name: str) -> str:
     return name.replace("_", " ")

@@ -1,8 +1,8 @@
-"""Beams and the prototype frame in CalculiX, an independent finite-element program: decks, runs, and what is stored.
+"""Beams and the prototype frame in CalculiX, an independent finite-element program: decks, runs, stored results.
 
-CalculiX expands its quadratic beams B32R to solid elements and makes the sections at clamps and at joints rigid; that
-stiffens half an element at each of them, an error of first order in the length of the elements. So every case is run
-on three meshes, each twice as fine as the one before, and extrapolated (2 f(h/2) - f(h) of the two finest).
+CalculiX expands its quadratic beams B32R to solid elements with rigid sections at clamps and joints; this stiffens half
+an element at each of them, an error of first order in the element length. So every case is run on three meshes, each
+twice as fine as the previous one, and extrapolated (2 f(h/2) - f(h) of the two finest).
 """
 
 import json
@@ -68,7 +68,7 @@ def deck(frame: Frame, steps: str) -> str:
 
 
 def run(text: str, suffix: str = ".dat") -> str:
-    """Run a deck and return its file of results."""
+    """Run a deck and return the text of a result file. Raises `FileNotFoundError`: ccx is not installed."""
     program = shutil.which("ccx")
     if program is None:
         raise FileNotFoundError("CalculiX (ccx) is not installed; on Debian: apt-get install calculix-ccx.")
@@ -81,13 +81,13 @@ def run(text: str, suffix: str = ".dat") -> str:
 
 
 def frequencies(results: str, count: int, skip: int = 0) -> list[float]:
-    """Natural frequencies in Hz from the eigenvalue table."""
+    """Natural frequencies, Hz, from the eigenvalue table of a result file, after the first `skip`."""
     rows = re.findall(r"^ +\d+ +\S+ +\S+ +(\S+) +\S+ *$", results, re.MULTILINE)
     return [float(f) for f in rows[skip : skip + count]]
 
 
 def displacement(results: str, node: int, axis: int) -> float:
-    """Displacement of a node (from 1) along an axis, m."""
+    """Displacement of a node (numbered from 1) along an axis, m."""
     (row,) = re.findall(rf"^ +{node} +(\S+) +(\S+) +(\S+) *$", results, re.MULTILINE)
     return float(row[axis])
 
@@ -100,20 +100,20 @@ def tip_deflection(elements: int) -> float:
 
 
 def clamped_frequencies(elements: int) -> list[float]:
-    """Three bending frequencies of the clamped tube, Hz (each comes twice)."""
+    """Three bending frequencies of the clamped tube, Hz (double eigenvalues)."""
     steps = "*BOUNDARY\n1,1,6\n" + FREE.format(count=6)
     return frequencies(run(deck(cantilever(elements), steps)), 6)[::2]
 
 
 def torsional_stiffness(frame: Frame, drop: float) -> float:
-    """Torsional stiffness, N m/deg, from the difference in height of the front towers under `TOWER_FORCE`."""
+    """Torsional stiffness, N m/deg, from the height difference `drop`, m, of the front towers under `TOWER_FORCE`."""
     towers = [frame.positions[frame.names.index(n)] for n in ("TFL", "TFR")]
     tower_distance = float(towers[0][1] - towers[1][1])
     return TOWER_FORCE * tower_distance / float(np.degrees(drop / tower_distance))
 
 
 def frame_torsion(refinement: int) -> float:
-    """Torsional stiffness of the prototype frame between its towers, the rear ones held, N m/deg."""
+    """Torsional stiffness of the prototype frame between its towers, the rear ones fixed, N m/deg."""
     frame, _ = FRAME.frame("timoshenko", refinement)
     left, right, rear_left, rear_right, middle = (frame.names.index(n) + 1 for n in ("TFL", "TFR", "TRL", "TRR", "S1c"))
     steps = (
@@ -125,7 +125,7 @@ def frame_torsion(refinement: int) -> float:
 
 
 def frame_frequencies(refinement: int, carried_masses: bool, count: int) -> list[float]:
-    """Elastic frequencies of the free prototype frame, Hz."""
+    """Elastic natural frequencies of the free prototype frame, Hz."""
     frame, _ = FRAME.frame("timoshenko", refinement, carried_masses)
     return frequencies(run(deck(frame, FREE.format(count=6 + count))), count, skip=6)
 
@@ -133,8 +133,8 @@ def frame_frequencies(refinement: int, carried_masses: bool, count: int) -> list
 def gauge_moments(refinement: int) -> list[float]:
     """Vertical bending moments at the gauges of the prototype frame at rest on its suspension, N m.
 
-    The node of the floating frame is held, where weight and suspension leave no reaction. The program prints the
-    section forces at nodes: the gauges sit at nodes when the refinement is even.
+    The reference node is clamped; weight and suspension forces leave no reaction there. CalculiX prints section forces
+    at nodes; the gauges are at nodes if the refinement is even.
     """
     frame, tubes = FRAME.frame("timoshenko", refinement)
     forces = interface_forces(INTERFACES).reshape(-1, 3)
@@ -151,7 +151,9 @@ def gauge_moments(refinement: int) -> list[float]:
 
 
 def _bending_moments(frd: str) -> dict[int, float]:
-    """Fifth section force of every node of a result file: bending in the plane of the section's second axis."""
+    """Fifth section force by node, from a result file: the bending moment in the plane of the section's second
+    axis, N m.
+    """
     block, moments = "", {}
     for line in frd.splitlines():
         if line.startswith(" -4"):
@@ -180,7 +182,7 @@ CASES: dict[str, tuple[Callable[[int], Any], tuple[int, ...]]] = {
 
 
 def store() -> None:
-    """Run every case on three meshes, print and store."""
+    """Run every case on three meshes, print and write the results."""
     results: dict[str, list[Any]] = {name: [] for name in CASES}
     for name, case, mesh in watched([(name, case, m) for name, (case, meshes) in CASES.items() for m in meshes]):
         results[name].append(case(mesh))

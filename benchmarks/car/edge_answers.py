@@ -1,4 +1,4 @@
-"""Wheel loads of a car that climbs an edge in neutral: a kerb, and contact planes that a partner may return."""
+"""Wheel loads of a car that coasts up an edge: a kerb, and contact planes that another program may return."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -12,9 +12,9 @@ from hosts.common.wheels import WHEELS
 from mbs.elements.road import ANSWER, KerbRoad
 from mbs.vehicle import load
 
-EDGE = 0.9  # m
+EDGE = 0.9  # m, position of the edge along x
 STEP = 0.002  # s
-TIME = 1.0  # s
+TIME = 1.0  # s, length of a run
 UP = np.array([0.0, 0.0, 1.0])
 EDGES = [
     *(("hatchback", h) for h in (0.01, 0.02, 0.05, 0.08, 0.12)),
@@ -27,13 +27,12 @@ COLUMNS = {"car": "", "edge, m": "g", "kerb, kN": ".2f"} | dict.fromkeys((HEIGHT
 COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
 
 
-def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x: float) -> tuple[float, ...]:
-    """Point and normal that answer for a wheel near an edge, which is `edge` high.
+def contact_plane(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x: float) -> tuple[float, ...]:
+    """Point and normal of the contact plane for a wheel near an edge.
 
-    `kind`: `HEIGHT`: level, as high as the road below the contact; `DEEPER`: the edge, with the normal towards the
-    centre of the wheel, or level ground, whichever the wheel is deeper in; `SUM`: the plane whose depth along its
-    normal is the sum of both depths along theirs; `edge`, `radius`, `contact_x`: in m; `centre`: of the wheel, earth
-    axes, m.
+    `kind`: `HEIGHT`: level, at the height of the road below the contact; `DEEPER`: of the edge, with the normal towards
+    the wheel centre, or of the level ground, whichever has the larger penetration; `SUM`: the plane whose penetration
+    vector is the sum of both; `edge`: its height, m; `centre`: of the wheel in earth axes, m; `radius`, `contact_x`: m.
     """
     if kind == HEIGHT:
         return (contact_x, float(centre[1]), edge if contact_x >= EDGE else 0.0, *UP)
@@ -46,25 +45,25 @@ def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x:
             depth = at_edge + UP * max(ground, 0.0)
         elif radius - distance > ground:
             depth = at_edge
-    deep = float(np.linalg.norm(depth)) * (1.0 if depth[2] > 0.0 else -1.0)
-    normal = depth / deep if deep else UP
-    return (*(centre - normal * (radius - deep)), *normal)
+    penetration = float(np.linalg.norm(depth)) * (1.0 if depth[2] > 0.0 else -1.0)
+    normal = depth / penetration if penetration else UP
+    return (*(centre - normal * (radius - penetration)), *normal)
 
 
 @cache
-def with_port(car: str) -> mbs.System:
-    """A car whose road is asked of a partner: the same for all edges and answers."""
+def car_with_road_port(car: str) -> mbs.System:
+    """A car whose contact planes are inputs; the same for all edges and kinds of planes."""
     return mbs.compile(load(car).changed({"ports.road": "planes"}).model())
 
 
 def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[float, float, mbs.Simulation]:
-    """A car that coasts up an edge: on a kerb, or with answers of a kind every `STEP`.
+    """Simulate a car that coasts up an edge: on a kerb, or on contact planes of a kind, updated every `STEP`.
 
-    Returns the largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers,
-    as the length of the difference of both unit vectors; the car at the end.
+    `edge`: its height, m. Returns the largest load of the left front wheel, N; the largest length of the difference of
+    two successive normals of a wheel; the car at the end.
     """
     data = load(car)
-    system = with_port(car) if kind else mbs.compile(data.model(KerbRoad(EDGE, edge, upper="after")))
+    system = car_with_road_port(car) if kind else mbs.compile(data.model(KerbRoad(EDGE, edge, upper="after")))
     s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs={"selector": 0.0})
     radius, largest_load, largest_turn = {"F": data.front.tyre.radius, "R": data.rear.tyre.radius}, 0.0, 0.0
     last_normals = dict.fromkeys(WHEELS, UP)
@@ -73,7 +72,7 @@ def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[fl
         largest_load = max(largest_load, sensors["wheel_FL.Fz"])
         for w in WHEELS if kind else ():
             centre = np.array([sensors[f"wheel_{w}.{a}"] for a in "xyz"])
-            road = answer(kind, edge, centre, radius[w[0]], sensors[f"wheel_{w}.contact_x"])
+            road = contact_plane(kind, edge, centre, radius[w[0]], sensors[f"wheel_{w}.contact_x"])
             largest_turn, last_normals[w] = (
                 max(largest_turn, float(np.linalg.norm(last_normals[w] - road[3:]))),
                 np.array(road[3:]),
@@ -85,20 +84,20 @@ def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[fl
 
 
 def measure(car: str, edge: float) -> Row:
-    """A row of the table, kN."""
-    loads, turns = {}, {}
+    """Row of the table. `edge`: its height, m."""
+    loads, normal_changes = {}, {}
     for name in (HEIGHT, DEEPER, SUM):
-        loads[name], turns[f"turn, {name}"], _ = climb(car, edge, name)
-    del turns[f"turn, {HEIGHT}"]
+        loads[name], normal_changes[f"turn, {name}"], _ = climb(car, edge, name)
+    del normal_changes[f"turn, {HEIGHT}"]
     return {
         "car": car,
         "edge, m": edge,
         "kerb, kN": climb(car, edge)[0] / 1e3,
-        **{name: most / 1e3 for name, most in loads.items()},
-        **turns,
+        **{name: load / 1e3 for name, load in loads.items()},
+        **normal_changes,
     }
 
 
 def edge_table(rows: Sequence[Row]) -> str:
-    """The table of the page of FMUs."""
+    """Table of the page on FMUs."""
     return table(rows, COLUMNS)

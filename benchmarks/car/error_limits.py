@@ -1,4 +1,4 @@
-"""Errors by steps in a period, by speed over a kerb and by acceleration: the limits within which a run is accurate."""
+"""Errors by steps in a period, by speed over a kerb and by acceleration: the limits of accurate runs."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,12 +12,12 @@ from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 
 PERIODS = 20
-IN_A_PERIOD = (100, 50, 20, 10)  # steps
+STEPS_IN_A_PERIOD = (100, 50, 20, 10)
 SPEEDS = (5.0, 10.0, 20.0, 30.0)  # m/s
 STEPS = (0.001, 0.002, 0.005, 0.01)  # s
 FINE = 2e-4  # s
 BEFORE = 0.2  # s of the run before the kerb
-BEHIND = 1.0  # s of the run behind it
+AFTER = 1.0  # s of the run after the kerb
 HARD = {
     "launch_and_brake": "vx",
     "step_steer_given_throttle": "vy",
@@ -32,7 +32,7 @@ COLUMNS = {
 
 
 def frequency(steps: int) -> dict[str, Any]:
-    """Error of the frequency of a mass on a spring by its phase after `PERIODS`, beside (omega h)^2 / 12."""
+    """Frequency error of a mass on a spring, from its phase after `PERIODS`, beside (omega h)^2 / 12."""
     m = mbs.Model("oscillator", dimension=2, gravity=(0.0, 0.0))
     bob = m.point_mass("bob", mass=1.0, position=(1.0, 0.0))
     m.spring_damper("x", (m.ground, (-1e4, 0.0)), bob, stiffness=(2.0 * np.pi) ** 2, free_length=1e4)
@@ -53,12 +53,12 @@ def frequency(steps: int) -> dict[str, Any]:
 
 
 def kerb(speed: float) -> dict[str, Any]:
-    """Errors of the wheel loads, of their peak, down a kerb of 8 cm straight on."""
+    """Errors of the wheel loads, over their peak, straight down a kerb of 8 cm. `speed`: m/s."""
     system, file = manoeuvres.system_of("kerb_drop"), manoeuvres.load("kerb_drop")
     edge = BEFORE * speed
     base = system.meta["constants"]
     wheelbase = next(c["value"] for c in base if c["name"] == "vehicle.wheelbase")
-    end = round(BEFORE + BEHIND + wheelbase / speed, 1)
+    end = round(BEFORE + AFTER + wheelbase / speed, 1)
     start = file.start | {"initial.speed": speed, "road.kerb_x": edge}
     manoeuvre = replace(file, start=start, stop_time=end)
 
@@ -72,7 +72,7 @@ def kerb(speed: float) -> dict[str, Any]:
 
 
 def acceleration(name: str, h: float) -> dict[str, Any]:
-    """Errors of a hard manoeuvre against its stored reference, and its largest horizontal acceleration."""
+    """Errors of a manoeuvre against its stored reference, and its largest horizontal acceleration. `h`: step, s."""
     t, values, length = trajectories.read(name)
     trajectory = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
     accelerations = values["chassis.ay"] if HARD[name] == "vy" else np.gradient(values["speed"], t)
@@ -86,14 +86,14 @@ def acceleration(name: str, h: float) -> dict[str, Any]:
 
 
 def measure() -> list[dict[str, Any]]:
-    """All rows with the name of their table."""
-    todo: list[tuple[str, Any, tuple[Any, ...]]] = [("frequency", frequency, (n,)) for n in IN_A_PERIOD]
-    todo += [("kerb", kerb, (v,)) for v in SPEEDS]
-    todo += [("acceleration", acceleration, (name, h)) for name in HARD for h in (0.01, 0.002)]
-    return [{"table": name} | work(*arguments) for name, work, arguments in watched(todo)]
+    """Rows of all tables, each with the name of its table."""
+    cases: list[tuple[str, Any, tuple[Any, ...]]] = [("frequency", frequency, (n,)) for n in STEPS_IN_A_PERIOD]
+    cases += [("kerb", kerb, (v,)) for v in SPEEDS]
+    cases += [("acceleration", acceleration, (name, h)) for name in HARD for h in (0.01, 0.002)]
+    return [{"table": name} | work(*arguments) for name, work, arguments in watched(cases)]
 
 
 def trust_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The tables of the page."""
+    """Tables of the page."""
     names = dict.fromkeys(row["table"] for row in rows)
     return {f"trust {name}": table([r for r in rows if r["table"] == name], COLUMNS[name]) for name in names}

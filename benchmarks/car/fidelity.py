@@ -1,4 +1,4 @@
-"""How much model a car needs: errors and cost of the car's levels of fidelity, the cheapest for a tolerance, chart."""
+"""Errors and cost of a car's fidelities: rows, the cheapest fidelity for a tolerance, chart."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -27,7 +27,7 @@ COLOURS = {
     Fidelity.MANY_MODES: "#D55E00",
 }
 COMPARED = tuple(COLOURS)
-TICKS = (25, 50, 100, 200, 400, 800)  # us, of the chart
+TICKS = (25, 50, 100, 200, 400, 800)  # us, of the time axis of the chart
 REQUIRED = {
     "place of the car to 2 cm": ("motion", 0.02),
     "moments to 10 %": ("moment", 0.1),
@@ -38,7 +38,7 @@ STRESSES = ("moment", "moment_unfiltered")
 
 
 def modes_of(fidelity: Fidelity) -> int:
-    """Number of modes."""
+    """Number of modes of the frame."""
     return (
         0
         if fidelity.rigid or fidelity is Fidelity.QUASI_STATIC
@@ -47,19 +47,19 @@ def modes_of(fidelity: Fidelity) -> int:
 
 
 def size_of(name: str, fidelity: Fidelity) -> dict[str, int]:
-    """Columns of the size of a model."""
+    """Numbers of coordinates, constraints and modes of a model."""
     arrays = fidelity_runs.system_of(name, fidelity).arrays
     return {"coordinates": len(arrays["q0"]), "rows": len(arrays["row_const"]), "modes": modes_of(fidelity)}
 
 
 def errors_of(trajectory: Trajectory, name: str, fidelity: Fidelity, h: float) -> dict[str, float | None]:
-    """By `OUTPUTS`; those of stresses are None where there are none."""
+    """Errors by `OUTPUTS`; those of moments are None for a rigid frame."""
     values = fidelity_runs.sampled(trajectory, h, stresses=not fidelity.rigid)
     return dict.fromkeys(STRESSES) | fidelity_runs.errors(values, fidelity_runs.read_reference(name))
 
 
 def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
-    """The row of a model: errors and cost."""
+    """Row of a model: errors and cost. `h`: step, s."""
     trajectory = fidelity_runs.run(name, fidelity, h)
     report = trajectory.report
     assert report is not None
@@ -80,10 +80,10 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
 
 
 def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> LevelChoice:
-    """The fidelity and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
+    """The fidelity and step with the least time per simulated second that meet a tolerance in all measured manoeuvres.
 
-    `rows`: of `measure`, or from a JSON file; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: on its error: a
-    fraction of the largest change, for "motion" m.
+    `rows`: of `measure`; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: of its error, over the largest change,
+    for "motion" m.
     """
     if output not in OUTPUTS:
         raise ValueError(f"There is no output {output!r}; there are: {', '.join(OUTPUTS)}.")
@@ -91,7 +91,7 @@ def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> LevelChoice:
 
 
 def chart(rows: Sequence[Row], file: Path) -> None:
-    """Stress and motion errors over time per step, one column per manoeuvre."""
+    """Draw errors of moments and motion over time per step, a column of panels for each manoeuvre."""
     plt = pyplot()
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
     quantities = (
@@ -139,7 +139,7 @@ def chart(rows: Sequence[Row], file: Path) -> None:
 
 
 def choice_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The cheapest fidelity and step for what is required of the flexible car."""
+    """Table of the cheapest fidelity and step for each requirement."""
     lines = []
     for title, (output, tolerance) in REQUIRED.items():
         try:
@@ -155,7 +155,7 @@ def choice_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 
 def choice_again(page: str) -> str:
-    """Errors of what a page has chosen with steps of 10 ms, the largest of all manoeuvres."""
+    """Table of the largest errors of all manoeuvres, for the fidelities that a page has chosen with steps of 10 ms."""
     lines = []
     for row in rows_of(between(page, "cheapest")):
         number, step, _ = row["cheapest fidelity, step"].split()

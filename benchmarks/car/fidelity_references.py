@@ -1,4 +1,4 @@
-"""The references of the comparison of fidelities, from the finest model with a small step."""
+"""Writes the references of the fidelities: runs of the finest model with a small step."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ STEP = 5e-4  # s
 
 
 def write(name: str) -> str:
-    """Run, write and return one line."""
+    """Run a manoeuvre, write its reference and return a line with its differences from coarser runs."""
     fine = fidelity_runs.run(name, Fidelity.MANY_MODES, STEP)
     values = fidelity_runs.sampled(fine, STEP)
     checks = {

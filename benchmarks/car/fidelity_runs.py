@@ -1,4 +1,4 @@
-"""The manoeuvres on which fidelities are compared, their references and the errors against them."""
+"""Manoeuvres for the comparison of fidelities, their references and the errors against them."""
 
 import time
 from functools import cache
@@ -23,36 +23,36 @@ FREQUENCY = 10.0  # Hz, of the low-pass
 MOMENTS = tuple(f"bending_moment.{g}" for g in prototype_car.car().frame_section.gauges)
 FILTERED = "filtered."
 OUTPUTS = ("moment", "moment_unfiltered", "motion", "wheel_load")
-"""What has an error: moments after and before the filter and wheel loads as parts of their largest change, the place
-of the reference point in m."""
+"""Compared outputs: moments after and before the filter and wheel loads, with errors over their largest change, and the
+position of the reference point, with errors in m."""
 
 
 @cache
 def system_of(name: str, fidelity: Fidelity) -> System:
-    """The car with a fidelity on the road of a manoeuvre."""
+    """The car of a fidelity on the road of a manoeuvre."""
     model = kerb_test.build(fidelity) if name == "kerb_test" else prototype_car.build(fidelity=fidelity)
     return compile(model)
 
 
 def manoeuvre_of(name: str) -> Manoeuvre:
-    """The manoeuvre of a model; the guided one needs no inputs."""
+    """A manoeuvre by name; the guided one has no inputs."""
     if name == "kerb_test":
         return Manoeuvre(name, np.zeros(0), {}, kerb_test.DURATION)
     return manoeuvres.load(name)
 
 
 def run(name: str, fidelity: Fidelity, h: float, settings: Settings | None = None) -> Trajectory:
-    """Every step is recorded."""
+    """Simulate a manoeuvre; every step is recorded. `h`: step, s."""
     return manoeuvres.run_on(system_of(name, fidelity), manoeuvre_of(name), h, settings=settings)
 
 
 def cpu_time(name: str, fidelity: Fidelity, h: float, repeats: int) -> float:
-    """Least processor time of all steps of a run, s; start and input table are made before."""
+    """Least processor time of all steps of a run, s, without the start. `h`: step, s."""
     return manoeuvres.time_on(system_of(name, fidelity), manoeuvre_of(name), h, repeats, time.process_time)
 
 
 def sampled(trajectory: Trajectory, h: float, *, stresses: bool = True) -> dict[str, NDArray[np.float64]]:
-    """Signals at the times of a reference, moments (where asked for) also filtered before they are sampled."""
+    """Signals at the times of a reference; if `stresses`, also moments, and moments filtered before sampling."""
     every, moments = round(INTERVAL / h), MOMENTS if stresses else ()
     values = {s: np.asarray(trajectory[s])[::every] for s in (*POSITION, *LOADS, *moments)}
     return values | {FILTERED + s: low_pass(trajectory[s], h, FREQUENCY)[::every] for s in moments}
@@ -74,14 +74,14 @@ def peaks(trajectory: Trajectory, h: float) -> dict[str, float]:
 
 
 def read_peaks(name: str) -> dict[str, float]:
-    """Stored peaks of a reference: between its samples moments go higher than at them."""
+    """Stored peaks of a reference, N m, which its samples miss."""
     lines = (FOLDER / f"{name}_peaks.csv").read_text(encoding="utf-8").splitlines()
     rows = [line.split(",") for line in lines if not line.startswith("#")][1:]
     return {signal: float(value) for signal, value in rows}
 
 
 def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[np.float64]]) -> dict[str, float]:
-    """Errors by `OUTPUTS`, of what there are values."""
+    """Errors by `OUTPUTS`; those of moments only if there are values."""
 
     results = {"motion": path_error(values, reference), "wheel_load": error_of_change(values, reference, LOADS)}
     if MOMENTS[0] not in values:

@@ -1,4 +1,4 @@
-"""Cost of the calls of an FMU, from a C program and through FMPy."""
+"""Time of the calls of an FMU, from a C program and through FMPy."""
 
 import subprocess
 import sys
@@ -24,17 +24,17 @@ CALLS = {
     "save_restore_free": "state: get, set, free",
     "instantiate_to_initialised": "instantiate to initialised",
 }
-"""Quantities that are shown."""
+"""Quantities in the table of the page, with their titles."""
 HOSTS = {"native from C": ("native", "C"), "native through FMPy": ("native", "FMPy")}
 HOSTS |= {"Python from C": ("python", "C"), "Python through FMPy": ("python", "FMPy")}
 SOURCE = Path(__file__).parent / "c" / "time_fmu.c"
 
 
 def measure(fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instances: int) -> list[dict[str, Any]]:
-    """All figures of one FMU.
+    """Rows of an FMU, with ``quantity``, ``kind``, ``host`` and ``value``.
 
-    `kind`: ``native`` or ``python``; `steps`, `repeats`, `instances`: calls per timed run, timed runs per figure,
-    instances at once. Result: ``quantity``, ``kind``, ``host``, ``value``; nothing of C where it cannot run it.
+    `kind`: ``native`` or ``python``; `folder`: for the unpacked FMU; `steps`: calls in a timed run; `repeats`: timed
+    runs; `instances`: at the same time. There are no rows of the C program where it cannot run the FMU.
     """
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
@@ -49,7 +49,7 @@ def measure(fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instan
 
 
 def time_from_c(folder: Path, steps: int, repeats: int, instances: int) -> dict[str, float]:
-    """Figures of the C program by quantity; empty if it cannot run the FMU."""
+    """Figures of the C program by quantity, us unless named otherwise; empty if it cannot run the FMU."""
     description = fmpy.read_model_description(str(folder))
     outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
     program = folder / ("time_fmu.exe" if sys.platform == "win32" else "time_fmu")
@@ -67,12 +67,12 @@ def time_from_c(folder: Path, steps: int, repeats: int, instances: int) -> dict[
 
 
 def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
-    """Figures through FMPy by quantity, us; references are prepared."""
+    """Figures through FMPy by quantity, us; arrays of value references are prepared before."""
     description = fmpy.read_model_description(str(folder))
     outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
     h = float(description.defaultExperiment.stepSize)
     references, values = (fmi2ValueReference * len(outputs))(*outputs), (fmi2Real * len(outputs))()
-    one, value = (fmi2ValueReference * 1)(0), (fmi2Real * 1)(0.1)
+    first_input, value = (fmi2ValueReference * 1)(0), (fmi2Real * 1)(0.1)
     slave = FMU2Slave(
         guid=description.guid,
         unzipDirectory=str(folder),
@@ -86,14 +86,14 @@ def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
         slave.enterInitializationMode()
         slave.exitInitializationMode()
 
-    def renewed() -> float:
+    def timed_start() -> float:
         begin = time.perf_counter()
         start()
         wall = time.perf_counter() - begin
         slave.fmi2FreeInstance(slave.component)
         return wall
 
-    results = {"instantiate_to_initialised": 1e6 * best_time(renewed, repeats)}
+    results = {"instantiate_to_initialised": 1e6 * best_time(timed_start, repeats)}
     start()
     clock = [0]
 
@@ -109,7 +109,7 @@ def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
     actions: dict[str, Callable[[], Any]] = {
         "step": step,
         "get_again": lambda: slave.fmi2GetReal(slave.component, references, len(outputs), values),
-        "set_one": lambda: slave.fmi2SetReal(slave.component, one, 1, value),
+        "set_one": lambda: slave.fmi2SetReal(slave.component, first_input, 1, value),
         "save_restore_free": state,
     }
     for quantity, action in actions.items():
@@ -136,7 +136,7 @@ def _repeat(action: Callable[[], Any], count: int) -> None:
 
 
 def fmu_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The table of microseconds per call for each host."""
+    """Table of microseconds per call by host."""
     results = {(r["quantity"], r["kind"], r["host"]): r["value"] for r in rows}
     lines = [
         {"microseconds": title} | {host: results.get((name, *key)) for host, key in HOSTS.items()}

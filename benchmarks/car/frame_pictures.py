@@ -1,4 +1,4 @@
-"""Pictures of frames: with their gauges; in the kerb test, deformed and coloured by stress."""
+"""Pictures of frames: with their strain gauges; in the kerb test, deformed and coloured by stress."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,13 +18,13 @@ from mbs.vehicle import Car, Fidelity
 from viewer.pictures import write_picture
 
 Array = NDArray[np.float64]
-SCALE = 150.0  # of the deformation
+SCALE = 150.0  # factor of the drawn deformation
 END = 8.9  # s, after the rear wheels have landed
-PERCENTILE = 99.5  # of the stresses, at which the colours end, as a few joints would take most of the range
-SHOWN = ("wheel", "spring", "damper")  # shapes besides the frame
-NEAR = (0.5, 0.1)  # m: names of gauges that are nearer would overlap
+PERCENTILE = 99.5  # of the stresses: the colour scale ends there, since a few joints have much larger ones
+SHOWN = ("wheel", "spring", "damper")  # shapes that are drawn with the frame
+NEAR = (0.5, 0.1)  # m: names of gauges at smaller distances would overlap
 VIEWS = ((0, 2, "z, m"), (0, 1, "y, m"))  # from the side, from above
-AT_REST = {"radius": 0.002, "color": "#bbbbbb"}  # of the lines where the frame is not deformed
+UNDEFORMED = {"radius": 0.002, "color": "#bbbbbb"}  # style of the lines of the undeformed frame
 
 
 @dataclass(frozen=True)
@@ -33,14 +33,14 @@ class Motion:
 
     t: Array
     """Times, s, shape (n,)."""
-    places: Array
-    """Nodes with their deformation times `SCALE`, in the axes of the chassis, m, shape (n, nodes, 3)."""
+    positions: Array
+    """Positions of the nodes with their deformation times `SCALE`, in chassis axes, m, shape (n, nodes, 3)."""
     stress: Array
     """Largest normal stress at the ends of each element, Pa, shape (n, elements, 2)."""
 
 
 def kerb_picture(folder: Path) -> None:
-    """Run the kerb test until both axles have landed, draw, and say where."""
+    """Simulate the kerb test until both axles have landed, write the picture and print its path."""
     car = prototype_car.car()
     frame, _ = car.frame_section.tubular(car.folder).frame()
     body = car.flexible_frame.reduced(Fidelity.DYNAMIC)
@@ -57,7 +57,7 @@ def kerb_picture(folder: Path) -> None:
 
 
 def motion_of(frame: Frame, body: ReducedBody, t: Array, eta: Array, scale: float = SCALE) -> Motion:
-    """Shapes and stresses from modal amplitudes of shape (n, modes)."""
+    """Positions and stresses of the frame from modal amplitudes `eta` (n, modes)."""
     displacements = np.einsum("kij,nj->nki", body.node_translations, eta)
     forces = body.recovery(section_force_field(frame))
     stress = np.array([peak_tube_stress(frame, forces @ e) for e in eta])
@@ -65,22 +65,24 @@ def motion_of(frame: Frame, body: ReducedBody, t: Array, eta: Array, scale: floa
 
 
 def frame_alone(recording: Recording, limit: float) -> Recording:
-    """The recording with the frame, its place at rest, wheels, springs and dampers; colours end at a stress in Pa."""
+    """The recording with the frame, its undeformed lines, wheels, springs and dampers; `limit`: end of the colours,
+    Pa.
+    """
     scene: dict[str, Any] = dict(recording.scene or {})
     shapes = [shape for shape in scene["shapes"] if shape["kind"] in SHOWN]
-    coloured = []
+    flexible_parts = []
     for part in scene["flexible"]:
         nodes, carrier = part["nodes"], part["frame"]
         for i, j in part["beams"]:
-            shapes.append({"kind": "tube", "points": [[carrier, nodes[i]], [carrier, nodes[j]]], **AT_REST})
+            shapes.append({"kind": "tube", "points": [[carrier, nodes[i]], [carrier, nodes[j]]], **UNDEFORMED})
         stress = {key: value for key, value in part["stress"].items() if key not in ("limit", "limit_name")}
-        coloured.append(part | {"stress": stress | {"range": limit}})
-    recording.scene = scene | {"shapes": shapes, "arrows": [], "flexible": coloured}
+        flexible_parts.append(part | {"stress": stress | {"range": limit}})
+    recording.scene = scene | {"shapes": shapes, "arrows": [], "flexible": flexible_parts}
     return recording
 
 
 def draw(recording: Recording, motion: Motion, picture: Path) -> None:
-    """Draw the frame at the time of the largest stress."""
+    """Write the picture of the frame at the time of the largest stress."""
     frame_recording = frame_alone(recording, float(np.percentile(motion.stress, PERCENTILE)))
     options = {"stress": True, "deformation": SCALE}
     write_picture(
@@ -89,7 +91,7 @@ def draw(recording: Recording, motion: Motion, picture: Path) -> None:
 
 
 def draw_gauges(car: Car, file: str) -> None:
-    """The frame of a car with its joints and gauges, from the side and from above."""
+    """Draw the frame of a car with its joints and gauges, from the side and from above."""
     figure, axes = pyplot().subplots(2, 1, figsize=(8.6, 6.2), layout="constrained")
     for (i, j, label), a in zip(VIEWS, axes, strict=True):
         _frame_and_gauges(a, car, i, j)
@@ -100,7 +102,9 @@ def draw_gauges(car: Car, file: str) -> None:
 
 
 def _frame_and_gauges(a: Any, car: Car, i: int, j: int) -> None:
-    """Tubes, joints of the suspension, and gauges by name; from the side those of both sides are one."""
+    """Draw tubes, joints of the suspension and gauges in the plane of axes i and j; gauges at one position have one
+    label.
+    """
     tubular = car.frame_section.tubular(car.folder)
     frame, tubes = tubular.frame()
     x = frame.positions

@@ -11,24 +11,24 @@ from mbs.flexible.frequencies import natural_modes
 from mbs.vehicle import Car
 
 COUPLE = 1e3  # N m; the frame is linear
-RIGID = 6
-MODES = 4
+RIGID = 6  # rigid-body modes
+MODES = 4  # elastic modes
 
 
 @dataclass(frozen=True)
 class Stiffness:
-    """What `stiffness` measures."""
+    """Result of `stiffness`."""
 
     joints: tuple[str, str]
-    """Left joints that take the couples, in front and behind: the highest of each axle."""
+    """Left joints that take the couples, front and rear: the highest of each axle."""
     torsion: float
-    """Couple per angle between the axles, N m/deg."""
+    """Couple over the twist angle between the axles, N m/deg."""
     frequencies: NDArray[np.float64]
-    """Of the free frame with all that it carries, Hz."""
+    """Elastic natural frequencies of the free frame with all masses on it, Hz."""
 
 
 def stiffness(car: Car) -> Stiffness:
-    """Twist the free frame by opposite couples at the axles, and find its lowest frequencies.
+    """Torsional stiffness of the free frame by opposite couples at the axles, and its lowest natural frequencies.
 
     `car`: with a flexible frame.
     """
@@ -45,24 +45,27 @@ def stiffness(car: Car) -> Stiffness:
     )
     load = np.zeros((model.n_dof, 1))
     for name, sign in ((front, 1.0), (rear, -1.0)):
-        load[_up(model, flexible.place(name)), 0] = sign * COUPLE / _width(flexible.place(name)) * np.array([1.0, -1.0])
-    # the couples balance each other: what holds the frame takes no force
+        load[_vertical_dofs(model, flexible.place(name)), 0] = (
+            sign * COUPLE / _width(flexible.place(name)) * np.array([1.0, -1.0])
+        )
+    # the couples balance each other: the support has no reaction
     displacements = FixedInterface(model, flexible.reference, ()).solve(load)[:, 0]
     angles = [
-        float(np.array([1.0, -1.0]) @ displacements[_up(model, flexible.place(n))]) / _width(flexible.place(n))
+        float(np.array([1.0, -1.0]) @ displacements[_vertical_dofs(model, flexible.place(n))])
+        / _width(flexible.place(n))
         for n in (front, rear)
     ]
     hertz, _ = natural_modes(model, RIGID + MODES)
     return Stiffness((front, rear), COUPLE / float(np.degrees(angles[0] - angles[1])), hertz[RIGID:])
 
 
-def _width(place: NDArray[np.float64]) -> float:
-    return 2.0 * float(place[1])
+def _width(point: NDArray[np.float64]) -> float:
+    return 2.0 * float(point[1])
 
 
-def _up(model: FiniteElementModel, place: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Freedoms along z of the node at a place and of its image."""
+def _vertical_dofs(model: FiniteElementModel, point: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Degrees of freedom along z of the node at a point and of its mirror image."""
     node_indices = [
-        int(np.linalg.norm(model.positions - place * [1.0, side, 1.0], axis=1).argmin()) for side in (1.0, -1.0)
+        int(np.linalg.norm(model.positions - point * [1.0, side, 1.0], axis=1).argmin()) for side in (1.0, -1.0)
     ]
     return np.array(model.dof[node_indices, 2])

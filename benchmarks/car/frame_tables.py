@@ -1,4 +1,4 @@
-"""Tables of the page of finite elements, all of the prototype's frame: mass models, modes, and CalculiX beside them."""
+"""Tables of the page on finite elements, for the prototype's frame: mass models, modes, comparison with CalculiX."""
 
 import json
 
@@ -18,8 +18,8 @@ from mbs.flexible.recovery import gauge_rows
 from mbs.flexible.relief_solution import inertia_relief
 
 Array = NDArray[np.float64]
-FREQUENCIES = 15
-FIRST = 5
+FREQUENCIES = 15  # compared
+FIRST = 5  # in the first column
 DYNAMIC_MODES = FRAME.section.dynamic_modes
 FIGURES = {
     "tube_tip_deflection_m": ("tube of 1.5 m, tip deflection under 100 N, mm", 1e3, ".3f", 1),
@@ -28,12 +28,12 @@ FIGURES = {
     "frame_bare_free_hz": ("frame bare, free, Hz", 1.0, ".2f", 1),
     "frame_gauge_moments_Nm": ("gauges at rest, front and rear, N m", 1.0, ".2f", 2),
 }
-"""Of `calculix.STORED`: title, scale, format, and every how many values are shown."""
-CONVERGED = 4  # refinement at which moments at rest no longer change in three digits
+"""Results in `calculix.STORED`: title, scale, format, and stride of the shown values."""
+CONVERGED = 4  # refinement from which three digits of the moments at rest do not change
 
 
 def mass_errors(kind: str) -> Array:
-    """Relative errors of the free frequencies without rotary inertia, against consistent with it.
+    """Relative errors of the free natural frequencies without rotary inertia, against consistent mass with it.
 
     `kind`: "consistent" or "lumped".
     """
@@ -46,7 +46,7 @@ def mass_errors(kind: str) -> Array:
 
 
 def mass_table() -> str:
-    """Largest errors of simpler mass models."""
+    """Table of the largest frequency errors of simpler mass models."""
     rows = []
     for kind in ("consistent", "lumped"):
         errors = 100.0 * mass_errors(kind)
@@ -56,7 +56,7 @@ def mass_table() -> str:
 
 
 def moments(theory: str = "euler_bernoulli", refinement: int = 1) -> Array:
-    """Moments at the gauges of the frame at rest on its suspension, by inertia relief, N m."""
+    """Moments at the gauges, N m, of the frame at rest on its suspension, by inertia relief."""
     frame, tubes = FRAME.frame(theory, refinement)
     rows, _ = gauge_rows(frame, FRAME.strain_gauges(tubes))
     relief = inertia_relief(frame.finite_element_model(), REFERENCE, INTERFACES, rows)
@@ -64,7 +64,7 @@ def moments(theory: str = "euler_bernoulli", refinement: int = 1) -> Array:
 
 
 def moments_by_modes() -> dict[str, tuple[int, Array]]:
-    """Number of modes, and moments at the gauges of the frame at rest that they give, N m."""
+    """Number of modes and moments at the gauges of the frame at rest, N m, by set of modes."""
     frame, tubes = FRAME.frame()
     model, forces = frame.finite_element_model(), interface_forces(INTERFACES)
     rows, _ = gauge_rows(frame, FRAME.strain_gauges(tubes))
@@ -82,14 +82,14 @@ def moments_by_modes() -> dict[str, tuple[int, Array]]:
 
 
 def modes_table() -> str:
-    """Moments at the gauges at rest by the modes of the frame, and without any."""
+    """Table of the moments at the gauges at rest by set of modes, and by inertia relief."""
     results: dict[str, tuple[int | None, Array]] = {**moments_by_modes(), "none: inertia relief": (None, moments())}
     rows = [{"modes": n, "number": k, "SG1, SG2, N m": m[0], "SG3, SG4, N m": m[2]} for n, (k, m) in results.items()]
     return table(rows, {"modes": "", "number": "d", "SG1, SG2, N m": ".2f", "SG3, SG4, N m": ".2f"})
 
 
 def tube_figures() -> tuple[float, Array]:
-    """Tip deflection, m, and three frequencies, Hz, of the clamped tube."""
+    """Tip deflection, m, and three natural frequencies, Hz, of the clamped tube."""
     model = calculix.cantilever(16).finite_element_model()
     F = np.zeros(model.n_dof)
     F[-4] = calculix.TIP_FORCE
@@ -98,7 +98,7 @@ def tube_figures() -> tuple[float, Array]:
 
 
 def frame_figures(theory: str) -> dict[str, Array]:
-    """What `calculix.STORED` has of the frame, by a theory of beams with two elements for one."""
+    """Results of `calculix.STORED` for the frame, by a beam theory with two elements for each."""
     frame, _ = FRAME.frame(theory, 2)
     model = frame.finite_element_model()
     bare = FRAME.frame(theory, 2, carried_masses=False)[0].finite_element_model()
@@ -117,7 +117,7 @@ def frame_figures(theory: str) -> dict[str, Array]:
 
 
 def calculix_table() -> str:
-    """CalculiX between two theories of beams; moments at rest of a mesh that changes them no more."""
+    """Table of CalculiX beside two beam theories; moments at rest of a converged mesh."""
     stored = json.loads(calculix.STORED.read_text(encoding="utf-8"))
     tube, steel = calculix.SECTIONS["M"], calculix.STEEL
     bending_deflection = calculix.TIP_FORCE * calculix.TUBE_LENGTH**3 / (3.0 * steel.E * tube.Iy)

@@ -1,8 +1,8 @@
 """Forces at the interfaces of a car's frame in its manoeuvres, and their principal combinations.
 
-The car with fidelity quasi_static drives the manoeuvres of the host and the guided kerb test; the forces at the
-interfaces are snapshots. Their principal combinations in the energy norm of the frame are what can deform it; the
-fidelity load_paths has their deformations as modes.
+The car with fidelity quasi_static drives the manoeuvres of the host and the guided kerb test. Snapshots of the forces
+at the interfaces have principal combinations in the energy norm of the frame, whose deformations are the modes of the
+fidelity load_paths.
 """
 
 from collections.abc import Sequence
@@ -24,14 +24,14 @@ from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 
 GUIDED = "kerb_test"
 MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "full_lock", GUIDED)
-H = 0.005
-EVERY = 4
+H = 0.005  # step, s
+EVERY = 4  # steps between snapshots
 KEEP = 1e-4
-"""Combinations with less than this part of the largest deformation, in the energy norm, are left out."""
+"""Share of the largest deformation, in the energy norm, below which combinations are left out."""
 
 
 def port_forces(car: Car, name: str) -> NDArray[np.float64]:
-    """Forces on the chassis at the interfaces in its axes through a manoeuvre, shape (3 n_interfaces, samples), N."""
+    """Forces on the chassis at the interfaces in a manoeuvre, chassis axes, N, shape (3 n_interfaces, samples)."""
     if name == GUIDED:
         manoeuvre = Manoeuvre(name, np.zeros(0), {}, kerb_test.DURATION)
         model = kerb_test.build(Fidelity.QUASI_STATIC, car)
@@ -61,7 +61,7 @@ def port_forces(car: Car, name: str) -> NDArray[np.float64]:
 
 
 def mirrored(frame: FlexibleFrame, forces: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The same with left and right exchanged."""
+    """Forces with left and right exchanged."""
     positions = list(frame.joints.interfaces.values())
     mirror_indices = [positions.index((x, -y, z)) for x, y, z in positions]
     mirrored_forces = forces.reshape(len(positions), 3, -1)[mirror_indices] * np.array([1.0, -1.0, 1.0])[:, None]
@@ -71,27 +71,31 @@ def mirrored(frame: FlexibleFrame, forces: NDArray[np.float64]) -> NDArray[np.fl
 def principal_loads(
     frame: FlexibleFrame, forces: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Combinations of forces and of their mirror images, most deforming first, N, rms; sizes of the deformations."""
-    driven = frame.settled_loads(forces)
-    snapshots = np.hstack([driven, mirrored(frame, driven)])
+    """Principal combinations of forces and of their mirror images, rms, N, and the sizes of their deformations.
+
+    The sizes are relative to the largest one, which comes first.
+    """
+    settled = frame.settled_loads(forces)
+    snapshots = np.hstack([settled, mirrored(frame, settled)])
     values, vectors = np.linalg.eigh(frame.deformation_energy(snapshots))
     size = np.sqrt(np.maximum(values[::-1], 0.0))
     keep = size > KEEP * size[0]
     loads = (snapshots @ vectors[:, ::-1][:, keep]) / np.sqrt(snapshots.shape[1])
-    large = np.abs(loads) > (1.0 - 1e-6) * np.abs(loads).max(axis=0)  # left and right tie: the first of them decides
+    # left and right are equal: the first of them decides the sign
+    large = np.abs(loads) > (1.0 - 1e-6) * np.abs(loads).max(axis=0)
     loads *= np.sign(loads[large.argmax(axis=0), np.arange(loads.shape[1])])
     return loads, size[keep] / size[0]
 
 
 def write_loads(car: Car, names: Sequence[str], output: Path | None) -> None:
-    """Drive, decompose, write the table of the loads and say where."""
+    """Simulate manoeuvres, decompose the forces, write the table of loads and print its path."""
     frame = car.flexible_frame
     forces = np.hstack([port_forces(car, name) for name in watched(names)])
     loads, sizes = principal_loads(frame, forces)
-    driven = ", ".join(name.replace("_", " ") for name in names)
+    manoeuvre_names = ", ".join(name.replace("_", " ") for name in names)
     lines = [
         f"# Loads of the {car.name} car's frame, N, most deforming first: principal combinations of interface forces,",
-        f"# body axes, in {driven} and their mirror images; rms values.",
+        f"# body axes, in {manoeuvre_names} and their mirror images; rms values.",
         "# Source: this engine, rigid car with ports; made by python -m benchmarks.frame loads",
         ",".join(["interface", "axis", *(f"load_{k + 1}" for k in range(loads.shape[1]))]),
     ]

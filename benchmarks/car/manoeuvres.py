@@ -1,6 +1,6 @@
-"""Manoeuvres of cars: the host's files and some more, run in the kernel without an FMU.
+"""Manoeuvres of cars: the host's files and further ones, simulated by the kernel without an FMU.
 
-They are the prototype's; where another car wants other pedals or steering there is a file in its folder.
+They are the prototype's; a car that needs other pedals or steering has a file in its folder.
 """
 
 from collections.abc import Callable
@@ -23,11 +23,11 @@ FOLDER = Path(__file__).with_name("data")
 HOST = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "steady_cornering")
 OWN = ("double_lane_change_replay", "full_lock", "brake_on_slope", "kerb_lock_brake")
 NAMES = HOST + OWN
-CLOSED_LOOP = "double_lane_change"  # of the host; its replay is OWN[0]
+CLOSED_LOOP = "double_lane_change"  # of the host; OWN[0] is its replay
 RISE_BEGINS = 20.0  # m
 RISE_ENDS = 25.0  # m
-GRADE = 0.1  # dz/dx behind the rise
-OTHER_ROAD = ("brake_on_slope",)  # not the road of the FMU
+GRADE = 0.1  # dz/dx after the rise
+OTHER_ROAD = ("brake_on_slope",)  # on a road that the FMU does not have
 INITIAL = "initial."
 PROTOTYPE = "prototype"
 CARS = (
@@ -42,7 +42,7 @@ CARS = (
 
 
 def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:
-    """A manoeuvre of a car by name: one of `NAMES` or any other of the host."""
+    """A manoeuvre of a car: one of `NAMES` or another one of the host."""
     own_file = FOLDER / car / f"{name}.toml"
     if own_file.is_file():
         return load_manoeuvre(str(own_file))
@@ -51,7 +51,7 @@ def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:
 
 @cache
 def system_of(name: str, car: str = PROTOTYPE) -> System:
-    """A car on the road of a manoeuvre; a System may be used by several runs."""
+    """A car on the road of a manoeuvre."""
     if name in OTHER_ROAD:
         return compile(load_car(car).model(rise(car)))
     return _default_system(car)
@@ -63,16 +63,16 @@ def _default_system(car: str) -> System:
 
 
 def rise(car: str = PROTOTYPE, grade: float = GRADE) -> GridRoad:
-    """Level road that goes over into a rise dz/dx, with a curvature that begins and ends at zero."""
+    """Level road followed by a slope dz/dx, with a transition whose curvature begins and ends at zero."""
     x = np.arange(-20.0, 200.1, 0.5)
     s = np.clip((x - RISE_BEGINS) / (RISE_ENDS - RISE_BEGINS), 0.0, 1.0)
-    # the slope grows like 3 s^2 - 2 s^3; its integral
+    # integral of the slope 3 s^2 - 2 s^3
     height = grade * ((RISE_ENDS - RISE_BEGINS) * (s**3 - 0.5 * s**4) + np.clip(x - RISE_ENDS, 0.0, None))
     return GridRoad((-20.0, -10.0), (0.5, 20.0), np.column_stack([height, height]), load_car(car).road.friction)
 
 
 def start_of(manoeuvre: Manoeuvre, system: System) -> tuple[dict[str, float], Pose | None]:
-    """Parameters and pose at the start."""
+    """Parameters and initial pose of a manoeuvre."""
     start = _start(manoeuvre, system)
     pose = {k[len(INITIAL) :]: v for k, v in start.items() if k.startswith(INITIAL)}
     inputs = _names(system, "inputs")
@@ -81,7 +81,7 @@ def start_of(manoeuvre: Manoeuvre, system: System) -> tuple[dict[str, float], Po
 
 
 def inputs_of(manoeuvre: Manoeuvre, system: System) -> dict[str, Signal]:
-    """Inputs over time as `mbs.simulate` takes them."""
+    """Inputs of a manoeuvre over time, for `mbs.simulate`."""
     inputs: dict[str, Signal] = {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
     inputs_of_system = _names(system, "inputs")
     return inputs | {k: v for k, v in _start(manoeuvre, system).items() if k in inputs_of_system and k not in inputs}
@@ -104,7 +104,7 @@ def run(
     settings: Settings | None = None,
     estimate_error: bool | None = False,
 ) -> Trajectory:
-    """Drive a manoeuvre in the kernel with steps of `h` seconds, recording after every so many."""
+    """Simulate a manoeuvre of a car by name. `h`: step, s; `every`: steps between recorded instants."""
     system, manoeuvre = system_of(name, car), load(name, car)
     return run_on(system, manoeuvre, h, every=every, settings=settings, estimate_error=estimate_error)
 
@@ -118,7 +118,7 @@ def run_on(
     settings: Settings | None = None,
     estimate_error: bool | None = False,
 ) -> Trajectory:
-    """The same with any car. Runs that are compared with a reference need no estimate of their error."""
+    """Simulate a manoeuvre with any car; runs that are compared with a reference need no error estimate."""
     parameters, pose = start_of(manoeuvre, system)
     return simulate(
         system,
@@ -135,20 +135,20 @@ def run_on(
 
 
 def time_on(system: System, manoeuvre: Manoeuvre, h: float, repeats: int, clock: Callable[[], float]) -> float:
-    """Least time of all steps of a manoeuvre by a clock, s; start and input table are made before."""
+    """Least time of all steps of a manoeuvre by a clock, s, without the start."""
     parameters, pose = start_of(manoeuvre, system)
     return step_time(system, manoeuvre.stop_time, h, repeats, clock, inputs_of(manoeuvre, system), parameters, pose)
 
 
 def sampling(name: str, car: str = PROTOTYPE) -> float:
-    """Interval between the samples of a reference, s: a multiple of 0.01 s, some hundred samples."""
+    """Interval between the samples of a reference, s: a multiple of 0.01 s that gives about 400 samples."""
     return max(1, round(load(name, car).stop_time / 400.0 / 0.01)) * 0.01
 
 
 def record_driver(car: str) -> NDArray[np.float64]:
-    """What the host's driver does in the double lane change when it acts every 0.02 s.
+    """Inputs of the host's driver in the double lane change, updated every 0.02 s.
 
-    Returns an array of shape (n, 4): time, steering, throttle, brake.
+    Returns time, steering, throttle and brake, shape (n, 4).
     """
     h, interval = 1e-3, 0.02
     manoeuvre = load(CLOSED_LOOP, car)

@@ -1,4 +1,4 @@
-"""Measures by which a car is compared with its class: ride, wheel hop, roll, understeer, performance, brakes.
+"""Measures of a car for the comparison with its class: ride, wheel hop, roll, understeer, performance, brakes.
 
 Definitions after ISO 8855 and, for the steady turn, ISO 4138 (constant speed, slowly rising steering-wheel angle).
 """
@@ -16,31 +16,31 @@ from mbs.analysis.linear_model import LinearModel, Mode
 from mbs.elements.road import PlaneRoad
 from mbs.vehicle import Car
 from mbs.vehicle.environment import GRAVITY
-from mbs.vehicle.kinematics import kinematics as found_by_hand
+from mbs.vehicle.kinematics import kinematics as kinematics_by_linkages
 
 TURN_SPEED = 22.22  # m/s
 TURN_STEERING = 0.10  # share of full steering at the end
 TURN_TIME = 40.0  # s
-TURN_RANGE = (0.05, 0.30)  # g, of the straight line through angles over lateral acceleration
-INTERVAL = 0.02  # s between acts of the driver
+TURN_RANGE = (0.05, 0.30)  # g, range of the linear fits over lateral acceleration
+INTERVAL = 0.02  # s between updates of the inputs
 STEP = 0.01  # step, s
-HUNDRED = 100.0 / 3.6  # m/s
+HUNDRED = 100.0 / 3.6  # m/s, 100 km/h
 PEDALS = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
-APPLY = 0.4  # s, in which the pedal goes down
-BODY_MODES = 5.0  # Hz: those of the body are slower, those of the wheels faster
-HOP_MODES = 25.0  # Hz: those of the wheels are slower, those of the tyres' carcasses have friction
+APPLY = 0.4  # s until the pedal is applied
+BODY_MODES = 5.0  # Hz: between the modes of the body and of the wheels
+HOP_MODES = 25.0  # Hz: between the modes of the wheels and of the tyre carcasses
 
 
 @dataclass(frozen=True)
 class Measure:
-    """A measure of a car, with unit and usual range."""
+    """A measure of a car."""
 
     name: str
     unit: str
     usual: tuple[float, float] | None
-    """What cars of the small class have."""
+    """Usual range of small cars."""
     meaning: str
-    """How it is defined."""
+    """Definition."""
 
 
 MEASURES = (
@@ -94,11 +94,12 @@ def _weight(system: System) -> dict[str, float]:
 
 
 def _modes(car: Car) -> dict[str, float]:
-    """On ice, where the standing tyres do not hold the car sideways."""
+    """Natural modes on ice, where standing tyres do not constrain the car sideways."""
     system = compile(car.model(PlaneRoad(friction=0.0)))
-    model = linearise(Simulation(system, parameters=_neutral(system)), side=1)  # an engine drags forwards only
+    # the drag torque of the engine acts in one direction
+    model = linearise(Simulation(system, parameters=_neutral(system)), side=1)
     roll = model.coordinates.index("chassis.bz")
-    # In order of their roll: where the mass is aside, no motion is without.
+    # by their roll: with a lateral offset of the mass every mode has some
     modes = sorted(model.oscillating_modes(), key=lambda m: abs(m.shape[roll]))
     *level, rolling = [m for m in modes if m.frequency_hz < BODY_MODES]
     bounce, pitch = sorted(level, key=lambda m: m.frequency_hz)
@@ -113,7 +114,7 @@ def _modes(car: Car) -> dict[str, float]:
 
 
 def _front_share(model: LinearModel, mode: Mode) -> float:
-    """The share of the front axle's parts in a mode."""
+    """Share of the front axle in a mode shape."""
     size = {"F": 0.0, "R": 0.0}
     for name, value in zip(model.coordinates, mode.shape, strict=True):
         name_parts = name.partition(".")[0].split()
@@ -130,14 +131,14 @@ def _axles(car: Car) -> dict[str, float]:
         "roll_centre_rear": 1e3 * k["rear.roll_centre_height"],
         "roll_share_front": 100.0 * stiffness[0] / sum(stiffness),
         "steering_ratio": k["steering_ratio"],
-        "turning_circle": found_by_hand(car).drawn("front")["lock_turning_circle"],
+        "turning_circle": kinematics_by_linkages(car).drawn("front")["lock_turning_circle"],
     }
 
 
 def steady_turn(car: Car, system: System) -> dict[str, float]:
-    """Gradients of a turn to the left at constant speed."""
+    """Gradients in a left turn at constant speed with slowly rising steering angle."""
     ratio = kinematics(car)["steering_ratio"]
-    pedal = _hold_speed(TURN_SPEED)
+    pedal = _speed_controller(TURN_SPEED)
     run = Simulation(system, pose=Pose(speed=TURN_SPEED))
     rows = []
     for k in range(round(TURN_TIME / INTERVAL)):
@@ -158,7 +159,7 @@ def steady_turn(car: Car, system: System) -> dict[str, float]:
     return {name: math.degrees(np.polyfit(g[in_range], curve[in_range], 1)[0]) for name, curve in curves.items()}
 
 
-def _hold_speed(target: float) -> Callable[[float], float]:
+def _speed_controller(target: float) -> Callable[[float], float]:
     integral = 0.0
 
     def pedal(speed: float) -> float:
@@ -171,7 +172,7 @@ def _hold_speed(target: float) -> Callable[[float], float]:
 
 
 def _straight(system: System) -> dict[str, float]:
-    """Full throttle from rest; then the shortest stop from 100 km/h, by a pedal that does not lock the wheels."""
+    """Full throttle from rest, and the shortest stop from 100 km/h of all pedal positions."""
     run = Simulation(system)
     run.set_input("throttle", 1.0)
     to_hundred = math.inf
@@ -187,7 +188,7 @@ def _straight(system: System) -> dict[str, float]:
 
 
 def _stop(system: System, pedal: float) -> dict[str, float]:
-    """From 100 to 20 km/h with a constant pedal."""
+    """Stop from 100 to 20 km/h with a constant pedal."""
     run = Simulation(system, parameters=_neutral(system), pose=Pose(speed=HUNDRED))
     level, speeds, pitches, torques = run.sensors["chassis.pitch"], [HUNDRED], [], []
     while speeds[-1] > 0.2 * HUNDRED:
@@ -207,7 +208,7 @@ def _stop(system: System, pedal: float) -> dict[str, float]:
 
 
 def measure_rows(measured: Mapping[str, Mapping[str, float]]) -> list[dict[str, object]]:
-    """A row a measure, a column a car."""
+    """A row for each measure, a column for each car."""
     return [
         {"measure": m.name, "unit": m.unit}
         | {car: values[m.name] for car, values in measured.items()}
@@ -217,7 +218,7 @@ def measure_rows(measured: Mapping[str, Mapping[str, float]]) -> list[dict[str, 
 
 
 def measure_table(rows: Sequence[Row]) -> str:
-    """The table of the page on cars."""
+    """Table of the page on cars."""
     cars = [key for key in rows[0] if key not in ("measure", "unit", "usual", "meaning")]
     names = (r["measure"].replace("_", " ") + ("" if r["unit"] == "1" else f", {r['unit']}") for r in rows)
     lines = [row | {"measure": name} for row, name in zip(rows, names, strict=True)]
@@ -225,5 +226,5 @@ def measure_table(rows: Sequence[Row]) -> str:
 
 
 def usual_text(m: Measure) -> str:
-    """What cars of the small class have."""
+    """Usual range of small cars."""
     return "-" if m.usual is None else f"{m.usual[0]:g} to {m.usual[1]:g}"

@@ -1,9 +1,9 @@
-"""Steps per second of a car in Python and of its environments, beside bare FMPy.
+"""Steps per second of a car in Python and of its environments, beside FMPy alone.
 
-Each environment of `hosts.plant` with the action 0: its FMU through FMPy alone, with the inputs and outputs of the
-environment; `hosts.plant.Car`; the environment; several by Gymnasium one after the other, in processes, and on threads.
-The ways make the same steps from the same starts in turn, again and again. Steps per second are those of the quickest
-time of each step, which a busy machine hardly changes; processor time is the mean, of this process.
+Each environment of `hosts.plant` is stepped with the action 0: its FMU through FMPy alone, with the inputs and outputs
+of the environment; `hosts.plant.Car`; the environment; several by Gymnasium one after the other, in processes, and on
+threads. All make the same steps from the same start in turn, `repeats` times. Steps per second are from the least time
+of each step, which other work of the machine hardly changes; processor time is the mean of this process.
 """
 
 import shutil
@@ -27,13 +27,14 @@ FMPY = "FMPy"
 CAR = "car in Python"
 ONE = "environment"
 Way: TypeAlias = tuple[Callable[[], object], Callable[[int], object]]
-"""A new start, and a step of a number."""
+"""A function that starts a run, and one that makes its step k."""
 
 
 def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -> list[dict[str, Any]]:
-    """Rows of an environment, which is made with `options`.
+    """Rows of an environment made with `options`.
 
-    Raises `RuntimeError`: environments on threads are not, to the last bit, those one after the other.
+    `several`: environments at the same time; `repeats`: runs; `steps`: of a run. Raises `RuntimeError`: observations of
+    several environments differ between the ways to step them.
     """
     single = gymnasium.make(f"ali3/{name}-v0", disable_env_checker=True, **options)
     plain = single.unwrapped
@@ -51,7 +52,7 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
             ONE: _one(single),
             **{way: _several(vector_env, way, last) for way, vector_env in together.items()},
         }
-        wall_times, spent = {way: np.full(steps, np.inf) for way in ways}, dict.fromkeys(ways, 0.0)
+        wall_times, cpu_times = {way: np.full(steps, np.inf) for way in ways}, dict.fromkeys(ways, 0.0)
         for _ in range(repeats):
             for way, (begin, advance) in ways.items():
                 begin()
@@ -60,9 +61,9 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
                     wall_begin = time.perf_counter()
                     advance(k)
                     wall_times[way][k] = min(wall_times[way][k], time.perf_counter() - wall_begin)
-                spent[way] += (time.process_time() - cpu_begin) / repeats
-        one, *others = last.values()
-        if any((other != one).any() for other in others):
+                cpu_times[way] += (time.process_time() - cpu_begin) / repeats
+        first, *others = last.values()
+        if any((other != first).any() for other in others):
             raise RuntimeError(f"{name}: several environments are not the same in all ways.")
     finally:
         single.close()
@@ -76,14 +77,14 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
             "step_ms": 1e3 * plain.car.step_length,
             "way": way,
             "steps_a_second": count[way] / float(wall_times[way].sum()),
-            "us_of_processor": None if "Async" in way else 1e6 * spent[way] / count[way],
+            "us_of_processor": None if "Async" in way else 1e6 * cpu_times[way] / count[way],
         }
         for way in ways
     ]
 
 
 def _fmpy(environment: CarEnvironment, folder: Path) -> Way:
-    """Inputs set, a step, outputs read, as a loop over FMPy's own calls does."""
+    """Set inputs, step and read outputs by calls of FMPy."""
     path = str(environment.car.fmu.path)
     description = fmpy.read_model_description(path)
     reference = {v.name: v.valueReference for v in description.modelVariables}
@@ -136,11 +137,11 @@ def _several(vector_env: VectorEnv[Any, Any, Any], way: str, last: dict[str, np.
 
 
 def plant_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Steps a second and microseconds of processor a step by way and environment."""
+    """Table of steps a second and processor time of a step, us, by way and environment."""
 
     def cell(row: Row) -> str:
-        used = row["us_of_processor"]
-        return f"{row['steps_a_second']:.0f}" + ("" if used is None else f" ({used:.0f})")
+        cpu_time = row["us_of_processor"]
+        return f"{row['steps_a_second']:.0f}" + ("" if cpu_time is None else f" ({cpu_time:.0f})")
 
     names = [row | {"column": f"{row['environment']}, {row['step_ms']:g} ms"} for row in rows]
     return {"plant": crossed(names, lambda r: r["way"], "column", cell, "steps a second (us of processor a step)")}

@@ -1,8 +1,8 @@
-"""A car whose chassis is moved by guides while its wheels stand on ice: kinematics, rates and stiffnesses of its axles.
+"""A kinematics and compliance rig: guides move the chassis of a car whose wheels stand on ice.
 
-The chassis heaves, rolls about the x axis of the drawing, or stands while the steering goes from lock to lock; slowly,
-so that inertia counts for nothing. All numbers are slopes at the place of the drawing, taken where it moves one way:
-what the dampers add there is the same on both sides of the drawing.
+The chassis heaves, rolls about the x axis of the design position, or is fixed while the steering moves from lock to
+lock; slowly, so that inertia is negligible. All results are slopes at the design position, from the part with motion
+in one direction: damper forces there are equal on both sides of the design position.
 """
 
 import numpy as np
@@ -18,13 +18,13 @@ DURATION = 4.0  # s
 STEP = 0.002  # s
 HEAVE = 0.04  # amplitude, m
 ROLL = np.radians(3.0)  # amplitude, rad
-NEAR = {"travel": 0.01, "roll": np.radians(1.0), "angle": 0.5}  # ranges of the fits: m, rad, rad
+FIT_RANGES = {"travel": 0.01, "roll": np.radians(1.0), "angle": 0.5}  # m, rad, rad
 WHEELS = {"front": ("FL", "FR"), "rear": ("RL", "RR")}
 NEUTRAL = {"drive.creep_torque": 0.0}
 
 
 def kinematics(car: Car) -> dict[str, float]:
-    """Kinematics and stiffnesses of both axles, in the terms of ISO 8855, about the pose of the drawing.
+    """Kinematics and stiffnesses of both axles about the design position, in the terms of ISO 8855.
 
     Keys begin with ``front.`` or ``rear.``. Per wheel travel: ``wheel_rate`` (N/m), ``spring_ratio``, ``bump_steer``
     (rad/m, left wheel, toe-out positive), ``bump_camber`` (rad/m, left wheel, top outwards positive). Per suspension
@@ -33,7 +33,7 @@ def kinematics(car: Car) -> dict[str, float]:
     against the axle), ``roll_stiffness`` (N m/rad). Without an axle: ``steering_ratio`` straight ahead, ``lock_inner``
     and ``lock_outer`` (rad).
     """
-    heave, roll, steer = (moved(car, kind) for kind in ("heave", "roll", "steer"))
+    heave, roll, steer = (simulate_motion(car, kind) for kind in ("heave", "roll", "steer"))
     results: dict[str, float] = {}
     for axle, (left, right) in WHEELS.items():
         z = heave[f"wheel_{left}.travel"]
@@ -44,7 +44,7 @@ def kinematics(car: Car) -> dict[str, float]:
             ("bump_steer", heave[f"wheel_{left}.steer"]),
             ("bump_camber", -heave[f"wheel_{left}.inclination"]),
         ):
-            results[f"{axle}.{name}"] = slope(z, values, NEAR["travel"])
+            results[f"{axle}.{name}"] = slope(z, values, FIT_RANGES["travel"])
         phi = (roll[f"wheel_{right}.travel"] - roll[f"wheel_{left}.travel"]) / track
         tilt = roll["chassis.roll"] - phi  # of the axle on its tyres
         shift = 0.5 * (contact_y(roll, left) + contact_y(roll, right))
@@ -55,21 +55,23 @@ def kinematics(car: Car) -> dict[str, float]:
             ("roll_camber", roll[f"wheel_{left}.inclination"] - tilt),
             ("roll_stiffness", moment),
         ):
-            results[f"{axle}.{name}"] = slope(phi, values, NEAR["roll"])
+            results[f"{axle}.{name}"] = slope(phi, values, FIT_RANGES["roll"])
     angle = steer["steering_wheel_angle"]
     mean = 0.5 * (steer["wheel_FL.steer"] + steer["wheel_FR.steer"])
-    results["steering_ratio"] = 1.0 / slope(angle, mean, NEAR["angle"])
+    results["steering_ratio"] = 1.0 / slope(angle, mean, FIT_RANGES["angle"])
     results["lock_inner"], results["lock_outer"] = steer["wheel_FL.steer"][-1], steer["wheel_FR.steer"][-1]
     return results
 
 
-def moved(car: Car, motion: str) -> Trajectory:
-    """One slow period of ``heave``, ``roll`` or ``steer``, with the sensors of the car and of `_contacts`."""
+def simulate_motion(car: Car, motion: str) -> Trajectory:
+    """Simulate one slow period of ``heave``, ``roll`` or ``steer``, with the sensors of the car and of
+    `_add_wheel_sensors`.
+    """
     m = car.model(PlaneRoad(friction=0.0))
     m.start_in_equilibrium = False
     m.equilibrium_parameters = {}
-    _hold(m, car, HEAVE if motion == "heave" else 0.0, float(np.sin(ROLL)) if motion == "roll" else 0.0)
-    _contacts(m)
+    _drive_chassis(m, car, HEAVE if motion == "heave" else 0.0, float(np.sin(ROLL)) if motion == "roll" else 0.0)
+    _add_wheel_sensors(m)
     system = compile(m)
     parameters = {name: v for name, v in NEUTRAL.items() if name in {p["name"] for p in system.meta["parameters"]}}
     times = [0.0, 0.05 * DURATION, 0.95 * DURATION, DURATION]
@@ -78,20 +80,22 @@ def moved(car: Car, motion: str) -> Trajectory:
 
 
 def slope(x: NDArray[np.float64], y: NDArray[np.float64], near: float) -> float:
-    """Slope of a cubic through what lies near zero in the middle half of a motion."""
+    """Slope at zero of a cubic fitted to the points with ``|x| < near`` in the middle half of a motion."""
     in_range = np.abs(x) < near
     in_range[: len(x) // 4] = in_range[-(len(x) // 4) :] = False
     return float(np.polyfit(x[in_range], y[in_range], 3)[-2])
 
 
 def contact_y(run: Trajectory, wheel: str) -> NDArray[np.float64]:
-    """Lateral place of a wheel's contact point, m."""
+    """Lateral position of a wheel's contact point, m, shape (n,)."""
     y, z, a_y, a_z = (run[f"rig_{wheel}.{name}"] for name in ("y", "z", "ay", "az"))
     return np.asarray(y + z * a_z * a_y / (1.0 - a_z**2))
 
 
-def _hold(m: Model, car: Car, heave: float, roll: float) -> None:
-    """Drive all six freedoms of the chassis. `heave`: amplitude, m; `roll`: amplitude of the sine of the angle."""
+def _drive_chassis(m: Model, car: Car, heave: float, roll: float) -> None:
+    """Prescribe all six degrees of freedom of the chassis. `heave`: amplitude, m; `roll`: amplitude of the angle's
+    sine.
+    """
     chassis = next(body for body in m.bodies if body.name == "chassis")
     t = np.linspace(0.0, DURATION, 81)
     wave = np.sin(2.0 * np.pi * np.clip((t / DURATION - 0.05) / 0.9, 0.0, 1.0))
@@ -112,8 +116,8 @@ def _hold(m: Model, car: Car, heave: float, roll: float) -> None:
         m.drive(f"rig {name}", value + Affine({}, -start), guide)
 
 
-def _contacts(m: Model) -> None:
-    """Sense y and z of the wheels' centres, ``rig_FL.y`` (m), and of their axes, ``rig_FL.ay``."""
+def _add_wheel_sensors(m: Model) -> None:
+    """Add sensors of y and z of the wheel centres, ``rig_FL.y`` (m), and of their axes, ``rig_FL.ay``."""
     axes = {c: AffineVector.constant(e) for c, e in zip("xyz", np.eye(3), strict=True)}
     for spin in m.spins:
         wheel = spin.name.removeprefix("wheel ")

@@ -1,4 +1,4 @@
-"""How far grids of OpenCRG files are from the files, by their spacing."""
+"""Deviations of grids from the OpenCRG files that they are sampled from, by spacing."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,7 +12,7 @@ SPACINGS = (0.25, 0.1, 0.05)  # m
 
 
 def sampled_table(spacings: Sequence[float] = SPACINGS) -> str:
-    """Largest distance and root mean square, mm."""
+    """Table of the largest deviation and its root mean square, mm. `spacings`: m."""
     rows = []
     for name in FILES:
         for spacing in spacings:

@@ -1,4 +1,4 @@
-"""Costs of each step of an FMU in random driving: processor time of its thread, iterations, capped residual."""
+"""Cost of each step of an FMU in random driving: processor time of its thread, iterations, residual of capped steps."""
 
 import gc
 import time
@@ -16,23 +16,23 @@ from hosts.driving.random_driver import RandomDriver, Target, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 
 RUN = 20.0  # s, after which the car starts again
-ROLLED = 1.2  # roll angle of a car that lies, rad
-LYING = 3.0  # time after which a lying car starts again, s
+ROLLED = 1.2  # roll angle from which a car is overturned, rad
+OVERTURNED_TIME = 3.0  # s, after which an overturned car starts again
 _READ = ("chassis.roll", "solver.iterations", "solver.halvings", "solver.capped_steps", "solver.capped_residual")
 
 
 @dataclass
 class Costs:
-    """What was measured, for each step."""
+    """Cost of each step, shape (n,)."""
 
     us: NDArray[np.float64]
     """Processor time of the thread, microseconds."""
     iterations: NDArray[np.int64]
     halvings: NDArray[np.int64]
     capped: NDArray[np.int64]
-    """`iterations`, `halvings`, `capped`: of this step."""
+    """`iterations`, `halvings`, `capped`: counts in the step."""
     residual: NDArray[np.float64]
-    """What a capped step left, m."""
+    """Remaining residual of a capped step, m."""
     refused: list[str]
 
 
@@ -50,13 +50,13 @@ def drive(
     Parameters
     ----------
     start : mapping
-        Start values beside the place.
+        Start values; the driver adds the pose.
     targets : sequence of Target
-        What is driven at.
+        Targets of the driver.
     step : float
         Communication and inner step, s.
     progress : callable
-        Gets the share done.
+        Called with the completed share of the drive.
     """
     with Fmu(fmu) as car:
         return _Drive(car, dict(start) | {"step_size": step}, step, seed, targets).go(round(seconds / step), progress)
@@ -70,11 +70,11 @@ class _Drive:
         self.read, self.set = car.getter((*OBSERVED, *_READ)), car.setter(self.inputs)
         self.held = dict(zip(self.inputs, car.start_values(self.inputs).tolist(), strict=True))
         self.starts = self.steps = 0
-        self.lying = 0.0
-        self.seen: list[float] = []
+        self.overturned_time = 0.0
+        self.outputs: list[float] = []
 
     def begin(self) -> None:
-        """A new start; one that the FMU refuses, as in a ramp, is passed over."""
+        """Start again; starts that the FMU refuses, as inside a ramp, are skipped."""
         for _ in range(50):
             self.starts += 1
             try:
@@ -86,7 +86,7 @@ class _Drive:
             except HostError:
                 if self.starts >= 50:
                     raise
-        self.steps, self.lying, self.seen = 0, 0.0, self.read()
+        self.steps, self.overturned_time, self.outputs = 0, 0.0, self.read()
 
     def go(self, n: int, progress: Callable[[float], None]) -> Costs:
         counts = [np.zeros(n, dtype=np.int64) for _ in range(3)]
@@ -103,7 +103,7 @@ class _Drive:
                 if refusal:
                     refused.append(refusal)
                 else:
-                    roll, iterations, halvings, capped, residual[k] = self.seen[len(OBSERVED) :]
+                    roll, iterations, halvings, capped, residual[k] = self.outputs[len(OBSERVED) :]
                     previous_counts = self.last
                     counts[0][k], counts[1][k], counts[2][k] = (
                         iterations,
@@ -111,8 +111,8 @@ class _Drive:
                         capped - previous_counts[1],
                     )
                     self.last = halvings, capped
-                    self.lying = self.lying + self.h if abs(roll) > ROLLED else 0.0
-                if refusal or self.lying > LYING or self.steps * self.h >= RUN:
+                    self.overturned_time = self.overturned_time + self.h if abs(roll) > ROLLED else 0.0
+                if refusal or self.overturned_time > OVERTURNED_TIME or self.steps * self.h >= RUN:
                     self.begin()
                     self.driver.restart(k * self.h)
         finally:
@@ -123,10 +123,10 @@ class _Drive:
     last = (0.0, 0.0)  # halvings and capped steps since the start, before the present step
 
     def step(self, k: int) -> tuple[float, str]:
-        """One step: microseconds, why it was refused."""
+        """Make a step; its processor time, us, and the reason if it was refused."""
         if self.steps == 0:
             self.last = 0.0, 0.0
-        self.held |= self.driver.act(k * self.h, dict(zip(OBSERVED, self.seen, strict=False)))
+        self.held |= self.driver.act(k * self.h, dict(zip(OBSERVED, self.outputs, strict=False)))
         row = [self.held[name] for name in self.inputs]
         self.set(row)
         refusal = ""
@@ -138,12 +138,12 @@ class _Drive:
         spent = 1e-3 * (time.thread_time_ns() - begin)
         self.steps += 1
         if not refusal:
-            self.seen = self.read()
+            self.outputs = self.read()
         return spent, refusal
 
 
 def summary(costs: Costs, step: float) -> dict[str, object]:
-    """Numbers of a drive, for a table."""
+    """Row of a drive. `step`: s."""
     us = costs.us
     return {
         "steps": len(us),

@@ -14,18 +14,18 @@ from mbs.vehicle.levels.errors import load_error, path_error
 STEP = 0.005  # s
 CARS = (manoeuvres.PROTOTYPE, "hatchback")
 SMOOTH = ("step_steer_given_throttle", "slalom", "steady_cornering", "double_lane_change_replay")
-"""Manoeuvres of rolling wheels on a plane road, without pedals pressed at once."""
+"""Manoeuvres of rolling wheels on a plane road, without sudden pedals."""
 
 
 @cache
 def tabled(name: str, car: str) -> System:
-    """A car by tables on the road of a manoeuvre."""
+    """A car whose suspensions are tables, on the road of a manoeuvre."""
     road = manoeuvres.rise(car) if name in manoeuvres.OTHER_ROAD else None
     return compile(load(car).model(road, fidelity="table"))
 
 
 def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
-    """A row: errors, and without repeats no times."""
+    """Row of a manoeuvre: errors, and times if `repeats` is not 0. `h`: step, s."""
     manoeuvre, (_, reference, length) = manoeuvres.load(name, car), trajectories.read(name, car)
     path_length, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
     systems = {"tables": tabled(name, car), "links": manoeuvres.system_of(name, car)}
@@ -49,7 +49,7 @@ def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
 
 
 def table_of(rows: Sequence[Row]) -> str:
-    """The table of the page."""
+    """Table of the page."""
     lines = [
         {
             "car": r["car"],
@@ -67,7 +67,7 @@ def table_of(rows: Sequence[Row]) -> str:
 
 
 def verdict(rows: Sequence[Row]) -> str:
-    """A sentence with the cars and manoeuvres in which tables are outside of 1 % of the path and 3 % of the loads."""
+    """Sentence on the cars and manoeuvres with errors of tables above 1 % of the path or 3 % of the loads."""
     outside = [
         f"{r['car']}, {r['manoeuvre'].replace('_', ' ')}"
         for r in rows
@@ -81,5 +81,5 @@ def verdict(rows: Sequence[Row]) -> str:
     return sentence
 
 
-def _errors(row: Row, what: str) -> str:
-    return f"{row[f'{what}_path']:.1e}, {100.0 * row[f'{what}_load']:.2g} %"
+def _errors(row: Row, prefix: str) -> str:
+    return f"{row[f'{prefix}_path']:.1e}, {100.0 * row[f'{prefix}_load']:.2g} %"

@@ -1,4 +1,4 @@
-"""Reference trajectories of cars: made, read, and the errors against them."""
+"""Reference trajectories of cars: their computation and files, and errors against them."""
 
 from pathlib import Path
 from typing import TypeAlias
@@ -29,12 +29,12 @@ SENSORS = (
 
 
 def folder_of(car: str) -> Path:
-    """Where the references of a car are: the prototype's in the folder itself, those of others in one of their own."""
+    """Folder of the references of a car."""
     return FOLDER if car == manoeuvres.PROTOTYPE else FOLDER / car
 
 
 def referenced(car: str) -> list[str]:
-    """Manoeuvres of which a car has references."""
+    """Names of the manoeuvres with a reference of the car."""
     folder = folder_of(car)
     return [name for name in manoeuvres.NAMES if (folder / f"{name}.csv").is_file()]
 
@@ -59,7 +59,9 @@ def read(
 
 
 def load_error_in_time(trajectory: Trajectory, fine: Trajectory, late: float) -> float:
-    """The same against a run of small steps, each load against those up to `late` seconds before and after it."""
+    """Largest wheel-load error over the largest load, each load against those of a fine run up to `late` s before
+    and after.
+    """
     peak, times = max(float(fine[s].max()) for s in LOADS), np.linspace(-late, late, 11)
     return (
         max(
@@ -75,7 +77,7 @@ def load_error_in_time(trajectory: Trajectory, fine: Trajectory, late: float) ->
 
 
 def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
-    """Run a manoeuvre with the small step, write its file and return one line about it."""
+    """Simulate a manoeuvre with the small step, write its file and return a line about it."""
     interval = manoeuvres.sampling(name, car)
     fine = manoeuvres.run(name, STEP, car=car, every=1, settings=TIGHT)
     every = round(interval / STEP)
@@ -106,7 +108,7 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
 
 
 def write_replay(car: str = manoeuvres.PROTOTYPE) -> None:
-    """The driver's acts in the double lane change as a manoeuvre file, and its start values."""
+    """Write the inputs of the driver in the double lane change as a manoeuvre file."""
     closed = manoeuvres.load(manoeuvres.CLOSED_LOOP, car)
     rows = np.array([[float(f"{v:.6g}") for v in row] for row in manoeuvres.record_driver(car)])
     inputs = dict(zip(("steering", "throttle", "brake"), rows.T[1:], strict=True))

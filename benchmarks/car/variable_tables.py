@@ -1,4 +1,4 @@
-"""Tables of the variables of the cars that come with the package, made from the cars."""
+"""Tables of the FMU variables of the cars of the package."""
 
 import re
 from collections import Counter
@@ -17,14 +17,14 @@ _TITLES = {"input": "inputs", "parameter": "parameters", "output": "outputs", "l
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A variable of some of the cars; those of the four wheels, or of both axles, are one."""
+class MergedVariable:
+    """A variable of some of the cars; the variables of four wheels, or of both axles, are one."""
 
     name: str
-    """Of the first of them."""
+    """Name of the first of them."""
     names: Sequence[str]
     variable: Variable
-    """That of the first car that has it."""
+    """Variable of the first car that has it."""
     starts: Mapping[str, list[float]]
     """Start values by car."""
 
@@ -40,18 +40,22 @@ def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]
     return {name: _table(name) for name in names}
 
 
-def shown(tables: Mapping[str, Sequence[Variable]]) -> list[Shown]:
-    """The variables of all cars in the order of the first, without repetition for wheels and axles."""
-    merged: dict[tuple[str, str, str], Shown] = {}
+def merge_variables(tables: Mapping[str, Sequence[Variable]]) -> list[MergedVariable]:
+    """Variables of all cars in the order of the first car, merged over wheels and axles."""
+    merged: dict[tuple[str, str, str], MergedVariable] = {}
     for car, table in tables.items():
         names = {v.name for v in table}
-        alike = Counter(_alike(v) for v in table)
+        counts = Counter(_similar_name(v) for v in table)
         for v in table:
-            family = _alike(v) if v.causality == "parameter" and alike[_alike(v)] > 1 else _family(v, names)
-            one_of_its_own = v.causality == "output" and not _WHEEL.search(v.name)
-            description = v.description if one_of_its_own else ""  # cars differ: driven wheels, gear
+            family = (
+                _similar_name(v)
+                if v.causality == "parameter" and counts[_similar_name(v)] > 1
+                else _common_name(v, names)
+            )
+            is_single_output = v.causality == "output" and not _WHEEL.search(v.name)
+            description = v.description if is_single_output else ""  # cars differ: driven wheels, gear
             key = (v.causality, family, description)
-            merged_variable = merged.setdefault(key, Shown(v.name, [], v, {}))
+            merged_variable = merged.setdefault(key, MergedVariable(v.name, [], v, {}))
             starts = {
                 **merged_variable.starts,
                 car: [*merged_variable.starts.get(car, []), *([] if v.start is None else [v.start])],
@@ -63,12 +67,10 @@ def shown(tables: Mapping[str, Sequence[Variable]]) -> list[Shown]:
 
 
 def blocks(tables: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
-    """Tables of the page by their marks, from `tables`: one for each causality, start values of every car beside each
-    other.
-    """
+    """Tables of the page by the names of their marks: one for each causality, a column of start values for each car."""
     results = {}
     for causality, title in _TITLES.items():
-        members = [s for s in shown(tables) if s.variable.causality == causality]
+        members = [s for s in merge_variables(tables) if s.variable.causality == causality]
         starts = causality != "output"
         ranged = causality in ("input", "parameter")
         head = [
@@ -81,15 +83,15 @@ def blocks(tables: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
         rows = [head, ["---"] * len(head)]
         for s in members:
             v = s.variable
-            values = [_starts(s, car) for car in tables] if starts else [_of(s, tables)]
+            values = [_starts_text(s, car) for car in tables] if starts else [_cars_text(s, tables)]
             low, high = (float("-inf") if v.min is None else v.min), (float("inf") if v.max is None else v.max)
             rows.append(
                 [
-                    _short(s.names),
+                    _names_text(s.names),
                     "" if v.unit == "1" else v.unit,
                     *values,
                     *([range_text(low, high, "1"), v.variability] if ranged else []),
-                    _plain(s),
+                    _description(s),
                 ]
             )
         results[f"car {title}"] = "\n".join("| " + " | ".join(row) + " |" for row in rows)
@@ -106,8 +108,8 @@ def _table(name: str) -> tuple[Variable, ...]:
     return (*table, *texts)
 
 
-def _family(v: Variable, present: set[str]) -> str:
-    """One name for the same thing at all wheels or both axles."""
+def _common_name(v: Variable, present: set[str]) -> str:
+    """Common name of a variable at all wheels or both axles."""
     plain = _WHEEL.sub("_FL", v.name)
     if plain != v.name and all(_WHEEL.sub(f"_{wheel}", v.name) in present for wheel in WHEELS):
         return plain
@@ -115,21 +117,21 @@ def _family(v: Variable, present: set[str]) -> str:
     return front if v.causality == "parameter" and front in present else v.name
 
 
-def _alike(v: Variable) -> str:
-    """One name for parameters of the same words in the same table, as those of all payloads."""
+def _similar_name(v: Variable) -> str:
+    """Common name of parameters with the same description in the same table, such as those of all payloads."""
     first, _, rest = v.name.partition(".")
     return f"{first}.*.{rest.rpartition('.')[2]}: {v.description.rpartition(': ')[2]}" if "." in rest else v.name
 
 
-def _short(names: Sequence[str]) -> str:
-    """Names of one row: those of four wheels as the first and the last."""
+def _names_text(names: Sequence[str]) -> str:
+    """Names in a row; of four wheels the first and the last."""
     if len(names) == len(WHEELS):
         return f"`{names[0]}` ... `{names[-1]}`"
     return ", ".join(f"`{name}`" for name in names)
 
 
-def _plain(s: Shown) -> str:
-    """The description without the part of the model that precedes it, as a phrase."""
+def _description(s: MergedVariable) -> str:
+    """The description without its prefix and with a small first letter."""
     text = s.variable.description
     for stem in (s.variable.name, s.variable.name.rpartition(".")[0]):
         text = text.removeprefix(f"{stem}: ")
@@ -137,7 +139,7 @@ def _plain(s: Shown) -> str:
     return text if text[1:2].isupper() or not text else text[0].lower() + text[1:]
 
 
-def _starts(s: Shown, car: str) -> str:
+def _starts_text(s: MergedVariable, car: str) -> str:
     values = s.starts.get(car)
     if values is None:
         return "–"
@@ -146,5 +148,5 @@ def _starts(s: Shown, car: str) -> str:
     return ", ".join(f"{value:.6g}" for value in (values if len(set(values)) > 1 else values[:1]))
 
 
-def _of(s: Shown, tables: Mapping[str, Sequence[Variable]]) -> str:
+def _cars_text(s: MergedVariable, tables: Mapping[str, Sequence[Variable]]) -> str:
     return "all" if len(s.cars) == len(tables) else ", ".join(s.cars)

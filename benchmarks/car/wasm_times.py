@@ -1,4 +1,4 @@
-"""Time of a step of the car's FMU, native and as WebAssembly in wasmtime, Node and Chromium, measured in turn."""
+"""Time of a step of the car's FMU, native and as WebAssembly in wasmtime, Node and Chromium."""
 
 import gzip
 import importlib.metadata
@@ -14,7 +14,7 @@ import fmpy
 from fmpy.fmi2 import fmi2Real, fmi2ValueReference
 from fmpy.simulation import instantiate_fmu
 
-from benchmarks.shared.command import say_missing, watched
+from benchmarks.shared.command import report_missing, watched
 from benchmarks.shared.fmu_module import FmuModule
 from benchmarks.shared.fmu_page import ChromiumPage, NotHereError, in_node, job_of, resources_of
 from benchmarks.shared.pages import Row, crossed
@@ -31,10 +31,10 @@ _CLOCK = "async (job) => (await import('/clock.js')).clock((await import('/fmu.j
 
 
 def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Measure], dict[str, str]]:
-    """The hosts by name, and their versions; what is not installed is said and left out.
+    """The installed hosts by name, and their versions; others are named on the error stream.
 
-    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes what has to be closed. Returns `hosts`:
-    functions that take a plan as `clock.js` does and return what it returns.
+    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes the browser. A host is a function with the
+    argument and result of `clock.js`.
     """
     fmpy.extract(str(fmu), unzipdir=str(folder))
     versions = {"native": "zig cc -O3, baseline of the processor family (x86-64: SSE2)"}
@@ -48,7 +48,7 @@ def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Mea
         versions["Chromium"] = chromium.version
         hosts["Chromium"] = lambda plan: chromium.run(_CLOCK, job_of(fmu, {**plan, "outputs": outputs}))
     except NotHereError as error:
-        say_missing(str(error))
+        report_missing(str(error))
     return hosts, versions
 
 
@@ -57,12 +57,12 @@ def _variables(fmu: Path) -> dict[str, Any]:
 
 
 def _outputs(fmu: Path) -> list[str]:
-    """Real outputs."""
+    """Names of the real outputs."""
     return [v.name for v in _variables(fmu).values() if v.causality == "output" and v.type == "Real"]
 
 
 def _timed(plan: Mapping[str, Any], start: Callable[[], None], works: Mapping[str, Callable[[], None]]) -> Any:
-    """As in `clock.js`."""
+    """Microseconds of an inner step in each repeat, by kind of call, as in `clock.js`."""
     results: dict[str, Any] = {}
     for kind, work in works.items():
         results[kind] = []
@@ -109,7 +109,10 @@ def _native(fmu: Path, folder: Path) -> Measure:
 
     def measure(plan: Mapping[str, Any]) -> dict[str, Any]:
         inputs = [variables[n].valueReference for n in plan["inputs"]]
-        input_references, put = (fmi2ValueReference * len(inputs))(*inputs), (fmi2Real * len(inputs))(*plan["values"])
+        input_references, input_values = (
+            (fmi2ValueReference * len(inputs))(*inputs),
+            (fmi2Real * len(inputs))(*plan["values"]),
+        )
         c = slave.component
 
         def start() -> None:
@@ -124,7 +127,7 @@ def _native(fmu: Path, folder: Path) -> Measure:
             plan,
             start,
             lambda t, h: slave.fmi2DoStep(c, t, h, 1),
-            lambda: slave.fmi2SetReal(c, input_references, len(inputs), put),
+            lambda: slave.fmi2SetReal(c, input_references, len(inputs), input_values),
             lambda: slave.fmi2GetReal(c, references, len(outputs), values),
         )
         return result | {"end": values[0]}
@@ -143,7 +146,7 @@ def _wasmtime(fmu: Path) -> Measure:
     def measure(plan: Mapping[str, Any]) -> dict[str, Any]:
         inputs = [variables[n].valueReference for n in plan["inputs"]]
         input_references = module.block(struct.pack(f"<{len(inputs)}I", *inputs))
-        put = module.block(struct.pack(f"<{len(inputs)}d", *plan["values"]))
+        input_values = module.block(struct.pack(f"<{len(inputs)}d", *plan["values"]))
 
         def start() -> None:
             module.reset()
@@ -157,7 +160,7 @@ def _wasmtime(fmu: Path) -> Measure:
             plan,
             start,
             lambda t, h: do_step(t, h, 1),
-            lambda: set_real(input_references, len(inputs), put),
+            lambda: set_real(input_references, len(inputs), input_values),
             lambda: get_real(references, len(outputs), values),
         )
         return result | {"end": struct.unpack("<d", module.bytes_at(values, 8))[0]}
@@ -166,7 +169,7 @@ def _wasmtime(fmu: Path) -> Measure:
 
 
 def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
-    """Rows of every host, fidelity and kind of call. Raises `RuntimeError`: they do not all end at the same place."""
+    """Rows of every host, fidelity and kind of call. Raises `RuntimeError`: their results differ at the end."""
     name, systems, _ = load_fidelities("prototype_car")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, ExitStack() as stack:
         fmu = build_fmu(systems, name, folder, [fmpy.platform, "wasm32"], kind="native")
@@ -196,7 +199,7 @@ def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
 
 
 def wasm_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Least microseconds of an inner step by host."""
+    """Table of the least time of an inner step, us, by host."""
     return {"wasm": crossed(rows, _name, "host", lambda r: f"{r['best_us']:.0f}", "fidelity, calls")}
 
 

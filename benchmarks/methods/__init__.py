@@ -1,1 +1,1 @@
-"""Integration methods on scenes with a known motion: error, time, stability, warnings, growth of cost."""
+"""Integration methods on scenes with a known motion: error, time, stability, warnings, growth of cost with size."""

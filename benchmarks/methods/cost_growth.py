@@ -19,7 +19,7 @@ STEP = 0.01  # s
 END = 0.6  # s: before the first singular position
 CHASSIS_STEP = 0.005  # s
 CHASSIS_STEPS = 100
-FITTED_FROM = 10  # N: below it the fixed cost of a step shows
+FITTED_FROM = 10  # N: smaller systems have a share of fixed cost
 WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 REPEATS = 9
 MODES = (5, 10, 20, 50, 100, 200)  # dynamic ones of the chassis, beside 60 static and 6 inertia modes
@@ -41,7 +41,7 @@ def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
 
 
 def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
-    """Rows of the car's frame alone, thrown and spinning: what its modes cost without the suspension."""
+    """Rows of the car's frame alone in free rotation: the cost of its modes without the suspension."""
     flexible = load("prototype").flexible_frame
     names, systems = [], []
     for count in watched(modes):
@@ -61,7 +61,7 @@ def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
 def _timed(
     names: Sequence[Row], systems: Sequence[tuple[mbs.System, mbs.Settings]], h: float, steps: int, repeats: int
 ) -> list[dict[str, Any]]:
-    """Sizes and times of so many steps; times are medians over repeats through all rows, after one that warms up."""
+    """Rows with sizes and times of a step; times are medians over repeats through all rows, after one to warm up."""
     walls: list[list[float]] = [[] for _ in names]
     iterations = [0.0] * len(names)
     for turn, k in watched([(turn, k) for turn in range(repeats + 1) for k in range(len(names))]):
@@ -80,13 +80,13 @@ def _timed(
 
 
 def exponents(rows: Sequence[Row], size: str) -> dict[str, float]:
-    """Fitted b of ``cost = a size^b``."""
+    """Exponents b of the fits ``cost = a size^b``."""
     x = np.log([r[size] for r in rows])
     return {key: float(np.polyfit(x, np.log([r[key] for r in rows]), 1)[0]) for key in EXPONENTS}
 
 
 def growth_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Growth and its exponents, of four-bars from `FITTED_FROM` windows on."""
+    """Tables of cost over size and of its exponents, those of four-bars from `FITTED_FROM` windows on."""
     four_bars, frames = ([r for r in rows if r["table"] == name] for name in ("windows", "chassis"))
     exponent_rows = []
     for method in METHODS:
@@ -104,7 +104,7 @@ def growth_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 
 def draw(rows: Sequence[Row], file: Path) -> None:
-    """Time per step and non-zeros against N, log-log, with a line of slope one."""
+    """Draw time per step and non-zeros over N, log-log, with a line of slope one."""
     rows = [r for r in rows if r["table"] == "windows"]
     plt = pyplot()
     figure, ax = plt.subplots(figsize=(6.2, 4.4), layout="constrained")

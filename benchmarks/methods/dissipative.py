@@ -1,4 +1,4 @@
-"""Scenes without an exact motion: each with its reference and the error from which a run counts as wrong."""
+"""Scenes without an exact motion: reference of each, and the error from which a run counts as wrong."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -29,12 +29,13 @@ class Scene:
     """A run, its error, and the error from which it counts as wrong."""
 
     quantity: str
-    """That the error is of, and its unit or what it is relative to."""
+    """Compared quantity, and its unit or scale."""
     run: Callable[[mbs.Settings, float], CaseRun]
-    """Error and trajectory for a step, s."""
+    """Returns error and trajectory for settings and a step, s."""
     limit: float
+    """Error from which a run is wrong."""
     steps: tuple[float, ...]
-    """s."""
+    """Steps, s."""
 
 
 @cache
@@ -50,13 +51,13 @@ def _system(name: str) -> mbs.System:
 def _run(
     name: str, end: float, h: float, settings: mbs.Settings, interval: float, inputs: dict[str, Any] | None = None
 ) -> mbs.Trajectory:
-    """A run of one of the systems, recorded at the interval, s, or at each step."""
+    """Simulate one of the systems, recorded at an interval, s, or at each step if that is longer."""
     every = max(1, round(interval / h))
     return mbs.simulate(_system(name), end, h, inputs, settings, every=every, progress=False, estimate_error=False)
 
 
 def beam(settings: mbs.Settings, h: float) -> CaseRun:
-    """Deflection of the tip against geometrically exact beams."""
+    """Error of the tip deflection against geometrically exact beams."""
     t = _run("beam", spinning_beam.DURATION, h, settings, 0.02)
     time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
     _, result = spinning_beam.extension_and_deflection(t.t, t["tip.x"], t["tip.y"])
@@ -64,7 +65,7 @@ def beam(settings: mbs.Settings, h: float) -> CaseRun:
 
 
 def four_bar(settings: mbs.Settings, h: float) -> CaseRun:
-    """Moments in the coupler against geometrically exact beams."""
+    """Error of the moments in the coupler against geometrically exact beams."""
     t = _run("four-bar", assembly_defect_four_bar.DURATION, h, settings, STEP)
     expected = reference()
     gap = max(np.abs(t[f"coupler.{c}"] - expected[c]).max() for c in COMPONENTS)
@@ -79,13 +80,13 @@ def rest(settings: mbs.Settings, h: float) -> CaseRun:
 
 
 def kerb(settings: mbs.Settings, h: float) -> CaseRun:
-    """Moments of the flexible frame, after the low-pass, against much smaller steps."""
+    """Error of the filtered moments of the flexible frame against much smaller steps."""
     t = fidelity_runs.run("kerb_test", 3, h, settings)
     return fidelity_runs.errors(fidelity_runs.sampled(t, h), fidelity_runs.read_reference("kerb_test"))["moment"], t
 
 
 def drive(settings: mbs.Settings, h: float) -> CaseRun:
-    """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
+    """Error of the mean wheel loads against the weight, over 1000 s of wide bends under power."""
     times = np.arange(0.0, 1001.0, 1.0)
     inputs = {"throttle": 0.2, "steering": (times, 0.02 * np.sin(2.0 * np.pi * times / 40.0))}
     t = _run("car", 1000.0, h, settings, 0.1, inputs)
@@ -103,7 +104,7 @@ SCENES = {
 
 
 def measure(name: str, method: str, h: float) -> dict[str, Any]:
-    """A row of the results: outcome, error and work of one run."""
+    """Row of a run: outcome, error and work. `h`: step, s."""
     scene = SCENES[name]
     row: dict[str, Any] = {"scene": name, "method": TITLES.get(method, method), "h_s": h, "quantity": scene.quantity}
     row |= {"outcome": "refused", "limit": scene.limit, "reason": ""}
@@ -125,7 +126,7 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
 
 
 def dissipative_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Flexible scenes and the car: a line for each scene and method."""
+    """Table with a line for each scene and method."""
     lines = []
     for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows):
         scene_rows = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]

@@ -1,4 +1,4 @@
-"""Runs to a tolerance: time and error of each method and of the automatic choice."""
+"""Runs with a tolerance: time and error of each method and of the automatic choice."""
 
 import time
 import warnings
@@ -18,15 +18,15 @@ TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-6)
 QUICK_TOLERANCES = (1e-3,)
 SCENES = tuple(name for name in CASES if name not in ("pendulum_1000s", "four_bar_200"))
 SLOW = 1e-3
-"""Below this tolerance ALi3-P, of order two, is left out where others can be used."""
-MOST_ERROR = 10.0
-MOST_TIME = 2.0
+"""Tolerance below which ALi3-P, of order two, is left out."""
+MOST_ERROR = 10.0  # largest error of an accurate run, over the tolerance
+MOST_TIME = 2.0  # largest time of a good choice, over that of the best method
 REPEATS = 5
 LONG = 0.5  # s: longer runs are made once
 
 
 def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str, Any]:
-    """One row: the run with its errors, and the least time of a few."""
+    """Row of a run with its errors, and the least time of some repeats."""
     case, system = CASES[scene], system_of(scene)
     row: dict[str, Any] = {"scene": scene, "tolerance": tolerance, "method": method}
     row |= dict.fromkeys(("error_over_tolerance", "cpu_ms", "ratio", "warned"))
@@ -61,21 +61,21 @@ def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str
 
 
 def methods_of(scene: str, tolerance: float) -> list[str]:
-    """Methods of the table that take a scene."""
+    """Methods of the table that can simulate a scene."""
     names = [m for m in METHODS if suits(m, CASES[scene].conservative, system_of(scene))]
     return [m for m in names if m != "ali3p" or tolerance >= SLOW]
 
 
 def compare(rows: list[dict[str, Any]]) -> None:
-    """Fills in the time of each row over the best that kept its error."""
+    """Set the ratio of each row: its time over the least time of an accurate run."""
     accurate_times = [r["cpu_ms"] for r in rows if r["cpu_ms"] and r["error_over_tolerance"] <= MOST_ERROR]
     for row in rows:
         if accurate_times and row["cpu_ms"]:
-            row["ratio"] = row["cpu_ms"] / min(r for r in accurate_times)
+            row["ratio"] = row["cpu_ms"] / min(accurate_times)
 
 
 def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """What the choice of method took at each tolerance, beside the best method by name."""
+    """Table of the time of the automatic choice at each tolerance, beside that of the best method."""
     lines = []
     for r in rows:
         if not r["method"].startswith(CHOSEN):

@@ -1,4 +1,4 @@
-"""Families of random cases: a drawing by chance and its true motion, a function each."""
+"""Families of random cases: a function for each, which returns a random model with its exact motion."""
 
 import atexit
 import shutil
@@ -19,7 +19,7 @@ from scipy.interpolate import PPoly
 import mbs
 from benchmarks.methods import random_cars, random_machines, random_mechanisms
 from benchmarks.references import boxes, masses_on_a_line, newton_euler
-from benchmarks.references.newton_euler import INSTANTS, Drawing, Joint
+from benchmarks.references.newton_euler import INSTANTS, Joint, Mechanism
 from fmu_src.build.build import build_fmu
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu, StepRefusedError
@@ -32,7 +32,7 @@ from mbs.kernel.header.enumerations import Status
 Array = NDArray[np.float64]
 STEPS = (0.001, 0.002, 0.005, 0.01, 0.02)  # s
 TOLERANCES = (1e-2, 1e-3, 1e-4)
-NEARLY_FLAT = (1e-5, 1e-3)  # by which the arms of a change point differ, of their length
+NEARLY_FLAT = (1e-5, 1e-3)  # relative difference of the arms near a change point
 
 
 @dataclass(frozen=True)
@@ -40,32 +40,34 @@ class CaseRun:
     """The result of a run of a case."""
 
     values: Mapping[str, Array]
-    """Of sensors, at the instants."""
+    """Values by sensor, at the instants."""
     estimate: float | None
-    """The error that it reports, relative to the range or the length."""
+    """Estimate of the error, relative to the range or the length."""
     cost: float | None = None
-    """Of its steps and those of its check, over its steps."""
+    """Steps of the run and of its check, over those of the run."""
     method: str = ""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A System, how it is run, and its true motion."""
+    """A System with its simulation and its exact motion."""
 
     kind: str
     system: mbs.System
     truth: Mapping[str, Array]
-    """What is judged, by sensor, at equal instants of the run, (n,) each."""
+    """Exact values by compared sensor at equal instants of the run, (n,) each."""
     span: float
     """Duration, s."""
     run: Callable[..., CaseRun]
-    """By ``h`` and ``every``, or by ``tolerance`` and ``times``; raises `mbs.SimulationError`."""
+    """Called with ``h`` and ``every``, or with ``tolerance`` and ``times``; raises `mbs.SimulationError`."""
     steps: tuple[float, ...] = STEPS
     tolerances: tuple[float, ...] = TOLERANCES
 
 
-def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory] | None = None) -> dict[str, Any]:
-    """What a case has of `mbs.simulate`, or of another function of ``h`` and the same names."""
+def simulation_fields(
+    system: mbs.System, span: float, run: Callable[..., mbs.Trajectory] | None = None
+) -> dict[str, Any]:
+    """Arguments of a `Case` that is run by `mbs.simulate`, or by another function with the same arguments."""
 
     def case_run(h: float | None = None, **more: Any) -> CaseRun:
         trajectory = (run or partial(mbs.simulate, system, span, progress=False))(h=h, **more)
@@ -79,44 +81,46 @@ def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory
     return {"system": system, "span": span, "run": case_run}
 
 
-def _drawn(kind: str, drawing: Drawing) -> Case:
-    names = [f"tip{i}.{c}" for i in range(len(drawing.links)) for c in "xyz"[: drawing.dimension]]
-    motion = newton_euler.motion(drawing)
+def _mechanism_case(kind: str, mechanism: Mechanism) -> Case:
+    names = [f"tip{i}.{c}" for i in range(len(mechanism.links)) for c in "xyz"[: mechanism.dimension]]
+    motion = newton_euler.motion(mechanism)
     truth = dict(zip(names, motion.reshape(len(motion), -1).T, strict=True))
-    return Case(kind, truth=truth, **simulated(mbs.compile(random_mechanisms.model_of(drawing)), drawing.span))
+    return Case(
+        kind, truth=truth, **simulation_fields(mbs.compile(random_mechanisms.model_of(mechanism)), mechanism.span)
+    )
 
 
 def planar(rng: np.random.Generator) -> Case:
     """Closed loops and chains in the plane."""
-    return _drawn(*random_mechanisms.drawing(rng, 2))
+    return _mechanism_case(*random_mechanisms.random_mechanism(rng, 2))
 
 
 def spatial(rng: np.random.Generator) -> Case:
-    """A random spatial mechanism."""
-    return _drawn(*random_mechanisms.drawing(rng, 3))
+    """Random spatial mechanisms."""
+    return _mechanism_case(*random_mechanisms.random_mechanism(rng, 3))
 
 
 def machines(rng: np.random.Generator) -> Case:
-    """Masses on a line with belts, brakes, plays, cams, impacts and stops."""
-    kind, machine = random_machines.machine(rng)
+    """Masses on a line with belts, brakes, backlash, cams, impacts and stops."""
+    kind, machine = random_machines.random_machine(rng)
     positions = masses_on_a_line.motion(machine)
     truth = {f"x{i}": positions[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
-    return Case(kind, truth=truth, **simulated(mbs.compile(random_machines.model_of(machine)), machine.span))
+    return Case(kind, truth=truth, **simulation_fields(mbs.compile(random_machines.model_of(machine)), machine.span))
 
 
 def cars(rng: np.random.Generator) -> Case:
-    """Cars over kerbs and drops, with each spring and tyre force."""
-    drive = random_cars.drive(rng)
+    """Cars over kerbs, and dropped cars, with all spring and tyre forces."""
+    drive = random_cars.random_drive(rng)
     kind = f"{drive.car} {drive.step:g} m, {drive.speed:.1f} m/s"
 
     def run(h: float | None = None, **more: Any) -> mbs.Trajectory:
         return drive.run("auto" if h is None else "ali3p", h, **more)
 
-    simulation = simulated(drive.system, drive.span, run)
+    simulation = simulation_fields(drive.system, drive.span, run)
     return Case(kind, truth=drive.truth(), **simulation, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
 
 
-def box(rng: np.random.Generator) -> Case:
+def boxes_case(rng: np.random.Generator) -> Case:
     """Boxes that fall and tumble on their corners without friction."""
     mass, half = float(50.0 ** rng.uniform()), rng.uniform(0.1, 0.6, 3)
     onset, depth = float(10.0 ** rng.uniform(-2.7, -2.0)), float(10.0 ** rng.uniform(-3.0, -2.0))
@@ -137,47 +141,49 @@ def box(rng: np.random.Generator) -> Case:
     for c in "xyz":
         m.sense_position(f"centre.{c}", body, None, c)
         m.sense_position(f"corner.{c}", body, centre + falling_box.corners[0], c)
-    return Case("box", truth=truth, **simulated(mbs.compile(m), falling_box.span))
+    return Case("box", truth=truth, **simulation_fields(mbs.compile(m), falling_box.span))
 
 
-def _swinging(rng: np.random.Generator) -> tuple[str, Drawing]:
+def _swinging(rng: np.random.Generator) -> tuple[str, Mechanism]:
     """A chain of two or three links, or a four-bar with a pendulum."""
     while True:
         kind = str(rng.choice(["chain", "spatial chain", "four-bar with pendulum"]))
-        drawing = random_mechanisms.KINDS[kind](rng)
-        if len(drawing.links) > 1:
-            return kind, drawing
+        mechanism = random_mechanisms.KINDS[kind](rng)
+        if len(mechanism.links) > 1:
+            return kind, mechanism
 
 
 def jumps(rng: np.random.Generator) -> Case:
-    """Mechanisms whose first link is driven at a rate, or by an acceleration, that jumps two to four times."""
-    kind, drawing = _swinging(rng)
-    t = np.concatenate([[0.0], np.sort(rng.uniform(0.1, drawing.span, int(rng.integers(2, 5)))), [2.0 * drawing.span]])
-    scale, jumping = np.sqrt(9.81 / drawing.size), rng.random() < 0.7
+    """Mechanisms whose first link is driven with a rate or an acceleration that jumps two to four times."""
+    kind, mechanism = _swinging(rng)
+    t = np.concatenate(
+        [[0.0], np.sort(rng.uniform(0.1, mechanism.span, int(rng.integers(2, 5)))), [2.0 * mechanism.span]]
+    )
+    scale, jumping = np.sqrt(9.81 / mechanism.size), rng.random() < 0.7
     angle, rate, coefficients = 0.0, float(rng.normal(0.0, 1.0) * scale), []
     for length in np.diff(t):
-        bend = 0.0 if jumping else float(rng.normal(0.0, 1.0) * scale**2)
-        coefficients.append((bend, rate, angle))
-        angle += (rate + bend * length) * length
-        rate = float(rng.normal(0.0, 1.0) * scale) if jumping else rate + 2.0 * bend * length
-    driven_drawing = replace(drawing, drive=PPoly(np.array(coefficients).T, t), torque=0.0)
-    return _drawn(f"{kind}, its {'rate' if jumping else 'acceleration'} jumps", driven_drawing)
+        acceleration = 0.0 if jumping else float(rng.normal(0.0, 1.0) * scale**2)
+        coefficients.append((acceleration, rate, angle))
+        angle += (rate + acceleration * length) * length
+        rate = float(rng.normal(0.0, 1.0) * scale) if jumping else rate + 2.0 * acceleration * length
+    driven_drawing = replace(mechanism, drive=PPoly(np.array(coefficients).T, t), torque=0.0)
+    return _mechanism_case(f"{kind}, its {'rate' if jumping else 'acceleration'} jumps", driven_drawing)
 
 
 def switches(rng: np.random.Generator) -> Case:
-    """Chains whose tips pins hold for a while, switched between the parts of `Simulation.run`."""
-    kind, drawing = _swinging(rng)
-    link = int(rng.integers(1, len(drawing.links)))
-    on, off = (drawing.span / INSTANTS * k for k in np.sort(rng.choice(np.arange(5, INSTANTS - 5), 2, replace=False)))
-    pin = Joint("pin", link, newton_euler.GROUND, drawing.tips[link], drawing.joints[0].axis, (on, off))
-    drawing = replace(drawing, joints=[*drawing.joints, pin])
-    case = _drawn(f"{kind} with a pin", drawing)
-    name = f"j{len(drawing.joints) - 1}"
+    """Chains with a tip that a pin fixes for some time, switched between calls of `Simulation.run`."""
+    kind, mechanism = _swinging(rng)
+    link = int(rng.integers(1, len(mechanism.links)))
+    on, off = (mechanism.span / INSTANTS * k for k in np.sort(rng.choice(np.arange(5, INSTANTS - 5), 2, replace=False)))
+    pin = Joint("pin", link, newton_euler.GROUND, mechanism.tips[link], mechanism.joints[0].axis, (on, off))
+    mechanism = replace(mechanism, joints=[*mechanism.joints, pin])
+    case = _mechanism_case(f"{kind} with a pin", mechanism)
+    name = f"j{len(mechanism.joints) - 1}"
 
     def run(h: float, every: int) -> CaseRun:
         simulation = mbs.Simulation(case.system)
         parts, errors = [], []
-        for end, closed in ((on, False), (off, True), (drawing.span, False)):
+        for end, closed in ((on, False), (off, True), (mechanism.span, False)):
             simulation.set_switch(name, closed)
             parts.append(simulation.run(end, h, every=every, progress=False))
             errors.append(parts[-1].accuracy.error if parts[-1].accuracy else None)
@@ -197,7 +203,7 @@ def _beam(length: float, wall: float) -> ReducedBody:
 
 
 def flexible(rng: np.random.Generator) -> Case:
-    """Beams on a hinge that fall on a stop with their free ends."""
+    """Beams on a hinge whose free ends fall on a stop."""
     length = float(rng.choice([1.0, 1.5, 2.0]))
     reduced = _beam(length, float(rng.choice([0.001, 0.002])))
     m = mbs.Model("beam", gravity=(0.0, 0.0, -9.81))
@@ -221,14 +227,14 @@ def flexible(rng: np.random.Generator) -> Case:
             system, span, span / INSTANTS / n, every=n, method=method, estimate_error=False, progress=False
         )
 
-    truth = random_cars.agreed(system, simulate)
-    return Case("beam", truth=truth, **simulated(system, span), tolerances=())  # finer than the reference
+    truth = random_cars.reference_by_two_methods(system, simulate)
+    return Case("beam", truth=truth, **simulation_fields(system, span), tolerances=())  # finer than the reference
 
 
 def gears(rng: np.random.Generator) -> Case:
-    """Two eccentric wheels that a pair of gears couples, or a four-bar through its flat position."""
+    """Two eccentric wheels coupled by gears, or a four-bar through its change point."""
     if rng.random() < 0.5:
-        return _drawn("change point", random_mechanisms.four_bar(rng, NEARLY_FLAT))
+        return _mechanism_case("change point", random_mechanisms.four_bar(rng, NEARLY_FLAT))
     masses, inertias, arms = (
         10.0 ** rng.uniform(-0.5, 0.5, 2),
         10.0 ** rng.uniform(-2.0, 0.0, 2),
@@ -236,11 +242,11 @@ def gears(rng: np.random.Generator) -> Case:
     )
     ratio = float(rng.choice([-1.0, 1.0]) * rng.uniform(1.0, 4.0))
     rate, span = float(rng.normal(0.0, 10.0)), float(rng.uniform(1.0, 3.0))
-    gain = np.array([1.0, 1.0 / ratio])  # turns of each wheel for one of the first
-    whole = float((inertias + masses * arms**2) @ gain**2)
+    gain = np.array([1.0, 1.0 / ratio])  # rate of each wheel over that of the first
+    reduced_inertia = float((inertias + masses * arms**2) @ gain**2)
 
     def rates(_: float, y: Array) -> Array:
-        return np.array([y[1], -9.81 * float(masses * arms * gain @ np.cos(gain * y[0])) / whole])
+        return np.array([y[1], -9.81 * float(masses * arms * gain @ np.cos(gain * y[0])) / reduced_inertia])
 
     t = np.linspace(0.0, span, INSTANTS + 1)
     angle = solve_ivp(rates, (0.0, span), [0.0, rate], t_eval=t, method="DOP853", rtol=1e-11, atol=1e-12).y[0]
@@ -255,30 +261,30 @@ def gears(rng: np.random.Generator) -> Case:
             m.sense_position(f"rim{i}.{c}", wheel, (i + 0.2, 0.0), c)
             truth[f"rim{i}.{c}"] = i * (1 - k) + 0.2 * (np.cos, np.sin)[k](gain[i] * angle)
     m.gear("gear", *angles, ratio=ratio)
-    return Case("gears", truth=truth, **simulated(mbs.compile(m), span))
+    return Case("gears", truth=truth, **simulation_fields(mbs.compile(m), span))
 
 
 def tumbling(rng: np.random.Generator) -> Case:
-    """Motions of which only rates and the torque of a motor are sensed, beside sensors that rest or are prescribed."""
+    """Motions whose sensors are rates, the torque of a motor, and constant or prescribed quantities."""
     if rng.random() < 0.4:
         return _tumbling_body(rng)
-    drawing = random_mechanisms.chain(rng, int(rng.choice([2, 3])))
-    while len(drawing.links) < 2:
-        drawing = random_mechanisms.chain(rng, 2)
+    mechanism = random_mechanisms.chain(rng, int(rng.choice([2, 3])))
+    while len(mechanism.links) < 2:
+        mechanism = random_mechanisms.chain(rng, 2)
     driven = rng.random() < 0.5
     rate = float(rng.uniform(1.0, 6.0))
-    drive = PPoly(np.array([[0.2], [rate], [0.0]]), [0.0, 2.0 * drawing.span]) if driven else None
-    drawing = replace(drawing, drive=drive, torque=0.0)
-    rates = newton_euler.motion(drawing, rates=True)
-    names = [f"rate{i}.{c}" for i in range(len(drawing.links)) for c in ("z" if drawing.dimension == 2 else "xyz")]
+    drive = PPoly(np.array([[0.2], [rate], [0.0]]), [0.0, 2.0 * mechanism.span]) if driven else None
+    mechanism = replace(mechanism, drive=drive, torque=0.0)
+    rates = newton_euler.motion(mechanism, rates=True)
+    names = [f"rate{i}.{c}" for i in range(len(mechanism.links)) for c in ("z" if mechanism.dimension == 2 else "xyz")]
     truth = dict(zip([*names, "motor.torque"] if driven else names, rates.T, strict=False))
-    kind = f"chain in {'the plane' if drawing.dimension == 2 else 'space'}, {'driven' if driven else 'free'}"
-    system = mbs.compile(random_mechanisms.model_of(drawing, rates=True))
-    return Case(kind, truth=truth, **simulated(system, drawing.span), tolerances=())
+    kind = f"chain in {'the plane' if mechanism.dimension == 2 else 'space'}, {'driven' if driven else 'free'}"
+    system = mbs.compile(random_mechanisms.model_of(mechanism, rates=True))
+    return Case(kind, truth=truth, **simulation_fields(system, mechanism.span), tolerances=())
 
 
 def _tumbling_body(rng: np.random.Generator) -> Case:
-    """A body about its middle axis, slightly off it; its centre of mass rests."""
+    """A free body that rotates nearly about its axis of intermediate inertia; its centre of mass rests."""
     moments = np.sort(rng.uniform(0.1, 0.3, 3))
     moments[1:] = np.minimum(moments[1:], [moments[1], 0.95 * (moments[0] + moments[1])])
     turn = np.array([0.01, float(rng.uniform(2.0, 8.0)), 0.01])
@@ -296,12 +302,13 @@ def _tumbling_body(rng: np.random.Generator) -> Case:
         m.sense_rotation(f"rate.{c}", body, c, order=1)
         m.sense_position(f"centre.{c}", body, None, c)
     truth = {f"rate.{c}": solution[k] for k, c in enumerate("xyz")}
-    return Case("body", truth=truth, **simulated(mbs.compile(m), span), tolerances=())
+    return Case("body", truth=truth, **simulation_fields(mbs.compile(m), span), tolerances=())
 
 
 def fmus(rng: np.random.Generator) -> Case:
-    """Cars over a kerb down, or that fall, through FMPy, with pedals and steering wheel held; compared where a host
-    reads them, at each communication step.
+    """FMUs of cars through FMPy, which drive down a kerb or fall, with constant pedals and steering wheel.
+
+    Outputs are compared at each communication step.
     """
     car, falls = str(rng.choice(random_cars.CARS)), rng.random() < 0.5
     pose = {"yaw": float(rng.uniform(-0.6, 0.6)), "speed": float(rng.uniform(3.0, 25.0))}
@@ -318,18 +325,18 @@ def fmus(rng: np.random.Generator) -> Case:
             pose=mbs.Pose(**pose), estimate_error=False, progress=False,
         )  # fmt: skip
 
-    truth = random_cars.agreed(system, simulate)
+    truth = random_cars.reference_by_two_methods(system, simulate)
     start = {f"initial.{name}": value for name, value in pose.items()} | road | inputs
     run = partial(_through_fmpy, lambda: fmu_of_car(car, lambda _: None), list(truth), span, start)
     return Case(f"{car}, {'falls' if falls else 'kerb'}", system, truth, span, run, (step,), ())
 
 
 def fmu_mechanisms(rng: np.random.Generator) -> Case:
-    """The mechanisms of `planar` and `spatial` for up to 10 s through FMPy."""
-    kind, drawing = random_mechanisms.drawing(rng)
+    """FMUs of random mechanisms through FMPy, for up to 10 s."""
+    kind, mechanism = random_mechanisms.random_mechanism(rng)
     span = float(round(rng.uniform(2.0, 10.0), 1))
-    drive = None if drawing.drive is None else PPoly(drawing.drive.c, [0.0, 2.0 * span])
-    case = _drawn(kind, replace(drawing, drive=drive, span=span))
+    drive = None if mechanism.drive is None else PPoly(mechanism.drive.c, [0.0, 2.0 * span])
+    case = _mechanism_case(kind, replace(mechanism, drive=drive, span=span))
 
     @cache
     def built() -> Path:
@@ -343,9 +350,9 @@ def fmu_mechanisms(rng: np.random.Generator) -> Case:
 def _through_fmpy(
     built: Callable[[], Path], names: list[str], span: float, start: dict[str, float], h: float, every: int
 ) -> CaseRun:
-    """What a host reads of an FMU that it steps by its `step_size`; each message of it counts as a warning."""
+    """Simulate an FMU with steps of its `step_size`; each message of the FMU is issued as a warning."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of the run that an FMU is built by, in steps of its own
+        warnings.simplefilter("ignore")  # of the run that is part of building an FMU
         path = built()
     with Fmu(path) as fmu:
         get = fmu.getter(names)
@@ -354,8 +361,8 @@ def _through_fmpy(
         for k in range(round(span / h)):
             try:
                 fmu.step(k * h, h)
-            except StepRefusedError as refused:
-                raise mbs.SimulationError(str(refused), k * h, Status.NOT_CONVERGED) from refused
+            except StepRefusedError as error:
+                raise mbs.SimulationError(str(error), k * h, Status.NOT_CONVERGED) from error
             rows += [get()] if (k + 1) % every == 0 else []
         texts = fmu.messages
     for text in texts:
@@ -368,7 +375,7 @@ FAMILIES: dict[str, Callable[[np.random.Generator], Case]] = {
     "spatial": spatial,
     "cars": cars,
     "machines": machines,
-    "boxes": box,
+    "boxes": boxes_case,
     "jumps": jumps,
     "switches": switches,
     "flexible": flexible,

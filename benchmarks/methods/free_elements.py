@@ -1,4 +1,4 @@
-"""The smallest free mechanisms of joints and forces: each swings or turns with a rate, rad/s."""
+"""Small mechanisms without external loads, for each joint and force; each function takes a rate, rad/s."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 import mbs
-from benchmarks.methods.free_wheels import Free
+from benchmarks.methods.free_wheels import FreeModel
 from mbs.elements import (
     Brake,
     ContactPoints,
@@ -33,15 +33,15 @@ Y = (0.0, 1.0, 0.0)
 Z = (0.0, 0.0, 1.0)
 COM = (0.3, 0.1, -0.2)
 INERTIA = (0.05, 0.08, 0.1)
-PLACE = (0.3, 0.0)
-Joined = Callable[[mbs.Model, Body], object]
+PLANAR_COM = (0.3, 0.0)
+Joining = Callable[[mbs.Model, Body], object]
 
 
-def turned(join: Joined, spin: tuple[float, ...], slide: tuple[float, ...] = O) -> Callable[[float], Free]:
-    """A body without symmetry about the origin, which a joint holds there; `spin`, `slide`: velocities by rate."""
+def body_on_joint(join: Joining, spin: tuple[float, ...], slide: tuple[float, ...] = O) -> Callable[[float], FreeModel]:
+    """A body without symmetry on a joint at the origin; `spin`, `slide`: angular and linear velocity over the rate."""
 
-    def build(rate: float) -> Free:
-        free = Free(3)
+    def build(rate: float) -> FreeModel:
+        free = FreeModel(3)
         body = free.model.body("body", mass=1.0, com=COM, inertia=INERTIA)
         join(free.model, body)
         linear = np.cross(spin, COM) + slide
@@ -51,12 +51,12 @@ def turned(join: Joined, spin: tuple[float, ...], slide: tuple[float, ...] = O) 
     return build
 
 
-def planar(join: Joined, linear: tuple[float, float]) -> Callable[[float], Free]:
-    """A body in the plane whose point at the origin a joint holds, turning with the rate; `linear`: m by rate."""
+def planar_body_on_joint(join: Joining, linear: tuple[float, float]) -> Callable[[float], FreeModel]:
+    """A planar body on a joint at the origin, rotating at the rate; `linear`: linear velocity over the rate, m."""
 
-    def build(rate: float) -> Free:
-        free = Free()
-        body = free.model.body("body", mass=1.0, com=PLACE, inertia=0.05)
+    def build(rate: float) -> FreeModel:
+        free = FreeModel()
+        body = free.model.body("body", mass=1.0, com=PLANAR_COM, inertia=0.05)
         join(free.model, body)
         free.model.initial_velocity(body, rate * np.array(linear), rate)
         return free
@@ -64,13 +64,13 @@ def planar(join: Joined, linear: tuple[float, float]) -> Callable[[float], Free]
     return build
 
 
-def welded(m: mbs.Model, body: Body) -> None:
-    """A second body on the first, so that both turn about the origin."""
+def add_weld(m: mbs.Model, body: Body) -> None:
+    """Weld a second body to the first and let both rotate about the origin."""
     m.weld("weld", body, m.body("other", mass=0.5, com=(-0.6, -0.2, 0.4), inertia=(0.03, 0.02, 0.04)))
 
 
-def geared(m: mbs.Model, body: Body) -> None:
-    """A wheel as one coordinate across a body on a ball joint."""
+def add_spin(m: mbs.Model, body: Body) -> None:
+    """A wheel as one coordinate on a body on a ball joint."""
     m.spherical("ball", m.ground, body, point=O)
     wheel = m.spin(
         "wheel", carrier=body, centre=COM, axis=Y, mass=0.5, spin_inertia=0.02, diametral_inertia=0.01
@@ -78,11 +78,11 @@ def geared(m: mbs.Model, body: Body) -> None:
     m.initial_rate(wheel, 0.0)
 
 
-def double(motor: str = "") -> Callable[[float], Free]:
-    """Two links without weight; a motor may turn the first steadily, or swing it "by input"."""
+def double_pendulum(motor: str = "") -> Callable[[float], FreeModel]:
+    """Two links without gravity; `motor`: "steady" rotation of the first link, or motion "by input"."""
 
-    def build(rate: float) -> Free:
-        free = Free()
+    def build(rate: float) -> FreeModel:
+        free = FreeModel()
         m = free.model
         first = m.body("first", mass=1.0, com=(0.5, 0.0), inertia=0.1)
         second = m.body("second", mass=1.0, com=(1.5, 0.0), inertia=0.1)
@@ -94,7 +94,7 @@ def double(motor: str = "") -> Callable[[float], Free]:
             pedal = free.pedal("pedal", 0.3, rate)
             m.drive("motor", turns[0], m.guide_input("guide", input=pedal, frequency=rate / 6.0, unit="rad"))
         elif motor:
-            m.drive("motor", turns[0], m.guide_time("guide", steady(0.4 * rate), unit="rad"))
+            m.drive("motor", turns[0], m.guide_time("guide", constant_rate(0.4 * rate), unit="rad"))
         else:
             m.initial_rate(turns[0], 0.4 * rate)
         return free
@@ -102,9 +102,9 @@ def double(motor: str = "") -> Callable[[float], Free]:
     return build
 
 
-def cardan(rate: float) -> Free:
+def cardan_shafts(rate: float) -> FreeModel:
     """Two shafts at 30 degrees."""
-    free = Free(3)
+    free = FreeModel(3)
     m, tilted = free.model, (np.cos(np.pi / 6.0), 0.0, np.sin(np.pi / 6.0))
     first = m.body("first", mass=1.0, com=(-0.5, 0.0, 0.0), inertia=(0.02, 0.1, 0.1))
     second = m.body("second", mass=1.0, com=tuple(0.5 * np.array(tilted)), inertia=(0.03, 0.03, 0.03))
@@ -115,22 +115,22 @@ def cardan(rate: float) -> Free:
     return free
 
 
-def slider(rate: float) -> Free:
+def slider_on_turntable(rate: float) -> FreeModel:
     """A slider with a spring on a turntable."""
-    free = Free()
+    free = FreeModel()
     m = free.model
     table = m.body("table", mass=1.0, com=(0.0, 0.0), inertia=0.1)
     m.revolute("pin", m.ground, table, point=(0.0, 0.0))
-    block = m.body("block", mass=0.5, com=PLACE, inertia=0.01)
+    block = m.body("block", mass=0.5, com=PLANAR_COM, inertia=0.01)
     m.prismatic("guide", table, block, axis=(1.0, 0.0))
-    m.spring_damper("spring", (table, (0.1, 0.0)), (block, PLACE), stiffness=0.5 * rate**2)
+    m.spring_damper("spring", (table, (0.1, 0.0)), (block, PLANAR_COM), stiffness=0.5 * rate**2)
     m.initial_rate(m.relative_angle("turn", m.ground, table), 0.3 * rate)
     return free
 
 
-def drop_link(rate: float) -> Free:
-    """A block on a guide that a rod and a lever with a spring hold."""
-    free = Free(3)
+def block_on_lever(rate: float) -> FreeModel:
+    """A block on a guide with a rod to a sprung lever."""
+    free = FreeModel(3)
     m = free.model
     block = m.body("block", mass=1.0, com=(0.3, 0.0, 0.5), inertia=INERTIA)
     m.prismatic("guide", m.ground, block, axis=Z)
@@ -142,9 +142,9 @@ def drop_link(rate: float) -> Free:
     return free
 
 
-def rolling(rate: float) -> Free:
-    """A coin that rolls round."""
-    free = Free(3)
+def rolling_coin(rate: float) -> FreeModel:
+    """A coin that rolls in a circle."""
+    free = FreeModel(3)
     coin = free.model.body("coin", mass=1.0, com=(0.0, 0.0, 0.3), inertia=(0.0225, 0.045, 0.0225))
     free.model.rolling("edge", coin, radius=0.3, centre=(0.0, 0.0, 0.3), axis=Y)
     spin = rate * np.array((0.0, 1.0, 0.2))
@@ -152,31 +152,33 @@ def rolling(rate: float) -> Free:
     return free
 
 
-def steady(rate: float) -> PPoly:
-    """A motion at a rate, for longer than a run."""
+def constant_rate(rate: float) -> PPoly:
+    """A motion at a constant rate, longer than a run."""
     return PPoly([[rate], [0.0]], [0.0, 1e6])
 
 
-def slid(rate: float) -> Free:
-    """A rod whose end on the ground slides steadily, and a mass that turns with it."""
-    free = Free()
+def rod_on_slide(rate: float) -> FreeModel:
+    """A rod whose end slides on the ground at a constant rate, and a mass that rotates about it."""
+    free = FreeModel()
     m = free.model
     bob = m.point_mass("bob", mass=1.0, position=(0.0, -1.0))
-    guide = m.guide_time("guide", steady(0.001 * rate), unit="m")
+    guide = m.guide_time("guide", constant_rate(0.001 * rate), unit="m")
     m.distance("rod", m.slide("point", m.ground, point=(0.0, 0.0), direction=(1.0, 0.0), guide=guide), bob)
     m.initial_velocity(bob, (rate, 0.0))
     return free
 
 
-def sprung(damping: float = 0.0, stops: EndStops | None = None, tabled: bool = False) -> Callable[[float], Free]:
+def mass_on_spring(
+    damping: float = 0.0, stops: EndStops | None = None, by_table: bool = False
+) -> Callable[[float], FreeModel]:
     """A mass on a spring from the ground, in space."""
 
-    def build(rate: float) -> Free:
-        free = Free(3)
+    def build(rate: float) -> FreeModel:
+        free = FreeModel(3)
         m = free.model
         bob = m.point_mass("bob", mass=1.0, position=(1.2, 0.0, 0.0))
         ends = (m.ground, O), bob
-        if tabled:
+        if by_table:
             rows = [(-0.5, -0.7 * rate**2), (0.0, 0.0), (0.5, 0.4 * rate**2)]
             gap = bob.point(bob.com) - m.ground.point(O)
             m.add(SpringDamperTable(rows, damping * rate, 1.0).record("spring", gap))
@@ -190,11 +192,11 @@ def sprung(damping: float = 0.0, stops: EndStops | None = None, tabled: bool = F
     return build
 
 
-def torsion(damping: float = 0.0, bar: str = "") -> Callable[[float], Free]:
+def wheel_on_spring(damping: float = 0.0, bar: str = "") -> Callable[[float], FreeModel]:
     """A wheel on a torsion spring, or two on a bar."""
 
-    def build(rate: float) -> Free:
-        free = Free()
+    def build(rate: float) -> FreeModel:
+        free = FreeModel()
         m = free.model
         angle = free.angle("angle", m.ground, free.wheel("wheel", 0.02), 1.2 * rate)
         if bar:
@@ -212,19 +214,19 @@ def torsion(damping: float = 0.0, bar: str = "") -> Callable[[float], Free]:
     return build
 
 
-def shaft(rate: float) -> Free:
-    """A shaft as one coordinate on a spring, and a rack that it moves."""
-    free = Free()
+def shaft_with_rack(rate: float) -> FreeModel:
+    """A shaft as one coordinate on a spring, with a rack."""
+    free = FreeModel()
     turn = free.model.shaft("shaft", inertia=0.02)
-    free.slide("rack", turn, 0.05)
+    free.add_rack("rack", turn, 0.05)
     free.model.initial_rate(turn, rate)
     free.model.torsional_spring_damper("spring", turn, stiffness=0.025 * rate**2)
     return free
 
 
-def tabled(rate: float) -> Free:
-    """A body that goes along a curve of a turntable, by a table of its way, on a spring."""
-    free = Free(3)
+def body_by_table(rate: float) -> FreeModel:
+    """A body on a turntable whose pose is a table of one coordinate, with a spring."""
+    free = FreeModel(3)
     m, axis = free.model, np.linspace(-1.0, 1.0, 21)
     base = m.body("base", mass=1.0, com=O, inertia=INERTIA)
     m.revolute("pin", m.ground, base, point=O, axis=Z)
@@ -237,9 +239,9 @@ def tabled(rate: float) -> Free:
     return free
 
 
-def blown(rate: float) -> Free:
-    """A body that winds turn on a pin."""
-    free = Free(3)
+def body_in_wind(rate: float) -> FreeModel:
+    """A body on a pin with wind forces."""
+    free = FreeModel(3)
     m = free.model
     body = m.body("body", mass=1.0, com=COM, inertia=INERTIA)
     m.revolute("pin", m.ground, body, point=O, axis=Z)
@@ -251,11 +253,11 @@ def blown(rate: float) -> Free:
     return free
 
 
-def wheeled(kind: str) -> Callable[[float], Free]:
-    """A body on a pin and its wheel as one coordinate, which a brake or a torque slows."""
+def body_with_wheel(kind: str) -> Callable[[float], FreeModel]:
+    """A body on a pin with a wheel as one coordinate, slowed by a brake or a torque."""
 
-    def build(rate: float) -> Free:
-        free = Free(3)
+    def build(rate: float) -> FreeModel:
+        free = FreeModel(3)
         m = free.model
         body = m.body("body", mass=1.0, com=COM, inertia=INERTIA)
         m.revolute("pin", m.ground, body, point=O, axis=Z)
@@ -274,13 +276,13 @@ def wheeled(kind: str) -> Callable[[float], Free]:
     return build
 
 
-def pushed(kind: str) -> Callable[[float], Free]:
-    """A wheel off its centre that a force, a torque, friction or the air acts on."""
+def eccentric_wheel(kind: str) -> Callable[[float], FreeModel]:
+    """An eccentric wheel with a force, a torque, friction or air forces."""
 
-    def build(rate: float) -> Free:
-        free = Free()
+    def build(rate: float) -> FreeModel:
+        free = FreeModel()
         m = free.model
-        body = m.body("body", mass=1.0, com=PLACE, inertia=0.05)
+        body = m.body("body", mass=1.0, com=PLANAR_COM, inertia=0.05)
         m.revolute("pin", m.ground, body, point=(0.0, 0.0))
         angle = m.relative_angle("angle", m.ground, body)
         m.initial_rate(angle, rate)
@@ -306,11 +308,11 @@ def pushed(kind: str) -> Callable[[float], Free]:
     return build
 
 
-def bounced(friction: float, loss: float) -> Callable[[float], Free]:
-    """A ball under a weight that bounces and slides on a road."""
+def ball_on_road(friction: float, loss: float) -> Callable[[float], FreeModel]:
+    """A ball with gravity that bounces and slides on a road."""
 
-    def build(rate: float) -> Free:
-        free = Free(3, weight=0.02 * rate**2)
+    def build(rate: float) -> FreeModel:
+        free = FreeModel(3, weight=0.02 * rate**2)
         m = free.model
         body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.1), inertia=INERTIA)
         road = m.road(PlaneRoad())
@@ -322,9 +324,9 @@ def bounced(friction: float, loss: float) -> Callable[[float], Free]:
     return build
 
 
-def beam(rate: float) -> Free:
-    """A flexible bar that is thrown and turns."""
-    free = Free(3)
+def flexible_bar(rate: float) -> FreeModel:
+    """A flexible bar in free flight and rotation."""
+    free = FreeModel(3)
     material = Material(E=2e7 * rate**2, nu=0.3, rho=1000.0)
     x = np.c_[np.linspace(-0.5, 0.5, 9), np.zeros((9, 2))]
     frame = Frame(x, [Beam(k, k + 1, round_bar(0.02), material) for k in range(8)])
@@ -334,51 +336,55 @@ def beam(rate: float) -> Free:
     return free
 
 
-ROD = (0.6, 0.64, 0.48)
-ELEMENTS: dict[str, Callable[[float], Free]] = {
-    "no joint, in space": turned(lambda m, b: None, ROD, (0.176, -0.264, 0.132)),
-    "revolute": planar(lambda m, b: m.revolute("pin", m.ground, b, point=(0.0, 0.0)), (0.0, 0.3)),
-    "revolute, in space": turned(lambda m, b: m.revolute("pin", m.ground, b, point=O, axis=X), X),
-    "revolute, two links": double(),
-    "spherical": turned(lambda m, b: m.spherical("ball", m.ground, b, point=O), ROD),
-    "universal": turned(lambda m, b: m.universal("cross", m.ground, b, point=O, axis_1=X, axis_2=Y), (0.6, 0.8, 0.0)),
-    "universal, two shafts": cardan,
-    "cylindrical": turned(lambda m, b: m.cylindrical("sleeve", m.ground, b, point=O, axis=X), X, (0.01, 0.0, 0.0)),
-    "prismatic": slider,
-    "weld": turned(welded, ROD),
-    "pin": turned(lambda m, b: m.pin("pin", b, O, on=True), ROD),
-    "point on line": planar(
+SPIN = (0.6, 0.64, 0.48)
+ELEMENTS: dict[str, Callable[[float], FreeModel]] = {
+    "no joint, in space": body_on_joint(lambda m, b: None, SPIN, (0.176, -0.264, 0.132)),
+    "revolute": planar_body_on_joint(lambda m, b: m.revolute("pin", m.ground, b, point=(0.0, 0.0)), (0.0, 0.3)),
+    "revolute, in space": body_on_joint(lambda m, b: m.revolute("pin", m.ground, b, point=O, axis=X), X),
+    "revolute, two links": double_pendulum(),
+    "spherical": body_on_joint(lambda m, b: m.spherical("ball", m.ground, b, point=O), SPIN),
+    "universal": body_on_joint(
+        lambda m, b: m.universal("cross", m.ground, b, point=O, axis_1=X, axis_2=Y), (0.6, 0.8, 0.0)
+    ),
+    "universal, two shafts": cardan_shafts,
+    "cylindrical": body_on_joint(
+        lambda m, b: m.cylindrical("sleeve", m.ground, b, point=O, axis=X), X, (0.01, 0.0, 0.0)
+    ),
+    "prismatic": slider_on_turntable,
+    "weld": body_on_joint(add_weld, SPIN),
+    "pin": body_on_joint(lambda m, b: m.pin("pin", b, O, on=True), SPIN),
+    "point on line": planar_body_on_joint(
         lambda m, b: m.point_on_line("line", (b, (0.0, 0.0)), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0)), (0.0, 0.3)
     ),
-    "distance": turned(lambda m, b: m.distance("rod", (m.ground, (-0.5, 0.0, 0.0)), (b, O)), ROD),
-    "drop link": drop_link,
-    "rolling": rolling,
-    "skate": planar(lambda m, b: m.skate("blade", b, point=(0.0, 0.0), direction=(1.0, 0.0)), (0.3, 0.3)),
-    "spin": turned(geared, ROD),
-    "drive": double("steady"),
-    "drive, by input": double("by input"),
-    "slide": slid,
-    "shaft": shaft,
-    "tabled body": tabled,
-    "spring": sprung(),
-    "spring, damped": sprung(0.002),
-    "spring, stops": sprung(0.0, EndStops()),
-    "spring, table": sprung(tabled=True),
-    "torsional spring": torsion(),
-    "torsional spring, damped": torsion(0.002),
-    "anti-roll bar": torsion(bar="anti-roll"),
-    "torsion bar": torsion(bar="steering"),
-    "force": pushed("force"),
-    "force, earth": pushed("force, earth"),
-    "torque": pushed("torque"),
-    "torque on": pushed("torque on"),
-    "torque on, spin": wheeled("torque"),
-    "brake": wheeled("brake"),
-    "drag": pushed("drag"),
-    "wind": blown,
-    "lift": pushed("lift"),
-    "friction": pushed("friction"),
-    "contact": bounced(0.0, 0.0),
-    "contact, friction": bounced(0.5, 0.5),
-    "flexible beam": beam,
+    "distance": body_on_joint(lambda m, b: m.distance("rod", (m.ground, (-0.5, 0.0, 0.0)), (b, O)), SPIN),
+    "drop link": block_on_lever,
+    "rolling": rolling_coin,
+    "skate": planar_body_on_joint(lambda m, b: m.skate("blade", b, point=(0.0, 0.0), direction=(1.0, 0.0)), (0.3, 0.3)),
+    "spin": body_on_joint(add_spin, SPIN),
+    "drive": double_pendulum("steady"),
+    "drive, by input": double_pendulum("by input"),
+    "slide": rod_on_slide,
+    "shaft": shaft_with_rack,
+    "tabled body": body_by_table,
+    "spring": mass_on_spring(),
+    "spring, damped": mass_on_spring(0.002),
+    "spring, stops": mass_on_spring(0.0, EndStops()),
+    "spring, table": mass_on_spring(by_table=True),
+    "torsional spring": wheel_on_spring(),
+    "torsional spring, damped": wheel_on_spring(0.002),
+    "anti-roll bar": wheel_on_spring(bar="anti-roll"),
+    "torsion bar": wheel_on_spring(bar="steering"),
+    "force": eccentric_wheel("force"),
+    "force, earth": eccentric_wheel("force, earth"),
+    "torque": eccentric_wheel("torque"),
+    "torque on": eccentric_wheel("torque on"),
+    "torque on, spin": body_with_wheel("torque"),
+    "brake": body_with_wheel("brake"),
+    "drag": eccentric_wheel("drag"),
+    "wind": body_in_wind,
+    "lift": eccentric_wheel("lift"),
+    "friction": eccentric_wheel("friction"),
+    "contact": ball_on_road(0.0, 0.0),
+    "contact, friction": ball_on_road(0.5, 0.5),
+    "flexible beam": flexible_bar,
 }

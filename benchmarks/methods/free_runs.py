@@ -1,4 +1,4 @@
-"""Free mechanisms of each joint and each force: errors of energy, teeth and angles after many steps."""
+"""Free mechanisms with each joint and each force: errors of energy, gear ratios and angles after many steps."""
 
 from __future__ import annotations
 
@@ -11,26 +11,28 @@ import numpy as np
 
 import mbs
 from benchmarks.methods.free_elements import ELEMENTS
-from benchmarks.methods.free_wheels import TWO_AXES, WHEELS, alone_late
+from benchmarks.methods.free_wheels import TWO_AXES, WHEELS, angle_error_alone
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, crossed, table
 from mbs.settings.methods import METHOD_TABLE
 
-STEP = 0.01
+STEP = 0.01  # s
 STEPS = 100_000
-EVERY = 10
+EVERY = 10  # steps between recorded instants
 TURNS = (0.01, 0.05, 0.2, 0.5)
-"""Rate of the fastest wheel, or of the force, times the step, rad."""
+"""Rate of the fastest wheel, or of the load, times the step, rad."""
 WRONG = 1e-3
-"""Part of the energy from which a change is an error that a run should report."""
+"""Relative change of the energy from which a run should report an error."""
 MECHANISMS = WHEELS | TWO_AXES | ELEMENTS
 
 
-def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", told: bool = False) -> dict[str, Any]:
-    """Largest change of the energy but for work, slip of the teeth and lateness of angles, in parts of what there is.
+def measure(
+    name: str, turn: float, steps: int = STEPS, method: str = "ali3p", with_check: bool = False
+) -> dict[str, Any]:
+    """Row of a run: relative errors of energy less work, of gear ratios (`slip`) and of angles (`late`).
 
-    `drift`: mean change of the energy a step; `grows`: whether it makes up most of the change. `told`: whether a run
-    that is wrong is made once more with the check of its accuracy.
+    `drift`: mean change of the energy in a step; `grows`: whether the drift is most of the change. `with_check`: repeat
+    a wrong run with the check of its accuracy.
     """
     free = MECHANISMS[name](turn / STEP)
     every, row = min(EVERY, steps), {"mechanism": name, "turn": turn, "method": method}
@@ -53,28 +55,30 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", t
     row["grows"] = abs(drift) * steps > 0.5 * row["energy"]
     if r.report is not None:
         row |= {"iterations": r.report.iterations / steps, "halvings": r.report.halvings}
-    if told and row["energy"] > WRONG and not row["told"]:
-        with warnings.catch_warnings(record=True) as caught:
+    if with_check and row["energy"] > WRONG and not row["told"]:
+        with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always")
             checked = mbs.simulate(system, steps * STEP, STEP, **options)
-        kinds = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
+        kinds = {w.category.__name__ for w in caught_warnings} | {"notice" for _ in checked.notices}
         row["told"] = ", ".join(sorted(kinds))
     if free.angles:
-        travel = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
-        slips = [np.max(np.abs(travel[a] - i * travel[b])) / np.max(np.abs(travel[a])) for a, b, i in free.ties]
+        travel = {
+            end: r[end] - r[end][0] for end in {*free.angles, *(end for pair in free.couplings for end in pair[:2])}
+        }
+        slips = [np.max(np.abs(travel[a] - i * travel[b])) / np.max(np.abs(travel[a])) for a, b, i in free.couplings]
         late = [np.max(np.abs(travel[a] - rate * r.t)) for a, (_, rate) in free.angles.items()]
         row |= {"slip": float(max(slips, default=0.0)), "late": float(max(late) / (turn * steps))}
-        row["alone_late"] = alone_late(turn)
+        row["alone_late"] = angle_error_alone(turn)
     return row
 
 
 def rows(names: Sequence[str], methods: Sequence[str], steps: int) -> list[dict[str, Any]]:
-    """All mechanisms by all methods at all rates."""
+    """Rows of all mechanisms, methods and rates."""
     return [measure(name, turn, steps, method, True) for name in names for method in methods for turn in TURNS]
 
 
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The tables of the page."""
+    """Tables of the page."""
     lines: dict[str, dict[str, Any]] = {}
     for row in rows:
         if row["method"] == "ali3p" and row["mechanism"] in WHEELS | TWO_AXES and row["energy"] is not None:
@@ -94,22 +98,22 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 
 def cell(rows: Sequence[Row], name: str, method: str) -> str:
-    """Largest change over the rates, from which rate it grows or is beyond `WRONG`, and what the run says."""
-    own = sorted((r for r in rows if (r["mechanism"], r["method"]) == (name, method)), key=lambda r: r["turn"])
-    ran = [row for row in own if row["energy"] is not None]
+    """Text of a cell: largest change over the rates, the rate from which it grows or exceeds `WRONG`, and refusals."""
+    own_rows = sorted((r for r in rows if (r["mechanism"], r["method"]) == (name, method)), key=lambda r: r["turn"])
+    ran = [row for row in own_rows if row["energy"] is not None]
     if not ran:
-        return "–" if all(row["told"] == "no" for row in own) else "refused"
+        return "–" if all(row["told"] == "no" for row in own_rows) else "refused"
     text = f"{max(row['energy'] for row in ran):.0e}"
     wrong = [row for row in ran if row["energy"] > WRONG]
     if wrong:
         text += f" from {wrong[0]['turn']:g}" + (", grows" if any(row.get("grows") for row in wrong) else "")
         text += "" if all(row["told"] for row in wrong) else " (!)"
-    refused = [row["turn"] for row in own if row["told"] == "refused"]
+    refused = [row["turn"] for row in own_rows if row["told"] == "refused"]
     return text + (f", refused from {refused[0]:g}" if refused else "")
 
 
 def draw(rows: Sequence[Row], folder: Path) -> None:
-    """A map of mechanism over method and rate times step: the largest change of the energy."""
+    """Draw the largest change of the energy as a map of mechanisms over methods and rates."""
     plt = pyplot()
     methods = list(dict.fromkeys(row["method"] for row in rows))
     names = list(dict.fromkeys(row["mechanism"] for row in rows))

@@ -1,4 +1,4 @@
-"""The true error of a run beside its estimate, and a summary of right, wrong and warned runs."""
+"""True errors of runs beside their estimates, and a summary of right, wrong and warned runs."""
 
 import time
 import warnings
@@ -8,27 +8,27 @@ from typing import Any
 import mbs
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
-from benchmarks.methods.random_honesty import COUNTS, FACTOR, NOTHING, counts, verdict_of
+from benchmarks.methods.random_honesty import COUNTS, FACTOR, NEGLIGIBLE, counts, verdict_of
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
 
-LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
+LONG = 12.0  # s of processor time from which a method is not run with smaller steps
 QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}
 SUMMARY = {"method": "", **COUNTS}
 
 
 def measure(name: str, method: str, h: float) -> dict[str, Any]:
-    """A run of a scene in steps of h s: true error, estimate and verdict."""
+    """Row of a run with steps of h, s: true error, estimate and verdict."""
     scene = SCENES[name]
     row: dict[str, Any] = {"scene": name, "method": method, "h_s": h, "ended": "refused", "verdict": "refused"}
     row |= dict.fromkeys(("error", "estimate", "steps", "balance", "halvings_per_step", "warning"))
     begin = time.process_time()
     try:
-        with warnings.catch_warnings(record=True) as caught:
+        with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always", mbs.AccuracyWarning)
             result = scene.run(method, h)
-    except mbs.SimulationError as refused:
-        return row | {"reason": str(refused), "cpu_s": time.process_time() - begin}
+    except mbs.SimulationError as simulation_error:
+        return row | {"reason": str(simulation_error), "cpu_s": time.process_time() - begin}
     accuracy = result.accuracy
     assert accuracy is not None
     row["cpu_s"] = time.process_time() - begin
@@ -40,31 +40,31 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
         "steps": 1.0 + accuracy.check_cost,
         "balance": accuracy.energy_balance,
         "halvings_per_step": accuracy.halvings_per_step,
-        "verdict": verdict_of(error, WRONG_ERROR, bool(caught)),
+        "verdict": verdict_of(error, WRONG_ERROR, bool(caught_warnings)),
         "warning": accuracy.message,
     }
 
 
 def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """Counts per method."""
+    """Counts by method."""
     methods = dict.fromkeys(r["method"] for r in rows)
     return [{"method": TITLES[m], **counts([r for r in rows if r["method"] == m])} for m in methods]
 
 
 def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Wrong runs caught and right ones disturbed, and by name those that went against the rule."""
+    """Summary by method, list of false alarms, missed runs and low estimates, and table of the crank-slider."""
     reported = []
     for verdict in ("silently wrong", "false alarm"):
         results = [r for r in rows if r["verdict"] == verdict]
         for method in dict.fromkeys(r["method"] for r in results):
             runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in results if r["method"] == method)
             reported.append(f"- {TITLES[method]}, {verdict}: {'; '.join(runs)}.")
-    short = [
+    low_estimates = [
         f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, estimate {r['estimate']:.1e}"
         for r in rows
-        if r["estimate"] is not None and r["error"] > max(NOTHING, FACTOR * r["estimate"])
+        if r["estimate"] is not None and r["error"] > max(NEGLIGIBLE, FACTOR * r["estimate"])
     ]
-    reported += [f"- More than {FACTOR:g} times the estimate: {'; '.join(short) or 'none'}."]
+    reported += [f"- More than {FACTOR:g} times the estimate: {'; '.join(low_estimates) or 'none'}."]
     return {
         "honesty": table(summary(rows), SUMMARY),
         "honesty exceptions": "\n".join(reported),
@@ -73,7 +73,7 @@ def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 
 def crank_table(rows: Sequence[Row]) -> str:
-    """The crank-slider of the modelling page with the default method, by step."""
+    """Table of the crank-slider of the modelling page with the default method, by step."""
     crank = [r for r in rows if r["scene"] == "printed_crank_slider" and r["method"] == "ali3p"]
     columns = {"h_s": "g", "ended": "", "error": ".1e", "estimate": ".1e", "balance": ".1e", "halvings_per_step": ".2g"}
     return table(crank, columns | {"verdict": ""})

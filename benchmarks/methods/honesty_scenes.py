@@ -1,4 +1,4 @@
-"""The scenes of `benchmarks.honesty`, each with the sensors that are judged and their true values."""
+"""The scenes of `benchmarks.honesty`, each with the exact values of its compared sensors."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -19,10 +19,10 @@ from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
 CLOSE = 1e-3
-"""In parts of the extent: how near a fine run, which stands for sensors without an exact motion, is to the others'."""
+"""Largest relative difference of a fine run from exact motions; the run replaces them for other sensors."""
 CRANK_ANGLE = 758.62661  # rad after 2 s: its one degree of freedom under DOP853 at 1e-12
-TUMBLING = np.diag([0.1, 0.2, 0.3]), np.array([0.01, 5.0, 0.01])  # kg m2, rad/s: about the middle axis, slightly off
-TUMBLES = 20.0  # s
+TUMBLING = np.diag([0.1, 0.2, 0.3]), np.array([0.01, 5.0, 0.01])  # kg m2, rad/s: near the axis of intermediate inertia
+TUMBLING_TIME = 20.0  # s
 CAR_STEP = 2.5e-4  # s
 BEST = {
     "pendulum": ("runge_kutta_8", 40),
@@ -38,37 +38,39 @@ BEST = {
     "bicycle": ("runge_kutta_8", 20),
     "spatial_chain": ("semi_recursive", 40),
 }
-"""Method, and steps from one sample to the next, that come nearest to the exact motion: for sensors that it lacks."""
+"""Most accurate method, and steps between samples, for sensors without an exact motion."""
 
 
 @dataclass(frozen=True)
 class Scene:
-    """A model with the true values of sensors at equal instants."""
+    """A model with the exact values of sensors at equal instants."""
 
     run: Callable[..., mbs.Trajectory]
-    """Trajectory of a method and a step, recorded at the instants; further arguments as of `mbs.simulate`."""
+    """Returns the trajectory of a method with a step, s, recorded at the instants; further arguments of
+    `mbs.simulate`.
+    """
     truth: Callable[[], Mapping[str, Array]]
-    """Values by sensor."""
+    """Returns exact values by sensor."""
     system: Callable[[], mbs.System]
-    """Its length is the scale of what counts as rest."""
+    """Returns the System, whose length is the scale of sensors at rest."""
     methods: Callable[[], list[str]]
-    """Names of the methods that can run it."""
+    """Returns the names of the methods that can simulate it."""
     steps: tuple[float, ...]
-    """From coarse to fine, s."""
+    """Steps in descending order, s."""
 
-    def error(self, found: mbs.Trajectory) -> float:
-        """Largest error of a judged sensor relative to its size, of forces at `instants`."""
-        true = self.truth()
-        compared = {name: what for name, what in compared_sensors(self.system()).items() if name in true}
-        assert found.report is not None
-        comparison = Comparison(compared, length_of(self.system()), energy=found.report.energy_floor)
-        comparison.add(true, found, instants(len(found.t)))
+    def error(self, trajectory: mbs.Trajectory) -> float:
+        """Largest error of a compared sensor over its size; forces are compared at `instants`."""
+        exact = self.truth()
+        compared = {name: sensor for name, sensor in compared_sensors(self.system()).items() if name in exact}
+        assert trajectory.report is not None
+        comparison = Comparison(compared, length_of(self.system()), energy=trajectory.report.energy_floor)
+        comparison.add(exact, trajectory, instants(len(trajectory.t)))
         gaps = comparison.gaps
         return max((gaps[name] / size for name, size in comparison.sizes().items()), default=0.0)
 
 
 def _recorded(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
-    """A run that is recorded at its `SAMPLES` instants."""
+    """Simulate a System, recorded at `SAMPLES` equal instants."""
     every = max(1, round(end / SAMPLES / h))
     return mbs.simulate(system, end, h, method=method, every=every, progress=False, **more)
 
@@ -103,7 +105,7 @@ def _case(name: str) -> Scene:
 
 @cache
 def printed_model() -> mbs.System:
-    """The crank-slider as `docs/modelling.md` prints it."""
+    """The crank-slider from the code in `docs/modelling.md`."""
     block = re.search(r"```python\n(.*?)\nsystem = ", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     assert block is not None
     names: dict[str, Any] = {}
@@ -124,7 +126,7 @@ def _crank_truth() -> dict[str, Array]:
 
 @cache
 def tumbling_body() -> mbs.System:
-    """A free body about its middle axis of inertia, which turns over at times that hang on the smallest error."""
+    """A free body near its axis of intermediate inertia: small errors change the times at which it turns over."""
     m = mbs.Model("tumbling body", gravity=(0.0, 0.0, 0.0))
     body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=TUMBLING[0])
     m.initial_velocity(body, linear=(0.0, 0.0, 0.0), angular=TUMBLING[1])
@@ -135,12 +137,12 @@ def tumbling_body() -> mbs.System:
 
 
 def _tumbling_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
-    return _recorded(tumbling_body(), TUMBLES, method, h, **more)
+    return _recorded(tumbling_body(), TUMBLING_TIME, method, h, **more)
 
 
 @cache
 def _tumbling_truth() -> dict[str, Array]:
-    """Euler's equations and the rotation matrix under DOP853."""
+    """Positions of the tip, m, by Euler's equations, the rotation matrix and DOP853."""
     inertia, rate = TUMBLING
 
     def rates(_: float, x: Array) -> Array:
@@ -149,8 +151,8 @@ def _tumbling_truth() -> dict[str, Array]:
         return np.concatenate([np.linalg.solve(inertia, -np.cross(w, inertia @ w)), (axes @ turn).ravel()])
 
     start = np.concatenate([rate, np.eye(3).ravel()])
-    t = np.linspace(0.0, TUMBLES, SAMPLES + 1)
-    x = solve_ivp(rates, (0.0, TUMBLES), start, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
+    t = np.linspace(0.0, TUMBLING_TIME, SAMPLES + 1)
+    x = solve_ivp(rates, (0.0, TUMBLING_TIME), start, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
     return {f"tip.{c}": x[4 + 3 * k] for k, c in enumerate("xyz")}
 
 
@@ -162,7 +164,7 @@ def _car_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
 
 @cache
 def _car_truth(name: str) -> dict[str, Array]:
-    """The default with a step at which it differs from the stored references by 1e-4 of what is judged, or less."""
+    """Sensors of a run of the default method whose difference from the stored references is below 1e-4."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
     return {n: fine[n] for n in compared_sensors(manoeuvres.system_of(name))}

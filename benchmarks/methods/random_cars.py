@@ -1,4 +1,4 @@
-"""Random drives of the cars over kerbs and drops, with references by another method."""
+"""Random drives of cars over kerbs, and falls, with references by two methods."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,15 +18,19 @@ from mbs.vehicle import load as load_car
 Array = NDArray[np.float64]
 CARS = ("prototype", "hatchback")
 STEPS = (0.02, 0.01, 0.005, 0.002)  # s
-INTERVAL = 0.02  # s, of the record
+INTERVAL = 0.02  # s between recorded instants
 REFERENCE = 2.5e-4  # step of energy-momentum, s
 CHECK = 1e-4  # step of ALi3-P, s
-AGREE = 0.01  # of the range: by which they may differ
+AGREE = 0.01  # largest difference of both, over the range
 
 
 @dataclass(frozen=True)
 class Drive:
-    """A drive: the kerb's edge lies 3 m ahead of the front axle, `step` m up (positive) or down, or 1 km ahead."""
+    """A drive; the kerb is 3 m ahead of the front axle, `step` m up (positive) or down; 0: no kerb.
+
+    `z`: initial height, m; `yaw`: rad; `speed`: m/s; `steering`: at the start and from 0.3 s; `pedals`: throttle and
+    brake; `span`: duration, s.
+    """
 
     car: str
     step: float
@@ -38,7 +42,7 @@ class Drive:
     span: float
 
     def run(self, method: str = "ali3p", h: float | None = None, **more: Any) -> mbs.Trajectory:
-        """As `mbs.simulate` gives it."""
+        """Simulate the drive with a method and a step, s."""
         times = np.array([0.0, 0.3, self.span])
         inputs = {
             "steering": (times, np.array([self.steering[0], *[self.steering[1]] * 2])),
@@ -58,12 +62,12 @@ class Drive:
         return system_of(self.car, self.step)
 
     def truth(self) -> dict[str, Array]:
-        """Compared sensors at the instants of the record, see `agreed`."""
-        return agreed(self.system, lambda method, h: self.run(method, h, estimate_error=False))
+        """Compared sensors at the recorded instants, by `reference_by_two_methods`."""
+        return reference_by_two_methods(self.system, lambda method, h: self.run(method, h, estimate_error=False))
 
 
-def drive(rng: np.random.Generator) -> Drive:
-    """A drive over a kerb, or a fall."""
+def random_drive(rng: np.random.Generator) -> Drive:
+    """A random drive over a kerb, or a fall."""
     car = str(rng.choice(CARS))
     falls = rng.random() < 0.3
     step = 0.0 if falls else float(round(rng.choice([-1.0, 1.0]) * rng.uniform(0.02, 0.12), 3))
@@ -79,10 +83,10 @@ def drive(rng: np.random.Generator) -> Drive:
     )
 
 
-def agreed(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory]) -> dict[str, Array]:
-    """Compared sensors at the instants of the record, as two methods show them; `simulate`: by a method in steps, s.
+def reference_by_two_methods(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory]) -> dict[str, Array]:
+    """Compared sensors at the recorded instants, confirmed by a second method.
 
-    Raises `NoReferenceError`: they do not agree, or one refuses.
+    `simulate`: simulates with a method and a step, s. Raises `NoReferenceError`: both runs differ, or one is refused.
     """
     try:
         fine, other = simulate("ali3p", CHECK), simulate("energy_momentum", REFERENCE)
@@ -97,7 +101,7 @@ def agreed(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory])
 
 @cache
 def system_of(name: str, step: float) -> mbs.System:
-    """A car on level ground with a kerb, m up (positive) or down; without one on the road of its file."""
+    """A car on level ground with a kerb, `step` m up (positive) or down; 0: on the road of its file."""
     car = load_car(name)
     if step == 0.0:
         return mbs.compile(car.model())

@@ -1,4 +1,4 @@
-"""Random cases of the families with their true errors: whether runs warn when they are wrong, and only then."""
+"""Random cases with their true errors: whether wrong runs warn, and only those."""
 
 import time
 import warnings
@@ -17,15 +17,15 @@ from mbs.results.comparison import compared_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 Array = NDArray[np.float64]
-NOTHING = 1e-3  # of the range or the length: of a smaller error no estimate is asked
-FACTOR = 10.0  # by which an estimate may be off
-BEYOND = 10.0  # tolerances: wrong
-NEAR = (0.9, 1.1)  # times what is wrong: between them a run counts neither way
+NEGLIGIBLE = 1e-3  # error over the range or the length below which estimates are not compared
+FACTOR = 10.0  # largest ratio between an error and its estimate
+WRONG_TOLERANCES = 10.0  # tolerances from which an error is wrong
+NEAR = (0.9, 1.1)  # range of the error over the limit in which runs are not judged
 VERDICTS = ("right", "false alarm", "refused", "wrong, warned", "silently wrong", "near")
 ERRORS = (mbs.AccuracyWarning, mbs.BranchWarning)
-"""Warnings of an error; others concern models, such as one that bends too much for its modes."""
-TOLD = ("false alarm", "refused", "silently wrong")
-"""Verdicts that are shown case by case."""
+"""Warnings of errors; others are about models, such as bending beyond the range of the modes."""
+LISTED = ("false alarm", "refused", "silently wrong")
+"""Verdicts whose cases are listed."""
 COLUMNS = {
     "family": "",
     "number": "d",
@@ -52,28 +52,28 @@ SUMMARY = {"family": "", "seed": "d", **COUNTS, "no reference": "d"}
 
 
 def rows_of(family: str, seed: int, numbers: Iterable[int]) -> Iterator[dict[str, Any]]:
-    """Rows of the cases of a seed, in equal steps and under a tolerance; one that says so of a case without reference.
+    """Rows of cases of a seed, with fixed steps and with a tolerance; one row for a case without reference.
 
-    A case depends on its seed and number alone.
+    A case depends on its seed and number only.
     """
     for number in numbers:
         row = {"seed": seed} | dict.fromkeys(COLUMNS) | {"family": family, "number": number}
         rng = np.random.default_rng([seed, number])
         try:
             case = FAMILIES[family](rng)
-        except NoReferenceError as none:
-            yield row | {"asked": "reference", "verdict": "none", "reason": str(none)}
+        except NoReferenceError as no_reference:
+            yield row | {"asked": "reference", "verdict": "none", "reason": str(no_reference)}
             continue
-        yield from (row | {"kind": case.kind} | found for found in judged(case, rng))
+        yield from (row | {"kind": case.kind} | result for result in judge(case, rng))
 
 
-def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
-    """In equal steps and, if it can be asked for, under a tolerance, each drawn by chance."""
-    case.system.to_bytes()  # assembly modes are searched on demand: at the model's cost, not at the first run's
+def judge(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
+    """Results of a case with fixed steps and, if possible, with a tolerance, each chosen at random."""
+    case.system.to_bytes()  # assembly modes are searched here, so that their time is not part of the first run
     intervals = len(next(iter(case.truth.values()))) - 1
     h = float(rng.choice(case.steps))
     every = max(1, round(case.span / intervals / h))
-    fixed = case.span / intervals / every  # the nearest step that ends at the instants
+    fixed_step = case.span / intervals / every  # the nearest step that reaches the instants
     sensors = {name: sensor for name, sensor in compared_sensors(case.system).items() if name in case.truth}
     size = sizes_of(case.truth, sensors, length_of(case.system))
 
@@ -84,30 +84,33 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
         places = [np.abs(values[n] - true).max() for n, true in case.truth.items() if sensors[n].unit == "m"]
         return float(max(places)) / length_of(case.system)
 
-    yield _verdict(f"{h:g} s", lambda: case.run(h=fixed, every=every), of_range, WRONG_ERROR)
+    yield _verdict(f"{h:g} s", lambda: case.run(h=fixed_step, every=every), of_range, WRONG_ERROR)
     if case.tolerances:
         tolerance, t = float(rng.choice(case.tolerances)), np.linspace(0.0, case.span, intervals + 1)
         yield _verdict(
-            f"tolerance {tolerance:g}", lambda: case.run(tolerance=tolerance, times=t), of_length, BEYOND * tolerance
+            f"tolerance {tolerance:g}",
+            lambda: case.run(tolerance=tolerance, times=t),
+            of_length,
+            WRONG_TOLERANCES * tolerance,
         )
 
 
 def _verdict(
-    asked: str, run: Callable[[], CaseRun], error_of: Callable[[Mapping[str, Array]], float], most: float
+    asked: str, run: Callable[[], CaseRun], error_of: Callable[[Mapping[str, Array]], float], limit: float
 ) -> dict[str, Any]:
     row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "estimate": None, "warnings": []}
     begin = time.process_time()
     try:
-        with warnings.catch_warnings(record=True) as caught:
+        with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always")
             result = run()
-    except mbs.SimulationError as refused:
-        return row | {"cpu_s": time.process_time() - begin, "reason": str(refused)}
+    except mbs.SimulationError as simulation_error:
+        return row | {"cpu_s": time.process_time() - begin, "reason": str(simulation_error)}
     row["cpu_s"] = time.process_time() - begin
     error = error_of(result.values)
-    messages = [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
+    messages = [f"{w.category.__name__}: {w.message}" for w in caught_warnings if w.category in ERRORS]
     return row | {
-        "verdict": verdict_of(error, most, bool(messages)),
+        "verdict": verdict_of(error, limit, bool(messages)),
         "error": error,
         "estimate": result.estimate,
         "warnings": messages,
@@ -116,19 +119,19 @@ def _verdict(
     }
 
 
-def verdict_of(error: float, most: float, warned: bool) -> str:
-    """Of `VERDICTS`, of a run with this error that was `warned` of or not; above `most` it is wrong."""
-    if most == WRONG_ERROR and NEAR[0] * most <= error <= NEAR[1] * most:
+def verdict_of(error: float, limit: float, warned: bool) -> str:
+    """One of `VERDICTS` for a run with or without a warning, which is wrong if its error exceeds `limit`."""
+    if limit == WRONG_ERROR and NEAR[0] * limit <= error <= NEAR[1] * limit:
         return "near"
-    if error <= most:
+    if error <= limit:
         return "false alarm" if warned else "right"
     return "wrong, warned" if warned else "silently wrong"
 
 
 def counts(rows: Sequence[Row]) -> dict[str, Any]:
-    """The columns `COUNTS` of runs."""
+    """Values of the columns `COUNTS` for rows of runs."""
     count = {v: sum(r["verdict"] == v for r in rows) for v in VERDICTS}
-    estimated = [r for r in rows if r.get("estimate") is not None and r["error"] > _least(r)]
+    estimated = [r for r in rows if r.get("estimate") is not None and r["error"] > _negligible(r)]
     close = sum(1.0 / FACTOR <= r["estimate"] / r["error"] <= FACTOR for r in estimated)
     steps = [r["steps"] for r in rows if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
     return {
@@ -146,33 +149,35 @@ def counts(rows: Sequence[Row]) -> dict[str, Any]:
 
 
 def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """Counts per family and seed, of fixed steps and under a tolerance."""
+    """Counts by family and seed, with fixed steps and with a tolerance."""
     lines = []
     for family, seed in dict.fromkeys((r["family"], r["seed"]) for r in rows):
-        mine = [r for r in rows if (r["family"], r["seed"]) == (family, seed)]
-        none = sum(r["verdict"] == "none" for r in mine)
+        seed_rows = [r for r in rows if (r["family"], r["seed"]) == (family, seed)]
+        no_reference = sum(r["verdict"] == "none" for r in seed_rows)
         for requested, controlled in (("fixed steps", False), ("tolerance", True)):
-            part = [r for r in mine if r["verdict"] != "none" and ("tol" in r["asked"]) == controlled]
-            if not part:
+            runs = [r for r in seed_rows if r["verdict"] != "none" and ("tol" in r["asked"]) == controlled]
+            if not runs:
                 continue
-            lines.append({"family": f"{family}, {requested}", "seed": seed, **counts(part), "no reference": none})
+            lines.append(
+                {"family": f"{family}, {requested}", "seed": seed, **counts(runs), "no reference": no_reference}
+            )
     return lines
 
 
-def _least(row: Row) -> float:
-    """The smallest error of which an estimate is asked: what nobody asked for better than a hundredth of."""
+def _negligible(row: Row) -> float:
+    """Smallest error whose estimate is compared: a hundredth of the tolerance, or `NEGLIGIBLE`."""
     requested = row.get("asked", "")
-    return 0.01 * float(requested.split()[1]) if "tol" in requested else NOTHING
+    return 0.01 * float(requested.split()[1]) if "tol" in requested else NEGLIGIBLE
 
 
-def words(rows: Sequence[Row]) -> str:
-    """Cases against the rule, and counts per family."""
-    shown = [row for row in rows if row["verdict"] in TOLD]
-    cases = table(shown, COLUMNS) if shown else "none against the rule"
+def text_of(rows: Sequence[Row]) -> str:
+    """Tables of the listed cases and of the counts by family."""
+    listed_rows = [row for row in rows if row["verdict"] in LISTED]
+    cases = table(listed_rows, COLUMNS) if listed_rows else "none against the rule"
     return f"{cases}\n\n{table(summary(rows), SUMMARY)}"
 
 
 def random_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Verdicts on the cases of all families."""
-    most = max(r["number"] for r in rows) + 1
-    return {"honesty random": f"Up to {most} cases of a family and seed.\n\n{table(summary(rows), SUMMARY)}"}
+    """Table of the counts of all families."""
+    count = max(r["number"] for r in rows) + 1
+    return {"honesty random": f"Up to {count} cases of a family and seed.\n\n{table(summary(rows), SUMMARY)}"}

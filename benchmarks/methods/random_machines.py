@@ -1,4 +1,4 @@
-"""Random machines with events: belts that stick and slip, brakes, plays, cams that lift off, impacts, stops."""
+"""Random machines with events: belts with stick-slip, brakes, backlash, cams that lift off, impacts, stops."""
 
 import itertools
 from collections.abc import Callable
@@ -14,14 +14,14 @@ from mbs.elements import CoordinateFriction, EndStops, SpringDamper
 Array = NDArray[np.float64]
 
 
-def machine(rng: np.random.Generator) -> tuple[str, Machine]:
-    """A machine with its kind."""
+def random_machine(rng: np.random.Generator) -> tuple[str, Machine]:
+    """The kind of a random machine, and the machine."""
     kind = str(rng.choice(list(KINDS)))
     return kind, KINDS[kind](rng)
 
 
 def model_of(d: Machine) -> mbs.Model:
-    """The machine in the vocabulary of the engine."""
+    """Model of the engine of a machine."""
     m = mbs.Model("random", dimension=2, gravity=(d.pull, 0.0))
     bodies = [
         m.point_mass(f"b{i}", mass=k, position=(x, 0.0)) for i, (k, x) in enumerate(zip(d.masses, d.start, strict=True))
@@ -52,7 +52,7 @@ def _mass(rng: np.random.Generator) -> float:
 
 
 def _stiffness(rng: np.random.Generator, mass: float, low: float, high: float) -> float:
-    """Of a mass that swings between two frequencies, Hz."""
+    """Stiffness, N/m, with which a mass, kg, has a random frequency between two limits, Hz."""
     return mass * (2.0 * np.pi * low * float((high / low) ** rng.uniform())) ** 2
 
 
@@ -62,16 +62,16 @@ def _friction(rng: np.random.Generator, mass: int, on: int | None, kg: float) ->
     return Friction(mass, on, largest, stiffness, float(rng.uniform(0.4, 2.0)) * float(np.sqrt(stiffness * kg)))
 
 
-def _shaken(rng: np.random.Generator, at: float, span: float) -> Cam:
-    """To and fro about a place, from rest."""
+def _random_oscillation(rng: np.random.Generator, position: float, span: float) -> Cam:
+    """A random oscillation about a position, m, from rest. `span`: s."""
     t = np.linspace(0.0, span, int(span * rng.uniform(6.0, 24.0)))
     swing = float(rng.uniform(0.01, 0.1)) * rng.uniform(-1.0, 1.0, len(t))
     swing[0] = 0.0
-    return Cam(CubicSpline(t, at + swing, bc_type="clamped"))
+    return Cam(CubicSpline(t, position + swing, bc_type="clamped"))
 
 
 def belt(rng: np.random.Generator) -> Machine:
-    """A sprung mass on a belt that changes its speed."""
+    """A mass on a spring and on a belt with constant acceleration."""
     kg, span = _mass(rng), float(rng.uniform(1.0, 3.0))
     speed, growth = rng.uniform(-1.0, 1.0, 2)
     drive = Cam(PPoly(np.array([0.5 * growth, speed, 0.0])[:, None], [0.0, 2.0 * span]))
@@ -82,7 +82,7 @@ def belt(rng: np.random.Generator) -> Machine:
 
 
 def brake(rng: np.random.Generator) -> Machine:
-    """Two sprung masses down a slope, of which one is braked, or both."""
+    """Two masses on a slope, connected by a spring, one or both braked."""
     kg = [_mass(rng), _mass(rng)]
     link = Link((0, 1), _stiffness(rng, min(kg), 1.0, 10.0), float(rng.uniform(0.0, 0.5)) * min(kg), 1.0)
     pads = [_friction(rng, i, None, sum(kg)) for i in range(int(rng.integers(1, 3)))]
@@ -91,16 +91,18 @@ def brake(rng: np.random.Generator) -> Machine:
 
 
 def play(rng: np.random.Generator) -> Machine:
-    """A mass that another shakes through a gap."""
+    """A mass moved by another one with backlash."""
     kg, span = _mass(rng), float(rng.uniform(1.0, 2.0))
     gap, k = float(10.0 ** rng.uniform(-3.0, -1.3)), _stiffness(rng, kg, 5.0, 40.0)
     fork = Link((0, 1), 0.0, float(rng.uniform(0.0, 2.0)) * kg, 0.0, (1.0 - gap, k), (1.0 + gap, k))
     back = Link((1, 3.0), _stiffness(rng, kg, 0.3, 2.0), 0.0, 2.0)
-    return Machine([1.0, kg], [0.0, 1.0], [0.0, 0.0], [fork, back], (), {0: _shaken(rng, 0.0, span)}, span=span)
+    return Machine(
+        [1.0, kg], [0.0, 1.0], [0.0, 0.0], [fork, back], (), {0: _random_oscillation(rng, 0.0, span)}, span=span
+    )
 
 
 def cam(rng: np.random.Generator) -> Machine:
-    """A follower that a spring holds on a cam, which may throw it off."""
+    """A follower that a spring presses on a cam and that may lift off."""
     kg, span, turns = _mass(rng), float(rng.uniform(0.5, 1.5)), float(rng.uniform(1.0, 6.0))
     angles = np.sort(rng.uniform(0.15, 0.95, 4))
     lifts = np.concatenate([[0.0], float(rng.uniform(0.005, 0.05)) * rng.uniform(0.0, 1.0, 4)])
@@ -123,17 +125,17 @@ def impact(rng: np.random.Generator) -> Machine:
     """Masses in a row between two walls."""
     n = int(rng.integers(1, 4))
     kg = [_mass(rng) for _ in range(n)]
-    at = np.cumsum(1.0 + rng.uniform(0.02, 0.3, n + 1))
-    ends = [0.0, *range(n), float(at[-1])]
+    positions = np.cumsum(1.0 + rng.uniform(0.02, 0.3, n + 1))
+    ends = [0.0, *range(n), float(positions[-1])]
     k = [_stiffness(rng, min(kg), 5.0, 40.0) for _ in range(n + 1)]
     loss = float(rng.choice([0.0, rng.uniform(0.0, 0.5)]))
     links = [Link(pair, low=(1.0, s), loss=loss) for pair, s in zip(itertools.pairwise(ends), k, strict=True)]
     speeds = list(rng.uniform(-1.5, 1.5, n))
-    return Machine(kg, list(at[:n]), speeds, links, pull=float(rng.choice([0.0, rng.uniform(-9.81, 9.81)])))
+    return Machine(kg, list(positions[:n]), speeds, links, pull=float(rng.choice([0.0, rng.uniform(-9.81, 9.81)])))
 
 
 def stop(rng: np.random.Generator) -> Machine:
-    """A sprung and damped mass on a shaken base, between stops."""
+    """A mass with spring, damper and stops on a moving base."""
     kg, span = _mass(rng), float(rng.uniform(1.0, 2.0))
     soft = _stiffness(rng, kg, 1.0, 4.0)
     travel = rng.uniform(0.005, 0.05, 2)
@@ -143,7 +145,9 @@ def stop(rng: np.random.Generator) -> Machine:
         (1.0 - float(travel[0]), hard[0]), (1.0 + float(travel[1]), hard[1]), float(rng.uniform(0.0, 0.3)),
     )  # fmt: skip
     speed = float(rng.uniform(-1.0, 1.0))
-    return Machine([1.0, kg], [0.0, 1.0], [0.0, speed], [strut], (), {0: _shaken(rng, 0.0, span)}, span=span)
+    return Machine(
+        [1.0, kg], [0.0, 1.0], [0.0, speed], [strut], (), {0: _random_oscillation(rng, 0.0, span)}, span=span
+    )
 
 
 KINDS: dict[str, Callable[[np.random.Generator], Machine]] = {

@@ -1,4 +1,4 @@
-"""Random planar and spatial mechanisms: driven, sprung, through dead centres."""
+"""Random planar and spatial mechanisms with drives and springs, some through dead centres."""
 
 import itertools
 from collections.abc import Callable
@@ -8,24 +8,26 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 import mbs
-from benchmarks.references.newton_euler import GROUND, Drawing, Joint, Link, Spring
+from benchmarks.references.newton_euler import GROUND, Joint, Link, Mechanism, Spring
 
 Array = NDArray[np.float64]
-ACROSS = np.array([0.0, 0.0, 1.0])
-NEARLY_EQUAL = 0.3  # share of loops whose arms are drawn so that they all but lie in line on their way
-NEAR = (1e-3, 0.05)  # by which they differ, of their length
+PLANE_NORMAL = np.array([0.0, 0.0, 1.0])
+NEARLY_EQUAL = 0.3  # share of loops that pass close to a dead centre
+NEAR = (1e-3, 0.05)  # relative difference of their arms at the dead centre
 
 
-def drawing(rng: np.random.Generator, dimension: int | None = None) -> tuple[str, Drawing]:
-    """A mechanism with its kind, in the plane (2), in space (3), or either."""
+def random_mechanism(rng: np.random.Generator, dimension: int | None = None) -> tuple[str, Mechanism]:
+    """The kind of a random mechanism, and the mechanism; `dimension`: 2, 3, or either."""
     kinds = [kind for kind in KINDS if dimension is None or dimension == (3 if "spatial" in kind else 2)]
     kind = str(rng.choice(kinds))
     return kind, KINDS[kind](rng)
 
 
-def model_of(d: Drawing, rates: bool = False) -> mbs.Model:
-    """The mechanism in the vocabulary of the engine; with `rates` these are sensed, the torque of its drive, and what
-    rests or is prescribed, in place of its tips.
+def model_of(d: Mechanism, rates: bool = False) -> mbs.Model:
+    """Model of the engine of a mechanism.
+
+    Sensors are positions of the tips, or if `rates` angular velocities, the torque of the drive, and constant or
+    prescribed quantities.
     """
     down = (0.0, -d.gravity) if d.dimension == 2 else (0.0, 0.0, -d.gravity)
     m = mbs.Model("random", dimension=d.dimension, gravity=down)
@@ -35,9 +37,9 @@ def model_of(d: Drawing, rates: bool = False) -> mbs.Model:
         else m.body(f"b{i}", mass=k.mass, com=k.com, inertia=k.inertia)
         for i, k in enumerate(d.links)
     ]
-    of = {GROUND: m.ground, **dict(enumerate(bodies))}
+    body_of = {GROUND: m.ground, **dict(enumerate(bodies))}
     for i, j in enumerate(d.joints):
-        first, second, name = of[j.first], of[j.second], f"j{i}"
+        first, second, name = body_of[j.first], body_of[j.second], f"j{i}"
         if j.kind == "pin":
             m.pin(name, first, j.point, on=j.held[0] <= 0.0)
         elif j.kind == "line":
@@ -47,7 +49,7 @@ def model_of(d: Drawing, rates: bool = False) -> mbs.Model:
         else:
             m.revolute(name, second, first, point=j.point, axis=j.axis)
     for i, s in enumerate(d.springs):
-        ends = (of[s.first], s.point_1), (of[s.second], s.point_2)
+        ends = (body_of[s.first], s.point_1), (body_of[s.second], s.point_2)
         m.spring_damper(f"s{i}", *ends, stiffness=s.stiffness, damping=s.damping, free_length=s.length)
     axis = {} if d.dimension == 2 else {"axis": d.joints[0].axis}
     if d.torque or d.drive is not None:
@@ -60,10 +62,10 @@ def model_of(d: Drawing, rates: bool = False) -> mbs.Model:
                 m.sense_coordinate("motor.angle", angle)
                 m.sense_joint("motor.torque", drive, "drive")
     if d.drive is None and d.rate:
-        turn = d.rate if d.dimension == 2 else d.rate * d.joints[0].axis
+        angular = d.rate if d.dimension == 2 else d.rate * d.joints[0].axis
         arm = d.links[0].com - d.joints[0].point
-        linear = d.rate * np.array([-arm[1], arm[0]]) if d.dimension == 2 else np.cross(turn, arm)
-        m.initial_velocity(bodies[0], linear=linear, angular=turn)
+        linear = d.rate * np.array([-arm[1], arm[0]]) if d.dimension == 2 else np.cross(angular, arm)
+        m.initial_velocity(bodies[0], linear=linear, angular=angular)
     for c in "xyz"[: d.dimension] if rates else "":
         m.sense_position(f"pin.{c}", bodies[0], d.joints[0].point, c)
     for i, c in itertools.product(range(len(bodies)), "xyz" if d.dimension == 3 else "z") if rates else ():
@@ -74,7 +76,7 @@ def model_of(d: Drawing, rates: bool = False) -> mbs.Model:
 
 
 def _bar(rng: np.random.Generator, a: Array, b: Array) -> Link:
-    """A link between two points; the lightest a fiftieth of the heaviest."""
+    """A link between two points, of random mass; the smallest mass is a fiftieth of the largest."""
     mass = float(10.0 ** rng.uniform(-0.7, 1.0))
     length = float(np.linalg.norm(b - a))
     transverse = mass * length**2 * rng.uniform(0.08, 0.2)
@@ -85,8 +87,8 @@ def _bar(rng: np.random.Generator, a: Array, b: Array) -> Link:
     return Link(0.5 * (a + b), mass, transverse * np.eye(3) + (axial - transverse) * np.outer(along, along))
 
 
-def _moved(rng: np.random.Generator, d: Drawing) -> Drawing:
-    """With what moves it: a drive, a torque or a start, springs, dampers."""
+def _with_loads(rng: np.random.Generator, d: Mechanism) -> Mechanism:
+    """The mechanism with random springs, dampers, initial rate, and a drive or a torque."""
     values = {f: getattr(d, f) for f in d.__dataclass_fields__}
     size = d.size
     total = sum(k.mass for k in d.links)
@@ -108,15 +110,15 @@ def _moved(rng: np.random.Generator, d: Drawing) -> Drawing:
     drive = (float(rng.uniform(-2.0, 2.0) * scale), float(rng.uniform(-0.3, 0.3) * scale**2)) if driven else ()
     values["span"] = span = float(rng.uniform(1.0, 3.0))
     values["drive"] = PPoly(np.array([*drive[::-1], 0.0])[:, None], [0.0, 2.0 * span]) if driven else None
-    return Drawing(**values)
+    return Mechanism(**values)
 
 
-def _drawing(dimension: int, links: list[Link], joints: list[Joint], tips: list[Array]) -> Drawing:
-    return Drawing(dimension, links, joints, [], tips, 0.0, 0.0, None, 1.0)
+def _without_loads(dimension: int, links: list[Link], joints: list[Joint], tips: list[Array]) -> Mechanism:
+    return Mechanism(dimension, links, joints, [], tips, 0.0, 0.0, None, 1.0)
 
 
-def _meet(a: Array, ra: float, b: Array, rb: float, side: float) -> Array | None:
-    """The point at ra from a and rb from b, on one side."""
+def _intersection(a: Array, ra: float, b: Array, rb: float, side: float) -> Array | None:
+    """Intersection of the circles about a and b with radii ra and rb, m, on one side; None: none, or nearly tangent."""
     gap = b - a
     l = float(np.linalg.norm(gap))
     x = (ra**2 - rb**2 + l**2) / (2.0 * l)
@@ -127,13 +129,14 @@ def _meet(a: Array, ra: float, b: Array, rb: float, side: float) -> Array | None
 
 
 def _lengths(rng: np.random.Generator, near: tuple[float, float] | None) -> Array:
-    """Crank, coupler, rocker and frame of a four-bar, m; some with arms that all but come into line, with `near` all,
-    by that much of their length.
+    """Lengths of crank, coupler, rocker and frame of a four-bar, m.
+
+    Some are close to a dead centre, and all if `near`, the range of the relative difference of the arms, is given.
     """
     r = 10.0 ** rng.uniform(-0.6, 0.3, 4)
     if rng.random() < NEARLY_EQUAL or near is not None:
-        part = 1.0 + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(*np.log10(near or NEAR))
-        r[2] = (r[0] + r[3] - r[1]) * part if r[0] + r[3] > 1.1 * r[1] else r[1] + (r[3] - r[0]) * part
+        factor = 1.0 + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(*np.log10(near or NEAR))
+        r[2] = (r[0] + r[3] - r[1]) * factor if r[0] + r[3] > 1.1 * r[1] else r[1] + (r[3] - r[0]) * factor
     return np.abs(r)
 
 
@@ -146,55 +149,57 @@ def _loop(
         angle = rng.uniform(0.0, 2.0 * np.pi)
         a, d = np.zeros(2), np.array([frame, 0.0])
         b = crank * np.array([np.cos(angle), np.sin(angle)])
-        c = _meet(b, coupler, d, rocker, float(rng.choice([-1.0, 1.0])))
+        c = _intersection(b, coupler, d, rocker, float(rng.choice([-1.0, 1.0])))
         if c is not None:
             break
     links = [_bar(rng, a, b), _bar(rng, b, c), _bar(rng, c, d)]
     joints = [
-        Joint("hinge", 0, GROUND, a, ACROSS),
-        Joint("hinge", 1, 0, b, ACROSS),
-        Joint("hinge", 2, 1, c, ACROSS),
-        Joint("hinge", 2, GROUND, d, ACROSS),
+        Joint("hinge", 0, GROUND, a, PLANE_NORMAL),
+        Joint("hinge", 1, 0, b, PLANE_NORMAL),
+        Joint("hinge", 2, 1, c, PLANE_NORMAL),
+        Joint("hinge", 2, GROUND, d, PLANE_NORMAL),
     ]
     return links, joints, [b, c, c], b, c
 
 
-def four_bar(rng: np.random.Generator, near: tuple[float, float] | None = None) -> Drawing:
-    """Of all of Grashof's kinds; `near`: by which its arms differ where they come into line, of their length."""
+def four_bar(rng: np.random.Generator, near: tuple[float, float] | None = None) -> Mechanism:
+    """A four-bar of any of Grashof's types; `near`: relative difference of its arms at a dead centre."""
     links, joints, tips, _, _ = _loop(rng, near)
-    return _moved(rng, _drawing(2, links, joints, tips))
+    return _with_loads(rng, _without_loads(2, links, joints, tips))
 
 
-def hung(rng: np.random.Generator) -> Drawing:
+def four_bar_with_pendulum(rng: np.random.Generator) -> Mechanism:
     """A pendulum on the coupler of a four-bar."""
     links, joints, tips, b, c = _loop(rng)
     hook = b + rng.uniform(0.2, 1.2) * (c - b)
     end = hook + rng.uniform(0.2, 1.0) * _direction(rng, 2)
     links.append(_bar(rng, hook, end))
-    joints.append(Joint("hinge", 3, 1, hook, ACROSS))
-    return _moved(rng, _drawing(2, links, joints, [*tips, end]))
+    joints.append(Joint("hinge", 3, 1, hook, PLANE_NORMAL))
+    return _with_loads(rng, _without_loads(2, links, joints, [*tips, end]))
 
 
-def six_bar(rng: np.random.Generator) -> Drawing:
+def six_bar(rng: np.random.Generator) -> Mechanism:
     """A four-bar and a dyad between its coupler and the ground (Stephenson's third kind)."""
     while True:
         links, joints, tips, b, c = _loop(rng)
         e = 0.5 * (b + c) + rng.normal(0.0, 0.3, 2)
         g = rng.normal(0.0, 1.0, 2)
-        f = _meet(e, float(rng.uniform(0.3, 1.5)), g, float(rng.uniform(0.3, 1.5)), float(rng.choice([-1.0, 1.0])))
+        f = _intersection(
+            e, float(rng.uniform(0.3, 1.5)), g, float(rng.uniform(0.3, 1.5)), float(rng.choice([-1.0, 1.0]))
+        )
         if f is not None:
             break
     links += [_bar(rng, e, f), _bar(rng, f, g)]
     joints += [
-        Joint("hinge", 3, 1, e, ACROSS),
-        Joint("hinge", 4, 3, f, ACROSS),
-        Joint("hinge", 4, GROUND, g, ACROSS),
+        Joint("hinge", 3, 1, e, PLANE_NORMAL),
+        Joint("hinge", 4, 3, f, PLANE_NORMAL),
+        Joint("hinge", 4, GROUND, g, PLANE_NORMAL),
     ]
-    return _moved(rng, _drawing(2, links, joints, [*tips, f, f]))
+    return _with_loads(rng, _without_loads(2, links, joints, [*tips, f, f]))
 
 
-def slider_crank(rng: np.random.Generator) -> Drawing:
-    """With an offset or none; some whose rod is all but as long as the crank."""
+def slider_crank(rng: np.random.Generator) -> Mechanism:
+    """A slider-crank with or without offset; in some the rod is nearly as long as the crank."""
     crank = float(10.0 ** rng.uniform(-0.7, 0.0))
     near = rng.random() < NEARLY_EQUAL
     rod = crank * float(1.0 + 10.0 ** rng.uniform(*np.log10(NEAR)) if near else rng.uniform(1.2, 4.0))
@@ -204,44 +209,46 @@ def slider_crank(rng: np.random.Generator) -> Drawing:
     c = np.array([b[0] + np.sqrt(rod**2 - (b[1] - offset) ** 2), offset])
     links = [_bar(rng, np.zeros(2), b), _bar(rng, b, c), Link(c, float(10.0 ** rng.uniform(-0.7, 1.0)), None)]
     joints = [
-        Joint("hinge", 0, GROUND, np.zeros(2), ACROSS),
-        Joint("hinge", 1, 0, b, ACROSS),
-        Joint("ball", 1, 2, c, ACROSS),
+        Joint("hinge", 0, GROUND, np.zeros(2), PLANE_NORMAL),
+        Joint("hinge", 1, 0, b, PLANE_NORMAL),
+        Joint("ball", 1, 2, c, PLANE_NORMAL),
         Joint("line", 2, GROUND, c, np.array([1.0, 0.0])),
     ]
-    return _moved(rng, _drawing(2, links, joints, [b, 0.5 * (b + c), c]))
+    return _with_loads(rng, _without_loads(2, links, joints, [b, 0.5 * (b + c), c]))
 
 
 def _direction(rng: np.random.Generator, d: int) -> Array:
+    """A random unit vector (d,)."""
     v = rng.normal(0.0, 1.0, d)
     return np.asarray(v / np.linalg.norm(v))
 
 
-def chain(rng: np.random.Generator, d: int) -> Drawing:
-    """One to three links, each hung on the one before."""
-    at, links, joints, tips = np.zeros(d), [], [], []
+def chain(rng: np.random.Generator, d: int) -> Mechanism:
+    """One to three links, each on the previous one. `d`: dimension."""
+    start, links, joints, tips = np.zeros(d), [], [], []
     for i in range(int(rng.integers(1, 4))):
-        end = at + rng.uniform(0.2, 1.0) * _direction(rng, d)
-        links.append(_bar(rng, at, end))
+        end = start + rng.uniform(0.2, 1.0) * _direction(rng, d)
+        links.append(_bar(rng, start, end))
         kind = "hinge" if d == 2 or i == 0 or rng.random() < 0.5 else "ball"
-        axis = ACROSS if d == 2 else _direction(rng, 3)
-        joints.append(Joint(kind, i, i - 1 if i else GROUND, at, axis))
+        axis = PLANE_NORMAL if d == 2 else _direction(rng, 3)
+        joints.append(Joint(kind, i, i - 1 if i else GROUND, start, axis))
         tips.append(end)
-        at = end
-    return _moved(rng, _drawing(d, links, joints, tips))
+        start = end
+    return _with_loads(rng, _without_loads(d, links, joints, tips))
 
 
 def _spatial_crank(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Axis and arm of a random crank, (3,) each."""
     axis = _direction(rng, 3)
     arm = np.cross(axis, _direction(rng, 3))
     return axis, np.asarray(rng.uniform(0.1, 0.5) * arm / np.linalg.norm(arm))
 
 
-def spatial_four_bar(rng: np.random.Generator) -> Drawing:
-    """Two cranks about skew axes and a rod with two balls."""
-    (u, arm), (v, other) = _spatial_crank(rng), _spatial_crank(rng)
+def spatial_four_bar(rng: np.random.Generator) -> Mechanism:
+    """Two cranks about skew axes and a rod with two ball joints."""
+    (u, arm_1), (v, arm_2) = _spatial_crank(rng), _spatial_crank(rng)
     a, d = np.zeros(3), rng.normal(0.0, 0.7, 3)
-    b, c = a + arm, d + other
+    b, c = a + arm_1, d + arm_2
     links = [_bar(rng, a, b), _bar(rng, b, c), _bar(rng, c, d)]
     joints = [
         Joint("hinge", 0, GROUND, a, u),
@@ -249,11 +256,11 @@ def spatial_four_bar(rng: np.random.Generator) -> Drawing:
         Joint("ball", 1, 2, c, v),
         Joint("hinge", 2, GROUND, d, v),
     ]
-    return _moved(rng, _drawing(3, links, joints, [b, 0.5 * (b + c), c]))
+    return _with_loads(rng, _without_loads(3, links, joints, [b, 0.5 * (b + c), c]))
 
 
-def spatial_slider_crank(rng: np.random.Generator) -> Drawing:
-    """A crank, a rod with two balls and a particle on a line."""
+def spatial_slider_crank(rng: np.random.Generator) -> Mechanism:
+    """A crank, a rod with two ball joints and a particle on a line."""
     axis, arm = _spatial_crank(rng)
     c = rng.normal(0.0, 0.8, 3)
     links = [_bar(rng, np.zeros(3), arm), _bar(rng, arm, c), Link(c, float(10.0 ** rng.uniform(-0.7, 1.0)), None)]
@@ -263,14 +270,14 @@ def spatial_slider_crank(rng: np.random.Generator) -> Drawing:
         Joint("ball", 1, 2, c, axis),
         Joint("line", 2, GROUND, c, _direction(rng, 3)),
     ]
-    return _moved(rng, _drawing(3, links, joints, [arm, 0.5 * (arm + c), c]))
+    return _with_loads(rng, _without_loads(3, links, joints, [arm, 0.5 * (arm + c), c]))
 
 
-KINDS: dict[str, Callable[[np.random.Generator], Drawing]] = {
+KINDS: dict[str, Callable[[np.random.Generator], Mechanism]] = {
     "four-bar": four_bar,
     "slider-crank": slider_crank,
     "six-bar": six_bar,
-    "four-bar with pendulum": hung,
+    "four-bar with pendulum": four_bar_with_pendulum,
     "chain": lambda r: chain(r, 2),
     "spatial chain": lambda r: chain(r, 3),
     "spatial four-bar": spatial_four_bar,

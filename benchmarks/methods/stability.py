@@ -1,26 +1,28 @@
-"""Classifies a run at a step and a penalty (or its counterpart) as fine, wrong, refused or diverged."""
+"""Classifies a run with a step and a penalty (or Baumgarte's factor) as fine, wrong, refused or diverged."""
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 import mbs
+from benchmarks.baselines.mechanism import Mechanism
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.baselines.run import run
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY, suits
-from benchmarks.methods.stability_margins import SQUEEZED, margin_table, margins
+from benchmarks.methods.stability_margins import STEP_FACTORS, margin_table, margins
 from benchmarks.references.cases import CASES, SAMPLES, exact_of, size_of, system_of
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 from mbs.settings.settings import METHODS as KERNEL
 
 STEPS = tuple(float(f"{digit}e{power}") for power in range(-6, 0) for digit in (1, 2, 5))[:-1]
-EPS = 10.0 ** -np.arange(3.0, 12.0, 2.0)  # alpha = 1/(eps h^2): what the kernel's penalty is given by
+EPS = 10.0 ** -np.arange(3.0, 12.0, 2.0)  # the kernel's penalty is alpha = 1/(eps h^2)
 PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
 BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
-MOST_CLASSICAL = 1000  # largest number of steps in Python
-CLASSICAL_WORK = 1.3e4  # largest number of steps times coordinates
+MOST_CLASSICAL = 1000  # largest number of steps of a method in Python
+CLASSICAL_WORK = 1.3e4  # largest product of steps and coordinates of a method in Python
 WRONG = 0.05  # of the extent of the motion
 ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
 OUTCOMES = ("fine", "wrong", "refused", "diverged")
@@ -33,7 +35,7 @@ PARAMETER = {
 
 
 def intervals(scene: str, h: float) -> int | None:
-    """Intervals between the instants at which a whole motion is compared: as many as stored that hold whole steps."""
+    """Largest number of equal intervals between stored instants that are multiples of the step; None: there is none."""
     for count in (n for n in range(SAMPLES, 0, -1) if SAMPLES % n == 0):
         steps = CASES[scene].end / count / h
         if round(steps) >= 1 and abs(steps - round(steps)) < 1e-6 * steps:
@@ -42,7 +44,10 @@ def intervals(scene: str, h: float) -> int | None:
 
 
 def judge(scene: str, positions: np.ndarray, energy: np.ndarray) -> tuple[str, dict[str, Any]]:
-    """Fine or wrong, and the figures; of the start and of the instants at the end of equal intervals."""
+    """Outcome and errors of a run.
+
+    `positions`: of the output point at the start and at equal intervals, (n, k); `energy`: (n,), J.
+    """
     case = CASES[scene]
     exact = exact_of(scene)[:: SAMPLES // (len(positions) - 1)]
     error = float(np.linalg.norm(positions - exact, axis=1).max())
@@ -55,34 +60,22 @@ def judge(scene: str, positions: np.ndarray, energy: np.ndarray) -> tuple[str, d
     return ("fine" if good else "wrong"), figures
 
 
-_SCALES: dict[str, float] = {}
-
-
+@cache
 def _energy_scale(scene: str) -> float:
-    """Largest kinetic energy of the motion, J: measured on a fine run."""
-    if scene not in _SCALES:
-        system = system_of(scene)
-        settings = mbs.Settings(max_halvings=16)  # the light cart needs them
-        simulation, case = mbs.Simulation(system, settings=settings), CASES[scene]
-        mass = _mass(system)
-        largest, h = 0.0, case.end / 5000.0
-        for _ in range(200):
-            qd = simulation.state.qd
-            largest = max(largest, 0.5 * float(qd @ mass @ qd))
-            simulation.step(h, n=25)
-        _SCALES[scene] = largest
-    return _SCALES[scene]
-
-
-def _mass(system: mbs.System) -> np.ndarray:
-    dense = np.zeros((system.nq, system.nq))
-    a = system.arrays
-    dense[np.repeat(np.arange(system.nq), np.diff(a["mass_ptr"])), a["mass_col"]] = a["mass_val"]
-    return dense
+    """Largest kinetic energy in a run with small steps, J."""
+    system = system_of(scene)
+    settings = mbs.Settings(max_halvings=16)  # the light cart needs them
+    simulation, mass = mbs.Simulation(system, settings=settings), Mechanism(system).M
+    largest, h = 0.0, CASES[scene].end / 5000.0
+    for _ in range(200):
+        qd = simulation.state.qd
+        largest = max(largest, 0.5 * float(qd @ mass @ qd))
+        simulation.step(h, n=25)
+    return largest
 
 
 def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[str, Any]:
-    """One run of the kernel; eps None takes the default settings."""
+    """Row of a run of the kernel with a step, s; `eps` None: default settings."""
     case = CASES[scene]
     settings = mbs.Settings(method=method) if eps is None else mbs.Settings(method=method, alpha=1.0 / (eps * h * h))
     row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps)
@@ -97,7 +90,7 @@ def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[s
 
 
 def classical_point(scene: str, method: str, h: float, penalty: float | None) -> dict[str, Any]:
-    """One run of a classical method."""
+    """Row of a run of a classical method with a step, s; `penalty` None: default of the method."""
     case = CASES[scene]
     row = _row(scene, method, h, PARAMETER.get(method, "penalty, 1/s2"), penalty)
     r = run(system_of(scene), case.end, h, method, case.sensors, penalty=penalty, every=_every(scene, h))
@@ -130,13 +123,13 @@ def _row(scene: str, method: str, h: float, name: str, value: float | None) -> d
 
 
 def steps_of(scene: str, most: float) -> list[float]:
-    """The steps of a map that divide the whole motion into at most so many."""
-    steps = [SQUEEZED.get(scene, 1.0) * h for h in STEPS]
+    """Steps of a map, s, with at most `most` steps in the whole motion."""
+    steps = [STEP_FACTORS.get(scene, 1.0) * h for h in STEPS]
     return [h for h in steps if CASES[scene].end / h <= most * (1.0 + 1e-9) and intervals(scene, h) is not None]
 
 
 def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
-    """All points of a scene."""
+    """Rows of all points of a scene; if `quick` of few."""
     case, system = CASES[scene], system_of(scene)
     steps = steps_of(scene, case.map_work / system.nq)
     classical = steps_of(scene, min(MOST_CLASSICAL, CLASSICAL_WORK / system.nq))
@@ -144,31 +137,31 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
     if quick:
         steps, classical, eps = steps[-6:-1:2], classical[1:3], EPS[1::2]
         penalties, factors = PENALTIES[2:3], BAUMGARTE[1:2]
-    todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
+    points: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
     values: list[float | None]
     for method in KERNEL:
         if not suits(method, case.conservative, system):
             continue
-        tried = () if method in TREE_ONLY else map(float, eps)  # relative coordinates have no penalty
-        values = [None, *tried]
-        todo += [(kernel_point, method, h, e) for h in steps for e in values]
+        penalty_values = () if method in TREE_ONLY else map(float, eps)  # relative coordinates have no penalty
+        values = [None, *penalty_values]
+        points += [(kernel_point, method, h, e) for h in steps for e in values]
     for method in CLASSICAL if case.classical else ():
         values = list(penalties)
         if method in PARAMETER:
             values = [None] if PARAMETER[method] == "none" else list(factors)
-        todo += [(classical_point, method, h, v) for h in classical for v in values]
-    return [point(scene, method, h, value) for point, method, h, value in watched(todo)]
+        points += [(classical_point, method, h, v) for h in classical for v in values]
+    return [point(scene, method, h, value) for point, method, h, value in watched(points)]
 
 
 def explain(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """A line for each classical method and scene: how often it was fine, and the first reason of each kind."""
+    """Counts of outcomes by classical method and scene, with the first reason of each outcome."""
     lines = []
     for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["method"] in CLASSICAL):
-        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
-        counts = {o: sum(r["outcome"] == o for r in part) for o in OUTCOMES}
+        method_rows = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
+        counts = {o: sum(r["outcome"] == o for r in method_rows) for o in OUTCOMES}
         first = []
         for outcome in ("refused", "diverged"):
-            stopped = [r for r in part if r["outcome"] == outcome and r["reason"]]
+            stopped = [r for r in method_rows if r["outcome"] == outcome and r["reason"]]
             if stopped:
                 r = min(stopped, key=lambda row: row["stopped_at_s"])
                 value = "" if r["value"] is None else f", {r['value']:g}"
@@ -179,7 +172,7 @@ def explain(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def stability_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Margins of the default settings, and what became of the classical methods."""
+    """Tables of the margins of the default settings, and of the outcomes of the classical methods."""
     counts = dict.fromkeys(OUTCOMES, "d")
     return {
         "margins": margin_table(margins(rows)),

@@ -1,4 +1,4 @@
-"""The maps of `benchmarks.stability`: a panel per method, step across, penalty or its counterpart up."""
+"""Charts of the maps of `benchmarks.stability`: a panel for each method, penalty over step."""
 
 import textwrap
 from collections.abc import Sequence
@@ -11,20 +11,23 @@ from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row
 
 LOOK = {"fine": ("#009E73", "s"), "wrong": ("#E69F00", "v"), "refused": ("#56B4E9", "D"), "diverged": ("#D55E00", "X")}
-"""Colours of Okabe and Ito; shapes say the same."""
+"""Colour (of Okabe and Ito) and marker by outcome."""
 
 
 def draw(rows: Sequence[Row], title: str, file: Path) -> None:
-    """Draw the maps of one scene; the default settings are the line of ringed marks at the bottom."""
+    """Draw the maps of a scene; default settings are the marks with a black edge at the bottom."""
     plt = pyplot()
     methods = list(dict.fromkeys(r["method"] for r in rows))
     columns = 5
     lines = -(-len(methods) // columns)
     figure, axes = plt.subplots(lines, columns, figsize=(14.0, 2.9 * lines), squeeze=False, layout="constrained")
     for ax, method in zip(axes.flat, methods, strict=False):
-        part = [r for r in rows if r["method"] == method]
-        values = sorted({r["value"] for r in part if r["value"] is not None}, reverse=part[0]["parameter"][:3] == "eps")
-        for r in part:
+        method_rows = [r for r in rows if r["method"] == method]
+        values = sorted(
+            {r["value"] for r in method_rows if r["value"] is not None},
+            reverse=method_rows[0]["parameter"][:3] == "eps",
+        )
+        for r in method_rows:
             colour, marker = LOOK[r["outcome"]]
             default = r["value"] is None
             y = -1.5 if default else values.index(r["value"])
@@ -38,10 +41,10 @@ def draw(rows: Sequence[Row], title: str, file: Path) -> None:
                 linestyle="none",
             )
         ticks = list(range(len(values)))
-        ax.set_yticks(([-1.5] if any(r["value"] is None for r in part) else []) + ticks)
+        ax.set_yticks(([-1.5] if any(r["value"] is None for r in method_rows) else []) + ticks)
         names = [f"{v:.0e}".replace("e+0", "e").replace("e-0", "e-") for v in values]
-        ax.set_yticklabels((["default"] if any(r["value"] is None for r in part) else []) + names, fontsize=7)
-        ax.set_ylabel(part[0]["parameter"] if values else "no penalty", fontsize=7)
+        ax.set_yticklabels((["default"] if any(r["value"] is None for r in method_rows) else []) + names, fontsize=7)
+        ax.set_ylabel(method_rows[0]["parameter"] if values else "no penalty", fontsize=7)
         ax.set_title(textwrap.fill(method, 30), fontsize=8)
         ax.tick_params(axis="x", labelsize=7)
         ax.locator_params(axis="x", nbins=5)

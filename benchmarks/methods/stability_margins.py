@@ -1,4 +1,4 @@
-"""Margins of the default settings inside the region of fine runs in the maps of `benchmarks.stability`."""
+"""Margins of the default settings in the maps of `benchmarks.stability`: distances from runs that are not fine."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,21 +9,25 @@ import mbs
 from benchmarks.shared.pages import Row, table
 
 USUAL_STEP = 0.01  # s
-SQUEEZED = {"squeezer": 0.01}  # scenes whose steps are this share of the others'
+STEP_FACTORS = {"squeezer": 0.01}  # of scenes with other time scales
 
 
 def margins(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """How far the default settings lie inside the fine region: the span of steps over which they are fine without a
-    gap, and the decades of eps to either side up to the first that is not fine, over that span and at the usual step;
-    none where a method has no penalty.
+    """Margins by scene and method: the range of steps in which all runs with default settings are fine, and the decades
+    of eps below and above the default up to the first run that is not fine, least over that range and at the usual
+    step.
+
+    The decades are None for methods without penalty.
     """
     lines = []
     for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["parameter"].startswith("eps")):
-        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
-        defaults = sorted((r["h_s"], r["outcome"]) for r in part if r["value"] is None)
+        method_rows = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
+        defaults = sorted((r["h_s"], r["outcome"]) for r in method_rows if r["value"] is None)
         good = _longest([h for h, _ in defaults], [o == "fine" for _, o in defaults])
-        results = {h: _decades(part, h) for h in good} if any(r["value"] is not None for r in part) else {}
-        usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * SQUEEZED.get(scene, 1.0)))), default=None)
+        results = (
+            {h: _decades(method_rows, h) for h in good} if any(r["value"] is not None for r in method_rows) else {}
+        )
+        usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * STEP_FACTORS.get(scene, 1.0)))), default=None)
         lines.append(
             {
                 "scene": scene,
@@ -42,7 +46,7 @@ def margins(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def _decades(rows: Sequence[Row], h: float) -> tuple[float, float]:
-    """Decades of eps below and above the default up to the first that is not fine (or one beyond those tried)."""
+    """Decades of eps below and above the default up to the first run that is not fine, else to one after the last."""
     centre = np.log10(mbs.Settings().eps_rel)
     values = sorted((np.log10(r["value"]), r["outcome"]) for r in rows if r["h_s"] == h and r["value"] is not None)
     lower = [v for v, o in values if o != "fine" and v < centre - 1e-9]
@@ -53,17 +57,17 @@ def _decades(rows: Sequence[Row], h: float) -> tuple[float, float]:
 
 
 def _longest(steps: list[float], fine: list[bool]) -> list[float]:
-    """The longest run of neighbouring steps that are fine."""
+    """Longest sequence of steps whose runs are fine."""
     best: list[float] = []
-    now: list[float] = []
+    current: list[float] = []
     for h, good in zip(steps, fine, strict=True):
-        now = [*now, h] if good else []
-        best = now if len(now) > len(best) else best
+        current = [*current, h] if good else []
+        best = current if len(current) > len(best) else best
     return best
 
 
 def margin_table(margins: Sequence[Row]) -> str:
-    """The distance of the default settings from failure, a line for each scene and method."""
+    """Table of the margins, a line for each scene and method."""
     columns = {"scene": "", "method": "", "smallest_fine_h_s": ".1e", "largest_fine_h_s": ".1e", "first_break": ""}
     decades = dict.fromkeys(("decades_below", "decades_above"), ".0f") | {"usual_h_s": ".0e"}
     decades |= dict.fromkeys(("usual_below", "usual_above"), ".0f")

@@ -1,4 +1,4 @@
-"""Newton iterations of ALi3-P with the paper's start value of a step, and with that from past steps."""
+"""Newton iterations of ALi3-P with the paper's start value of a step, and with extrapolation from past steps."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ PREDICTORS = {"paper's start value": "acceleration", "extrapolation": "parabola"
 
 
 def start_value_table() -> str:
-    """Mean iterations a step over `END`; of the car the least and the most of its manoeuvres."""
+    """Table of mean iterations per step over `END`; for the car the least and the largest mean of its manoeuvres."""
     rows: list[dict[str, Any]] = []
     for name, scene, h in SCENES:
         system, row = compile(scene.build()), {"scene": name, "h, s": f"{h:g}"}
@@ -29,6 +29,6 @@ def start_value_table() -> str:
     car = {"scene": "car, by manoeuvre", "h, s": f"{CAR_STEP:g}"}
     for title, predictor in PREDICTORS.items():
         runs = (manoeuvres.run(name, CAR_STEP, settings=Settings(predictor=predictor)) for name in manoeuvres.NAMES)
-        most = sorted(run.report.mean_iterations for run in runs if run.report is not None)
-        car[title] = f"{most[0]:.1f} to {most[-1]:.1f}"
+        means = sorted(run.report.mean_iterations for run in runs if run.report is not None)
+        car[title] = f"{means[0]:.1f} to {means[-1]:.1f}"
     return table([*rows, car], dict.fromkeys(car, ""))

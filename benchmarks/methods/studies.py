@@ -1,4 +1,4 @@
-"""Runs of a study on Dask, measured: overhead of a run, memory, disk, tasks, rows, starts."""
+"""Measurements of studies on Dask: overhead of a run, memory, disk, tasks, rows, starts."""
 
 import gc
 import multiprocessing
@@ -78,11 +78,11 @@ OPTIONS = {
     "tasks": (2000, "that are empty"),
 }
 TEXTS = {"car": _CAR, "spring": _SPRING}
-"""Study files by their case."""
+"""Study files by case."""
 
 
 def spring_fmu(folder: Path) -> Path:
-    """An FMU of which a run takes about a millisecond."""
+    """Build an FMU whose run takes about a millisecond."""
     m = mbs.Model("spring", dimension=2)
     bob = m.point_mass("bob", mass=2.0, position=(0.0, -1.0))
     spring = m.spring_damper("spring", (m.ground, (0.0, 0.0)), bob, stiffness=100.0, damping=1.0, free_length=0.8)
@@ -92,14 +92,14 @@ def spring_fmu(folder: Path) -> Path:
     return build_fmu(mbs.compile(m), "spring", folder, [fmpy.platform])
 
 
-def alone(work: Callable[..., T], *arguments: Any) -> T:
-    """Do it in a new process, so that its memory is its own."""
+def in_new_process(work: Callable[..., T], *arguments: Any) -> T:
+    """Call a function in a new process, so that its memory can be measured."""
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
         return pool.submit(work, *arguments).result()
 
 
 def plan_of(case: str, fmu: Path, runs: int, stop_time: float, folder: Path, method: str = "sobol") -> Any:
-    """The plan of a study, and its file in a folder."""
+    """Write the file of a study into a folder and make its plan. `stop_time`: s."""
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{case}.toml"
     text = TEXTS[case].format(fmu=fmu.absolute(), stop_time=stop_time, runs=runs, method=method)
@@ -108,13 +108,13 @@ def plan_of(case: str, fmu: Path, runs: int, stop_time: float, folder: Path, met
 
 
 def stop_time_for(case: str, fmu: Path, seconds: float, folder: Path) -> float:
-    """Simulated time of a run that takes a given number of seconds in a plain loop."""
+    """Simulated time, s, of a run that takes `seconds` in a plain loop."""
     trial = 1.0
-    return round(max(0.1, trial * seconds / loop(case, fmu, 5, trial, folder)["run_s"]), 2)
+    return round(max(0.1, trial * seconds / plain_loop(case, fmu, 5, trial, folder)["run_s"]), 2)
 
 
-def loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
-    """The same runs one after the other without Dask, after one to warm up."""
+def plain_loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
+    """Row of runs one after the other without Dask, after one to warm up."""
     plan = plan_of(case, fmu, max(runs, 2), stop_time, folder)
     job, work = plan.work.jobs[0], replace(plan.work, reuse=True)
     bench, block = Bench(work, plan.fmu), plan.points.block(0, runs)
@@ -131,7 +131,7 @@ def loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row
 
 @contextmanager
 def _cluster(workers: int) -> Iterator[str]:
-    """Address of a scheduler with workers on this machine, one process each."""
+    """Context of a Dask cluster with workers on this machine, one process each; yields the scheduler's address."""
     from distributed import LocalCluster
 
     with LocalCluster(
@@ -141,7 +141,7 @@ def _cluster(workers: int) -> Iterator[str]:
 
 
 def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> Row:
-    """A study on a cluster of Dask, without its start: time beside the runs, memory, disk."""
+    """Row of a study on a Dask cluster, without its start: time in addition to the runs, memory, disk."""
     from hosts.experiment.cluster import connected
     from hosts.experiment.store import ResultStore
     from hosts.study.outcome_table import OutcomeTable
@@ -153,7 +153,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     trial = make_trial_runs(plan)
     plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
     begin_study(folder, plan.record, b"", plan.fmu)
-    me, memory = psutil.Process(), [0.0]
+    process, memory = psutil.Process(), [0.0]
     with (
         _cluster(workers) as address,
         connected(address) as client,
@@ -161,20 +161,20 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     ):
         store.attach_table(OutcomeTable(folder, plan.record))
         runner = cluster_runner(client, plan, trial, plan.runs)
-        before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
+        before, processor, started = process.memory_info().rss, sum(process.cpu_times()[:2]), time.perf_counter()
         results = experiment_of(plan.work, plan.fmu).results(
             missing_runs(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs
         )
         for _, run, result in results:
             store.add(str(run.index), "", (run, outcome_of(plan.work, result)))
-            memory.append(me.memory_info().rss)
+            memory.append(process.memory_info().rss)
         store.write()
-        elapsed, processor = time.perf_counter() - started, sum(me.cpu_times()[:2]) - processor
-        of_worker = max(p.memory_info().rss for p in me.children(recursive=True))
+        elapsed, processor = time.perf_counter() - started, sum(process.cpu_times()[:2]) - processor
+        of_worker = max(p.memory_info().rss for p in process.children(recursive=True))
     frame = read_study(folder)
     assert len(frame) == runs
     walls = frame["wall_seconds"].to_numpy()
-    beside = workers * elapsed - walls.sum()
+    overhead = workers * elapsed - walls.sum()
     files = part_files(folder)
     return {
         "table": "runs",
@@ -185,8 +185,8 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         "run, s": float(walls.mean()),
         "elapsed_s": elapsed,
         "runs/s": runs / elapsed,
-        "overhead, ms/run": 1e3 * float(beside) / runs,
-        "overhead": float(beside / walls.sum()),
+        "overhead, ms/run": 1e3 * float(overhead) / runs,
+        "overhead": float(overhead / walls.sum()),
         "chunks": runner.chunks,
         "main, ms/run": 1e3 * processor / runs,
         "main before, MB": 1e-6 * before,
@@ -198,18 +198,18 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
 
 
 def start_again(case: str, runs: int, folder: Path) -> Row:
-    """The command on a folder in which all rows are: what it takes to find that nothing is missing."""
+    """Row of the command on a folder with all rows: the time to detect that no run is missing."""
     file = folder / f"{case}.toml"
-    line = module_command("ali3", "study", str(file), "--out", str(folder), "--no-report")
+    command = module_command("ali3", "study", str(file), "--out", str(folder), "--no-report")
     begin = time.perf_counter()
-    done = subprocess.run(line, check=False, capture_output=True, text=True)
-    if done.returncode != 0 or f"{runs} of {runs} runs are there" not in done.stdout:
-        raise RuntimeError(f"the study was not found whole: {done.stdout} {done.stderr}")
+    completed = subprocess.run(command, check=False, capture_output=True, text=True)
+    if completed.returncode != 0 or f"{runs} of {runs} runs are there" not in completed.stdout:
+        raise RuntimeError(f"the study was not found whole: {completed.stdout} {completed.stderr}")
     return {"table": "start again", "case": case, "runs": runs, "start_s": time.perf_counter() - begin}
 
 
-def plan_alone(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Row:
-    """Time and memory of a plan, and of its points block by block."""
+def measure_plan(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Row:
+    """Row of the time and memory of a plan, and of its points block by block."""
     plan_of(case, fmu, 16, 1.0, folder, method)
     gc.collect()
     before, begin = psutil.Process().memory_info().rss, time.perf_counter()
@@ -224,8 +224,8 @@ def plan_alone(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Ro
     return row | {"main_ms": 1e3 * blocks / runs, "main_mb": 1e-6 * memory}
 
 
-def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
-    """The one writer, alone: rows that no run has made, in chunks of 20 as they come from workers; and finding them."""
+def measure_writer(case: str, fmu: Path, rows: int, folder: Path) -> Row:
+    """Row of the writer: times to write random rows in chunks of 20, to check the files, and to open them in pandas."""
     from hosts.study.damaged_files import sound_runs
     from hosts.study.outcome_table import OutcomeTable
     from hosts.study.parts import part_files
@@ -265,54 +265,56 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
     return row | {"found_s": result, "read_s": read, "read_mb": 1e-6 * memory}
 
 
-def empty_tasks(tasks: int, workers: int) -> Row:
-    """Tasks that do nothing, to see what Dask itself takes."""
+def measure_empty_tasks(tasks: int, workers: int) -> Row:
+    """Row of empty tasks: the time of Dask itself."""
     from hosts.experiment.cluster import connected
 
     with _cluster(workers) as address, connected(address) as client:
-        client.gather(client.map(_nothing, range(100), pure=False))
-        me = psutil.Process()
-        begin, processor = time.perf_counter(), sum(me.cpu_times()[:2])
-        client.gather(client.map(_nothing, range(tasks), pure=False))
-        elapsed, processor = time.perf_counter() - begin, sum(me.cpu_times()[:2]) - processor
+        client.gather(client.map(_identity, range(100), pure=False))
+        process = psutil.Process()
+        begin, processor = time.perf_counter(), sum(process.cpu_times()[:2])
+        client.gather(client.map(_identity, range(tasks), pure=False))
+        elapsed, processor = time.perf_counter() - begin, sum(process.cpu_times()[:2]) - processor
     row = {"table": "empty tasks", "runs": tasks, "workers": workers, "elapsed_s": elapsed}
     return row | {"task_ms": 1e3 * elapsed / tasks, "main_ms": 1e3 * processor / tasks}
 
 
-def _nothing(number: int) -> int:
+def _identity(number: int) -> int:
     return number
 
 
 def measure(options: Namespace) -> list[Row]:
-    """Rows of what was asked for, each with the name of its table."""
+    """Rows of the selected parts, each with the name of its table."""
     if "overhead" in options.only and not Path(options.fmu).is_file():
         raise UserError(f"There is no file {options.fmu}; build it, or give --fmu.")
     with tempfile.TemporaryDirectory(prefix="study-") as folder:
-        return [work() for work in watched(list(_works(options, Path(folder))))]
+        return [work() for work in watched(list(_measurements(options, Path(folder))))]
 
 
-def _works(options: Namespace, folder: Path) -> Iterator[Callable[[], dict[str, Any]]]:
-    """What is measured, each in a process of its own."""
+def _measurements(options: Namespace, folder: Path) -> Iterator[Callable[[], dict[str, Any]]]:
+    """Yield the measurements, each of which runs in a new process."""
     if "overhead" in options.only:
         car = Path(options.fmu).absolute()
-        stop = alone(stop_time_for, "car", car, options.seconds, folder / "calibration")
-        yield lambda: alone(loop, "car", car, _LOOP, stop, folder / "loop")
+        stop = in_new_process(stop_time_for, "car", car, options.seconds, folder / "calibration")
+        yield lambda: in_new_process(plain_loop, "car", car, _LOOP, stop, folder / "loop")
         for workers in options.workers:
             arguments = ("car", car, options.runs, workers, stop, folder / f"car-{workers}")
-            yield lambda arguments=arguments: alone(study_runs, *arguments)
+            yield lambda arguments=arguments: in_new_process(study_runs, *arguments)
     if not set(options.only) & {"memory", "single"}:
         return
     spring = spring_fmu(folder)
     if "memory" in options.only:
         for runs in options.sizes:
-            place = folder / f"spring-{runs}"
-            yield lambda runs=runs, place=place: alone(
-                study_runs, "spring", spring, runs, max(options.workers), 1.0, place
+            study_folder = folder / f"spring-{runs}"
+            yield lambda runs=runs, study_folder=study_folder: in_new_process(
+                study_runs, "spring", spring, runs, max(options.workers), 1.0, study_folder
             )
-            yield lambda runs=runs, place=place: start_again("spring", runs, place)
+            yield lambda runs=runs, study_folder=study_folder: start_again("spring", runs, study_folder)
     if "single" in options.only:
         for method in ("sobol", "latin_hypercube"):
-            place = folder / f"plan-{method}"
-            yield lambda method=method, place=place: alone(plan_alone, "spring", spring, options.rows, method, place)
-        yield lambda: alone(rows_written, "spring", spring, options.rows, folder / "rows")
-        yield lambda: alone(empty_tasks, options.tasks, max(options.workers))
+            study_folder = folder / f"plan-{method}"
+            yield lambda method=method, study_folder=study_folder: in_new_process(
+                measure_plan, "spring", spring, options.rows, method, study_folder
+            )
+        yield lambda: in_new_process(measure_writer, "spring", spring, options.rows, folder / "rows")
+        yield lambda: in_new_process(measure_empty_tasks, options.tasks, max(options.workers))

@@ -7,7 +7,7 @@ from benchmarks.shared.pages import Row, table
 
 
 def study_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Tables by name, of those that were measured."""
+    """Tables by the names of their marks, of the measured parts."""
     results: dict[str, str] = {}
     runs = [r for r in rows if r["table"] == "runs"]
     car, spring = ([r for r in runs if r["case"] == case] for case in ("car", "spring"))

@@ -1,4 +1,4 @@
-"""Models without savings: every body with the coordinates of its frame, every joint equation a row."""
+"""Models without reduction: each body has the coordinates of its frame, each joint equation is a constraint."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -24,7 +24,7 @@ DURATION = 3.0  # s
 
 
 class WholeJoint(Joint):
-    """A joint all of whose equations stay rows."""
+    """A joint whose equations are all constraints."""
 
     @property
     def force_equations(self) -> list[int]:
@@ -33,7 +33,7 @@ class WholeJoint(Joint):
 
 
 class NaiveModel(Model):
-    """A model whose joint equations all stay rows, with rods and wheels as bodies."""
+    """A model whose joint equations are all constraints, with rods and wheels as bodies."""
 
     def _join(self, joint: Joint) -> Joint:
         whole = WholeJoint(joint.name, joint.type, joint.equations, joint.rows_weight)
@@ -41,7 +41,7 @@ class NaiveModel(Model):
         return super()._join(whole)
 
     def distance(self, name: str, end_1: Any, end_2: Any, *, length: float | None = None) -> Joint:
-        """A rod as a body between two ball joints; one with a sliding end stays a distance."""
+        """A rod as a body between two ball joints; with a sliding end it is a distance constraint."""
         if any(isinstance(end, SlidingPoint) for end in (end_1, end_2)):
             return super().distance(name, end_1, end_2, length=length)
         (first, p), (second, q) = end_1, end_2
@@ -52,7 +52,7 @@ class NaiveModel(Model):
         return self.spherical(f"{name} second end", rod, second, point=q)
 
     def spin(self, name: str, **data: Any) -> Spin:
-        """A wheel as a body on a hinge with its angle as a coordinate."""
+        """A wheel as a body on a revolute joint, with its angle as a coordinate."""
         carrier, centre, axis = data["carrier"], data["centre"], direction(data["axis"], 3, "the axis of a wheel")
         across = data["diametral_inertia"] * (np.eye(3) - np.outer(axis, axis))
         inertia = across + data["spin_inertia"] * np.outer(axis, axis)
@@ -66,21 +66,21 @@ class NaiveModel(Model):
         return Spin(angle.name, angle.index, "rad", carrier, *vectors, 0.0, 0.0, radius, drawn)
 
     def written_axis(self, spin: Spin, *, leaning: float = 0.0) -> WrittenAxis:
-        """The axis of a wheel, which stays as drawn: its hinge turns with no parameter."""
+        """The axis of a wheel at its initial direction, which parameters do not change."""
         x, y, z = (spin.carrier.vector(axis) for axis in np.eye(3))
         return WrittenAxis(spin.name, spin, (x, y, z), (0.0, 0.0), leaning)
 
     def parameter(self, *arguments: Any, targets: Any, **more: Any) -> Any:
-        """Those that turn the axis of a wheel are left out."""
+        """A parameter; those that change the axis of a wheel are left out."""
         if not any(isinstance(target[0], WrittenAxis) for target in targets):
             return super().parameter(*arguments, targets=targets, **more)
 
     def shape(self, *arguments: Any, **more: Any) -> None:
-        """Nothing: nobody looks at this model, and its wheels are bodies."""
+        """No shapes: this model is not drawn."""
 
 
 def spatial_four_bars(windows: int) -> Model:
-    """The planar chain of four-bars (scene double_four_bar) with bodies in space."""
+    """The planar chain of four-bars (scene double_four_bar) with spatial bodies."""
     m = NaiveModel("four-bars in space", gravity=(0.0, -9.81, 0.0))
     rods: list[Body] = []
 
@@ -105,8 +105,8 @@ def spatial_four_bars(windows: int) -> Model:
 
 
 @contextmanager
-def _naive(module: Any) -> Iterator[None]:
-    """A scene's module with the vocabulary without savings."""
+def _with_naive_model(module: Any) -> Iterator[None]:
+    """Context in which a module builds its models as `NaiveModel`."""
     before = module.Model
     module.Model = NaiveModel
     try:
@@ -116,8 +116,8 @@ def _naive(module: Any) -> Iterator[None]:
 
 
 def naive_car() -> Model:
-    """The rigid car: twelve bodies more than it needs."""
-    with _naive(built_car):
+    """The rigid car with twelve further bodies."""
+    with _with_naive_model(built_car):
         m = prototype_car.build()
     m.start_in_equilibrium = False
     return m
@@ -131,24 +131,24 @@ SCENES: dict[str, tuple[Callable[[], Model], Callable[[], Model], str]] = {
 
 
 def sizes_of(scene: str) -> tuple[dict[str, Any], list[System]]:
-    """Sizes of a scene and of its naive model, and both."""
+    """Row of the sizes of a scene and of its naive model, and both Systems."""
     models = [build() for build in SCENES[scene][:2]]
     systems = [compile(m) for m in models]
     row: dict[str, Any] = {"scene": scene}
     counts = {"bodies": [len(m.bodies) for m in models]}
     counts |= {"coordinates": [s.nq for s in systems], "rows": [s.nc for s in systems]}
-    for name, (good, naive) in counts.items():
-        row |= {name: good, f"naive_{name}": naive}
+    for name, (reduced, naive) in counts.items():
+        row |= {name: reduced, f"naive_{name}": naive}
     return row, systems
 
 
 def size_table(rows: Sequence[Row]) -> str:
-    """The table of the page of the flexible car."""
+    """Table of the page on the flexible car."""
     return table(rows, {"scene": ""} | dict.fromkeys(("coordinates", "naive_coordinates", "rows", "naive_rows"), "d"))
 
 
 def measure(scene: str, repeats: int) -> dict[str, Any]:
-    """One row."""
+    """Row of a scene: sizes, times, and the difference of an output at the end."""
     row, systems = sizes_of(scene)
     output = SCENES[scene][2]
     ends = []

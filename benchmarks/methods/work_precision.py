@@ -1,4 +1,4 @@
-"""Error against time: every method over a range of steps and tolerances, beside other engines."""
+"""Error over computing time of every method for a range of steps and tolerances, beside other engines."""
 
 import statistics
 from collections.abc import Callable, Sequence
@@ -30,12 +30,13 @@ LEVELS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of position error, m
 QUICK_DIVISIONS = 2
 CONTROLLED = ("ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive", "semi_recursive_4", "radau_5")
 CONTROLLED_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
-ORDER_TWO_ENDS = 1e-5
+ORDER_TWO_LIMIT = 1e-5  # smallest tolerance of methods of order two
 Action = Callable[[], tuple[float, dict[str, Any]]]
+"""Makes a run; returns its wall time, s, and fields of its row."""
 
 
 def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
-    """A run of the kernel: wall time of its step loop, and what to put in the row."""
+    """A run of the kernel with steps of `h`, s; the wall time is that of its steps."""
     case, system = CASES[scene], system_of(scene)
     every = round(case.end / SAMPLES / h)
 
@@ -56,7 +57,7 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
 
 
 def controlled_action(scene: str, method: str, tolerance: float) -> Action:
-    """A run under error control, without those that `simulate` makes to estimate the error."""
+    """A run with error control, without the runs by which `simulate` estimates the error."""
     case, system = CASES[scene], system_of(scene)
     task = Task(0.0, case.end, np.linspace(0.0, case.end, SAMPLES + 1)[1:], InputSignals({}, []))
     columns = [[s["name"] for s in system.meta["sensors"]].index(name) for name in case.sensors]
@@ -80,7 +81,7 @@ def controlled_action(scene: str, method: str, tolerance: float) -> Action:
 
 
 def classical_action(scene: str, method: str, h: float, solver: str = "RK4", rtol: float = 1e-8) -> Action:
-    """A run of a method in Python, by Runge and Kutta's rule at a fixed step or by a solver of scipy's."""
+    """A run of a method in Python, by the Runge-Kutta method with a fixed step, s, or by a solver of SciPy."""
     case, system = CASES[scene], system_of(scene)
 
     def act() -> tuple[float, dict[str, Any]]:
@@ -98,7 +99,7 @@ def classical_action(scene: str, method: str, h: float, solver: str = "RK4", rto
 
 
 def peer_action(scene: str, engine: Any, integrator: str, h: float) -> Action:
-    """A run of another engine."""
+    """A run of another engine with steps of `h`, s."""
 
     def act() -> tuple[float, dict[str, Any]]:
         r = engine.run(scene, h, CASES[scene].end, SAMPLES, integrator)
@@ -117,16 +118,16 @@ def _error(positions: np.ndarray, scene: str) -> float:
 
 
 def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[str, Any], Action]]:
-    """Rows without figures, and what measures them."""
+    """Rows without results, each with the action that measures it."""
     case = CASES[scene]
     divisions = case.divisions[3 : 3 + QUICK_DIVISIONS] if quick else case.divisions
     system = system_of(scene)
-    todo: list[tuple[dict[str, Any], Action]] = []
+    actions: list[tuple[dict[str, Any], Action]] = []
 
     def add(family: str, method: str, h: float | None, action: Action, rtol: float | None = None) -> None:
         row = {"scene": scene, "family": family, "method": method, "h_s": h, "rtol": rtol, "position_error_m": None}
         empty = dict.fromkeys(("wall_s", "factorizations"))
-        todo.append((row | empty | {"ended": ""}, action))
+        actions.append((row | empty | {"ended": ""}, action))
 
     for d in divisions:
         h = case.end / (SAMPLES * d)
@@ -141,38 +142,39 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
                     add(name, f"{name}, {integrator}", h, peer_action(scene, engine, integrator, h))
     for method in (m for m in CONTROLLED if suits(m, case.conservative, system)):
         for tolerance in CONTROLLED_TOLERANCES[1 : 1 + QUICK_DIVISIONS] if quick else CONTROLLED_TOLERANCES:
-            if METHOD_TABLE[method].order_of_changing_steps > 2 or tolerance >= ORDER_TWO_ENDS:
+            if METHOD_TABLE[method].order_of_changing_steps > 2 or tolerance >= ORDER_TWO_LIMIT:
                 add("kernel", controlled(TITLES[method]), None, controlled_action(scene, method, tolerance), tolerance)
     for rtol in SCIPY_TOLERANCES[: 1 if quick else None] if case.classical else ():
         action = classical_action(scene, SCIPY["method"], case.end / SAMPLES, SCIPY["solver"], rtol)
         add("classical", f"index-1 minimum norm, scipy {SCIPY['solver']}", None, action, rtol)
-    return todo
+    return actions
 
 
 def measure(scene: str, quick: bool, engines: dict[str, Any], repeats: int) -> list[dict[str, Any]]:
-    """All rows of a scene; times are medians over repeats through all of them, so that a disturbance is shared."""
-    todo = plan(scene, quick, engines)
-    for row, action in watched(todo):
+    """Rows of a scene; times are medians over repeats through all rows, so that disturbances affect all of them."""
+    actions = plan(scene, quick, engines)
+    for row, action in watched(actions):
         wall, result = action()
         row |= result
         row["wall_s"] = wall if result["ended"] == "finished" else None
-    walls: list[list[float]] = [[] for _ in todo]
+    walls: list[list[float]] = [[] for _ in actions]
     for turn in watched(range(repeats)):
-        for k, (row, action) in enumerate(todo):
+        for k, (row, action) in enumerate(actions):
             wall = row["wall_s"]
             if wall is not None and (wall < LONG or (turn < FEW_REPEATS and wall < VERY_LONG)):
                 walls[k].append(action()[0])
-    for (row, _), times in zip(todo, walls, strict=True):
+    for (row, _), times in zip(actions, walls, strict=True):
         if times:
             row["wall_s"] = statistics.median(times)
-    return [row for row, _ in todo]
+    return [row for row, _ in actions]
 
 
 def time_at_error(rows: Sequence[Row], method: str, level: float) -> float | None:
-    """Time from which on a method stays within an error, along its curve (log-log); None where it does not.
+    """Least wall time of a method, s, for an error `level`, by interpolation along its curve (log-log); None: not
+    reached.
 
-    Every finished run with a smaller step must be as good: a lucky step does not count. A run that is better than
-    asked for counts at its own time: no curve is extended.
+    All finished runs with smaller steps must reach the level too. A run below the level counts with its own time: the
+    curve is not extrapolated.
     """
     results = [r for r in rows if r["method"] == method and None not in (r["wall_s"], r["position_error_m"])]
     results.sort(key=lambda r: r["h_s"] if r["h_s"] is not None else r["rtol"], reverse=True)
@@ -189,7 +191,7 @@ def time_at_error(rows: Sequence[Row], method: str, level: float) -> float | Non
 
 
 def compare(rows: Sequence[Row], scene: str) -> list[dict[str, Any]]:
-    """Our best time over the best peer's at each level of error."""
+    """Rows of the best time of the kernel over that of the best peer, by level of error."""
     part = [r for r in rows if r["scene"] == scene]
     lines = []
     for level in LEVELS:
@@ -200,25 +202,25 @@ def compare(rows: Sequence[Row], scene: str) -> list[dict[str, Any]]:
                 result = best[ours]
                 if wall is not None and (result is None or wall < result[0]):
                     best[ours] = (wall, method)
-        we, they = best[True], best[False]
-        ratio = we[0] / they[0] if we and they else None
+        own, peer = best[True], best[False]
+        ratio = own[0] / peer[0] if own and peer else None
         lines.append(
             {
                 "scene": scene,
                 "error_m": level,
-                "ours": we[1] if we else "not reached",
-                "ours_ms": 1e3 * we[0] if we else None,
-                "peer": they[1] if they else "not reached",
-                "peer_ms": 1e3 * they[0] if they else None,
+                "ours": own[1] if own else "not reached",
+                "ours_ms": 1e3 * own[0] if own else None,
+                "peer": peer[1] if peer else "not reached",
+                "peer_ms": 1e3 * peer[0] if peer else None,
                 "ratio": ratio,
-                "ahead": "-" if not (we or they) else "yes" if we and (ratio is None or ratio < 1.0) else "NO",
+                "ahead": "-" if not (own or peer) else "yes" if own and (ratio is None or ratio < 1.0) else "NO",
             }
         )
     return lines
 
 
 def work_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The comparison with the peers, and the time each method takes to each error."""
+    """Tables of the comparison with peers, and of the time of each method by error."""
     scenes = list(dict.fromkeys(r["scene"] for r in rows))
     ratios = [line for s in scenes for line in compare(rows, s) if line["peer_ms"] is not None]
     columns = {

@@ -1,4 +1,4 @@
-"""The chart of `benchmarks.work_precision`: error against wall time and against factorizations."""
+"""Chart of `benchmarks.work_precision`: error over wall time and over factorizations."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -21,7 +21,7 @@ KERNEL = {
     TITLES["semi_recursive_4"]: ("#CC79A7", "X"),
     TITLES["radau_5"]: ("#009E73", "*"),
 }
-"""Colours of Okabe and Ito, and wine of Tol, the same in every chart; methods that are not here are in the tables."""
+"""Colour (of Okabe and Ito, one of Tol) and marker of the drawn methods of the kernel, the same in every chart."""
 OTHERS = {
     "classical": ("#777777", ":", "osD^vPX"),
     "drake": ("#8b6914", "--", "PX"),
@@ -29,19 +29,19 @@ OTHERS = {
     "mujoco": ("#999999", "--", "v<"),
     "pinocchio": ("#000000", "--", "dD"),
 }
-"""Colour, line, and the marks of the methods of each family."""
+"""Colour, line style, and markers of the methods of each family."""
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
-"""Runs to a tolerance: the same colours, dash-dotted with open marks."""
-LOST = 0.5  # of the motion's extent: beyond it a run has no point
+"""Colour and marker of runs with a tolerance."""
+LARGEST_ERROR = 0.5  # of a drawn run, over the extent of the motion
 PANELS = {"wall_s": ("kernel", "drake", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
-"""What is compared: times of compiled programs, factorizations of the methods that count them."""
+"""Families in each panel: compiled programs by time, methods that count factorizations."""
 
 
-def draw(rows: Sequence[Row], case: Case, lost: float, file: Path) -> None:
-    """Left: wall time of the kernel and of other engines; right: factorizations of the kernel and of methods in Python.
-    Runs that lost the motion are left out.
+def draw(rows: Sequence[Row], case: Case, largest_error: float, file: Path) -> None:
+    """Draw errors over wall time of the kernel and other engines, and over factorizations of the kernel and Python
+    methods.
 
-    `lost`: error, in the unit of the case, from which a run has no point; `file`: PNG.
+    `largest_error`: of a drawn run, in the unit of the case; `file`: PNG.
     """
     plt = pyplot()
     figure, axes = plt.subplots(1, 2, figsize=(11.0, 4.6), sharey=True, layout="constrained")
@@ -51,7 +51,7 @@ def draw(rows: Sequence[Row], case: Case, lost: float, file: Path) -> None:
                 points = [
                     (r[key], r["position_error_m"])
                     for r in rows
-                    if r["method"] == method and r["wall_s"] and r[key] and r["position_error_m"] < lost
+                    if r["method"] == method and r["wall_s"] and r[key] and r["position_error_m"] < largest_error
                 ]
                 if not points or (family == "kernel" and method not in KERNEL | CONTROLLED):
                     continue

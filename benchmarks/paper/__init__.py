@@ -1,1 +1,1 @@
-"""The tables and figures of the paper, measured again."""
+"""Tables and figures of the paper, computed with this engine."""

@@ -1,8 +1,8 @@
-"""The paper's tables and figures, measured again: ``python -m benchmarks.paper PART``.
+"""Tables and figures of the paper, computed with this engine: ``python -m benchmarks.paper PART``.
 
 Double four-bar (Table 1), PUMA (Table 2), four-bar with assembly defect (section 3.3, Figure 5), and the car on the
-kerb with the paper's size and time beside it (293 variables, 239 constraints, 65 modes; 2 iterations on average and 3
-at most; 48 s for the 15 s), by its smooth guide or by one that is made of measured accelerations.
+kerb, with a smooth guide or one from measured accelerations. The paper's car has 293 variables, 239 constraints and 65
+modes; its 15 s take 48 s, with 2 iterations on average and at most 3.
 """
 
 import sys
@@ -32,9 +32,8 @@ def _four_bar(options: Namespace) -> list[dict[str, Any]]:
 
 def _puma(options: Namespace) -> list[dict[str, Any]]:
     system, methods = mbs.compile(puma_scene.build()), puma.METHODS[:1] if options.quick else puma.METHODS
-    todo = [(method, h) for method in methods for h in puma.STEPS]
-    repeats = 1 if options.quick else puma.REPEATS
-    rows = [{"table": "methods", **puma.measure(system, *one, repeats)} for one in watched(todo)]
+    runs = [(method, h) for method in methods for h in puma.STEPS]
+    rows = [{"table": "methods", **puma.measure(system, *run)} for run in watched(runs)]
     stages = [] if options.quick else puma.split(system, methods[0])
     return rows + [{"table": "large steps in one stage", **row} for row in stages]
 
@@ -46,15 +45,15 @@ def _defect(options: Namespace) -> list[dict[str, Any]]:
     return bars + [{"table": "largest moments, N m", **assembly_defect.peaks(r)} for r in assembly_defect.RADII]
 
 
-def _both(rows: Sequence[Row], blocks: Callable[[Sequence[Row]], Mapping[str, str]]) -> str:
-    """The table of the page, and below it the rows of the second table, which the page tells in words."""
+def _text_of_both(rows: Sequence[Row], blocks: Callable[[Sequence[Row]], Mapping[str, str]]) -> str:
+    """Tables of the page, and below them the rows of the second table, which the page has as text."""
     others = [row for row in rows if row["table"] != rows[0]["table"]]
     return "\n\n".join([*blocks(rows).values(), *([plain_table(others)] if others else [])])
 
 
 def _kerb(options: Namespace) -> list[dict[str, Any]]:
-    todo = [(Fidelity.of(name), h) for name in options.only for h in options.steps]
-    return [kerb.measure(*one, options.repeats) for one in watched(todo)]
+    runs = [(Fidelity.of(name), h) for name in options.only for h in options.steps]
+    return [kerb.measure(*run, options.repeats) for run in watched(runs)]
 
 
 PARTS = {
@@ -72,7 +71,7 @@ PARTS = {
         options=QUICK,
         pages=("speed_and_accuracy.md",),
         blocks=puma.puma_blocks,
-        words=lambda rows: _both(rows, puma.puma_blocks),
+        words=lambda rows: _text_of_both(rows, puma.puma_blocks),
     ),
     "defect": Part(
         "section forces of the four-bar with assembly defect, against geometrically exact beams",
@@ -80,7 +79,7 @@ PARTS = {
         options=QUICK,
         pages=("flexible.md",),
         blocks=assembly_defect.defect_blocks,
-        words=lambda rows: _both(rows, assembly_defect.defect_blocks),
+        words=lambda rows: _text_of_both(rows, assembly_defect.defect_blocks),
         chart=assembly_defect.draw,
     ),
     "kerb": Part(

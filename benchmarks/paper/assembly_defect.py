@@ -13,14 +13,14 @@ from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, table
 from mbs.scenes import assembly_defect_four_bar as scene
 
-STEP = 0.01  # s, as the reference is stored
+STEP = 0.01  # s, interval of the stored reference
 CASES = ((1, 2, 0), (1, 8, 6), (2, 2, 0), (4, 2, 0), (8, 2, 0))
-"""Bodies a bar, elements of each, dynamic modes of each."""
+"""Bodies per bar, elements and dynamic modes of each body."""
 RADII = (scene.RADIUS, 0.5 * scene.RADIUS)  # m
 
 
 def measure(case: tuple[int, int, int]) -> tuple[dict[str, Any], mbs.Trajectory]:
-    """One row, and the run it comes from."""
+    """Row of a case, and its run."""
     expected = reference()
     parts, elements, dynamic = case
     system = mbs.compile(scene.build(parts, elements, dynamic))
@@ -38,22 +38,22 @@ def measure(case: tuple[int, int, int]) -> tuple[dict[str, Any], mbs.Trajectory]
 
 
 def defect_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Sizes and errors by bodies, elements and modes."""
+    """Table of sizes and errors by bodies, elements and modes."""
     columns = {"bodies_per_bar": "d", "elements, modes of each": "", "coordinates, rows": ""}
     columns |= dict.fromkeys((*COMPONENTS, "largest_of_moment"), ".2%")
     return {"defect": table([row for row in rows if row["table"] == "bars"], columns)}
 
 
 def peaks(radius: float) -> dict[str, float]:
-    """Largest moments of bars of a radius, N m: what is "5 mm" in the paper, radius or diameter."""
+    """Largest moments of bars of a radius, N m: the paper's "5 mm" may be radius or diameter."""
     run = mbs.simulate(mbs.compile(scene.build(1, 2, 0, radius=radius)), scene.DURATION, STEP, progress=False)
     return {"diameter_mm": 2e3 * radius} | {c: float(np.max(np.abs(run[f"coupler.{c}"]))) for c in COMPONENTS}
 
 
 @expected_errors()
 def draw(rows: Sequence[Row], file: Path) -> None:
-    """The moments of the last of the bars over time as in the paper's Figure 5, the reference dashed; colours of Okabe
-    and Ito.
+    """Draw the moments of the last row over time as in the paper's Figure 5, the reference dashed; colours of Okabe and
+    Ito.
     """
     bodies, expected = [row for row in rows if row["table"] == "bars"][-1]["bodies_per_bar"], reference()
     _, run = measure(next(case for case in CASES if case[0] == bodies))

@@ -17,25 +17,24 @@ from mbs.scenes import double_four_bar
 WINDOWS = (2, 40)
 END = 10.0  # s
 REPEATS = 15
-LOST = 1.0  # m: beyond it the phase is lost and the chart has no point
+LARGEST_ERROR = 1.0  # m, of a drawn run
 PAPER = {0.01: (-0.21, 0.86), 0.03: (-0.83, 0.37), 0.05: (-9.03, 0.26)}  # s: (J, s), Table 1
-SHOWN = 3e-3  # s: a run that takes less is seldom interrupted, and its time is told
+SHORT = 3e-3  # s: shorter runs are seldom interrupted, and their time is in the table
 METHODS = {
     "ALi3-P": mbs.Settings(),
     "ALi3-P, tolerance 1e-12": mbs.Settings(tolerance_r=1e-12, tolerance_phi=1e-12),
-    # the residual that the paper's update (16) reaches in double precision
+    # smallest residual of the paper's update (16) in double precision
     "ALi3-P, paper's update": mbs.Settings(update="paper", tolerance_r=1e-7),
     "ALi3-P, paper's start value": mbs.Settings(predictor="acceleration"),
     "energy-momentum": mbs.Settings(method="energy_momentum"),
-    "ALi3 without projections": mbs.Settings(project=False),
 }
 STEPS = (0.1, 0.05, 0.03, 0.01, 0.005, 0.002, 0.001)
 
 
 def measure(system: mbs.System, windows: int, method: str, h: float) -> dict[str, Any]:
-    """One row: accuracy, iterations and a first time, which also warms up; `time_rows` takes the others.
+    """Row of a run: accuracy, iterations and a first time, to warm up; `time_rows` measures the times.
 
-    `method`: one of `METHODS`; `h`: in s.
+    `method`: one of `METHODS`; `h`: step, s.
     """
     row: dict[str, Any] = {"N": windows, "method": method, "h_s": h, "failed_at_s": None}
     try:
@@ -44,10 +43,10 @@ def measure(system: mbs.System, windows: int, method: str, h: float) -> dict[str
         return row | {"failed_at_s": error.time, "position_error_m": None, "wall_s": None}
     assert run.report is not None
     energy = run["energy.total"] - run["energy.total"][0]
-    place = np.column_stack([run["B0.position.x"], run["B0.position.y"]])
+    position = np.column_stack([run["B0.position.x"], run["B0.position.y"]])
     return row | {
         "energy_deviation_J": float(energy[np.abs(energy).argmax()]),  # with its sign
-        "position_error_m": float(np.linalg.norm(place - four_bar(windows, run.t), axis=1).max()),
+        "position_error_m": float(np.linalg.norm(position - four_bar(windows, run.t), axis=1).max()),
         "iterations_mean": run.report.mean_iterations,
         "iterations_max": run.report.max_iterations,
         "wall_s": run.wall_s,
@@ -55,9 +54,9 @@ def measure(system: mbs.System, windows: int, method: str, h: float) -> dict[str
 
 
 def time_rows(rows: Sequence[dict[str, Any]], systems: dict[int, mbs.System], repeats: int) -> None:
-    """Fill in the times: the least of repeats through all rows, so that a disturbance does not fall on one row alone.
+    """Set the times of the rows: the least of repeats through all rows, so that disturbances affect all of them.
 
-    Only the last state is recorded.
+    Only the last state of a run is recorded.
     """
     good = [row for row in rows if row["failed_at_s"] is None]
     walls: list[list[float]] = [[] for _ in good]
@@ -71,7 +70,7 @@ def time_rows(rows: Sequence[dict[str, Any]], systems: dict[int, mbs.System], re
 
 
 def measure_all(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
-    """All rows, in the order of the table."""
+    """Rows of all systems, methods and steps."""
     systems = {n: mbs.compile(double_four_bar.build(n)) for n in windows}
     rows = [measure(systems[n], n, *run) for n, *run in watched(list(itertools.product(windows, METHODS, STEPS)))]
     time_rows(rows, systems, repeats)
@@ -79,7 +78,7 @@ def measure_all(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
 
 
 def four_bar_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The paper's Table 1 beside the rows of N = 2."""
+    """The rows of N = 2 beside the paper's Table 1."""
     lines = []
     for r in sorted((r for r in rows if r["N"] == 2 and r["method"] == "ALi3-P"), key=lambda r: -r["h_s"]):
         energy, wall = PAPER.get(r["h_s"], (None, None))
@@ -91,29 +90,28 @@ def four_bar_blocks(rows: Sequence[Row]) -> dict[str, str]:
                 "largest position error m": r["position_error_m"],
                 "iterations, mean (most)": f"{r['iterations_mean']:.2f} ({r['iterations_max']})",
                 "paper s (Matlab)": wall,
-                "ours ms": 1e3 * r["wall_s"] if r["wall_s"] < SHOWN else None,
+                "ours ms": 1e3 * r["wall_s"] if r["wall_s"] < SHORT else None,
             }
         )
     return {"table 1": table(lines, dict.fromkeys(lines[0], ".3g"))}
 
 
 def draw(rows: Sequence[Row], file: Path) -> None:
-    """Position error against wall time, log-log; colours of Okabe and Ito, a marker per method, a panel per N."""
-    drawn = [method for method in METHODS if METHODS[method].project]
-    looks = dict(
-        zip(drawn, zip(("#0072B2", "#009E73", "#E69F00", "#000000", "#CC79A7"), "os^vD", strict=True), strict=True)
+    """Draw position errors over wall time, log-log, a panel for each N; colours of Okabe and Ito."""
+    styles = dict(
+        zip(METHODS, zip(("#0072B2", "#009E73", "#E69F00", "#000000", "#CC79A7"), "os^vD", strict=True), strict=True)
     )
     windows = list(dict.fromkeys(r["N"] for r in rows))
     figure, axes = pyplot().subplots(
         1, len(windows), figsize=(4.6 * len(windows), 4.4), sharey=True, squeeze=False, layout="constrained"
     )
     for ax, n in zip(axes[0], windows, strict=True):
-        for method, (colour, marker) in looks.items():
-            part = [r for r in rows if r["N"] == n and r["method"] == method]
-            part = [r for r in part if r["wall_s"] and r["position_error_m"] < LOST]
-            x, y = ([r[key] for r in part] for key in ("wall_s", "position_error_m"))
+        for method, (colour, marker) in styles.items():
+            method_rows = [r for r in rows if r["N"] == n and r["method"] == method]
+            method_rows = [r for r in method_rows if r["wall_s"] and r["position_error_m"] < LARGEST_ERROR]
+            x, y = ([r[key] for r in method_rows] for key in ("wall_s", "position_error_m"))
             ax.loglog(x, y, marker=marker, color=colour, label=method, linewidth=1.6, markersize=6, fillstyle="none")
-            for r in part if method == "ALi3-P" else ():
+            for r in method_rows if method == "ALi3-P" else ():
                 style = {"xytext": (-7, -4), "textcoords": "offset points", "ha": "right", "va": "top", "fontsize": 8}
                 ax.annotate(f"{1e3 * r['h_s']:g} ms", (r["wall_s"], r["position_error_m"]), **style)
         ax.set_title(f"N = {n}: {2 * n + 1} links, 10 s, ten singular positions", fontsize=10)

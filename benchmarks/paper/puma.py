@@ -1,6 +1,5 @@
-"""The PUMA 560 whose hand is pinned and released: errors, energy at the jumps, the share of each stage."""
+"""The PUMA 560 whose hand is pinned and released: errors, energy jumps, error by stage."""
 
-import time
 from collections.abc import Sequence
 from typing import Any
 
@@ -8,13 +7,11 @@ import numpy as np
 
 import mbs
 from benchmarks.shared.pages import Row, table
-from benchmarks.shared.timing import best_time
 from mbs.scenes import puma
 
-PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (m, s), Table 2; 0.1: no convergence
+PAPER = {0.01: 0.53, 0.05: 3.4}  # errors by step, s: mm, Table 2; no convergence with 0.1 s
 STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
 METHODS = ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
-REPEATS = 5
 LARGE = 0.05  # s
 SMALL = 0.0005  # s
 SPLIT = {
@@ -26,9 +23,8 @@ SPLIT = {
 }
 
 
-def measure(system: mbs.System, method: str, h: float, repeats: int) -> dict[str, Any]:
-    """One row; the processor time is that of the whole replay, with what Python does around the steps."""
-    paper, paper_wall = PAPER.get(h, (None, None))
+def measure(system: mbs.System, method: str, h: float) -> dict[str, Any]:
+    """Row of a replay with a method and a step, s."""
     row: dict[str, Any] = {
         "method": method,
         "h_s": h,
@@ -36,9 +32,7 @@ def measure(system: mbs.System, method: str, h: float, repeats: int) -> dict[str
         "path_error_mm": None,
         "jump_close_J": None,
         "jump_open_J": None,
-        "cpu_s": None,
-        "paper_error_mm": None if paper is None else 1e3 * paper,
-        "paper_wall_s": paper_wall,
+        "paper_error_mm": PAPER.get(h),
         "ended": "finished",
     }
     settings = mbs.Settings(method=method)
@@ -46,23 +40,16 @@ def measure(system: mbs.System, method: str, h: float, repeats: int) -> dict[str
         result = puma.replay(system, h, settings, estimate_error=False)
     except mbs.SimulationError as error:
         return row | {"ended": f"refused at {error.time:.3g} s: {error}"}
-
-    def act() -> float:
-        begin = time.process_time()
-        puma.replay(system, h, settings, estimate_error=False)
-        return time.process_time() - begin
-
     return row | {
         "error_mm": 1e3 * result.error,
         "path_error_mm": 1e3 * result.path_error(),
         "jump_close_J": result.jumps_J[0],
         "jump_open_J": result.jumps_J[1],
-        "cpu_s": best_time(act, repeats, 0),
     }
 
 
 def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
-    """Error with large steps in one stage and small ones elsewhere, and where the hand was when the pin closed."""
+    """Rows of errors with large steps in one stage and small ones elsewhere, and of the hand's offset when pinned."""
     rows = []
     for title, steps in SPLIT.items():
         result = puma.replay(system, steps, mbs.Settings(method=method), estimate_error=False)
@@ -73,7 +60,7 @@ def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
 
 
 def puma_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The paper's Table 2 beside ours."""
+    """Our errors beside the paper's Table 2."""
     columns = {
         "method": "",
         "h_s": "g",

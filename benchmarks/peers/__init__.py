@@ -1,4 +1,4 @@
-"""Other engines on the shared scenes, when they are installed (extra `peers`); each with its fastest fair settings."""
+"""Other engines on the shared scenes (extra `peers`), each with its fastest settings of equal accuracy."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ NAMES = {
     "mujoco": "benchmarks.peers.mujoco_peer",
     "pinocchio": "benchmarks.peers.pinocchio_peer",
 }
-PACKAGES = {"drake": "pydrake"}  # where the name to import is another
+PACKAGES = {"drake": "pydrake"}  # where the module has another name
 
 sys.exudynFast = True  # type: ignore[attr-defined] # Exudyn's faster module, asked for before it is imported
 
 
 def available() -> tuple[dict[str, ModuleType], list[str]]:
-    """Modules of the engines that are installed, by engine, and the names of those that are not."""
+    """Modules of the installed engines by name, and the names of the engines that are not installed."""
     missing = [n for n in NAMES if importlib.util.find_spec(PACKAGES.get(n, n)) is None]
     return {n: importlib.import_module(m) for n, m in NAMES.items() if n not in missing}, missing

@@ -22,7 +22,7 @@ from vehiclemodels.init_mb import init_mb
 from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
 
 Array = NDArray[np.float64]
-# numbers of states
+# indices of states
 SPEED = 3
 YAW_RATE = 5
 SIDE_SPEED = 10
@@ -30,17 +30,17 @@ HELPERS = ("steering_constraints", "acceleration_constraints", "vehicle_dynamics
 
 
 def drive(cars: int, speed: float, h: float, angles: Array) -> tuple[Array, float]:
-    """Several cars one after the other.
+    """Simulate several cars one after the other.
 
-    `h`: step, s; `angles`: mean angle of the front wheels at the end of each step, rad. The model takes its rate, which
-    a step holds, shape (steps,).
+    `h`: step, s; `angles`: mean angle of the front wheels at the end of each step, rad, shape (steps,); the model takes
+    its rate, which is constant in a step.
 
     Returns
     -------
     states : ndarray, shape (steps, 29)
         Of the last car.
     seconds : float
-        Of a core, without the compilation.
+        Processor time without the compilation.
     """
     run, parameters = _compiled()
     start = np.array(init_mb([0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0], parameters_vehicle2()), float)
@@ -59,12 +59,12 @@ def motion(states: Array) -> tuple[Array, Array]:
 
 @cache
 def _compiled() -> tuple[Callable[..., Array], Any]:
-    """The run, and the parameters of the car."""
+    """The compiled integration, and the parameters of the car."""
     derivative = _derivative()
 
     @numba.njit
     def rate(x: Array, u: Array, p: Any) -> Array:
-        return np.array(derivative(x.copy(), u, p))  # it sets speeds of wheels that turn backwards to zero
+        return np.array(derivative(x.copy(), u, p))  # the copy: it sets negative wheel speeds in its argument to zero
 
     @numba.njit
     def run(start: Array, rates: Array, h: float, p: Any) -> Array:
@@ -99,7 +99,7 @@ def _derivative() -> Any:
 
 
 def _compile(function: Any) -> Any:
-    """A function with the compiled ones that it calls."""
+    """A function compiled together with the functions that it calls."""
     names = {k: numba.njit(v) if isinstance(v, FunctionType) else v for k, v in function.__globals__.items()}
     return numba.njit(FunctionType(function.__code__, names, function.__name__))
 

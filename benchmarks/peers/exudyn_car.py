@@ -1,10 +1,9 @@
 """A car of the same mass, wheel positions, wheel rates and damping in Exudyn: a kinematic tree of 16 coordinates.
 
-Each wheel slides upright on a spring and rolls by Exudyn's `ObjectConnectorRollingDiscPenalty`: a penalty in the
-direction of the normal with the tyre's stiffness, and a friction force that grows with the speed of slip up to the
-largest one. The speed at which it is reached is such that the cornering stiffness at the start is that of our tyre.
-There are no links, drive and air. Angles of the front wheels are set by a function in Python before each step, as
-Exudyn's users do it.
+Each wheel slides vertically on a spring and rolls by Exudyn's `ObjectConnectorRollingDiscPenalty`: a normal penalty
+force with the tyre's stiffness, and a friction force proportional to the slip speed up to a maximum. The slip speed at
+the maximum gives the initial cornering stiffness of our tyre. There are no suspension links, no drive and no air. A
+Python function sets the angles of the front wheels before each step, as is usual in Exudyn.
 """
 
 from __future__ import annotations
@@ -22,21 +21,21 @@ from mbs.vehicle.tyres.tmeasy import TMeasy
 
 Array = NDArray[np.float64]
 GRAVITY = 9.81  # m/s2
-STEERING = 2e4, 200.0  # N m/rad, N m s/rad: what holds a front wheel at its angle
-TOLERANCES = 1e-4, 1e-6  # of Newton's method; with the default ones a path of 60 m is 0.02 mm away
-# numbers of coordinates: x, y, z, yaw, pitch, roll of the body come first
+STEERING = 2e4, 200.0  # N m/rad, N m s/rad: stiffness and damping of the angle control of a front wheel
+TOLERANCES = 1e-4, 1e-6  # of Newton's method; with its defaults a path of 60 m changes by 0.02 mm
+# indices of coordinates: x, y, z, yaw, pitch, roll of the body come first
 YAW = 3
 ROLL = 5
 AXLES = ("front", "rear")
 
 
 class ExudynCar:
-    """The assembled car, which starts at rest on its springs and rolls.
+    """The assembled car, which starts in equilibrium on its springs, rolling.
 
     Parameters
     ----------
     mass : float
-        Of the whole car, kg; what is not in the wheels is the body.
+        Of the whole car, kg; the body has what the wheels do not have.
     speed : float
         At the start, m/s.
     h : float
@@ -44,7 +43,7 @@ class ExudynCar:
     angles : ndarray, shape (steps, 2)
         Of the front wheels, left and right, at the end of each step, rad.
     rates : dict of str to float
-        Of `benchmarks.car.rig.kinematics`.
+        Result of `benchmarks.car.rig.kinematics`.
     """
 
     def __init__(self, car: Car, mass: float, speed: float, h: float, angles: Array, rates: dict[str, float]) -> None:
@@ -57,7 +56,7 @@ class ExudynCar:
         ahead = x - car.rear.wheel.centre[0]
         tree = _Tree()
         for kind in (joint.PrismaticX, joint.PrismaticY, joint.PrismaticZ, joint.RevoluteZ, joint.RevoluteY):
-            tree.add(kind, rate=0.0 if tree.types else speed, place=(0.0, 0.0, 0.0) if tree.types else (x, 0.0, z))
+            tree.add(kind, rate=0.0 if tree.types else speed, offset=(0.0, 0.0, 0.0) if tree.types else (x, 0.0, z))
         base = tree.add(joint.RevoluteX, mass=mass - unsprung, inertia=body.inertia)
         self.discs: list[tuple[int, float, float, TMeasy]] = []
         steered = []
@@ -65,39 +64,39 @@ class ExudynCar:
             wheel, tyre = axle.wheel, axle.tyre
             assert isinstance(tyre, TMeasy)
             assert axle.damper.damping is not None
-            part = ahead if name == "front" else car.wheelbase - ahead
-            load = GRAVITY * (mass - unsprung) * part / car.wheelbase / 2.0
+            lever = ahead if name == "front" else car.wheelbase - ahead
+            load = GRAVITY * (mass - unsprung) * lever / car.wheelbase / 2.0
             stiffness = rates[f"{name}.wheel_rate"]
             damping = axle.damper.damping * rates[f"{name}.spring_ratio"] ** 2
-            pressed = load + GRAVITY * wheel.mass
-            radius = wheel.centre[2] + pressed / tyre.stiffness
+            tyre_load = load + GRAVITY * wheel.mass
+            radius = wheel.centre[2] + tyre_load / tyre.stiffness
             for side in (1.0, -1.0):
-                place = (wheel.centre[0] - x, side * wheel.centre[1], wheel.centre[2] - z)
-                tree.add(joint.PrismaticZ, parent=base, place=place, held=(stiffness, damping, -load / stiffness))
+                offset = (wheel.centre[0] - x, side * wheel.centre[1], wheel.centre[2] - z)
+                tree.add(joint.PrismaticZ, parent=base, offset=offset, spring=(stiffness, damping, -load / stiffness))
                 if name == "front":
-                    steered.append(tree.add(joint.RevoluteZ, held=(*STEERING, 0.0)))
+                    steered.append(tree.add(joint.RevoluteZ, spring=(*STEERING, 0.0)))
                 inertia = (wheel.diametral_inertia, wheel.spin_inertia, wheel.diametral_inertia)
                 spin = tree.add(joint.RevoluteY, mass=wheel.mass, inertia=inertia, rate=speed / radius)
-                self.discs.append((spin, radius, pressed, tyre))
+                self.discs.append((spin, radius, tyre_load, tyre))
         node, number = tree.assemble(self.mbs)
-        self._roll(number, speed)
+        self._add_contacts(number, speed)
         kinds = exu.OutputVariableType
         self._sensors = [
             self.mbs.AddSensor(itemInterface.SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind))
             for kind in (kinds.Coordinates, kinds.Coordinates_t)
         ]
-        offsets = np.array([held[2] for held in tree.held])
+        targets = np.array([spring[2] for spring in tree.springs])
 
         def steer(mbs: Any, t: float) -> bool:
-            offsets[steered] = angles[min(round(t / h), len(angles) - 1)]
-            mbs.SetObjectParameter(number, "jointPositionOffsetVector", offsets)
+            targets[steered] = angles[min(round(t / h), len(angles) - 1)]
+            mbs.SetObjectParameter(number, "jointPositionOffsetVector", targets)
             return True
 
         self.mbs.SetPreStepUserFunction(steer)
         self.mbs.Assemble()
 
-    def _roll(self, tree: int, speed: float) -> None:
-        """Wheels on the plane z = 0."""
+    def _add_contacts(self, tree: int, speed: float) -> None:
+        """Add the rolling contacts of the wheels with the plane z = 0."""
         ground = self.mbs.AddObject(itemInterface.ObjectGround())
         plane = self.mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground))
         for link, radius, load, tyre in self.discs:
@@ -120,7 +119,7 @@ class ExudynCar:
             )
 
     def drive(self) -> tuple[Array, Array, float]:
-        """Coordinates and their rates after each step, shapes (steps, 16), and the seconds that a core took."""
+        """Coordinates and their rates after each step, shapes (steps, 16), and the processor time, s."""
         s = exu.SimulationSettings()
         s.timeIntegration.numberOfSteps = len(self.angles)
         s.timeIntegration.endTime = self.h * len(self.angles)
@@ -141,16 +140,16 @@ class ExudynCar:
 def drive(
     car: Car, mass: float, speed: float, h: float, angles: Array, rates: dict[str, float], cars: int
 ) -> tuple[Array, float]:
-    """Several cars one after the other, whose springs differ by 1 % from one to the next.
+    """Simulate several cars one after the other, whose springs differ by 1 % from one to the next.
 
-    `mass`, `speed`, `h`, `angles`, `rates`: as of `ExudynCar`.
+    `mass`, `speed`, `h`, `angles`, `rates`: of `ExudynCar`.
 
     Returns
     -------
-    moved : ndarray, shape (steps, 16)
+    rates : ndarray, shape (steps, 16)
         Rates of the coordinates of the first car.
     seconds : float
-        Of a core, without the assembly.
+        Processor time without the assembly.
     """
     spent, first = 0.0, np.empty(0)
     for number in range(cars):
@@ -161,15 +160,15 @@ def drive(
 
 
 class _Tree:
-    """Links of a kinematic tree, each behind the last one or behind `parent`."""
+    """Links of a kinematic tree, each on the previous one or on `parent`."""
 
     def __init__(self) -> None:
         self.types: list[Any] = []
         self.parents: list[int] = []
-        self.places: list[tuple[float, ...]] = []
+        self.offsets: list[tuple[float, ...]] = []
         self.masses: list[float] = []
         self.inertias: list[tuple[float, ...]] = []
-        self.held: list[tuple[float, float, float]] = []
+        self.springs: list[tuple[float, float, float]] = []
         self.rates: list[float] = []
 
     def add(
@@ -177,24 +176,24 @@ class _Tree:
         kind: Any,
         *,
         parent: int | None = None,
-        place: tuple[float, ...] = (0.0, 0.0, 0.0),
+        offset: tuple[float, ...] = (0.0, 0.0, 0.0),
         mass: float = 0.0,
         inertia: tuple[float, ...] = (0.0, 0.0, 0.0),
-        held: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        spring: tuple[float, float, float] = (0.0, 0.0, 0.0),
         rate: float = 0.0,
     ) -> int:
-        """Number of the new link; `held`: stiffness and damping of its coordinate, and where its spring is free."""
+        """Add a link; returns its number. `spring`: stiffness, damping and unloaded position of its coordinate."""
         self.parents.append(len(self.types) - 1 if parent is None else parent)
         for values, value in zip(
-            (self.types, self.places, self.masses, self.inertias, self.held, self.rates),
-            (kind, place, mass, inertia, held, rate),
+            (self.types, self.offsets, self.masses, self.inertias, self.springs, self.rates),
+            (kind, offset, mass, inertia, spring, rate),
             strict=True,
         ):
             values.append(value)
         return len(self.types) - 1
 
     def assemble(self, mbs: Any) -> tuple[int, int]:
-        """Numbers of its node and of itself."""
+        """Add the tree to a system of Exudyn; numbers of its node and of itself."""
         n = len(self.types)
         node = mbs.AddNode(
             itemInterface.NodeGenericODE2(
@@ -204,21 +203,21 @@ class _Tree:
                 numberOfODE2Coordinates=n,
             )
         )
-        stiffness, damping, offsets = (list(column) for column in zip(*self.held, strict=True))
+        stiffness, damping, targets = (list(column) for column in zip(*self.springs, strict=True))
         tree = mbs.AddObject(
             itemInterface.ObjectKinematicTree(
                 nodeNumber=node,
                 jointTypes=self.types,
                 linkParents=self.parents,
                 jointTransformations=exu.Matrix3DList([np.eye(3)] * n),
-                jointOffsets=exu.Vector3DList([np.array(place) for place in self.places]),
+                jointOffsets=exu.Vector3DList([np.array(offset) for offset in self.offsets]),
                 linkInertiasCOM=exu.Matrix3DList([np.diag(inertia) for inertia in self.inertias]),
                 linkCOMs=exu.Vector3DList([np.zeros(3)] * n),
                 linkMasses=self.masses,
                 gravity=[0.0, 0.0, -GRAVITY],
                 jointPControlVector=stiffness,
                 jointDControlVector=damping,
-                jointPositionOffsetVector=offsets,
+                jointPositionOffsetVector=targets,
                 jointVelocityOffsetVector=[0.0] * n,
             )
         )

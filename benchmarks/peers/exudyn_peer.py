@@ -1,6 +1,6 @@
 """The shared scenes in Exudyn: planar bodies with revolute joints and a sparse solver, or a kinematic tree.
 
-Its compiled solver runs in one call a run; nothing is written but the position of the output point at the samples.
+A run is one call of its compiled solver; only the position of the output point at the samples is recorded.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ import exudyn as exu
 import numpy as np
 from exudyn import itemInterface
 
-from benchmarks.peers.trees import PeerRun, Tree, Vector, samples_times, tree_of
+from benchmarks.peers.trees import PeerRun, Tree, Vector, sample_times, tree_of
 from mbs.scenes import bricard
 
 
 def integrators(scene: str) -> tuple[str, ...]:
-    """Those that make sense: explicit ones need a scene without loops; the trapezoidal rule of index 2 gives up at
-    singular positions and with redundant rows.
+    """Integrators of a scene: explicit ones need a scene without loops; the trapezoidal rule of index 2 fails at
+    singular positions and with redundant constraints.
     """
     if scene == "spatial_chain":
         return ("generalised alpha", "trapezoidal index 2", "RK44 (tree)")
@@ -28,7 +28,7 @@ def integrators(scene: str) -> tuple[str, ...]:
 
 
 def run(scene: str, h: float, end: float, samples: int, integrator: str) -> PeerRun:
-    """One run; the wall time is that of the solver's call."""
+    """Run a scene; the wall time is that of the solver's call."""
     explicit = integrator.startswith("RK44")
     if integrator not in integrators(scene):
         raise ValueError(f"{integrator!r} is not for {scene}")
@@ -37,9 +37,9 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     tree = tree_of(scene)
     columns = tree.components
     if "four_bar" in scene and "(tree)" not in integrator:
-        sensor, columns = _four_bar(mbs, len(tree.closures)), [0, 1]
+        sensor, columns = _add_four_bar(mbs, len(tree.closures)), [0, 1]
     else:
-        sensor = _closed_tree(mbs, scene, tree)
+        sensor = _add_closed_tree(mbs, scene, tree)
     large = len(tree.closures) > 10
     mbs.Assemble()
     s = exu.SimulationSettings()
@@ -63,21 +63,21 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     begin = time.perf_counter()
     try:
         finished = bool(mbs.SolveDynamic(s, solverType=kind, showHints=False, showCausingItems=False))
-    except Exception:  # the engine raises its own kinds when Newton's method fails
+    except Exception:  # the engine raises exceptions of several types when Newton's method fails
         finished = False
     wall = time.perf_counter() - begin
     table = np.atleast_2d(mbs.GetSensorStoredData(sensor))
     count = min(len(table), samples + 1)
-    times = samples_times(end, samples)[:count]
+    times = sample_times(end, samples)[:count]
     return PeerRun(times, table[:count, 1:][:, columns], wall, finished and count > samples)
 
 
-def _four_bar(mbs: Any, windows: int) -> int:
+def _add_four_bar(mbs: Any, windows: int) -> int:
     ground = mbs.AddObject(itemInterface.ObjectGround())
     tips: list[int] = []
     first = None
     for i in range(windows + 1):
-        body = _planar(mbs, (i, 0.5), (0.5, 0.0), -1.0)
+        body = _planar_body(mbs, (i, 0.5), (0.5, 0.0), -1.0)
         base = mbs.AddMarker(itemInterface.MarkerBodyPosition(bodyNumber=body, localPosition=[0, -0.5, 0]))
         foot = mbs.AddMarker(itemInterface.MarkerBodyPosition(bodyNumber=ground, localPosition=[i, 0, 0]))
         mbs.AddObject(itemInterface.ObjectJointRevolute2D(markerNumbers=[base, foot]))
@@ -92,16 +92,16 @@ def _four_bar(mbs: Any, windows: int) -> int:
                 )
             )
     for i in range(windows):
-        body = _planar(mbs, (i + 0.5, 1.0), (1.0, 0.0), 0.0)
+        body = _planar_body(mbs, (i + 0.5, 1.0), (1.0, 0.0), 0.0)
         for side, tip in ((-0.5, tips[i]), (0.5, tips[i + 1])):
             end = mbs.AddMarker(itemInterface.MarkerBodyPosition(bodyNumber=body, localPosition=[side, 0, 0]))
             mbs.AddObject(itemInterface.ObjectJointRevolute2D(markerNumbers=[end, tip]))
     return int(first)
 
 
-def _planar(mbs: Any, place: tuple[float, float], velocity: tuple[float, float], rate: float) -> int:
+def _planar_body(mbs: Any, position: tuple[float, float], velocity: tuple[float, float], rate: float) -> int:
     node = mbs.AddNode(
-        itemInterface.NodeRigidBody2D(referenceCoordinates=[*place, 0.0], initialVelocities=[*velocity, rate])
+        itemInterface.NodeRigidBody2D(referenceCoordinates=[*position, 0.0], initialVelocities=[*velocity, rate])
     )
     body = mbs.AddObject(itemInterface.ObjectRigidBody2D(physicsMass=1.0, physicsInertia=1.0 / 12.0, nodeNumber=node))
     centre = mbs.AddMarker(itemInterface.MarkerBodyMass(bodyNumber=body))
@@ -109,8 +109,8 @@ def _planar(mbs: Any, place: tuple[float, float], velocity: tuple[float, float],
     return int(body)
 
 
-def _tree(mbs: Any, tree: Tree) -> tuple[int, int]:
-    """A kinematic tree and its sensor; joint axes as the third axis of each link's frame."""
+def _add_tree(mbs: Any, tree: Tree) -> tuple[int, int]:
+    """Add a kinematic tree and its sensor; each joint axis is the third axis of its link's frame."""
     n = len(tree.links)
     frames = [_frame(link.axis) for link in tree.links]
     before = [np.eye(3) if link.parent == 0 else frames[link.parent - 1] for link in tree.links]
@@ -123,19 +123,19 @@ def _tree(mbs: Any, tree: Tree) -> tuple[int, int]:
         )
     )
     inertias, transformations = exu.Matrix3DList(), exu.Matrix3DList()
-    coms, places = exu.Vector3DList(), exu.Vector3DList()
+    coms, offsets = exu.Vector3DList(), exu.Vector3DList()
     for link, R, R_before in zip(tree.links, frames, before, strict=True):
         inertias.Append(R.T @ link.inertia @ R)
         coms.Append(R.T @ link.centre)
         transformations.Append(R_before.T @ R)
-        places.Append(R_before.T @ link.place)
+        offsets.Append(R_before.T @ link.position)
     kinematic_tree = mbs.AddObject(
         itemInterface.ObjectKinematicTree(
             nodeNumber=node,
             jointTypes=[exu.JointType.RevoluteZ] * n,
             linkParents=[link.parent - 1 for link in tree.links],
             jointTransformations=transformations,
-            jointOffsets=places,
+            jointOffsets=offsets,
             linkInertiasCOM=inertias,
             linkCOMs=coms,
             linkMasses=[link.mass for link in tree.links],
@@ -155,9 +155,9 @@ def _tree(mbs: Any, tree: Tree) -> tuple[int, int]:
     return int(kinematic_tree), int(sensor)
 
 
-def _on_link(mbs: Any, tree_object: int, tree: Tree, body: int, place: Vector) -> int:
-    """Marker on a link."""
-    local = _frame(tree.links[body - 1].axis).T @ place
+def _link_marker(mbs: Any, tree_object: int, tree: Tree, body: int, point: Vector) -> int:
+    """Add a marker at a point of a link."""
+    local = _frame(tree.links[body - 1].axis).T @ point
     return int(
         mbs.AddMarker(
             itemInterface.MarkerKinematicTreeRigid(objectNumber=tree_object, linkNumber=body - 1, localPosition=local)
@@ -173,26 +173,26 @@ def _frame(axis: Vector) -> Vector:
     return np.column_stack([x, np.cross(z, x), z])
 
 
-def _closed_tree(mbs: Any, scene: str, tree: Tree) -> int:
-    """A tree with its loops: in Bricard's mechanism one hinge, elsewhere points in the plane of the links."""
-    tree_object, sensor = _tree(mbs, tree)
+def _add_closed_tree(mbs: Any, scene: str, tree: Tree) -> int:
+    """Add a tree with closed loops: in Bricard's mechanism by a hinge, else by points in the plane of the links."""
+    tree_object, sensor = _add_tree(mbs, tree)
     if scene == "bricard":
         loop, hinge = tree.closures[0], _frame(np.array(bricard.AXES[5], float))
-        end = _on_link(mbs, tree_object, tree, loop.body_1, loop.place_1)
+        end = _link_marker(mbs, tree_object, tree, loop.body_1, loop.point_1)
         ground = mbs.AddObject(itemInterface.ObjectGround())
-        foot = mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground, localPosition=loop.place_2))
-        turned = _frame(tree.links[loop.body_1 - 1].axis).T @ hinge
+        foot = mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground, localPosition=loop.point_2))
+        hinge_on_link = _frame(tree.links[loop.body_1 - 1].axis).T @ hinge
         mbs.AddObject(
             itemInterface.GenericJoint(
                 markerNumbers=[end, foot],
                 constrainedAxes=[1, 1, 1, 1, 1, 0],
-                rotationMarker0=turned,
+                rotationMarker0=hinge_on_link,
                 rotationMarker1=hinge,
             )
         )
         return sensor
     for loop in tree.closures:
-        far = _on_link(mbs, tree_object, tree, loop.body_1, loop.place_1)
-        tip = _on_link(mbs, tree_object, tree, loop.body_2, loop.place_2)
+        far = _link_marker(mbs, tree_object, tree, loop.body_1, loop.point_1)
+        tip = _link_marker(mbs, tree_object, tree, loop.body_2, loop.point_2)
         mbs.AddObject(itemInterface.GenericJoint(markerNumbers=[far, tip], constrainedAxes=[1, 1, 0, 0, 0, 0]))
     return sensor

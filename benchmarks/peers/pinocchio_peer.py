@@ -1,7 +1,7 @@
 """The shared scenes in Pinocchio: trees of revolute joints, loops closed by points of its constrained dynamics.
 
-Pinocchio has no stepper: Runge and Kutta's rule of order 4 is a loop in Python over its accelerations. Only the time
-within these compiled calls counts. Baumgarte's corrections are its own.
+Pinocchio has no integrator: the Runge-Kutta method of order 4 is a loop in Python over its accelerations. Only the time
+of these compiled calls counts. Baumgarte's stabilisation is its own.
 """
 
 from __future__ import annotations
@@ -11,19 +11,19 @@ import time
 import numpy as np
 import pinocchio as pin
 
-from benchmarks.peers.trees import PeerRun, Tree, Vector, samples_times, tree_of
+from benchmarks.peers.trees import PeerRun, Tree, Vector, sample_times, tree_of
 
 INTEGRATORS = ("RK4", "RK4, corrected")
-CORRECTION = 0.2  # Baumgarte's corrections have the time constant h / CORRECTION
+CORRECTION = 0.2  # Baumgarte's stabilisation has the time constant h / CORRECTION
 PROXIMAL = {"bricard": (1e-6, 1e-6, 3)}  # accuracy, damping and iterations for the redundant rows of loops
 OTHER_LOOPS = 1e-10, 1e-10, 10
-FAR = 1e3
+DIVERGED = 1e3  # rad/s
 Loops = list[pin.RigidConstraintModel]
 Proximal = tuple[float, float, int]
 
 
 def run(scene: str, h: float, end: float, samples: int, integrator: str) -> PeerRun:
-    """One run; the wall time is that of the steps alone."""
+    """Run a scene; the wall time is that of the steps alone."""
     if integrator not in integrators(scene):
         raise ValueError(f"{integrator!r} is not for {scene}")
     tree = tree_of(scene)
@@ -45,24 +45,24 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
             q = q + h / 6.0 * (v + 2.0 * (v2 + v3) + v4)
             v = v + h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4)
         states.append((q, v))
-        if not np.abs(v).max() < FAR:
+        if not np.abs(v).max() < DIVERGED:
             break
-    places = []
+    positions = []
     for q, v in states:
         pin.forwardKinematics(model, data, q, v)
-        places.append(data.oMi[tree.body].act(tree.point))
-    whole = len(states) == samples + 1
-    times = samples_times(end, samples)[: len(states)]
-    return PeerRun(times, np.array(places)[:, tree.components], acceleration.wall, whole)
+        positions.append(data.oMi[tree.body].act(tree.point))
+    finished = len(states) == samples + 1
+    times = sample_times(end, samples)[: len(states)]
+    return PeerRun(times, np.array(positions)[:, tree.components], acceleration.wall, finished)
 
 
 def integrators(scene: str) -> tuple[str, ...]:
-    """Those that make sense: without loops there is nothing to correct."""
+    """Integrators of a scene: without loops there is nothing to stabilise."""
     return INTEGRATORS[:1] if scene == "spatial_chain" else INTEGRATORS
 
 
 class _Acceleration:
-    """Accelerations at (q, v); `wall` adds up the time of the compiled calls, s."""
+    """Accelerations at (q, v); `wall`: total time of the compiled calls, s."""
 
     def __init__(self, model: pin.Model, data: pin.Data, loops: Loops, rate: float, proximal: Proximal) -> None:
         self.model, self.data, self.wall = model, data, 0.0
@@ -89,26 +89,26 @@ class _Acceleration:
 
 
 def _build(tree: Tree) -> tuple[pin.Model, Loops]:
-    """Model and closures."""
+    """Model of the tree and constraints that close its loops."""
     model = pin.Model()
     model.gravity.linear = tree.gravity
     for link in tree.links:
         joint = pin.JointModelRevoluteUnaligned(link.axis)
-        number = model.addJoint(link.parent, joint, _at(link.place), f"joint {model.njoints}")
+        number = model.addJoint(link.parent, joint, _translation(link.position), f"joint {model.njoints}")
         model.appendBodyToJoint(number, pin.Inertia(link.mass, link.centre, link.inertia), pin.SE3.Identity())
     return model, [
         pin.RigidConstraintModel(
             pin.ContactType.CONTACT_3D,
             model,
             loop.body_1,
-            _at(loop.place_1),
+            _translation(loop.point_1),
             loop.body_2,
-            _at(loop.place_2),
+            _translation(loop.point_2),
             pin.ReferenceFrame.LOCAL,
         )
         for loop in tree.closures
     ]
 
 
-def _at(place: Vector) -> pin.SE3:
-    return pin.SE3(np.eye(3), place)
+def _translation(vector: Vector) -> pin.SE3:
+    return pin.SE3(np.eye(3), vector)

@@ -1,4 +1,4 @@
-"""The shared scenes as trees of links on revolute joints whose loops points close, and what a peer hands back."""
+"""The shared scenes as trees of revolute joints whose loops are closed at points, and the result of a peer's run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Z = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True)
 class PeerRun:
-    """Positions (n, k) at times (n,); wall time of the steps, s."""
+    """Positions of the output point (n, k), m, at times (n,), s; wall time of the steps, s."""
 
     t: Vector
     positions: Vector
@@ -24,20 +24,21 @@ class PeerRun:
     finished: bool
 
 
-def samples_times(end: float, samples: int) -> Vector:
-    """Times of the start and of `samples` equal intervals."""
+def sample_times(end: float, samples: int) -> Vector:
+    """Ends of `samples` equal intervals and the start, s, shape (samples + 1,)."""
     return np.linspace(0.0, end, samples + 1)
 
 
 @dataclass(frozen=True)
 class Link:
-    """A body and the joint it hangs on, at `place` of the parent (0: the ground), with axes parallel at the start.
+    """A body and its revolute joint at `position` on the parent (0: the ground); all axes are parallel at the start.
 
-    Centre of mass, inertia about it (kg m^2), mass (kg), rate of the joint at the start (rad/s).
+    `centre`: centre of mass from the joint, m; `inertia`: about it, kg m^2; `mass`: kg; `rate`: of the joint at the
+    start, rad/s.
     """
 
     parent: int
-    place: Vector
+    position: Vector
     axis: Vector
     centre: Vector
     inertia: Vector
@@ -47,17 +48,17 @@ class Link:
 
 @dataclass(frozen=True)
 class Closure:
-    """Two points that coincide: bodies (0: the ground) and places on them."""
+    """Two points that coincide: bodies (0: the ground) and positions on them, m."""
 
     body_1: int
-    place_1: Vector
+    point_1: Vector
     body_2: int
-    place_2: Vector
+    point_2: Vector
 
 
 @dataclass
 class Tree:
-    """A scene: bodies are numbered from 1 on; the point that is compared, and its components."""
+    """A scene: bodies are numbered from 1 on; `body`, `point`, `components`: of the output point."""
 
     gravity: Vector
     body: int
@@ -67,13 +68,13 @@ class Tree:
     closures: list[Closure] = field(default_factory=list)
 
     def add(self, link: Link) -> int:
-        """Number of the new body."""
+        """Add a body; returns its number."""
         self.links.append(link)
         return len(self.links)
 
 
 def tree_of(scene: str) -> Tree:
-    """A shared scene."""
+    """Tree of a shared scene, by its name."""
     if "four_bar" in scene:
         return _four_bar(int(scene.rpartition("_")[2]) if scene[-1].isdigit() else 2)
     return _bricard() if scene == "bricard" else _chain()
@@ -96,11 +97,11 @@ def _bricard() -> Tree:
     tree = Tree(-9.81 * Y, 2, points[2] - points[1], [0, 1, 2])
     for k in range(5):
         along = points[k + 1] - points[k]
-        place = points[0] if k == 0 else points[k] - points[k - 1]
+        position = points[0] if k == 0 else points[k] - points[k - 1]
         inertia = _rod(along / bricard.LENGTH, bricard.MASS, bricard.LENGTH, bricard.SECTION)
-        last = tree.add(Link(last, place, np.array(bricard.AXES[k], float), 0.5 * along, inertia, bricard.MASS))
+        last = tree.add(Link(last, position, np.array(bricard.AXES[k], float), 0.5 * along, inertia, bricard.MASS))
     end, axis = points[5] - points[4], np.array(bricard.AXES[5], float)
-    # two points of the last axis stay where they are: the revolute on the ground
+    # two fixed points of the last axis: the revolute joint on the ground
     tree.closures += [Closure(last, end + s * axis, 0, points[5] + s * axis) for s in (0.0, 1.0)]
     return tree
 
@@ -111,9 +112,9 @@ def _chain() -> Tree:
     inertia = _rod(along, s.MASS, s.LENGTH, s.SECTION)
     tree = Tree(-9.81 * Z, s.LINKS, s.LENGTH * along, [0, 1, 2])
     for k in range(s.LINKS):
-        place, axis = s.LENGTH * along if k else np.zeros(3), across if k % 2 == 0 else square
+        position, axis = s.LENGTH * along if k else np.zeros(3), across if k % 2 == 0 else square
         rate = s.SPIN if k < 2 else 0.0
-        last = tree.add(Link(last, place, axis, 0.5 * s.LENGTH * along, inertia, s.MASS, rate))
+        last = tree.add(Link(last, position, axis, 0.5 * s.LENGTH * along, inertia, s.MASS, rate))
     return tree
 
 

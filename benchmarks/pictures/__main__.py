@@ -1,6 +1,6 @@
 """Films and pictures of the documentation: ``python -m benchmarks.pictures PART``.
 
-All are drawn by a Chromium without a window. Needs a Chromium, Chrome or Edge, and
+All are drawn by a headless browser. Needs Chromium, Chrome or Edge, and
 ``pip install "ali3[pictures,viewer]"``, the simulator also the extra ``simulator``.
 """
 

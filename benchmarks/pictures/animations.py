@@ -40,19 +40,19 @@ class Animation:
 
     title: str
     record: Callable[[], Recording]
-    """Runs the scene."""
+    """Simulates the scene."""
     begin: float
     end: float
-    """`begin`, `end`: of the film, s of the run."""
+    """`begin`, `end`: of the film, in time of the run, s."""
     speed: float = 1.0
-    """1 is real time."""
+    """Speed of the film over real time."""
     camera: str | None = None
-    """Its name; by default the first."""
+    """Name of the camera; by default the first."""
     options: Mapping[str, Any] = field(default_factory=dict)
 
 
 def film(name: str, path: Path) -> WrittenFilm:
-    """Run a scene and write its film.
+    """Simulate a scene and write its film.
 
     `name`: of `ANIMATIONS`; `path`: ``.webp``, ``.gif`` or ``.mp4``.
     """
@@ -71,7 +71,7 @@ def film(name: str, path: Path) -> WrittenFilm:
 
 
 def recording_of(*runs: mbs.Trajectory) -> Recording:
-    """Runs of one System, one after the other."""
+    """A recording of successive runs of one System."""
     parts = [run.recording() for run in runs]
     if len(parts) == 1:
         return parts[0]
@@ -92,7 +92,7 @@ def _manoeuvre(name: str, car: str = manoeuvres.PROTOTYPE) -> Callable[[], Recor
 
 
 def _lane_change(car: str) -> Callable[[], Recording]:
-    """The replay of a drive through the lanes of ISO 3888-1, with their cones."""
+    """Record the replay of a drive through the lanes of ISO 3888-1, with their cones."""
 
     def record() -> Recording:
         result = _manoeuvre("double_lane_change_replay", car)()
@@ -162,4 +162,4 @@ ANIMATIONS = {
         "The hatchback changes lanes and back", _lane_change("hatchback"), 1.0, 6.0, camera="trackside"
     ),
 }
-"""By the name of their file."""
+"""Films by the name of their file."""

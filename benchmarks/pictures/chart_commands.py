@@ -1,4 +1,4 @@
-"""Draws the charts of the pages again, each by the command that its page names."""
+"""Draws charts of the pages again, each by the command that its page names."""
 
 import contextlib
 import re
@@ -26,10 +26,10 @@ from mbs.worlds.command import main as draw_world
 
 
 def charts(_: bool) -> list[RemadeTable]:
-    """All charts of `DRAWN`, as they are drawn now."""
+    """All charts of `CHARTS`, drawn again."""
     results = []
     with tempfile.TemporaryDirectory() as folder:
-        for name, draw in DRAWN.items():
+        for name, draw in CHARTS.items():
             file = Path(folder, name)
             with redirect_stdout(StringIO()):
                 draw(file)
@@ -42,7 +42,7 @@ def _prototype() -> Path:
 
 
 def _first_command(file: Path) -> None:
-    """The picture of README.md's first command."""
+    """Draw the picture of README.md's first command."""
     out = file.with_suffix("")
     if run([str(_prototype()), "--manoeuvre", "double_lane_change", "--out", str(out)]):
         raise RuntimeError("The first command of README.md has refused steps.")
@@ -54,8 +54,8 @@ def _frame(car: str, file: Path) -> None:
     draw_gauges(load(car), str(file))
 
 
-def _compared(file: Path) -> None:
-    """The fit of docs/compare.md: its log is made, and its command run, as the page has them."""
+def _fit(file: Path) -> None:
+    """Draw the fit of docs/compare.md by the code and the command of the page."""
     page = (DOCS / "compare.md").read_text(encoding="utf-8")
     (code,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     command = re.search(r"^    ali3 compare (dist/PrototypeCar.fmu (?:.*\\\n)*.*)", page, re.MULTILINE)
@@ -78,12 +78,12 @@ def _map(file: Path) -> None:
     draw_world(["--world", "proving_ground", "--out", str(file.parent), "--picture", str(file)])
 
 
-DRAWN: dict[str, Callable[[Path], None]] = {
+CHARTS: dict[str, Callable[[Path], None]] = {
     "double_lane_change.png": _first_command,
     "frame_gauges.png": partial(_frame, "prototype"),
-    "compare.svg": _compared,
+    "compare.svg": _fit,
     "hatchback_frame.png": partial(_frame, "hatchback"),
     "kinematics_hatchback.png": _travel,
     "proving_ground.png": _map,
 }
-"""By name in docs/images, what draws it within seconds."""
+"""Functions that draw the charts within seconds, by file name in docs/images."""

@@ -1,4 +1,4 @@
-"""Cars driven in worlds of the simulator, for films."""
+"""Drives of cars in worlds of the simulator, for films."""
 
 import json
 from collections.abc import Mapping
@@ -15,20 +15,20 @@ from mbs.settings.input_signals import Signal
 from mbs.vehicle import load
 from mbs.worlds import command as world_command
 
-STEP = 0.002
-EVERY = 5
+STEP = 0.002  # s
+EVERY = 5  # steps between recorded instants
 
 
 @dataclass(frozen=True)
 class Drive:
-    """A drive without a driver."""
+    """A drive with inputs that are functions of time."""
 
     world: str
     start: mbs.Pose
     inputs: Mapping[str, Signal]
-    """By time, s."""
+    """Inputs over time, s."""
     stop_time: float
-    """s."""
+    """Duration, s."""
     car: str = "prototype"
 
 
@@ -55,11 +55,11 @@ DRIVES = {
     "rough": Drive("rough", mbs.Pose(x=9.0, speed=20.0), {"throttle": 0.1}, 4.5, "hatchback"),
     "washboard": Drive("washboard", mbs.Pose(x=14.0, speed=6.0), {"throttle": ([0.0, 6.0], [0.1, 0.4])}, 6.0),
 }
-"""By the name of their film."""
+"""Drives by the name of their film."""
 
 
 def drive(name: str) -> Recording:
-    """Drive, and give what is drawn with the world in it. Raises `UserError`: the world cannot be made."""
+    """Simulate a drive; its recording with the drawn world. Raises `UserError`: the world cannot be made."""
     d = DRIVES[name]
     with TemporaryDirectory() as folder:
         with redirect_stdout(StringIO()):
@@ -71,7 +71,7 @@ def drive(name: str) -> Recording:
         run = mbs.simulate(car, d.stop_time, STEP, d.inputs, parameters=road, pose=d.start, every=EVERY, progress=False)
         drawing = json.loads(Path(folder, f"{d.world}.json").read_text(encoding="utf-8"))
         assert run.drawing is not None
-        # Those of the file have no scenery, and are many; what was left out of the run is found by its road.
+        # without the roads of the run, which have no scenery; those of the world's file are added below
         result = run.recording({**run.drawing.scene, "roads": []})
     scene = {**(result.scene or {}), "roads": drawing["roads"], "scenery": drawing["scenery"]}
     return Recording(scene, result.t, result.columns, result.units, result.name)

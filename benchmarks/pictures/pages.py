@@ -1,4 +1,4 @@
-"""Pictures of pages at one instant, compared pixel by pixel with those by the script of another checkout."""
+"""Pictures of pages at one instant, compared pixel by pixel with those of the script of another checkout."""
 
 import io
 import json
@@ -27,14 +27,14 @@ from viewer.page_data import page_data
 
 DESKTOP = (1280, 720)
 PHONE = (390, 780)
-LYING = (780, 390)
+PHONE_LANDSCAPE = (780, 390)
 ALIKE = 2
-"""Steps of 256 of a colour that two pictures may differ by."""
+"""Largest difference of equal pixels in a colour, of 255."""
 LIVE = "live"
 SIMULATOR = "simulator"
 _DATA = re.compile(r'<script type="application/json" id="data">(.*?)</script>', re.DOTALL)
 _MEASURED = "[data-a3=pace], [data-a3=flow], [data-a3=missed], [data-a3='step time']"
-"""Figures of this machine, which are another ones each time."""
+"""Elements with times of this machine, which differ in each picture."""
 _DRIVEN = "async () => { await player.ready; await player.set('throttle', 0.6); await player.advance(600); }"
 _DRAW = """(quality) => {
   (player.player ?? player.cockpit ?? player).setLook({ quality });
@@ -43,56 +43,54 @@ _STANDS = "window.player?.frames?.newest && !player.frames.newest.running && pla
 
 
 @dataclass(frozen=True)
-class Shown:
+class Page:
     """A page and the instant of its picture."""
 
     runs: tuple[str, ...]
-    """Films whose runs it shows; or `LIVE`, the FMU of the first command in the tab; or `SIMULATOR`."""
+    """Films whose runs the page shows; or `LIVE`: the FMU of the first command runs in the page; or `SIMULATOR`."""
     time: float = 0.0
-    """s"""
+    """Instant, s."""
     size: tuple[int, int] = DESKTOP
     """Pixels."""
     options: Mapping[str, Any] = field(default_factory=dict)
-    """Of the player; `theme` and `camera` of the other shells too."""
+    """Options of the player; `theme` and `camera` also of the other pages."""
     keys: tuple[str, ...] = ()
-    """That are pressed before."""
+    """Keys that are pressed before the picture."""
     quality: str = "medium"
-    """One that does not follow the speed of this machine."""
+    """Drawing quality, independent of the speed of this machine."""
 
 
 CAR = "double_lane_change"
 OTHER = "hatchback_lane_change"
 PAGES = {
     **{
-        name: Shown(
-            (name,), film.begin + 0.6 * (film.end - film.begin), options={**film.options, "camera": film.camera}
-        )
+        name: Page((name,), film.begin + 0.6 * (film.end - film.begin), options={**film.options, "camera": film.camera})
         for name, film in ANIMATIONS.items()
     },
-    "ghosts": Shown((CAR, OTHER), 3.0, options={"camera": "chase"}),
-    "arrows": Shown((CAR,), 3.4, options={"arrows": True, "plots": ["speed", "chassis.ay"]}),
-    "arrows_plane": Shown(("slider_crank",), 2.0, options={"arrows": True}),
-    "draft": Shown(("rough",), 2.4, quality="draft"),
-    "low": Shown(("proving_ground",), 4.0, quality="low"),
-    "stress_phone": Shown(("kerb_test",), 8.2, PHONE, {"stress": True, "deformation": 30.0}),
-    "world_phone": Shown(("proving_ground",), 3.0, LYING),
-    "settings_dark": Shown((CAR,), 3.0, options={"theme": "dark"}, keys=("o",)),
-    "signals_dark": Shown(("puma",), 3.0, PHONE, {"theme": "dark", "plots": []}, ("g",)),
-    "keys": Shown((CAR,), 3.0, keys=("?",)),
-    "live": Shown((LIVE,), quality="low"),
-    "live_stress": Shown((LIVE,), quality="low", options={"camera": "orbit"}, keys=("b",)),
-    "live_phone": Shown((LIVE,), quality="low", size=PHONE),
-    "simulator": Shown((SIMULATOR,), quality="low"),
-    "simulator_stress": Shown((SIMULATOR,), quality="low", options={"camera": "orbit"}, keys=("b", "f")),
-    "simulator_panels": Shown((SIMULATOR,), quality="low", keys=("g",)),
-    "simulator_map": Shown((SIMULATOR,), quality="low", options={"camera": "map"}),
-    "simulator_phone": Shown((SIMULATOR,), quality="low", size=LYING),
+    "ghosts": Page((CAR, OTHER), 3.0, options={"camera": "chase"}),
+    "arrows": Page((CAR,), 3.4, options={"arrows": True, "plots": ["speed", "chassis.ay"]}),
+    "arrows_plane": Page(("slider_crank",), 2.0, options={"arrows": True}),
+    "draft": Page(("rough",), 2.4, quality="draft"),
+    "low": Page(("proving_ground",), 4.0, quality="low"),
+    "stress_phone": Page(("kerb_test",), 8.2, PHONE, {"stress": True, "deformation": 30.0}),
+    "world_phone": Page(("proving_ground",), 3.0, PHONE_LANDSCAPE),
+    "settings_dark": Page((CAR,), 3.0, options={"theme": "dark"}, keys=("o",)),
+    "signals_dark": Page(("puma",), 3.0, PHONE, {"theme": "dark", "plots": []}, ("g",)),
+    "keys": Page((CAR,), 3.0, keys=("?",)),
+    "live": Page((LIVE,), quality="low"),
+    "live_stress": Page((LIVE,), quality="low", options={"camera": "orbit"}, keys=("b",)),
+    "live_phone": Page((LIVE,), quality="low", size=PHONE),
+    "simulator": Page((SIMULATOR,), quality="low"),
+    "simulator_stress": Page((SIMULATOR,), quality="low", options={"camera": "orbit"}, keys=("b", "f")),
+    "simulator_panels": Page((SIMULATOR,), quality="low", keys=("g",)),
+    "simulator_map": Page((SIMULATOR,), quality="low", options={"camera": "map"}),
+    "simulator_phone": Page((SIMULATOR,), quality="low", size=PHONE_LANDSCAPE),
 }
-"""Every scene of the gallery, cars in worlds, stress, ghosts, arrows, the three shells, desktop and phone."""
+"""Every scene of the gallery, cars in worlds, stress, ghosts, arrows, the three kinds of page, desktop and phone."""
 
 
 def compare(options: Namespace) -> list[dict[str, Any]]:
-    """Draw pages with the script of this checkout and, if there is one, of another; a row for each page."""
+    """Draw pages with the script of this checkout and, if given, of another; a row for each page."""
     folder = Path(options.out)
     make_folder(folder)
     scripts = {"": script()}
@@ -102,14 +100,14 @@ def compare(options: Namespace) -> list[dict[str, Any]]:
     rows = []
     with _chromium() as chromium:
         for name in watched(options.only):
-            shown = PAGES[name]
+            entry = PAGES[name]
             files = {end: folder / f"{name}{end}.png" for end in scripts}
             for end, page_script in scripts.items():
                 with _served(name, folder) as (address, text):
-                    files[end].write_bytes(_drawn(chromium, shown, address, text, page_script))
-            row = {"page": name, "size": " x ".join(map(str, shown.size)), "shows": ", ".join(shown.runs)}
+                    files[end].write_bytes(_screenshot(chromium, entry, address, text, page_script))
+            row = {"page": name, "size": " x ".join(map(str, entry.size)), "shows": ", ".join(entry.runs)}
             if options.other:
-                row["pixels that differ"] = _differing(*files.values())
+                row["pixels that differ"] = _count_differences(*files.values())
             rows.append(row)
     return rows
 
@@ -126,22 +124,22 @@ def _chromium() -> Iterator[Any]:
 
 @contextmanager
 def _served(name: str, folder: Path) -> Iterator[tuple[str, str]]:
-    """The address of a page, and its text where it is not a page of the simulator."""
-    shown = PAGES[name]
-    if shown.runs == (SIMULATOR,):
+    """Context of a page: its address, and its text if it is not a page of the simulator."""
+    entry = PAGES[name]
+    if entry.runs == (SIMULATOR,):
         with simulator(_car(), ["--place", "slalom"]) as address:
             yield address, ""
         return
-    data = folder / f"{name}.json"  # kept: runs take longer than pictures
+    data = folder / f"{name}.json"  # reused: runs take longer than pictures
     if not data.is_file():
-        data.write_text(json.dumps(_data(shown)), encoding="utf-8")
-    function = "ALi3Viewer.drive" if shown.runs == (LIVE,) else "ALi3Viewer.playPage"
+        data.write_text(json.dumps(_data(entry)), encoding="utf-8")
+    function = "ALi3Viewer.drive" if entry.runs == (LIVE,) else "ALi3Viewer.playPage"
     file = folder / f"{name}.html"
     yield file.resolve().as_uri(), html_document(name, json.loads(data.read_text(encoding="utf-8")), function)
 
 
-def _data(shown: Shown) -> dict[str, Any]:
-    if shown.runs == (LIVE,):
+def _data(entry: Page) -> dict[str, Any]:
+    if entry.runs == (LIVE,):
         with TemporaryDirectory() as directory:
             with redirect_stdout(io.StringIO()):
                 view(["--live", "--paused", "--no-open", "--out", directory, str(_car())])
@@ -149,12 +147,12 @@ def _data(shown: Shown) -> dict[str, Any]:
             result = _DATA.search(file.read_text(encoding="utf-8"))
             assert result is not None
             return dict(json.loads(result[1]))
-    runs = [_recorded(name).thinned() for name in shown.runs]
-    return page_data(runs, {key: value for key, value in shown.options.items() if value is not None})
+    runs = [_recording(name).thinned() for name in entry.runs]
+    return page_data(runs, {key: value for key, value in entry.options.items() if value is not None})
 
 
 @cache
-def _recorded(name: str) -> Any:
+def _recording(name: str) -> Any:
     return ANIMATIONS[name].record()
 
 
@@ -163,15 +161,15 @@ def _car() -> Path:
     return Path(fmu_of_scene("prototype_car", lambda words: None))
 
 
-def _drawn(chromium: Any, shown: Shown, address: str, text: str, page_script: str) -> bytes:
-    """A picture of a page with a script in place of its own."""
-    width, height = shown.size
-    scheme = shown.options.get("theme", "light")
+def _screenshot(chromium: Any, entry: Page, address: str, text: str, page_script: str) -> bytes:
+    """Screenshot of a page with a script in place of its own."""
+    width, height = entry.size
+    scheme = entry.options.get("theme", "light")
     page = chromium.new_page(
         viewport={"width": width, "height": height},
         color_scheme=scheme,
         bypass_csp=True,
-        permissions=["local-network-access"],  # a page that comes through playwright is of no network
+        permissions=["local-network-access"],  # a page that playwright serves has no network
     )
     page.set_default_timeout(120_000)
     if text:
@@ -179,36 +177,36 @@ def _drawn(chromium: Any, shown: Shown, address: str, text: str, page_script: st
     else:
         page.route(re.compile(re.escape(address)), lambda route: _with_script(route, page_script))
     page.goto(address)
-    if shown.runs == (SIMULATOR,):
-        _until(page, "Boolean(window.player?.frames?.newest)")
+    if entry.runs == (SIMULATOR,):
+        _wait_until(page, "Boolean(window.player?.frames?.newest)")
         if page.evaluate("player.frames.newest.running"):
             page.keyboard.press("p")
-        _until(page, "!player.frames.newest.running")
+        _wait_until(page, "!player.frames.newest.running")
         page.keyboard.press("Home")
-        _until(page, _STANDS)
-    elif shown.runs == (LIVE,):
+        _wait_until(page, _STANDS)
+    elif entry.runs == (LIVE,):
         page.evaluate(_DRIVEN)
     else:
-        page.evaluate("async (time) => { await player.ready; await player.seek(time); }", shown.time)
-    if shown.runs in ((SIMULATOR,), (LIVE,)) and "camera" in shown.options:
-        page.evaluate("name => player.camera(name)", shown.options["camera"])
-    page.evaluate(_DRAW, shown.quality)
-    for key in shown.keys:
+        page.evaluate("async (time) => { await player.ready; await player.seek(time); }", entry.time)
+    if entry.runs in ((SIMULATOR,), (LIVE,)) and "camera" in entry.options:
+        page.evaluate("name => player.camera(name)", entry.options["camera"])
+    page.evaluate(_DRAW, entry.quality)
+    for key in entry.keys:
         page.keyboard.press(key)
-    _until(page, "!document.querySelector('[data-a3=events] > *')")  # they fade
+    _wait_until(page, "!document.querySelector('[data-a3=events] > *')")  # they fade
     page.wait_for_timeout(1500)
     picture = bytes(page.screenshot(animations="disabled", mask=[page.locator(_MEASURED)]))
     page.close()
     return picture
 
 
-def _until(page: Any, holds: str) -> None:
-    """Wait until an expression is true; not by pictures, of which there are few here."""
+def _wait_until(page: Any, expression: str) -> None:
+    """Wait until an expression is true; polled by time, since few frames are drawn."""
     for _ in range(300):
-        if page.evaluate(holds):
+        if page.evaluate(expression):
             return
         page.wait_for_timeout(200)
-    raise RuntimeError(f"Not within a minute: {holds}")
+    raise RuntimeError(f"Not within a minute: {expression}")
 
 
 def _with_script(route: Any, page_script: str) -> None:
@@ -216,7 +214,7 @@ def _with_script(route: Any, page_script: str) -> None:
     route.fulfill(response=answer, body=answer.text().replace(script(), page_script))
 
 
-def _differing(*files: Path) -> int:
+def _count_differences(*files: Path) -> int:
     from PIL import Image
 
     one, other = (np.asarray(Image.open(file).convert("RGB")).astype(int) for file in files)

@@ -1,4 +1,4 @@
-"""The simulator as it is driven through its pages: pictures with the instruments of this machine."""
+"""Pictures of the simulator, driven through its page, with the instruments of this machine."""
 
 import io
 import re
@@ -15,25 +15,25 @@ from ali3.files import atomic_file, make_folder
 from benchmarks.shared.command import watched
 from viewer import browser
 
-SIZE = (960, 540)  # pixels: small, and no words lie below a legend
+SIZE = (960, 540)  # pixels: small, and no text is hidden by a legend
 NEWEST = "player.frames.newest"
 RATES = f"({{ ...player.flow, missed: {NEWEST}.missed, worst: {NEWEST}.worst, time: {NEWEST}.time }})"
 
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture of the simulator, and when it is taken."""
+    """A picture of the simulator and the drive before it."""
 
     place: str
-    """Where the car starts, of the proving ground."""
-    held: tuple[tuple[str, float], ...]
-    """Keys that are held together with the one for the throttle, one after the other, and for how long, s."""
+    """Start of the car in the proving ground."""
+    pressed: tuple[tuple[str, float], ...]
+    """Successive keys that are pressed in addition to the throttle, and their durations, s."""
     camera: str
-    """Name of the view as the page's list has it."""
+    """Name of the view in the list of the page."""
     fidelity: int = 0
-    """Of the car's FMU, 0 rigid to 4."""
+    """Fidelity of the car's FMU, 0 (rigid) to 4."""
     acts: tuple[str, ...] = ()
-    """Keys before the picture is taken."""
+    """Keys that are pressed before the picture."""
 
 
 SHOTS = {
@@ -45,7 +45,7 @@ SHOTS = {
 
 @contextmanager
 def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
-    """Start the simulator; gives its address."""
+    """Context of a running simulator; yields its address."""
     command = [sys.executable, "-m", "ali3", "simulator", str(fmu), "--no-open", "--no-devices", *options]
     host = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     output = ""
@@ -63,12 +63,12 @@ def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
 
 
 def drive(page: Any, shot: Shot) -> None:
-    """Until the picture is to be taken."""
+    """Drive until the picture is taken."""
     page.wait_for_function("window.player?.frames?.newest?.running")
     if wrong := page.evaluate("name => player.camera(name)", shot.camera):
         raise RuntimeError(wrong)
     page.keyboard.down("w")
-    for key, seconds in shot.held:
+    for key, seconds in shot.pressed:
         if key:
             page.keyboard.down(key)
         page.wait_for_timeout(1e3 * seconds)
@@ -82,7 +82,7 @@ def drive(page: Any, shot: Shot) -> None:
 
 
 def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:
-    """Drive, write the picture, and give its rates."""
+    """Drive, write the picture, and return frame rates and times."""
     from PIL import Image
     from playwright.sync_api import sync_playwright
 
@@ -102,7 +102,7 @@ def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:
 
 
 def take_all(names: Sequence[str], folder: Path) -> None:
-    """Build the car, drive, draw, say where and with which rates."""
+    """Build the car, write all pictures, and print their paths and frame rates."""
     make_folder(folder)
     with TemporaryDirectory() as built:
         build = [sys.executable, "-m", "ali3", "build", "prototype", "--kind", "native"]

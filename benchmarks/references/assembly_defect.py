@@ -10,6 +10,6 @@ COMPONENTS = ("T", "My", "Mz")
 
 
 def reference() -> dict[str, NDArray[np.float64]]:
-    """Time, s, and the three moments, N m, each shape (n,)."""
+    """Time "t", s, and three moments, N m, each of shape (n,)."""
     data = np.loadtxt(REFERENCE, delimiter=",", skiprows=2)
     return dict(zip(("t", *COMPONENTS), data.T, strict=True))

@@ -1,4 +1,4 @@
-"""A box that falls on the ground with its corners: Newton and Euler's equations under DOP853, without the engine."""
+"""A box that falls on the ground with its corners: Newton's and Euler's equations by DOP853, without the engine."""
 
 import itertools
 from dataclasses import dataclass
@@ -12,48 +12,49 @@ from benchmarks.references.newton_euler import INSTANTS, NoReferenceError, cross
 Array = NDArray[np.float64]
 LOOSE = 1e-8
 TIGHT = 1e-10
-AGREE = 1e-4  # of the size: by which both runs may differ
+AGREE = 1e-4  # largest difference of two runs, over the diagonal of the box
 
 
 @dataclass(frozen=True)
 class Box:
-    """A box without friction on the plane z = 0, as drawn along the axes of the earth."""
+    """A box without friction on the plane z = 0, whose edges are along the earth axes at the start."""
 
     mass: float
     half: Array
-    """Half of its edges (3,), m."""
+    """Half lengths of its edges (3,), m."""
     height: float
-    """Of its centre at the start, m."""
+    """Initial height of its centre, m."""
     velocity: Array
+    """Initial velocity of the centre (3,), m/s."""
     omega: Array
-    """(3,) each: of the start, m/s and rad/s."""
+    """Initial angular velocity (3,), rad/s."""
     stiffness: float
-    """Of a corner, N/m."""
+    """Contact stiffness of a corner, N/m."""
     onset: float
-    """Depth over which it sets in, m."""
+    """Depth over which the stiffness rises from zero, m."""
     loss: float
-    """s/m."""
+    """Factor of the speed in the dissipative contact force, s/m."""
     span: float
     """Duration, s."""
 
     @property
     def inertia(self) -> Array:
-        """About the centre, kg m2."""
+        """Inertia matrix about the centre (3, 3), kg m2."""
         squares = self.half**2
         return np.asarray(np.diag(self.mass / 3.0 * (squares.sum() - squares)))
 
     @property
     def corners(self) -> Array:
-        """(8, 3), from the centre, m."""
+        """Positions of the corners from the centre (8, 3), m."""
         return np.array(list(itertools.product((-1.0, 1.0), repeat=3))) * self.half
 
 
 def motion(box: Box) -> dict[str, Array]:
-    """Of the centre (x, y, z) and of the first corner, (INSTANTS + 1,) each, as two runs show it.
+    """Coordinates of the centre and of the first corner by name, (INSTANTS + 1,) each, m, confirmed by a second run.
 
-    Raises `NoReferenceError`: both differ.
+    Raises `NoReferenceError`: both runs differ.
     """
-    loose, tight = (_run(box, tolerance, parts) for tolerance, parts in ((LOOSE, 300), (TIGHT, 500)))
+    loose, tight = (_run(box, tolerance, divisions) for tolerance, divisions in ((LOOSE, 300), (TIGHT, 500)))
     size = 2.0 * float(np.linalg.norm(box.half))
     apart = max(float(np.abs(loose[name] - tight[name]).max()) for name in tight) / size
     if not apart <= AGREE:
@@ -61,26 +62,28 @@ def motion(box: Box) -> dict[str, Array]:
     return tight
 
 
-def _run(box: Box, tolerance: float, parts: int) -> dict[str, Array]:
+def _run(box: Box, tolerance: float, divisions: int) -> dict[str, Array]:
     inertia, corners, K, w = np.diag(box.inertia), box.corners, box.stiffness, box.onset
 
     def rates(_: float, y: Array) -> Array:
-        turn = quaternion_matrix(y[3:7] / np.linalg.norm(y[3:7]))
+        rotation = quaternion_matrix(y[3:7] / np.linalg.norm(y[3:7]))
         velocity, omega = y[7:10], y[10:]  # omega in axes of the box
-        arms, moving = corners @ turn.T, np.cross(omega, corners) @ turn.T
-        depth, speed = -(y[2] + arms[:, 2]), -(velocity[2] + moving[:, 2])
+        arms, corner_velocities = corners @ rotation.T, np.cross(omega, corners) @ rotation.T
+        depth, speed = -(y[2] + arms[:, 2]), -(velocity[2] + corner_velocities[:, 2])
         force = np.where(depth < w, 0.5 * K * np.maximum(depth, 0.0) ** 2 / w, K * (depth - 0.5 * w))
         force *= np.where(speed > 0.0, 1.0 + box.loss * speed, 1.0 / (1.0 + box.loss * np.abs(speed)))
-        moment = turn.T @ np.array([force @ arms[:, 1], -force @ arms[:, 0], 0.0])
+        moment = rotation.T @ np.array([force @ arms[:, 1], -force @ arms[:, 0], 0.0])
         s, v = y[3], y[4:7]
-        turning = 0.5 * np.append(-omega @ v, s * omega + cross(v, omega))
+        quaternion_rate = 0.5 * np.append(-omega @ v, s * omega + cross(v, omega))
         acceleration = np.array([0.0, 0.0, force.sum() / box.mass - 9.81])
-        return np.concatenate([velocity, turning, acceleration, (moment - cross(omega, inertia * omega)) / inertia])
+        return np.concatenate(
+            [velocity, quaternion_rate, acceleration, (moment - cross(omega, inertia * omega)) / inertia]
+        )
 
     start = np.concatenate([[0.0, 0.0, box.height, 1.0, 0.0, 0.0, 0.0], box.velocity, box.omega])
     run = solve_ivp(
         rates, (0.0, box.span), start, t_eval=np.linspace(0.0, box.span, INSTANTS + 1), method="DOP853",
-        rtol=tolerance, atol=0.1 * tolerance, max_step=box.span / parts,
+        rtol=tolerance, atol=0.1 * tolerance, max_step=box.span / divisions,
     )  # fmt: skip
     if not run.success:
         raise NoReferenceError(run.message)

@@ -1,4 +1,4 @@
-"""The scenes of the charts: how each is built, what is compared, against what, and over which steps."""
+"""The scenes of the charts: model, compared sensors, exact motion and steps."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -32,31 +32,31 @@ STORED = Path(__file__).with_name("stored")
 
 @dataclass(frozen=True)
 class Case:
-    """A scene to measure on."""
+    """A scene with its exact motion."""
 
     title: str
-    """What it is and why it is here."""
+    """Name of the scene and its difficulty."""
     build: Callable[[], Model]
     sensors: tuple[str, ...]
-    """Components of the output point."""
+    """Names of the components of the output point."""
     end: float
-    """s."""
+    """Duration, s."""
     divisions: tuple[int, ...]
-    """Steps per sample interval: h = end / (SAMPLES division)."""
+    """Numbers of steps in a sample interval: h = end / (SAMPLES division)."""
     exact: Callable[[Array], Array] | None
-    """Output point (n, k) at times (n,); by default minimum-norm accelerations, stored up to `end`."""
+    """Output point (n, k) at times (n,), s; None: stored, computed by minimum-norm accelerations."""
     conservative: bool = True
     """Without dissipation."""
     energy_stays: bool = True
-    """Whether the energy should stay: also no motor."""
+    """Whether the energy is constant: also without a motor."""
     map_work: float = 2.4e5
-    """Steps times coordinates of a run of the stability maps, at most."""
+    """Largest product of steps and coordinates of a run of the stability maps."""
     classical: bool = True
     """Whether the dense methods in Python are run."""
     unit: str = "m"
-    """Of the output point."""
+    """Unit of the output point."""
     slow: bool = False
-    """Whether `exact` takes seconds: its motion is stored too."""
+    """Whether `exact` takes seconds, so that its motion is stored."""
 
     @property
     def stored(self) -> bool:
@@ -178,7 +178,7 @@ CASES: dict[str, Case] = {
     ),
 }
 SHARED = ("double_four_bar", "bricard", "spatial_chain", "four_bar_40", "four_bar_200")
-"""Scenes that the peers run too."""
+"""Scenes that peers run too."""
 
 
 SLOW = tuple(name for name, case in CASES.items() if case.stored)
@@ -193,14 +193,14 @@ def system_of(name: str) -> mbs.System:
 
 @cache
 def exact_of(name: str) -> Array:
-    """Output point (SAMPLES + 1, k) at equal intervals up to the end."""
+    """Exact output point (SAMPLES + 1, k) at equal intervals up to the end."""
     if CASES[name].stored:
         return np.asarray(np.loadtxt(STORED / f"{name}.csv", delimiter=",", ndmin=2)[:, 1:])
     return computed(name)
 
 
 def computed(name: str) -> Array:
-    """What `exact_of` gives, never from a file."""
+    """Result of `exact_of`, always computed."""
     case = CASES[name]
     motion = case.exact or references.minimum_norm_motion(
         system_of(name), case.sensors, case.end, stiff=not case.conservative
@@ -209,7 +209,7 @@ def computed(name: str) -> Array:
 
 
 def store(name: str) -> None:
-    """Write a motion that is stored."""
+    """Compute and write a stored motion."""
     case = CASES[name]
     rows = np.column_stack([np.linspace(0.0, case.end, SAMPLES + 1), computed(name)])
     command = f"python -m benchmarks.work_precision motions --only {name}"
@@ -218,5 +218,5 @@ def store(name: str) -> None:
 
 
 def size_of(name: str) -> float:
-    """Extent of the motion of the output point, in its unit: what errors are compared with."""
+    """Extent of the motion of the output point, in its unit: the scale of its errors."""
     return float(np.linalg.norm(np.ptp(exact_of(name), axis=0)))

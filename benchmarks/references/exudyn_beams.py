@@ -1,4 +1,4 @@
-"""Computes the references with geometrically exact beams: a separate program that needs only Exudyn.
+"""Computes the references with geometrically exact beams: a separate program that needs Exudyn and NumPy.
 
 ``pip install exudyn numpy; python exudyn_beams.py {four_bar,spin_up,pendulum} ELEMENTS STEP FILE``. Beams on SE(3)
 (`ObjectBeamGeometricallyExact`), generalised-alpha. The stored files were made with Exudyn 1.13.6:
@@ -31,7 +31,7 @@ OUT_OF_PLANE = np.array([0.0, 0.0, 1.0])
 
 
 def round_section(E, nu, rho, radius, damping):
-    """Round bar with the shear factor of the circle; damping proportional to the stiffness, s."""
+    """Section of a round bar with the shear factor of the circle; `damping`: over stiffness, s."""
     A, I = pi * radius**2, pi * radius**4 / 4
     G = E / 2 / (1 + nu)
     k = 6 * (1 + nu) / (7 + 6 * nu)
@@ -39,7 +39,7 @@ def round_section(E, nu, rho, radius, damping):
 
 
 def section(stiffness, mass, inertia, damping=0.0):
-    """Per unit length: stiffness (6, 6), mass and second moment of mass about a diameter."""
+    """Section with stiffness (6, 6), mass, kg/m, and second moment of mass about a diameter, kg m."""
     s = exu.BeamSection()
     s.stiffnessMatrix, s.dampingMatrix = stiffness, damping * stiffness
     s.inertia, s.massPerLength = np.diag([2 * inertia, inertia, inertia]), mass
@@ -47,7 +47,7 @@ def section(stiffness, mass, inertia, damping=0.0):
 
 
 class Scene:
-    """A system of Exudyn that is being assembled."""
+    """A system of Exudyn and functions that add to it."""
 
     def __init__(self):
         self.container = exu.SystemContainer()
@@ -55,7 +55,9 @@ class Scene:
         self.ground = self.mbs.AddObject(ObjectGround())
 
     def bar(self, start, end, elements, section, velocity=(0, 0, 0), omega=(0, 0, 0)):
-        """Nodes with x along the bar and z out of the plane, elements, and the axes of the nodes."""
+        """Add a bar; its nodes (x along the bar, z out of the plane), its elements, and the axes of the nodes (3,
+        3).
+        """
         start, end, omega = np.array(start, float), np.array(end, float), np.array(omega, float)
         along = (end - start) / np.linalg.norm(end - start)
         axes = np.array([along, np.cross(OUT_OF_PLANE, along), OUT_OF_PLANE]).T
@@ -77,15 +79,15 @@ class Scene:
         return nodes, beams, axes
 
     def on_node(self, node):
-        """Marker of a node."""
+        """Add a marker at a node."""
         return self.mbs.AddMarker(MarkerNodeRigid(nodeNumber=node))
 
-    def on_ground(self, place):
-        """Marker of the ground."""
-        return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.ground, localPosition=[*map(float, place)]))
+    def on_ground(self, point):
+        """Add a marker at a point of the ground."""
+        return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.ground, localPosition=[*map(float, point)]))
 
     def hinge(self, marker_0, axes_0, marker_1, axes_1, axis=OUT_OF_PLANE, angle=None):
-        """Revolute joint about an axis (earth); with `angle`(t) it is driven."""
+        """Add a revolute joint about an axis (earth axes), driven if `angle`, a function of time, is given."""
         z = np.array(axis, float) / np.linalg.norm(axis)
         x = np.cross([0.0, 1.0, 0.0], z)
         x /= np.linalg.norm(x)
@@ -101,7 +103,7 @@ class Scene:
         )
 
     def solve(self, end, step, interval, spectral_radius):
-        """Integrate; sensors are kept every `interval`."""
+        """Integrate up to `end`, s; sensors are recorded every `interval`, s."""
         self.mbs.Assemble()
         s = exu.SimulationSettings()
         s.timeIntegration.numberOfSteps = round(end / step)
@@ -117,7 +119,7 @@ class Scene:
 
 
 def four_bar(elements, step):
-    """Assembly defect: T, My, Mz in the middle of the coupler and the place of joint C."""
+    """Four-bar with assembly defect: T, My, Mz in the middle of the coupler, N m, and the position of joint C, m."""
     scene, speed, tilt = Scene(), -1.0, np.radians(5.0)
     s = round_section(7e10, 0.33, 3000.0, 0.005, 2.7e-5)
     A, B, C, D = (0, 0, 0), (0, 0.12, 0), (0.24, 0.12, 0), (0.24, 0, 0)
@@ -137,22 +139,22 @@ def four_bar(elements, step):
         )
         for b in beams[elements - 1 : elements + 1]
     ]
-    place = scene.mbs.AddSensor(
+    position = scene.mbs.AddSensor(
         SensorNode(nodeNumber=coupler[-1], outputVariableType=kind.Position, storeInternal=True)
     )
     scene.solve(10.0, step, 0.01, 0.6)
-    left, right, c = (scene.mbs.GetSensorStoredData(k) for k in (*moments, place))
+    left, right, c = (scene.mbs.GetSensorStoredData(k) for k in (*moments, position))
     # the middle is a node: mean of the elements on both sides
     return "t,T,My,Mz,C_x,C_y,C_z", np.column_stack([left[:, 0], (left[:, 1:] + right[:, 1:]) / 2, c[:, 1:]])
 
 
 def spin_angle(t):
-    """Simo and Vu-Quoc 1986: to 6 rad/s within 15 s."""
+    """Angle of the hub, rad, that reaches 6 rad/s within 15 s; source: Simo and Vu-Quoc 1986."""
     return 6 * t - 45 if t > 15 else 6 / 15 * (t**2 / 2 + (15 / 2 / pi) ** 2 * (cos(2 * pi * t / 15) - 1))
 
 
 def spin_up(elements, step):
-    """Extension and deflection of the tip in the axes of the hub."""
+    """Extension and deflection of the tip in the axes of the hub, m."""
     scene = Scene()
     s = section(np.diag([2.8e7, 1e7, 1e7, 1e4, 1.4e4, 1.4e4]), 1.2, 6e-4)
     nodes, _, axes = scene.bar((0, 0, 0), (10, 0, 0), elements, s)
@@ -164,7 +166,7 @@ def spin_up(elements, step):
 
 
 def pendulum(elements, step):
-    """Place of the tip of a soft bar that falls from the horizontal."""
+    """Position of the tip of a soft bar that falls from the horizontal, m."""
     scene = Scene()
     s = round_section(5e8, 0.3, 2000.0, 0.01, 0.0)
     nodes, beams, axes = scene.bar((0, 0, 0), (1, 0, 0), elements, s)
@@ -176,7 +178,7 @@ def pendulum(elements, step):
 
 
 def tip(scene, node, end, step, interval):
-    """Time and place of a node after a run."""
+    """Run a scene; times, s, and x, y of a node, m."""
     kind = exu.OutputVariableType.Position
     sensor = scene.mbs.AddSensor(SensorNode(nodeNumber=node, outputVariableType=kind, storeInternal=True))
     scene.solve(end, step, interval, 0.95)

@@ -1,4 +1,4 @@
-"""Masses on a line between springs, stops, frictions and drives: their motion under DOP853, without the engine."""
+"""Motion of masses on a line with springs, stops, friction and drives, by DOP853, without the engine."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,14 +14,16 @@ Array = NDArray[np.float64]
 LOOSE = 1e-8
 TIGHT = 1e-10
 REST = 1e-100  # squares of smaller rates underflow in SciPy's estimate of an error
-AGREE = 1e-4  # of the largest range: by which both runs may differ
+AGREE = 1e-4  # largest difference of two runs, over the largest range of a mass
 
 
 @dataclass(frozen=True)
 class Link:
-    """Spring and damper between two masses, or a mass and a wall; stops below and above a length, which lose energy."""
+    """Spring and damper between two masses, or a mass and a wall, with dissipative stops at a lower and an upper
+    length.
+    """
 
-    ends: tuple[int | float, int | float]  # a whole number is a mass, else the place of a wall, m; the left one first
+    ends: tuple[int | float, int | float]  # an integer: a mass; a float: position of a wall, m; the left end first
     stiffness: float = 0.0
     damping: float = 0.0
     length: float = 0.0
@@ -30,7 +32,7 @@ class Link:
     loss: float = 0.0  # s/m
 
     def tension(self, length: float, rate: float) -> float:
-        """By the laws of `mbs.elements.SpringDamper`, written again."""
+        """Force, N, by an independent implementation of the laws of `mbs.elements.SpringDamper`."""
         pull = self._stop(length - self.high[0], rate) * self.high[1]
         push = self._stop(self.low[0] - length, -rate) * self.low[1]
         return self.stiffness * (length - self.length) + self.damping * rate + pull - push
@@ -43,7 +45,10 @@ class Link:
 
 @dataclass(frozen=True)
 class Friction:
-    """Coulomb friction of a mass on another or on the ground (None), which gives elastically while it holds."""
+    """Coulomb friction of a mass on another or on the ground (None), elastic while it sticks.
+
+    `largest`: N; `stiffness`: N/m; `damping`: N s/m.
+    """
 
     mass: int
     on: int | None
@@ -54,13 +59,13 @@ class Friction:
 
 @dataclass(frozen=True)
 class Cam:
-    """A driven mass: by a curve over time, or a table of lifts over an angle that grows evenly."""
+    """Drive of a mass: position over time, m, or a table of lift over an angle that is a function of time."""
 
     curve: PPoly
-    table: Array | None = None  # rows of angle, rad, and lift, m; the curve is then that of the angle
+    table: Array | None = None  # rows of angle, rad, and lift, m; `curve` is then the angle over time, rad
 
     def motion(self) -> Callable[[float], tuple[float, float]]:
-        """Position and speed over time."""
+        """Position, m, and speed, m/s, as a function of time, s."""
         curve, speed = self.curve, self.curve.derivative()
         if self.table is None:
             return lambda t: (float(curve(t)), float(speed(t)))
@@ -71,7 +76,7 @@ class Cam:
 
 @dataclass(frozen=True)
 class Machine:
-    """Masses with their places and speeds at the start; those that are driven have a `Cam`."""
+    """Masses, kg, with initial positions, m, and speeds, m/s; driven masses have a `Cam`."""
 
     masses: Sequence[float]
     start: Sequence[float]
@@ -84,39 +89,39 @@ class Machine:
 
 
 def motion(machine: Machine) -> Array:
-    """Places (INSTANTS + 1, n), of a run that another at a hundred times its tolerance confirms.
+    """Positions (INSTANTS + 1, n), m, confirmed by a run with a hundred times the tolerance.
 
-    Laws are continuous in the state, so that the control of steps sees each kink; steps are limited, so that none jumps
-    over a short contact. Raises `NoReferenceError`: both runs differ.
+    Forces are continuous in the state, so that the step control detects each kink; steps are limited, so that none
+    skips a short contact. Raises `NoReferenceError`: both runs differ.
     """
-    loose, tight = (_run(machine, tolerance, parts) for tolerance, parts in ((LOOSE, 300), (TIGHT, 500)))
+    loose, tight = (_run(machine, tolerance, divisions) for tolerance, divisions in ((LOOSE, 300), (TIGHT, 500)))
     apart = float(np.abs(loose - tight).max()) / float(np.ptp(tight, axis=0).max())
     if not apart <= AGREE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the range")
     return tight
 
 
-def _run(machine: Machine, tolerance: float, parts: int) -> Array:
+def _run(machine: Machine, tolerance: float, divisions: int) -> Array:
     n, driven = len(machine.masses), {i: cam.motion() for i, cam in machine.driven.items()}
     free = [i for i in range(n) if i not in driven]
     mass = np.array(machine.masses)
 
-    def places(t: float, y: Array) -> tuple[Array, Array]:
+    def positions(t: float, y: Array) -> tuple[Array, Array]:
         x, v = np.empty(n), np.empty(n)
         x[free], v[free] = y[: len(free)], y[len(free) : 2 * len(free)]
-        for i, at in driven.items():
-            x[i], v[i] = at(t)
+        for i, cam_motion in driven.items():
+            x[i], v[i] = cam_motion(t)
         return x, v
 
     def rates(t: float, y: Array) -> Array:
-        x, v = places(t, y)
+        x, v = positions(t, y)
         force, slips = machine.pull * mass, []
         for link in machine.links:
             (a, va), (b, vb) = ((x[e], v[e]) if isinstance(e, int) else (e, 0.0) for e in link.ends)
             tension = link.tension(b - a, vb - va)
-            for end, pulled in zip(link.ends, (tension, -tension), strict=True):
+            for end, end_force in zip(link.ends, (tension, -tension), strict=True):
                 if isinstance(end, int):
-                    force[end] += pulled
+                    force[end] += end_force
         for f, z in zip(machine.frictions, y[2 * len(free) :], strict=True):
             rate = v[f.mass] - (0.0 if f.on is None else v[f.on])
             friction = min(max(f.stiffness * z + f.damping * rate, -f.largest), f.largest)
@@ -132,8 +137,8 @@ def _run(machine: Machine, tolerance: float, parts: int) -> Array:
     start, speeds = np.array(machine.start)[free], np.array(machine.speeds)[free]
     run = solve_ivp(
         rates, (0.0, machine.span), np.concatenate([start, speeds, np.zeros(len(machine.frictions))]), t_eval=t,
-        method="DOP853", rtol=tolerance, atol=0.1 * tolerance, max_step=machine.span / parts,
+        method="DOP853", rtol=tolerance, atol=0.1 * tolerance, max_step=machine.span / divisions,
     )  # fmt: skip
     if not run.success:
         raise NoReferenceError(run.message)
-    return np.array([places(*row)[0] for row in zip(t, run.y.T, strict=True)])
+    return np.array([positions(*row)[0] for row in zip(t, run.y.T, strict=True)])

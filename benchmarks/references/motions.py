@@ -1,5 +1,6 @@
-"""Exact motions to measure errors against: reductions to one or two variables, and for the rest the motion that
-minimum-norm accelerations give at tolerance 1e-12 (no augmented Lagrangian is involved).
+"""Exact motions: by reduction to one or two variables, else by minimum-norm accelerations at tolerance 1e-12.
+
+No augmented Lagrangian is involved.
 """
 
 from collections.abc import Callable
@@ -21,21 +22,21 @@ STIFF_DIGITS = {"rtol": 1e-8, "atol": 1e-10}
 
 
 def pendulum(t: Array, length: float = 1.0, gravity: float = 9.81) -> Array:
-    """Bob (n, 2) of the pendulum that starts level with its pivot, at x = -length."""
+    """Bob (n, 2), m, of the pendulum that starts at the height of its pivot, at x = -length."""
     angle = _solve(lambda _, x: [x[1], -gravity / length * np.cos(x[0])], [np.pi, 0.0], t)[0]
     # measured from the x axis, so that theta'' = -(g/L) cos(theta)
     return length * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
 def four_bar(windows: int, t: Array) -> Array:
-    """B0 (n, 2): the cranks stay parallel, [(N+1)/3 + N] theta'' = [(N+1)/2 + N] g sin(theta)."""
+    """B0 (n, 2), m: the cranks stay parallel, [(N+1)/3 + N] theta'' = [(N+1)/2 + N] g sin(theta)."""
     factor = ((windows + 1) / 2 + windows) / ((windows + 1) / 3 + windows) * double_four_bar.GRAVITY
     theta = _solve(lambda _, x: [x[1], factor * np.sin(x[0])], [0.0, double_four_bar.START_SPEED], t)[0]
     return np.column_stack([np.sin(theta), np.cos(theta)])
 
 
 def equal_arms(t: Array) -> Array:
-    """Crank pin (n, 2) of the slider-crank with equal arms on the branch where the slider moves."""
+    """Crank pin (n, 2), m, of the slider-crank with equal arms on the branch where the slider moves."""
     s = slider_crank
 
     def kinetic(a: float) -> float:
@@ -47,40 +48,40 @@ def equal_arms(t: Array) -> Array:
     def potential(a: float) -> float:
         return float(s.MASS * s.GRAVITY * s.LENGTH * np.sin(a))
 
-    angle = one_degree(kinetic, potential, s.START_ANGLE, s.START_SPEED, t)
+    angle = single_coordinate(kinetic, potential, s.START_ANGLE, s.START_SPEED, t)
     return s.LENGTH * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
 def spatial_crank(t: Array) -> Array:
-    """Slider x (n, 1) of the spatial slider-crank, through its one degree of freedom."""
-    angle = one_degree(*_spatial_crank_energies(), 0.0, spatial_slider_crank.SPEED, t)
+    """Slider x (n, 1), m, of the spatial slider-crank, by its one degree of freedom."""
+    angle = single_coordinate(*_spatial_crank_energies(), 0.0, spatial_slider_crank.SPEED, t)
     return np.array([[-_rod(a)[0]] for a in angle])
 
 
 def light_cart(t: Array, cart_mass: float = cart_pole.CART) -> Array:
-    """Bob (n, 2): momentum along x is kept, which leaves the angle of the pole below the horizontal."""
+    """Bob (n, 2), m: momentum along x is constant; the coordinate is the angle of the pole below the horizontal."""
     m, b, L = cart_mass, cart_pole.BOB, cart_pole.LENGTH
 
     def kinetic(a: float) -> float:
         return float(b * L**2 * (np.cos(a) ** 2 + m / (m + b) * np.sin(a) ** 2))
 
-    angle = one_degree(kinetic, lambda a: -b * cart_pole.GRAVITY * L * np.sin(a), 0.0, 0.0, t)
+    angle = single_coordinate(kinetic, lambda a: -b * cart_pole.GRAVITY * L * np.sin(a), 0.0, 0.0, t)
     # centre of mass at rest: m X + b (X + L cos) = b L
     cart = b * L * (1.0 - np.cos(angle)) / (m + b)
     return np.column_stack([cart + L * np.cos(angle), -L * np.sin(angle)])
 
 
 def rolling_bicycle(t: Array) -> Array:
-    """Position sensors (n, k) of the bicycle, with contact points from the geometry of its wheels."""
+    """Position sensors (n, k) of the bicycle, by `RollingBicycle`."""
     model = RollingBicycle()
     motion = model.motion(bicycle.SPEED, bicycle.LEAN_RATE, float(t[-1]))
     return model.mechanism.positions(motion(t), BICYCLE)
 
 
-def one_degree(
+def single_coordinate(
     kinetic: Callable[[float], float], potential: Callable[[float], float], start: float, rate: float, t: Array
 ) -> Array:
-    """Coordinate (n,) of ``J(s) s'^2 / 2 + V(s) = const``: s'' = -(J' s'^2 / 2 + V') / J, slopes by differences of
+    """Coordinate (n,) with ``J(s) s'^2 / 2 + V(s) = const``: s'' = -(J' s'^2 / 2 + V') / J, slopes by differences of
     order six.
     """
 
@@ -102,8 +103,8 @@ def minimum_norm(system: mbs.System, sensors: tuple[str, ...], t: Array) -> Arra
 def minimum_norm_motion(
     system: mbs.System, sensors: tuple[str, ...], end: float, stiff: bool = False
 ) -> Callable[[Array], Array]:
-    """Position sensors (n, k) as a function of times (n,) up to `end`, by minimum-norm accelerations under DOP853 or,
-    when stiff, Radau at tolerance 1e-8.
+    """Position sensors (n, k) as a function of times (n,) up to `end`, s, by minimum-norm accelerations and DOP853, or
+    if `stiff` Radau at tolerance 1e-8.
     """
     mechanism = Mechanism(system)
     method = Lagrange(mechanism, minimum_norm=True)
@@ -123,9 +124,10 @@ def _solve(rates: Callable[[float, Array], list[float]], start: list[float], t: 
 
 
 def _rod(angle: complex) -> Array:
-    """Vector from slider to crank pin at a crank angle from upright about x; minus its first entry is the slider's x.
+    """Vector from slider to crank pin, m, at a crank angle from upright about x; minus its first entry is the slider's
+    x.
 
-    Takes complex angles: the imaginary part of f(a + i d) / d is the slope of f.
+    Also for complex angles: the imaginary part of f(a + i d) / d is the slope of f.
     """
     s = spatial_slider_crank
     y = s.PIVOT[1] - s.CRANK * np.sin(angle)
@@ -137,7 +139,9 @@ def _spatial_crank_energies() -> tuple[Callable[[float], float], Callable[[float
     s, d = spatial_slider_crank, 1e-30
 
     def frame(angle: complex) -> Array:
-        """Rod axes as columns: along, its own pin (square to the slider's vertical pin), and their product."""
+        """Axes of the rod as columns: along it, its pin (perpendicular to the slider's vertical pin), and their
+        product.
+        """
         along = _rod(angle) / s.ROD
         pin = np.array([-along[1], along[0], 0.0]) / np.sqrt(along[0] ** 2 + along[1] ** 2)
         return np.column_stack([along, pin, np.cross(along, pin)])

@@ -1,6 +1,7 @@
-"""Mechanisms of rigid bodies by Newton and Euler's equations of each body with multipliers, under SciPy's DOP853. They
-share no coordinates, no equations and no integrator with the engine (Haug, "Computer Aided Kinematics and Dynamics",
-6.3 and 11.3).
+"""Mechanisms of rigid bodies by Newton's and Euler's equations with multipliers, solved by SciPy's DOP853.
+
+Coordinates, equations and integrator are not those of the engine. Source: Haug, "Computer Aided Kinematics and
+Dynamics", 6.3 and 11.3.
 """
 
 import itertools
@@ -13,22 +14,22 @@ from scipy.interpolate import PPoly
 
 Array = NDArray[np.float64]
 GROUND = -1
-INSTANTS = 50  # intervals of the record
+INSTANTS = 50  # intervals between recorded instants
 # relative tolerances of the runs
 COARSE = 1e-8
 FINE = 1e-10
 FINEST = 1e-12
-AGREE = 1e-5  # of the size: by which two runs of a reference may differ
-MOST_CALLS = 100000  # of the equations of motion, in a run
+AGREE = 1e-5  # largest difference of two runs of a reference, over the size of the mechanism
+MOST_CALLS = 100000  # largest number of evaluations of the equations of motion in a run
 
 
 class NoReferenceError(Exception):
-    """Two runs of the reference do not agree, or do not end: the motion is chaotic or singular."""
+    """Two runs of the reference differ, or a run does not end: the motion is chaotic or singular."""
 
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid body: centre of mass (d,) m, mass kg, inertia kg m2 about it, a number or (3, 3); a particle where
+    """A rigid body: centre of mass (d,), m, mass, kg, and inertia about it, kg m2, a number or (3, 3); a particle if
     `inertia` is None.
     """
 
@@ -39,8 +40,10 @@ class Link:
 
 @dataclass(frozen=True)
 class Joint:
-    """A shared point of two links, the first one moving; `kind` "ball", "hinge" about `axis`, "line": the point
-    of the first link stays on a line of the ground along `axis`, or "pin": it stays where it is while `held`.
+    """A joint at a common point of two links, of which the first one moves.
+
+    `kind`: "ball"; "hinge" about `axis`; "line": the point of the first link stays on a line of the ground along
+    `axis`; "pin": the point of the first link is fixed while the joint is closed.
     """
 
     kind: str
@@ -48,13 +51,13 @@ class Joint:
     second: int
     point: Array
     axis: Array
-    held: tuple[float, float] = (-np.inf, np.inf)
-    """From when to when the joint is closed, s."""
+    closed: tuple[float, float] = (-np.inf, np.inf)
+    """Times at which the joint is closed and opened, s."""
 
 
 @dataclass(frozen=True)
 class Spring:
-    """Spring and damper between a point of a link and one of another, N/m, N s/m, m."""
+    """Spring and damper between points of two links: stiffness, N/m, damping, N s/m, unloaded length, m."""
 
     first: int
     point_1: Array
@@ -66,8 +69,8 @@ class Spring:
 
 
 @dataclass(frozen=True)
-class Drawing:
-    """A mechanism as drawn."""
+class Mechanism:
+    """A mechanism at its initial position."""
 
     dimension: int
     """2 (gravity along -y) or 3 (along -z)."""
@@ -75,28 +78,28 @@ class Drawing:
     joints: list[Joint]
     springs: list[Spring]
     tips: list[Array]
-    """Each of shape (d,): a point of each link whose motion is judged."""
+    """A point of each link whose motion is compared, each of shape (d,), m."""
     rate: float
-    """Angular velocity of link 0 about the axis of its first joint at the start, rad/s; all else moves with the least
+    """Initial angular velocity of link 0 about the axis of its first joint, rad/s; the other velocities have the least
     kinetic energy."""
     torque: float
-    """On link 0 from the ground about that axis, N m."""
+    """Torque of the ground on link 0 about that axis, N m."""
     drive: PPoly | None
-    """Angle of link 0 over time, 0 at the start; its rate may jump from piece to piece. None: not driven."""
+    """Angle of link 0 over time, rad, 0 at the start; its rate may jump between pieces. None: not driven."""
     span: float
     """Duration, s."""
     gravity: float = 9.81
 
     @property
     def events(self) -> list[float]:
-        """When rows change, from 0 to the end, s."""
-        switch_times = [t for joint in self.joints for t in joint.held]
+        """Times at which constraints change, from 0 to the end, s."""
+        switch_times = [t for joint in self.joints for t in joint.closed]
         breaks = [] if self.drive is None else list(self.drive.x)
         return [0.0, *sorted({float(t) for t in (*switch_times, *breaks) if 0.0 < t < self.span}), self.span]
 
     @property
     def size(self) -> float:
-        """Diagonal of the box around all joints and tips, m."""
+        """Diagonal of the box that encloses all joints and tips, m."""
         points = np.array([j.point for j in self.joints] + self.tips)
         return float(np.linalg.norm(np.ptp(points, axis=0)))
 
@@ -106,79 +109,83 @@ def _skew(v: Array) -> Array:
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Of three components; NumPy's own takes many times as long for one pair."""
+    """Cross product of two vectors (3,); NumPy's function takes many times as long for one pair."""
     return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
-def square_to(axis: Array) -> Array:
-    """Unit vectors square to an axis, (d - 1, d)."""
+def normals_to(axis: Array) -> Array:
+    """Orthonormal vectors perpendicular to an axis, (d - 1, d)."""
     return np.asarray(np.linalg.svd(axis[None])[2][1:])
 
 
 def quaternion_matrix(p: Array) -> Array:
-    """The rotation of a unit quaternion, scalar first, (3, 3)."""
+    """Rotation matrix (3, 3) of a unit quaternion, scalar first."""
     w, v = p[0], p[1:]
     return (w * w - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * w * _skew(v)
 
 
 class Dynamics:
-    """Equations of motion of a drawing: state positions (n d), orientations (n or 4 n), velocities, angular ones."""
+    """Equations of motion of a mechanism; state: positions (n d), orientations (n or 4 n), velocities, angular
+    velocities.
+    """
 
-    def __init__(self, drawing: Drawing) -> None:
-        self.drawing, self.d, self.n = drawing, drawing.dimension, len(drawing.links)
-        self.turns = 1 if self.d == 2 else 3
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism, self.d, self.n = mechanism, mechanism.dimension, len(mechanism.links)
+        self.n_omega = 1 if self.d == 2 else 3
         self.parameters = 1 if self.d == 2 else 4
-        self.com = np.array([link.com for link in drawing.links])
+        self.com = np.array([link.com for link in mechanism.links])
         self.calls = 0
-        self.between = (-np.inf, np.inf)  # the events around the time
-        self.across = {id(j): square_to(j.axis) for j in drawing.joints}
-        self.inertia = [np.eye(self.turns) * 1.0 if k.inertia is None else np.eye(self.turns) * k.inertia
-                        if np.ndim(k.inertia) == 0 else np.asarray(k.inertia) for k in drawing.links]  # fmt: skip
+        self.interval = (-np.inf, np.inf)  # events before and after the present time, s
+        self.normals = {id(j): normals_to(j.axis) for j in mechanism.joints}
+        self.inertia = [np.eye(self.n_omega) * 1.0 if k.inertia is None else np.eye(self.n_omega) * k.inertia
+                        if np.ndim(k.inertia) == 0 else np.asarray(k.inertia) for k in mechanism.links]  # fmt: skip
 
     def start(self) -> Array:
-        """The state as drawn, with consistent velocities."""
+        """Initial state with consistent velocities."""
         orientation = np.tile([0.0] if self.d == 2 else [1.0, 0.0, 0.0, 0.0], self.n)
-        nv = self.n * (self.d + self.turns)
+        nv = self.n * (self.d + self.n_omega)
         x = np.concatenate([self.com.ravel(), orientation, np.zeros(nv)])
         mass, _, rows, _ = self._equations(0.0, x)
-        if self.drawing.drive is None:
-            rows = np.vstack([rows, self._turn_of_first(x)])
-            rate = self.drawing.rate
+        if self.mechanism.drive is None:
+            rows = np.vstack([rows, self._first_rotation_row(x)])
+            rate = self.mechanism.rate
         else:
-            rate = self._driven(0.0, 1)
+            rate = self._drive_derivative(0.0, 1)
         x[-nv:] = self._solve(mass, rows, np.zeros(nv), np.append(np.zeros(len(rows) - 1), rate))[:nv]
         return x
 
-    def struck(self, t: float, x: Array) -> Array:
-        """The state behind an event at t: the velocities that satisfy the rows, by impulses along them."""
+    def after_event(self, t: float, x: Array) -> Array:
+        """State after an event at t: impulses of the constraints make the velocities consistent."""
         mass, _, rows, _ = self._equations(t, x)
         nv = len(mass)
         right = np.zeros(len(rows))
-        if self.drawing.drive is not None:
-            right[-1] = self._driven(t, 1)
+        if self.mechanism.drive is not None:
+            right[-1] = self._drive_derivative(t, 1)
         return np.concatenate([x[:-nv], self._solve(mass, rows, mass @ x[-nv:], right)[:nv]])
 
     def rates_and_drive(self, t: float, x: Array) -> Array:
-        """Angular velocities of the links in their own axes, and the torque of the drive on link 0 (0 without one)."""
+        """Angular velocities of the links in their own axes, rad/s, and the torque of the drive on link 0, N m (0
+        without).
+        """
         mass, force, rows, gamma = self._equations(t, x)
-        omega = x[-self.n * self.turns :]
+        omega = x[-self.n * self.n_omega :]
         if self.d == 3:
             omega = np.einsum("nij,ni->nj", self._poses(x)[1], omega.reshape(self.n, 3)).ravel()
-        driven = self.drawing.drive is not None
+        driven = self.mechanism.drive is not None
         return np.append(omega, -self._solve(mass, rows, force, -gamma)[-1] if driven else 0.0)
 
-    def _driven(self, t: float, order: int) -> float:
-        """Rate (1) or acceleration (2) of the drive, of the piece between the events around t."""
-        drive = self.drawing.drive
+    def _drive_derivative(self, t: float, order: int) -> float:
+        """Rate (`order` 1) or acceleration (2) of the drive at t, by its piece in the present interval."""
+        drive = self.mechanism.drive
         assert drive is not None
-        middle = min(max(0.5 * (self.between[0] + self.between[1]), 0.0), self.drawing.span)
+        middle = min(max(0.5 * (self.interval[0] + self.interval[1]), 0.0), self.mechanism.span)
         if not np.isfinite(middle):
             middle = t
         k = int(np.clip(np.searchsorted(drive.x, middle, side="right") - 1, 0, len(drive.x) - 2))
         return float(np.polyval(np.polyder(drive.c[:, k], order), t - drive.x[k]))
 
     def rates(self, t: float, x: Array) -> Array:
-        """dx/dt."""
+        """Time derivative of the state."""
         self.calls += 1
         if self.calls > MOST_CALLS:
             raise NoReferenceError("the reference does not end")
@@ -186,21 +193,21 @@ class Dynamics:
         mass, force, rows, gamma = self._equations(t, x)
         acceleration = self._solve(mass, rows, force, -gamma)[: len(mass)]
         velocity = x[n * (d + self.parameters) :]
-        omega = velocity[n * d :].reshape(n, self.turns)
+        omega = velocity[n * d :].reshape(n, self.n_omega)
         if d == 2:
-            turning = omega.ravel()
+            orientation_rates = omega.ravel()
         else:
             p = x[n * d : n * (d + 4)].reshape(n, 4)
             w, v = p[:, :1], p[:, 1:]
-            turning = (
+            orientation_rates = (
                 0.5 * np.hstack([-np.sum(omega * v, axis=1, keepdims=True), w * omega + np.cross(omega, v)]).ravel()
             )
-        return np.concatenate([velocity[: n * d], turning, acceleration])
+        return np.concatenate([velocity[: n * d], orientation_rates, acceleration])
 
     def tips(self, x: Array) -> Array:
-        """Positions of the tips (n, d)."""
-        place, turn = self._poses(x)
-        return np.array([place[i] + turn[i] @ (p - self.com[i]) for i, p in enumerate(self.drawing.tips)])
+        """Positions of the tips (n, d), m."""
+        position, rotation = self._poses(x)
+        return np.array([position[i] + rotation[i] @ (p - self.com[i]) for i, p in enumerate(self.mechanism.tips)])
 
     def _solve(self, mass: Array, rows: Array, force: Array, right: Array) -> Array:
         k = len(rows)
@@ -210,52 +217,53 @@ class Dynamics:
         return np.asarray(np.linalg.solve(matrix, np.concatenate([force, right])))
 
     def _poses(self, x: Array) -> tuple[Array, Array]:
+        """Positions (n, d) and rotation matrices (n, d, d) of the links."""
         n, d = self.n, self.d
-        place, orientation = x[: n * d].reshape(n, d), x[n * d : n * (d + self.parameters)]
+        position, orientation = x[: n * d].reshape(n, d), x[n * d : n * (d + self.parameters)]
         if d == 2:
             c, s = np.cos(orientation), np.sin(orientation)
-            return place, np.array([[c, -s], [s, c]]).transpose(2, 0, 1)
-        return place, np.array([quaternion_matrix(p / np.linalg.norm(p)) for p in orientation.reshape(n, 4)])
+            return position, np.array([[c, -s], [s, c]]).transpose(2, 0, 1)
+        return position, np.array([quaternion_matrix(p / np.linalg.norm(p)) for p in orientation.reshape(n, 4)])
 
-    def _lever(self, s: Array) -> Array:
-        """Velocity of a point at s from the centre by the angular velocity (d, turns)."""
+    def _velocity_by_rotation(self, s: Array) -> Array:
+        """Matrix (d, n_omega) from the angular velocity to the velocity of a point at s from the centre."""
         return np.array([[-s[1]], [s[0]]]) if self.d == 2 else -_skew(s)
 
-    def _turn_of_first(self, x: Array) -> Array:
-        row = np.zeros((1, self.n * (self.d + self.turns)))
-        row[0, self.n * self.d : self.n * self.d + self.turns] = 1.0 if self.d == 2 else self.drawing.joints[0].axis
+    def _first_rotation_row(self, x: Array) -> Array:
+        row = np.zeros((1, self.n * (self.d + self.n_omega)))
+        row[0, self.n * self.d : self.n * self.d + self.n_omega] = 1.0 if self.d == 2 else self.mechanism.joints[0].axis
         return row
 
     def _equations(self, t: float, x: Array) -> tuple[Array, Array, Array, Array]:
-        """Mass matrix, forces, rows of velocities and their products of velocities."""
-        n, d, turns, drawing = self.n, self.d, self.turns, self.drawing
-        nv = n * (d + turns)
-        place, turn = self._poses(x)
+        """Mass matrix, forces, constraint Jacobian and its time derivative times the velocities."""
+        n, d, n_omega, mechanism = self.n, self.d, self.n_omega, self.mechanism
+        nv = n * (d + n_omega)
+        position, rotation = self._poses(x)
         velocity = x[-nv:]
-        linear, omega = velocity[: n * d].reshape(n, d), velocity[n * d :].reshape(n, turns)
+        linear, omega = velocity[: n * d].reshape(n, d), velocity[n * d :].reshape(n, n_omega)
         mass, force = np.zeros((nv, nv)), np.zeros(nv)
-        for i, link in enumerate(drawing.links):
-            a, b = slice(i * d, (i + 1) * d), slice(n * d + i * turns, n * d + (i + 1) * turns)
+        for i, link in enumerate(mechanism.links):
+            a, b = slice(i * d, (i + 1) * d), slice(n * d + i * n_omega, n * d + (i + 1) * n_omega)
             mass[a, a] = link.mass * np.eye(d)
-            force[i * d + d - 1] -= link.mass * drawing.gravity
-            inertia = self.inertia[i] if d == 2 else turn[i] @ self.inertia[i] @ turn[i].T
+            force[i * d + d - 1] -= link.mass * mechanism.gravity
+            inertia = self.inertia[i] if d == 2 else rotation[i] @ self.inertia[i] @ rotation[i].T
             mass[b, b] = inertia
             if d == 3:
                 force[b] -= cross(omega[i], inertia @ omega[i])
 
         def point(i: int, p: Array) -> tuple[Array, Array, Array, Array]:
-            """Place, velocity, rows and centripetal acceleration of a point of a link, or of the ground."""
+            """Position, velocity, Jacobian and centripetal acceleration of a point of a link, or of the ground."""
             rows = np.zeros((d, nv))
             if i == GROUND:
                 return p, np.zeros(d), rows, np.zeros(d)
-            s = turn[i] @ (p - self.com[i])
-            lever = self._lever(s)
+            s = rotation[i] @ (p - self.com[i])
+            lever = self._velocity_by_rotation(s)
             rows[:, i * d : (i + 1) * d] = np.eye(d)
-            rows[:, n * d + i * turns : n * d + (i + 1) * turns] = lever
+            rows[:, n * d + i * n_omega : n * d + (i + 1) * n_omega] = lever
             inward = -(omega[i, 0] ** 2) * s if d == 2 else cross(omega[i], cross(omega[i], s))
-            return place[i] + s, linear[i] + lever @ omega[i], rows, inward
+            return position[i] + s, linear[i] + lever @ omega[i], rows, inward
 
-        for spring in drawing.springs:
+        for spring in mechanism.springs:
             r1, v1, rows_1, _ = point(spring.first, spring.point_1)
             r2, v2, rows_2, _ = point(spring.second, spring.point_2)
             gap = r2 - r1
@@ -264,8 +272,8 @@ class Dynamics:
             pull = spring.stiffness * (length - spring.length) + spring.damping * float(along @ (v2 - v1))
             force += pull * along @ (rows_1 - rows_2)
         all_rows, gamma = [np.zeros((0, nv))], [np.zeros(0)]
-        for joint in drawing.joints:
-            if not (joint.held[0] <= self.between[0] and self.between[1] <= joint.held[1]):
+        for joint in mechanism.joints:
+            if not (joint.closed[0] <= self.interval[0] and self.interval[1] <= joint.closed[1]):
                 continue
             _, _, rows_1, in_1 = point(joint.first, joint.point)
             if joint.kind == "pin":
@@ -273,7 +281,7 @@ class Dynamics:
                 gamma.append(in_1)
                 continue
             if joint.kind == "line":
-                normals = self.across[id(joint)]
+                normals = self.normals[id(joint)]
                 all_rows.append(normals @ rows_1)
                 gamma.append(normals @ in_1)
                 continue
@@ -281,60 +289,60 @@ class Dynamics:
             all_rows.append(rows_1 - rows_2)
             gamma.append(in_1 - in_2)
             if joint.kind == "hinge" and d == 3:
-                rows, product = self._hinge(joint, turn, omega)
+                rows, product = self._hinge(joint, rotation, omega)
                 all_rows.append(rows)
                 gamma.append(product)
-        first = self._turn_of_first(x)
-        force += drawing.torque * first[0]
-        if drawing.drive is not None:
+        first = self._first_rotation_row(x)
+        force += mechanism.torque * first[0]
+        if mechanism.drive is not None:
             all_rows.append(first)
-            gamma.append(np.array([-self._driven(t, 2)]))
+            gamma.append(np.array([-self._drive_derivative(t, 2)]))
         return mass, force, np.vstack(all_rows), np.concatenate(gamma)
 
-    def _hinge(self, joint: Joint, turn: Array, omega: Array) -> tuple[Array, Array]:
-        """The two rows that keep the axis of the first link square to two vectors of the second."""
+    def _hinge(self, joint: Joint, rotation: Array, omega: Array) -> tuple[Array, Array]:
+        """Two constraints: the axis of the first link is perpendicular to two vectors of the second."""
         i, j, n = joint.first, joint.second, self.n
-        axis, across = turn[i] @ joint.axis, self.across[id(joint)]
+        axis, normals = rotation[i] @ joint.axis, self.normals[id(joint)]
         w1, w2 = omega[i], np.zeros(3) if j == GROUND else omega[j]
         rows, product = np.zeros((2, 6 * n)), np.zeros(2)
-        for k, reference in enumerate(across):
-            b = reference if j == GROUND else turn[j] @ reference
-            square = cross(axis, b)
-            rows[k, 3 * n + 3 * i : 3 * n + 3 * i + 3] = square
+        for k, reference in enumerate(normals):
+            b = reference if j == GROUND else rotation[j] @ reference
+            normal = cross(axis, b)
+            rows[k, 3 * n + 3 * i : 3 * n + 3 * i + 3] = normal
             if j != GROUND:
-                rows[k, 3 * n + 3 * j : 3 * n + 3 * j + 3] -= square
-            moving, following = cross(w1, axis), cross(w2, b)
-            product[k] = b @ cross(w1, moving) + 2.0 * moving @ following + axis @ cross(w2, following)
+                rows[k, 3 * n + 3 * j : 3 * n + 3 * j + 3] -= normal
+            axis_rate, b_rate = cross(w1, axis), cross(w2, b)
+            product[k] = b @ cross(w1, axis_rate) + 2.0 * axis_rate @ b_rate + axis @ cross(w2, b_rate)
         return rows, product
 
 
-def motion(drawing: Drawing, rates: bool = False) -> Array:
-    """Positions of the tips (INSTANTS + 1, n, d), of a run that another at a hundred times its tolerance confirms; with
-    `rates` what `Dynamics.rates_and_drive` gives (INSTANTS + 1, k), before each event.
+def motion(mechanism: Mechanism, rates: bool = False) -> Array:
+    """Positions of the tips (INSTANTS + 1, n, d), m, confirmed by a run with a hundred times the tolerance; if `rates`,
+    the values of `Dynamics.rates_and_drive` (INSTANTS + 1, k), before each event.
 
-    Raises `NoReferenceError`: they differ by more than 1e-5 of the size of the drawing, or one of them does not end.
+    Raises `NoReferenceError`: the two runs differ by more than `AGREE`, or one of them does not end.
     """
-    (coarse, _), (results, seen) = (_run(drawing, tolerance) for tolerance in (COARSE, FINE))
-    apart = float(np.abs(coarse - results).max()) / drawing.size
+    (coarse, _), (results, omegas) = (_run(mechanism, tolerance) for tolerance in (COARSE, FINE))
+    apart = float(np.abs(coarse - results).max()) / mechanism.size
     if not apart <= AGREE:
-        coarse, (results, seen) = results, _run(drawing, FINEST)
-        apart = float(np.abs(coarse - results).max()) / drawing.size
+        coarse, (results, omegas) = results, _run(mechanism, FINEST)
+        apart = float(np.abs(coarse - results).max()) / mechanism.size
     if not apart <= AGREE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the size")
-    return seen if rates else results
+    return omegas if rates else results
 
 
-def _run(drawing: Drawing, tolerance: float) -> tuple[Array, Array]:
-    dynamics = Dynamics(drawing)
-    t = np.linspace(0.0, drawing.span, INSTANTS + 1)
-    # no step is so long that the motion between its stages could hide from both runs
-    limit = drawing.span / (200.0 if tolerance == COARSE else 350.0)
-    tips, seen = [], []
+def _run(mechanism: Mechanism, tolerance: float) -> tuple[Array, Array]:
+    dynamics = Dynamics(mechanism)
+    t = np.linspace(0.0, mechanism.span, INSTANTS + 1)
+    # a limit of the step, so that neither run misses motion between its stages
+    limit = mechanism.span / (200.0 if tolerance == COARSE else 350.0)
+    tips, omegas = [], []
     x = np.zeros(0)
     try:
-        for begin, end in itertools.pairwise(drawing.events):
-            dynamics.between = (begin, end)
-            x = dynamics.struck(begin, x) if len(x) else dynamics.start()
+        for begin, end in itertools.pairwise(mechanism.events):
+            dynamics.interval = (begin, end)
+            x = dynamics.after_event(begin, x) if len(x) else dynamics.start()
             requested = t[(t > begin if begin > 0.0 else t >= begin) & (t <= end)]
             run = solve_ivp(
                 dynamics.rates, (begin, end), x, t_eval=np.append(requested[requested < end], end), method="DOP853",
@@ -344,7 +352,7 @@ def _run(drawing: Drawing, tolerance: float) -> tuple[Array, Array]:
                 raise NoReferenceError(run.message)
             x = run.y[:, -1]
             tips += [dynamics.tips(state) for state in run.y.T[: len(requested)]]
-            seen += [dynamics.rates_and_drive(*row) for row in zip(requested, run.y.T[: len(requested)], strict=True)]
+            omegas += [dynamics.rates_and_drive(*row) for row in zip(requested, run.y.T[: len(requested)], strict=True)]
     except np.linalg.LinAlgError as singular:
         raise NoReferenceError("the rows are singular") from singular
-    return np.array(tips), np.array(seen)
+    return np.array(tips), np.array(omegas)

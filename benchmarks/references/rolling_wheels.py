@@ -1,7 +1,7 @@
-"""Wheels that roll without slip, as rows on velocities outside the kernel: an independent rigid bicycle.
+"""A rigid bicycle whose wheels roll without slip, independent of the rolling joints of the engine.
 
-The contact points come from the geometry of a leaned circle, their accelerations from differences; nothing is taken
-from the rolling joints of the engine. Dense NumPy on the arrays of a System,
+Contact points are computed from the geometry of a leaned circle, their accelerations by differences. Dense NumPy on the
+arrays of a System,
 ``[M Phi_q' A'; Phi_q 0 0; A 0 0] [qdd; lam; mu] = [Q; -gamma; -dA/dt qd]`` where A qd is the velocity of the contact
 points of knife-edge wheels.
 """
@@ -18,7 +18,7 @@ from mbs.scenes import bicycle
 
 WHEELS = {"rear wheel": bicycle.REAR_RADIUS, "front wheel": bicycle.FRONT_RADIUS}
 DIGITS = {"rtol": 1e-11, "atol": 1e-12}
-SHIFT = 3e-4  # rad, rad/s: of lean, steer and their rates in the central differences
+SHIFT = 3e-4  # rad, rad/s: change of lean, steer and their rates in the central differences
 
 
 class RollingBicycle:
@@ -40,29 +40,32 @@ class RollingBicycle:
         self.steer = form("steer")[0]
 
     def contact_rows(self, q: Array) -> Array:
-        """A (6, nq): velocities x, y, z of the points of the wheels that touch the road."""
+        """A (6, nq): Jacobian of the velocities x, y, z of both contact points."""
         rows = []
         for wheel, radius in WHEELS.items():
             J = {a: np.array([g for g, _ in self.forms[wheel, a]]) for a in bicycle.AXES}
-            place = {a: J[a] @ q + np.array([c for _, c in self.forms[wheel, a]]) for a in bicycle.AXES}
-            axes = [place[a] - place["centre"] for a in "xyz"]
+            position = {a: J[a] @ q + np.array([c for _, c in self.forms[wheel, a]]) for a in bicycle.AXES}
+            axes = [position[a] - position["centre"] for a in "xyz"]
             rates = [J[a] - J["centre"] for a in "xyz"]
             e_x, axle, _ = axes
             up = np.array([0.0, 0.0, 1.0]) - axle[2] * axle
             arm = -radius * up / np.linalg.norm(up)
-            carried = sum((arm @ e) * rate for e, rate in zip(axes, rates, strict=True))
+            carrier_part = sum((arm @ e) * rate for e, rate in zip(axes, rates, strict=True))
             turn = self.spins[wheel] - e_x @ rates[2]  # spin against the carrier, whose own rate is e_x . e_z'
-            rows.append(J["centre"] + carried + np.outer(np.cross(axle, arm), turn))
+            rows.append(J["centre"] + carrier_part + np.outer(np.cross(axle, arm), turn))
         return np.vstack(rows)
 
     def lean_row(self) -> Array:
-        """Gradient (nq,) of the lean, positive to the right: z of the wheel axle, to first order."""
+        """Gradient (nq,) of the lean angle, positive to the right, to first order: z of the wheel axle."""
         return np.asarray(self.forms["rear wheel", "y"][2][0] - self.forms["rear wheel", "centre"][2][0])
 
     def state(
         self, speed: float, lean: float, steer: float, lean_rate: float, steer_rate: float
     ) -> tuple[Array, Array]:
-        """q and qd that touch the road and roll, to first order in all but the speed."""
+        """q and qd with both wheels on the road and rolling, to first order in all arguments but the speed.
+
+        Arguments in m/s, rad and rad/s.
+        """
         m = self.mechanism
         outputs = np.array([self.lean_row(), self.steer])
         J = m.evaluate(0.0, self.q0, np.zeros(m.nq))[1]
@@ -87,7 +90,9 @@ class RollingBicycle:
         return np.asarray(np.linalg.lstsq(bordered, right, rcond=1e-12)[0][: m.nq])
 
     def motion(self, speed: float, lean_rate: float, end: float) -> Callable[[Array], Array]:
-        """Coordinates (n, nq) as a function of times (n,) up to `end`, from upright and straight, under DOP853."""
+        """Coordinates (n, nq) as a function of times (n,) up to `end`, s, from upright and straight running, by
+        DOP853.
+        """
         n = self.mechanism.nq
         solution = solve_ivp(
             lambda _, x: np.concatenate([x[n:], self.accelerations(x[:n], x[n:])]),
@@ -100,7 +105,7 @@ class RollingBicycle:
         return lambda t: np.asarray(solution.sol(t)[:n].T)
 
     def matrix(self, speed: float) -> Array:
-        """A (4, 4) of x = (lean, steer, their rates), x' = A x, about straight running."""
+        """A (4, 4) of x' = A x, x = (lean, steer, their rates), about straight running."""
         outputs = np.array([self.lean_row(), self.steer])
         values = np.zeros((4, 4))
         values[:2, 2:] = np.eye(2)
@@ -112,7 +117,9 @@ class RollingBicycle:
         return values
 
     def growth(self, speed: float, oscillating: bool) -> float:
-        """Largest real part, 1/s, of the eigenvalues that oscillate (weave), or that do not (capsize)."""
+        """Largest real part, 1/s, of the complex eigenvalues (weave) if `oscillating`, else of the real ones
+        (capsize).
+        """
         values = np.linalg.eigvals(self.matrix(speed))
         return float(max(v.real for v in values if (abs(v.imag) > 1e-6) == oscillating))
 

@@ -1,4 +1,4 @@
-"""Runs that are too coarse on purpose."""
+"""A context without warnings, for runs that are too coarse on purpose."""
 
 import warnings
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ import mbs
 
 @contextmanager
 def expected_errors() -> Iterator[None]:
-    """Runs whose steps or models are too coarse, or values unworkable, on purpose: what they say is known."""
+    """Suppress warnings of runs whose steps or models are too coarse, or values unusual, on purpose."""
     with warnings.catch_warnings():
         for category in (mbs.AccuracyWarning, mbs.BendingWarning, mbs.BranchWarning, mbs.ParameterWarning):
             warnings.simplefilter("ignore", category)

@@ -1,4 +1,4 @@
-"""The frame of the commands: arguments, table, machine line, JSON, chart and page; the same for every measurement."""
+"""What all commands have in common: arguments, table, machine line, JSON file, chart and page."""
 
 import json
 import sys
@@ -27,33 +27,33 @@ class Part:
     """A part of a command: what it measures or writes, and its options."""
 
     about: str
-    """One line."""
+    """One line for the help."""
     measure: Callable[[Namespace], Sequence[Row] | None]
-    """Gives the rows; None where it writes files itself and has said so."""
+    """Returns the rows; None where it has written files itself and printed their paths."""
     names: Sequence[str] = ()
     """What ``--only`` chooses from, by default all."""
     options: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
-    """Default and help of further options; that of a switch is False, of an optional file `Path`."""
+    """Default and help of further options; the default of a switch is False, of an optional file `Path`."""
     rows: bool = True
-    """Whether there are rows, and ``--json``."""
+    """Whether `measure` returns rows, which ``--json`` writes."""
     pages: Sequence[str] = ()
-    """In `docs/`, into which ``--write`` puts the tables of `blocks`."""
+    """Files in `docs/` into which ``--write`` writes the tables of `blocks`."""
     blocks: Callable[[Sequence[Row]], Mapping[str, str]] | None = None
-    """Tables of the page by their marks."""
+    """Tables of the pages by the names of their marks."""
     words: Callable[[Sequence[Row]], str] | None = None
-    """What is printed, by default the tables of `blocks`, or all columns."""
+    """Text that is printed, by default the tables of `blocks`, else all columns."""
     chart: Callable[[Sequence[Row], Path], None] | None = None
-    """Draws the rows; a folder for several charts."""
+    """Draws the rows into a PNG file, or several charts into a folder."""
     check: Callable[[Sequence[Row], Namespace], Sequence[str]] | None = None
-    """Sentences that make the exit code 1."""
-    meant: bool = False
-    """Whether options without the name of a part are of this one."""
+    """Returns sentences on faults; if there are any, the exit code is 1."""
+    is_default: bool = False
+    """Whether this part is run when no part is named."""
 
 
 def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Sequence[str] | None = None) -> int:
-    """Run ``python -m benchmarks.<name> [PART]``; the exit code.
+    """Run ``python -m benchmarks.<name> [PART]`` and return the exit code.
 
-    A command of one part has no argument for it. With ``--from`` rows of earlier runs are taken from their JSON files.
+    A command with one part has no argument PART. With ``--from`` the rows are read from JSON files of earlier runs.
     """
     parser = ArgumentParser(
         prog=f"python -m benchmarks.{name}", description=text, formatter_class=RawDescriptionHelpFormatter
@@ -62,19 +62,19 @@ def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Seque
         _add_options(parser, *parts.values())
         parser.set_defaults(part=next(iter(parts)))
     else:
-        chosen = parser.add_subparsers(dest="part", metavar="PART", required=True)
+        subparsers = parser.add_subparsers(dest="part", metavar="PART", required=True)
         for key, part in parts.items():
-            _add_options(chosen.add_parser(key, help=part.about, description=part.about), part)
-    words = [*(sys.argv[1:] if arguments is None else arguments)]
-    if words and words[0].startswith("--") and words[0] != "--help":
-        words = [key for key, part in parts.items() if part.meant and len(parts) > 1] + words
-    options = parser.parse_args(words)
+            _add_options(subparsers.add_parser(key, help=part.about, description=part.about), part)
+    arguments = [*(sys.argv[1:] if arguments is None else arguments)]
+    if arguments and arguments[0].startswith("--") and arguments[0] != "--help":
+        arguments = [key for key, part in parts.items() if part.is_default and len(parts) > 1] + arguments
+    options = parser.parse_args(arguments)
     part = parts[options.part]
     for key, (default, _) in part.options.items():
         value = getattr(options, key)
         if isinstance(default, (int, float)) and default > 0 and not value > 0:
             parser.error(f"--{key.replace('_', '-')} is {value}; it is a positive number.")
-    return run_command(partial(_work, name, part, options), (RuntimeError,))
+    return run_command(partial(_run_part, name, part, options), (RuntimeError,))
 
 
 def _add_options(parser: ArgumentParser, part: Part) -> None:
@@ -92,35 +92,35 @@ def _add_options(parser: ArgumentParser, part: Part) -> None:
         else:
             many = isinstance(default, (list, tuple))
             first = (*default, "")[0] if many else default
-            shown = " ".join(map(str, default)) if many else str(default)
+            default_text = " ".join(map(str, default)) if many else str(default)
             parser.add_argument(
                 flag, type=type(first), nargs="+" if many else None, default=default, metavar="X",
-                help=f"{help_text}; default: {shown}" if shown else help_text,
+                help=f"{help_text}; default: {default_text}" if default_text else help_text,
             )  # fmt: skip
     if part.rows:
         parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
-        parser.add_argument("--from", dest="given", type=Path, nargs="+", metavar="FILE", help="rows of earlier runs")
+        parser.add_argument("--from", dest="sources", type=Path, nargs="+", metavar="FILE", help="rows of earlier runs")
     if part.chart is not None:
         parser.add_argument("--chart", type=Path, metavar="FILE", help="draw the rows (PNG), or into a folder")
     if part.blocks is not None:
         parser.add_argument("--write", action="store_true", help=f"write the tables of {', '.join(part.pages)} in docs")
 
 
-def _work(name: str, part: Part, options: Namespace) -> int:
-    given = getattr(options, "given", None)
-    if given:
-        files = [json.loads(file.read_text(encoding="utf-8")) for file in given]
+def _run_part(name: str, part: Part, options: Namespace) -> int:
+    sources = getattr(options, "sources", None)
+    if sources:
+        files = [json.loads(file.read_text(encoding="utf-8")) for file in sources]
         rows, meta = [row for file in files for row in file["rows"]], files[0]["meta"]
     else:
         result = part.measure(options)
         if result is None:
             return 0
         rows = [*result]
-        requested = {
+        recorded = {
             key: value for key, value in vars(options).items() if key in part.options or key in ("part", "only")
         }
-        given = {key: str(value) if isinstance(value, Path) else value for key, value in requested.items()}
-        meta = describe(name, **{"repeats": 1} | given)
+        recorded = {key: str(value) if isinstance(value, Path) else value for key, value in recorded.items()}
+        meta = describe(name, **{"repeats": 1} | recorded)
     if options.json is not None:
         write_json(options.json, meta, rows)
         print(f"written: {options.json}")
@@ -145,7 +145,7 @@ def _text_of(part: Part, rows: Sequence[Row]) -> str:
 
 
 def write_blocks(pages: Sequence[str], blocks: Mapping[str, str]) -> None:
-    """Put tables between their marks on pages of `docs/`; all else stays."""
+    """Write tables between their marks on pages of `docs/`; the other text of the pages is unchanged."""
     for page in pages:
         file = DOCS / page
         text = file.read_text(encoding="utf-8")
@@ -158,10 +158,10 @@ def write_blocks(pages: Sequence[str], blocks: Mapping[str, str]) -> None:
 
 
 def watched(items: Sequence[T]) -> Iterator[T]:
-    """The items one after the other, with a bar on the terminal when they take longer than two seconds."""
+    """Yield the items, with a progress bar on the terminal when they take longer than two seconds."""
     done = 0
     with progress_for(None) as bar:
-        # the bar shows itself when it is told: also while the first item takes all the time
+        # the bar appears at an update only: one is due while the first item is still worked on
         first = threading.Timer(bars.DELAY + 0.1, lambda: bar.update(done / len(items)))
         first.daemon = True
         first.start()
@@ -175,7 +175,7 @@ def watched(items: Sequence[T]) -> Iterator[T]:
 
 
 def pyplot() -> Any:
-    """Matplotlib without a screen, loaded only where something is drawn."""
+    """Matplotlib's pyplot without a display, imported only where a chart is drawn."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -185,13 +185,13 @@ def pyplot() -> Any:
 
 
 def save_chart(figure: Any, file: Path) -> None:
-    """Write a figure as PNG, say where, and close it; the same figure gives the same bytes with the same Matplotlib."""
+    """Write a figure as PNG, print the path, and close it; the same Matplotlib gives the same bytes."""
     from ali3.charts import save_picture
 
     save_picture(figure, file)
     print(f"written: {file}")
 
 
-def say_missing(what: str) -> None:
-    """Something that is not installed and left out, on the error stream."""
-    print(f"left out: {what}", file=sys.stderr)
+def report_missing(message: str) -> None:
+    """Print on the error stream what is left out because it is not installed."""
+    print(f"left out: {message}", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""An FMU's WebAssembly module in wasmtime, with the calls of FMPy's slave and nothing of the page's JavaScript."""
+"""An FMU's WebAssembly module in wasmtime, with the methods of FMPy's slave, without the page's JavaScript."""
 
 import struct
 from collections.abc import Callable, Mapping, Sequence
@@ -18,10 +18,10 @@ def _compiled(wasm: bytes) -> wasmtime.Module:
 
 
 class FmuModule:
-    """A module with its files, and one instance of the FMU.
+    """A module with its resource files, and one instance of the FMU.
 
-    `wasm`: the file ``binaries/wasm32/NAME.wasm``; `resources`: files by their paths in the folder of the resources;
-    `memory_limit`: bytes beyond which the memory cannot grow.
+    `wasm`: content of ``binaries/wasm32/NAME.wasm``; `resources`: contents by path in the folder ``resources``;
+    `memory_limit`: largest memory of the module, bytes.
     """
 
     def __init__(self, wasm: bytes, resources: Mapping[str, bytes], guid: str, memory_limit: int | None = None) -> None:
@@ -35,12 +35,12 @@ class FmuModule:
         self.messages: list[tuple[int, str]] = []
         for path, data in resources.items():
             self.add_file(path, data)
-        self._room = self._call("malloc", 16)
+        self._pointer_address = self._call("malloc", 16)
         self._component = self._call(
             *("fmi2Instantiate", self.text("wasmtime"), 1, self.text(guid), self.text("file:///resources")),
             *(self._call("ali3_callbacks"), 0, 0),
         )
-        self.listen()
+        self.fetch_messages()
 
     @property
     def there(self) -> bool:
@@ -50,14 +50,14 @@ class FmuModule:
     def _call(self, name: str, *arguments: Any) -> Any:
         return self._exports[name](self._store, *arguments)
 
-    def listen(self) -> None:
-        """Take the messages over that came since the last call."""
-        box = self._call("ali3_messages")
-        used, lost = struct.unpack("<2I", self.bytes_at(box, 8))
-        words = bytes(self.bytes_at(box + 8, used)).decode().split("\0")[:-1]
+    def fetch_messages(self) -> None:
+        """Append the messages since the last call to `messages`, as status and text."""
+        buffer = self._call("ali3_messages")
+        used, lost = struct.unpack("<2I", self.bytes_at(buffer, 8))
+        words = bytes(self.bytes_at(buffer + 8, used)).decode().split("\0")[:-1]
         self.messages += [(int(head[0]), text) for head, text in zip(words[::2], words[1::2], strict=True)]
         self.messages += [(1, f"{lost} lost")] if lost else []
-        self._memory.write(self._store, bytes(8), box)
+        self._memory.write(self._store, bytes(8), buffer)
 
     @property
     def memory_size(self) -> int:
@@ -65,17 +65,17 @@ class FmuModule:
         return int(self._memory.data_len(self._store))
 
     def address(self, name: str) -> int:
-        """What a helper without arguments gives."""
+        """Return value of an exported function without arguments."""
         return int(self._call(name))
 
     def add_file(self, path: str, data: bytes) -> None:
-        """Put a file into the resources; MemoryError if there is no room."""
+        """Add a file to the resources; raises MemoryError."""
         block = self.block(data)
         if block == 0 or not self._call("ali3_file_add", self.text(f"/resources/{path}"), block, len(data)):
             raise MemoryError(path)
 
     def remove_file(self, path: str) -> bool:
-        """Take a file of the resources away; whether there was one."""
+        """Remove a file from the resources; returns whether it existed."""
         return bool(self._call("ali3_file_remove", self.text(f"/resources/{path}")))
 
     def bytes_at(self, address: int, size: int) -> bytes:
@@ -83,25 +83,25 @@ class FmuModule:
         return bytes(self._memory.read(self._store, address, address + size))
 
     def block(self, data: bytes) -> int:
-        """A block with these bytes, never freed; 0 if there is no memory."""
+        """Allocate a copy of these bytes, which is not freed; its address, 0 if there is no memory."""
         address = int(self._call("malloc", max(len(data), 1)))
         if address != 0:
             self._memory.write(self._store, data, address)
         return address
 
     def text(self, text: str) -> int:
-        """A block with a text."""
+        """Allocate a copy of a text, which is not freed; its address."""
         return self.block(text.encode() + b"\0")
 
     def fmi(self, name: str, *arguments: Any) -> None:
-        """A call of FMI for the instance; raises FMICallException."""
+        """Call a function of FMI for the instance; raises FMICallException."""
         status = self._call(name, self._component, *arguments)
-        self.listen()
+        self.fetch_messages()
         if status > 1:
             raise FMICallException(function=name, status=status)
 
     def caller(self, name: str) -> Callable[..., int]:
-        """The bare function for the instance, for measurements."""
+        """A function of FMI for the instance, without messages and exceptions: for time measurements."""
         function, store, component = self._exports[name], self._store, self._component
         return lambda *arguments: int(function(store, component, *arguments))
 
@@ -123,10 +123,10 @@ class FmuModule:
     def get(self, kind: str, references: Sequence[int]) -> list[Any]:
         """Values of variables of a type."""
         form, n = _FORMATS[kind], len(references)
-        to, where = self.block(bytes(8 * n)), self.block(struct.pack(f"<{n}I", *references))
-        self.fmi(f"fmi2Get{kind}", where, n, to)
-        values = list(struct.unpack(f"<{n}{form}", self.bytes_at(to, n * struct.calcsize(form))))
-        for block in (to, where):
+        result, where = self.block(bytes(8 * n)), self.block(struct.pack(f"<{n}I", *references))
+        self.fmi(f"fmi2Get{kind}", where, n, result)
+        values = list(struct.unpack(f"<{n}{form}", self.bytes_at(result, n * struct.calcsize(form))))
+        for block in (result, where):
             self._call("free", block)
         return values
 
@@ -158,9 +158,9 @@ class FmuModule:
         self.set("String", references, values)
 
     def _pointer(self, name: str, *arguments: Any, value: int = 0) -> int:
-        self._memory.write(self._store, struct.pack("<I", value), self._room)
-        self.fmi(name, *arguments, self._room)
-        return int(struct.unpack("<I", self.bytes_at(self._room, 4))[0])
+        self._memory.write(self._store, struct.pack("<I", value), self._pointer_address)
+        self.fmi(name, *arguments, self._pointer_address)
+        return int(struct.unpack("<I", self.bytes_at(self._pointer_address, 4))[0])
 
     def getFMUState(self) -> int:
         return self._pointer("fmi2GetFMUstate")
@@ -173,10 +173,10 @@ class FmuModule:
 
     def serializeFMUState(self, state: int) -> bytes:
         size = self._pointer("fmi2SerializedFMUstateSize", state)
-        to = self.block(bytes(size))
-        self.fmi("fmi2SerializeFMUstate", state, to, size)
-        data = self.bytes_at(to, size)
-        self._call("free", to)
+        block = self.block(bytes(size))
+        self.fmi("fmi2SerializeFMUstate", state, block, size)
+        data = self.bytes_at(block, size)
+        self._call("free", block)
         return data
 
     def deserializeFMUState(self, data: bytes) -> int:

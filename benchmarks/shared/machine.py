@@ -30,17 +30,17 @@ def machine() -> dict[str, Any]:
     }
 
 
-def describe(benchmark: str, *, repeats: int = 1, **more: Any) -> dict[str, Any]:
-    """The `meta` part of a JSON file: what was measured, when, where and how.
+def describe(benchmark: str, *, repeats: int = 1, **options: Any) -> dict[str, Any]:
+    """The `meta` part of a JSON file: command, time, machine and settings.
 
-    `repeats`: measured runs of a figure; `**more`: anything else a reader must know; JSON values.
+    `repeats`: measured runs of a figure; `**options`: options of the command; JSON values.
     """
     meta: dict[str, Any] = {"benchmark": benchmark, "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     meta |= {"machine": machine(), "repeats": repeats, "settings": Settings().kernel_fields()}
-    return meta | more
+    return meta | options
 
 
-def place(meta: Mapping[str, Any]) -> str:
+def machine_text(meta: Mapping[str, Any]) -> str:
     """Machine and versions, in one line."""
     m = meta["machine"]
     versions = ", ".join(f"{name} {version}" for name, version in m["versions"].items())
@@ -48,13 +48,13 @@ def place(meta: Mapping[str, Any]) -> str:
 
 
 def conditions(meta: Mapping[str, Any]) -> str:
-    """What `describe` found, in words: machine, versions, repeats."""
+    """Machine, versions and number of runs as text, from `describe`."""
     runs = "one run" if meta["repeats"] == 1 else f"{meta['repeats']} runs"
-    return f"{place(meta)}\nDefault settings; {runs} of each figure"
+    return f"{machine_text(meta)}\nDefault settings; {runs} of each figure"
 
 
 def _processor() -> str:
-    """Model name if the system reports it."""
+    """Model name of the processor where the system reports it."""
     info = Path("/proc/cpuinfo")
     if info.is_file():
         for line in info.read_text(encoding="utf-8", errors="replace").splitlines():

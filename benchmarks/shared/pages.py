@@ -1,4 +1,4 @@
-"""Tables in the text of a page: between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``."""
+"""Markdown tables, and their replacement in a page between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``."""
 
 import re
 import textwrap
@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from benchmarks.shared.machine import place
+from benchmarks.shared.machine import machine_text
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 Row = Mapping[str, Any]
 
 
 def table(rows: Sequence[Row], columns: Mapping[str, str]) -> str:
-    """A Markdown table; `columns` maps the keys to formats, None prints as "–"."""
+    """A Markdown table; `columns`: format of each key; None is written as "–"."""
 
     def cell(value: Any, form: str) -> str:
         if value is None:
@@ -32,7 +32,7 @@ def crossed(
     cell: Callable[[Row], str],
     title: str,
 ) -> str:
-    """Rows by name, a column for each value of a key."""
+    """A pivot table: a line for each name, a column for each value of the key `column`."""
     lines: dict[str, dict[str, str]] = {}
     for row in rows:
         lines.setdefault(name(row), {title: name(row)})[row[column]] = cell(row)
@@ -40,12 +40,12 @@ def crossed(
 
 
 def machine(meta: Row) -> str:
-    """Where and when, one line."""
-    return f"{place(meta)}; {meta['time'][:10]}."
+    """Machine, versions and date in one line, from `describe`."""
+    return f"{machine_text(meta)}; {meta['time'][:10]}."
 
 
 def replace(text: str, blocks: Mapping[str, str]) -> str:
-    """The page with its tables exchanged, sentences in lines of at most 120 characters; what was not measured stays."""
+    """Text of a page with new blocks, by name; lines that are no rows of tables are wrapped at 120 characters."""
     for name, content in blocks.items():
         mark = re.compile(rf"(<!-- begin {re.escape(name)} -->\n).*?(<!-- end {re.escape(name)} -->)", re.DOTALL)
         text = mark.sub(lambda m, content=content: f"{m[1]}{_wrapped(content.strip())}\n{m[2]}", text)
@@ -53,7 +53,7 @@ def replace(text: str, blocks: Mapping[str, str]) -> str:
 
 
 def _wrapped(content: str) -> str:
-    """The lines that are no rows of a table, wrapped; an item of a list is indented."""
+    """Wrap the lines that are no rows of a table; further lines of a list item are indented."""
     lines = []
     for line in content.splitlines():
         hang = "  " if line.startswith("- ") else ""

@@ -1,4 +1,4 @@
-"""Rows as aligned columns on the terminal and as JSON files; columns of numbers as CSV files with comments."""
+"""Rows as aligned text and as JSON files; columns of numbers as CSV files with comments."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -13,7 +13,7 @@ from ali3.files import write_text
 
 
 def plain_table(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows as aligned columns; what is None, or not there, is "-"."""
+    """Rows as aligned columns; a value that is None or missing is "-"."""
     keys = list(dict.fromkeys(key for row in rows for key in row))
     cells = [keys] + [[_cell(row.get(key)) for key in keys] for row in rows]
     rule = ["-" * max(map(len, column)) for column in zip(*cells, strict=True)]
@@ -28,7 +28,7 @@ def write_json(file: Path, meta: Mapping[str, Any], rows: Sequence[Mapping[str, 
 
 
 def read_csv(file: Path) -> tuple[list[str], dict[str, NDArray[np.float64]]]:
-    """Lines of comment before the heading, and columns of numbers by name, each of shape (n,)."""
+    """Comment lines before the heading, and columns by name, each of shape (n,)."""
     lines = file.read_text(encoding="utf-8").splitlines()
     head = [line for line in lines if line.startswith("#")]
     values = np.array([[float(v) for v in line.split(",")] for line in lines[len(head) + 1 :]])
@@ -36,7 +36,7 @@ def read_csv(file: Path) -> tuple[list[str], dict[str, NDArray[np.float64]]]:
 
 
 def write_csv(file: Path, head: Sequence[str], columns: Mapping[str, NDArray[np.float64]], digits: int) -> None:
-    """Write what `read_csv` reads."""
+    """Write a file for `read_csv`; `head`: comment lines; `digits`: significant digits."""
     rows = [",".join(f"{v:.{digits}g}" for v in row) for row in np.column_stack(list(columns.values()))]
     file.parent.mkdir(parents=True, exist_ok=True)
     write_text(file, "\n".join([*head, ",".join(columns), *rows]) + "\n")
@@ -49,7 +49,7 @@ def _cell(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Values converted to types of JSON."""
+    """A value with all its items converted to types of JSON."""
     if isinstance(value, Mapping):
         return {str(k): _plain(v) for k, v in value.items()}
     if isinstance(value, list | tuple | np.ndarray):

@@ -1,4 +1,4 @@
-"""Repeated timing of an action; that of the steps of a run is `mbs.simulation.step_time`."""
+"""Least time of an action over several runs; `step_time` measures the steps of a simulation."""
 
 import time
 from collections.abc import Callable
@@ -7,14 +7,15 @@ from mbs.simulation.step_time import step_time as step_time
 
 
 def best_time(action: Callable[[], float | None], repeats: int = 5, warm_up: int = 1) -> float:
-    """Least time of an action, s, on the wall unless it measures itself: what else the machine does can only add to it.
+    """Least time of an action, s: other work of the machine can only lengthen a run.
 
     Parameters
     ----------
     action : callable
-        Is run `warm_up + repeats` times. It may return the time it measured itself, s, to leave its preparations out.
+        Called `warm_up + repeats` times. Returns a time that it has measured itself, s, or None: then the wall time of
+        the call counts.
     repeats, warm_up : int
-        Measured and unmeasured runs.
+        Numbers of measured runs, and of unmeasured runs before them.
     """
     walls = []
     for k in range(warm_up + repeats):

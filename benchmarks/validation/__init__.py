@@ -1,1 +1,1 @@
-"""Cars against measured drives: `python -m benchmarks.validation FILE`."""
+"""Cars against measured drives and published tests."""

@@ -1,8 +1,7 @@
-"""A car against its measured drive, and the tests of others: ``python -m benchmarks.validation PART``.
+"""A car against a measured drive, and published tests: ``python -m benchmarks.validation PART``.
 
-The drive is the log of a Ferrari 250 LM on a race track (see `docs/validation.md` for where it comes from), or another
-log with its alias file and car. Simple models are fitted on the same seconds as the car was, and all are judged on
-others.
+The drive is the log of a Ferrari 250 LM on a race track (source: `docs/validation.md`), or another log with its alias
+file and car. Simple models and the car are fitted to the same seconds and compared over the other seconds.
 """
 
 import sys
@@ -26,7 +25,7 @@ from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
 from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
-from benchmarks.validation.multibody import Judged, judge
+from benchmarks.validation.multibody import DriveComparison, compare_drive
 from benchmarks.validation.published_figures import full_throttle, published_rows
 from benchmarks.validation.refit import BOUNDS, problems, refit
 from benchmarks.validation.refit import COLUMNS as FIT_COLUMNS
@@ -35,7 +34,7 @@ ALIASES = Path(__file__).with_name("ferrari_250_lm_log.toml")
 PAGE = "validation.md"
 BODY = Body(
     982.0, 1605.0, 1.33, 1.07, 0.55
-)  # of the publication that the car file names; inertia of a box of its outline
+)  # data of the publication that the car file names; inertia of a box with the size of the car
 FITTED_NUMBERS = 6  # marked [F] in the file of the car
 MODEL_COLUMNS = {
     "model": "",
@@ -49,7 +48,7 @@ MODEL_COLUMNS = {
     "sideslip": "",
     "departed": "",
 }
-AIMS = {"understeer angle": 0.3, "sideslip": 0.5}  # deg, of the mean difference in a bin
+AIMS = {"understeer angle": 0.3, "sideslip": 0.5}  # deg, largest mean difference in a bin
 PARTS_LEFT_OUT = (
     ("steering a quarter as stiff", {"steering.stiffness": 125.0}),
     ("without anti-roll bars", {"front.anti_roll_bar.factor": 0.02, "rear.anti_roll_bar.factor": 0.02}),
@@ -62,10 +61,10 @@ LACKING = {k: f for k, f in MODEL_COLUMNS.items() if k in ("model", "windows", "
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # inner step of the car, s
-COARSE = 0.01  # step of many runs, s
+COARSE = 0.01  # inner step for many runs, s
 LEFT_OUT = "linear bicycle", "saturating bicycle, tanh", "x/sqrt(1 + x2), two grips, yaw inertia"
 BANKED = "multibody car, bank by place"
-CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
+CHART_MODEL = 3  # index in MODELS: the saturating bicycle with four numbers
 COLUMNS = {
     "models": MODEL_COLUMNS,
     "parts": LACKING,
@@ -78,42 +77,42 @@ COLUMNS = {
 
 
 def _drive(options: Namespace) -> list[dict[str, Any]]:
-    """Fit and judge; each table of the page by its name."""
+    """Fit the models and compare them; rows with the names of their tables."""
     log, aliases = _log(options)
     page = (DOCS / PAGE).read_text(encoding="utf-8")
     if options.write and options.banked_car is None and f"| {BANKED} |" in page:
         raise UserError(
             f"The page has the row '{BANKED}', which --write without --banked-car FMU would lose; give it too."
         )
-    drive = _banked(read_drive(log, aliases), FITTED)
+    drive = _with_bank(read_drive(log, aliases), FITTED)
     models = [m for m in (*MODELS, *two_track.MODELS) if drive.bank.size or not m.bank]
-    simple = [fit(model, BODY, drive) for model in watched(models)]
+    fits = [fit(model, BODY, drive) for model in watched(models)]
 
-    def judged(settings: dict[str, float], brief: bool) -> Judged:
-        return judge(options.car, log, aliases, {"step_size": STEP} | settings, brief)
+    def compare_car(settings: dict[str, float], brief: bool) -> DriveComparison:
+        return compare_drive(options.car, log, aliases, {"step_size": STEP} | settings, brief)
 
-    car = judged({}, brief=False)
-    rows = [_of_bicycle(f, drive) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS, drive)]
+    car = compare_car({}, brief=False)
+    rows = [_row_of_fit(f, drive) for f in fits] + [_row_of_car("multibody car", car, FITTED_NUMBERS, drive)]
     if options.banked_car is not None and drive.bank.size:
         with tempfile.TemporaryDirectory() as folder:
             files = write_banked(Path(folder), log, aliases, drive.bank, BODY.mass)
-            banked = judge(str(options.banked_car), *files, {"step_size": STEP})
-        rows.append(_of_car(BANKED, banked, FITTED_NUMBERS, drive))
-    best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
-    swapped = fit(best.model, BODY, _banked(drive, JUDGED), JUDGED, FITTED)
+            banked = compare_drive(str(options.banked_car), *files, {"step_size": STEP})
+        rows.append(_row_of_car(BANKED, banked, FITTED_NUMBERS, drive))
+    best = min((f for f in fits if np.isfinite(f.lateral)), key=lambda f: f.windows)
+    refitted = fit(best.model, BODY, _with_bank(drive, JUDGED), JUDGED, FITTED)
     tables = {
         "models": rows,
-        "parts": [_of_car(name, judged(values, brief=True), 0, drive) for name, values in PARTS_LEFT_OUT],
+        "parts": [_row_of_car(name, compare_car(values, brief=True), 0, drive) for name, values in PARTS_LEFT_OUT],
         "published": published_rows(*full_throttle(options.car, {"step_size": STEP})),
         "curves": _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive),
-        "folds": _folds(best, swapped),
-        "numbers": _numbers(simple),
+        "folds": _folds(best, refitted),
+        "numbers": _numbers(fits),
         "notes": [{"note": note} for note in car.notes],
     }
     if options.picture is not None:
-        chosen = simple[CHART_MODEL]
+        chosen = fits[CHART_MODEL]
         draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.picture)
-    return [{"table": name, **row} for name, part in tables.items() for row in part]
+    return [{"table": name, **row} for name, table_rows in tables.items() for row in table_rows]
 
 
 def _kinds(options: Namespace) -> list[dict[str, Any]]:
@@ -130,16 +129,18 @@ def _log(options: Namespace) -> tuple[Path, Path]:
     return options.log, options.aliases or ALIASES
 
 
-def _banked(drive: Drive, seconds: Spans) -> Drive:
-    """With the bank of the road from the accelerometer of some seconds; unchanged if that cannot show it."""
+def _with_bank(drive: Drive, seconds: Spans) -> Drive:
+    """The drive with the bank of the road from its accelerometer in some seconds; unchanged if it cannot be
+    computed.
+    """
     try:
-        return replace_of(drive, bank=bank_of(drive, seconds).by_place)
+        return replace_of(drive, bank=bank_of(drive, seconds))
     except ValueError as error:
         print(f"note: no bank of the road, and no model that knows it. {error}")
         return drive
 
 
-def _of_bicycle(f: Fitted, drive: Drive) -> dict[str, Any]:
+def _row_of_fit(f: Fitted, drive: Drive) -> dict[str, Any]:
     lateral = None if np.isnan(f.lateral) else f.lateral
     return {
         "model": f.model.name, "numbers": len(f.numbers), "fitted": f.fitted, "windows": f.windows, "whole": f.whole,
@@ -148,17 +149,17 @@ def _of_bicycle(f: Fitted, drive: Drive) -> dict[str, Any]:
 
 
 def _by_acceleration(drive: Drive, predicted: tuple[Array, Array]) -> dict[str, Any]:
-    """Deviation of the lateral acceleration, and in how many bins the means are within `AIMS`."""
+    """Error of the lateral acceleration, m/s2, and the number of bins whose means are within `AIMS`."""
     if np.isnan(predicted[0]).any():
         return {"acceleration": None, "understeer": "–", "sideslip": "–"}
     result = curves(drive, BODY.wheelbase, *predicted)
     counts = {quantity: within(result, quantity, aim) for quantity, aim in AIMS.items()}
-    agreement = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
+    agreement = {quantity.split()[0]: f"{good} of {total}" for quantity, (good, total) in counts.items()}
     return {"acceleration": acceleration_error(drive, *predicted), **agreement}
 
 
 def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[str, Any]]:
-    """Understeer angle and sideslip by lateral acceleration: what was measured, and how far each model is off."""
+    """Rows of understeer angle and sideslip by lateral acceleration: measured mean, and difference of each model."""
     results = {name: curves(drive, BODY.wheelbase, *predicted) for name, predicted in models.items()}
     rows = []
     for k, c in enumerate(next(iter(results.values()))):
@@ -168,61 +169,69 @@ def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[s
             "seconds": c.seconds,
             "measured": c.measured,
         }
-        rows.append(row | {"spread": c.spread} | {name: own[k].difference for name, own in results.items()})
+        rows.append(
+            row | {"spread": c.spread} | {name: model_curves[k].difference for name, model_curves in results.items()}
+        )
     return [row for row in rows if row["seconds"] >= ENOUGH]
 
 
-def _folds(one: Fitted, other: Fitted) -> list[dict[str, Any]]:
-    """The numbers of a model that was fitted to either part of the drive, and its yaw rate over the other part."""
+def _folds(first: Fitted, second: Fitted) -> list[dict[str, Any]]:
+    """Rows of the parameters of a model fitted to either part of the drive, and of its yaw-rate error over the
+    other.
+    """
     rows = [
         {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
-        for (u, a), (_, b) in zip(_named(one), _named(other), strict=True)
+        for (u, a), (_, b) in zip(_unknowns_with_values(first), _unknowns_with_values(second), strict=True)
     ]
     yaw_rate_row = {
         "number": "yaw rate in windows of the other part, rad/s",
-        "fitted seconds": one.windows,
-        "others": other.windows,
+        "fitted seconds": first.windows,
+        "others": second.windows,
     }
     return [*rows, yaw_rate_row]
 
 
-def _of_car(name: str, j: Judged, numbers: int, drive: Drive) -> dict[str, Any]:
+def _row_of_car(name: str, comparison: DriveComparison, numbers: int, drive: Drive) -> dict[str, Any]:
     return {
         "model": name,
         "numbers": numbers,
-        "fitted": None if np.isnan(j.fitted) else j.fitted,
-        "windows": j.windows,
-        "whole": None if np.isnan(j.whole) else j.whole,
-        "lateral": j.lateral,
-        **_by_acceleration(drive, j.predicted),
-        "departed": ", ".join(j.departed) or "0",
+        "fitted": None if np.isnan(comparison.fitted) else comparison.fitted,
+        "windows": comparison.windows,
+        "whole": None if np.isnan(comparison.whole) else comparison.whole,
+        "lateral": comparison.lateral,
+        **_by_acceleration(drive, comparison.predicted),
+        "departed": ", ".join(comparison.departed) or "0",
     }
 
 
-def _numbers(simple: Sequence[Fitted]) -> list[dict[str, Any]]:
-    """What was fitted to each simple model, and what each start of the fit found."""
+def _numbers(fits: Sequence[Fitted]) -> list[dict[str, Any]]:
+    """Rows of the fitted parameters of each simple model, and of the deviation from each start."""
     return [
         {
             "model": f.model.name,
-            "found": ", ".join(f"{u.name} {x:.4g} {u.unit}".rstrip("1").rstrip() for u, x in _named(f)),
-            "starts": ", ".join(f"{x:.4f}" for x in sorted(f.found)),
+            "found": ", ".join(f"{u.name} {x:.4g} {u.unit}".rstrip("1").rstrip() for u, x in _unknowns_with_values(f)),
+            "starts": ", ".join(f"{x:.4f}" for x in sorted(f.deviations)),
         }
-        for f in simple
+        for f in fits
         if len(f.numbers)
     ]
 
 
-def _named(f: Fitted) -> list[tuple[Any, float]]:
+def _unknowns_with_values(f: Fitted) -> list[tuple[Any, float]]:
     return list(zip(f.model.unknowns, f.numbers.tolist(), strict=True))
 
 
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """The tables of the page by their marks."""
-    of = {name: [{k: v for k, v in r.items() if k != "table"} for r in rows if r["table"] == name] for name in COLUMNS}
-    form = COLUMNS["curves"] | dict.fromkeys(list(of["curves"][0])[5:], ".2f")
-    plain = {name: table(of[name], COLUMNS[name]) for name in ("models", "parts", "published", "folds", "numbers")}
-    notes = "\n".join(f"- {row['note']}" for row in of["notes"])
-    return plain | {"curves": table(of["curves"], form), "notes": notes}
+    """Tables of the page by the names of their marks."""
+    rows_of = {
+        name: [{k: v for k, v in r.items() if k != "table"} for r in rows if r["table"] == name] for name in COLUMNS
+    }
+    form = COLUMNS["curves"] | dict.fromkeys(list(rows_of["curves"][0])[5:], ".2f")
+    tables = {
+        name: table(rows_of[name], COLUMNS[name]) for name in ("models", "parts", "published", "folds", "numbers")
+    }
+    notes = "\n".join(f"- {row['note']}" for row in rows_of["notes"])
+    return tables | {"curves": table(rows_of["curves"], form), "notes": notes}
 
 
 LOGGED: dict[str, tuple[Any, str]] = {
@@ -230,7 +239,7 @@ LOGGED: dict[str, tuple[Any, str]] = {
     "car": ("ferrari_250_lm", "FMU or car"),
     "aliases": (Path, "of the log, for the car; by default those of the Ferrari's"),
 }
-SOUGHT: dict[str, tuple[Any, str]] = {
+FITTED_PARAMETERS: dict[str, tuple[Any, str]] = {
     "bounds": (Path, "what is sought, and between which bounds; by default that of the Ferrari"),
 }
 PARTS = {
@@ -249,7 +258,7 @@ PARTS = {
     "fit": Part(
         "fit the multibody car to the drive",
         lambda options: refit(options.car, *_log(options), options.bounds or BOUNDS),
-        options=LOGGED | SOUGHT,
+        options=LOGGED | FITTED_PARAMETERS,
         words=lambda rows: table(rows, FIT_COLUMNS),
         check=lambda rows, options: problems(rows),
     ),
@@ -263,7 +272,7 @@ PARTS = {
     "kinds": Part(
         "what models predict for kinds of seconds that are left out: corners, speeds, accelerations",
         _kinds,
-        options=LOGGED | SOUGHT,
+        options=LOGGED | FITTED_PARAMETERS,
         pages=(PAGE,),
         blocks=lambda rows: {"kinds": table(rows, omitted_seconds.COLUMNS)},
     ),

@@ -1,12 +1,12 @@
 """Published full-throttle accelerations from rest of named cars, against cars of the package with their data.
 
-- **VW e-up of 2013**: 12.4 s to 100 km/h as the maker tells it, with 210 N m and 60 kW (auto-motor-und-sport.de),
-  1140 kg (derstandard.at). Here the hatchback, whose motor is that one, with as much less mass of its body.
+- **VW e-up of 2013**: 12.4 s to 100 km/h by its maker, with 210 N m and 60 kW (auto-motor-und-sport.de),
+  1140 kg (derstandard.at). Here the hatchback, which has that motor, with that mass.
 - **Renault Zoe of 2013**: 13.5 s to 100 km/h with 220 N m, 65 kW and 1503 kg (autoscout24.be); to 50 km/h in 4 s
-  (aargauerzeitung.ch) or 3.7 s (niedrigenergieforum.de). Here the hatchback with that motor and that mass; ratio,
-  efficiency, drag and tyres are its own, which are assumed.
+  (aargauerzeitung.ch) or 3.7 s (niedrigenergieforum.de). Here the hatchback with that motor and that mass, and with its
+  own assumed ratio, efficiency, drag and tyres.
 - **BMW 320i of 1980**: 9.8 s to 60 mph, top speed 105 mph (Car and Driver, March 1980, by insurancenewsmag.com). Here
-  the saloon, which has masses, rates and tyres of a measured 320i; engine, gears and drag are assumed.
+  the saloon, which has masses, rates and tyres of a measured 320i, and assumed engine, gears and drag.
 """
 
 from dataclasses import dataclass
@@ -17,36 +17,36 @@ from benchmarks.validation.drive import Array
 from benchmarks.validation.published_figures import KMH, Published, full_throttle
 
 MPH = 1.609344  # km/h
-# kg, of the hatchback
+# kg, masses of the hatchback
 _BODY = 1040.0
 _WITH_DRIVER = 1250.0
 
 
-def _as_heavy_as(mass: float) -> dict[str, float]:
-    """The hatchback with a mass, its driver on board, kg."""
+def _with_mass(mass: float) -> dict[str, float]:
+    """Settings of the hatchback for a mass with driver, kg."""
     return {"chassis.mass": _BODY + mass - _WITH_DRIVER}
 
 
 @dataclass(frozen=True)
 class FromRest:
-    """A car that is driven so, and the times and the top speed that are published of it."""
+    """A car with its settings, and its published times and top speed."""
 
     car: str
     settings: dict[str, float]
     times: dict[float, Published]
-    """By the speed that is reached, km/h."""
+    """Times by the speed that is reached, km/h."""
     top_speed: Published | None = None
 
 
 DRIVES = (
     FromRest(
         "hatchback",
-        _as_heavy_as(1140.0),
+        _with_mass(1140.0),
         {100.0: Published("VW e-up: 0 to 100 km/h", "s", {"auto-motor-und-sport.de": 12.4}, 0.05)},
     ),
     FromRest(
         "hatchback",
-        {"drive.max_torque": 220.0, "drive.max_power": 65e3, **_as_heavy_as(1503.0)},
+        {"drive.max_torque": 220.0, "drive.max_power": 65e3, **_with_mass(1503.0)},
         {
             50.0: Published(
                 "Renault Zoe: 0 to 50 km/h", "s", {"aargauerzeitung.ch": 4.0, "niedrigenergieforum.de": 3.7}, 0.05
@@ -64,7 +64,7 @@ DRIVES = (
 
 
 def reached(time: Array, speed: Array, target: float) -> float:
-    """The time at which a speed is first reached, s.
+    """Time at which a speed is first reached, s.
 
     `time`, `speed`: in s and m/s, shape (n,); `target`: in km/h.
     """
@@ -75,7 +75,7 @@ def reached(time: Array, speed: Array, target: float) -> float:
 
 
 def compared() -> list[tuple[Published, float]]:
-    """Published times, and those of the cars of the package."""
+    """Published times and top speeds, each with that of a car of the package."""
     results = []
     for drive in DRIVES:
         time, speed = full_throttle(drive.car, drive.settings)

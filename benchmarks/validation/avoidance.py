@@ -1,9 +1,9 @@
-"""The obstacle avoidance of ISO 3888-2 that others drove with a named car, against the hatchback.
+"""Published obstacle avoidance of ISO 3888-2 with a named car, against the hatchback.
 
 The Renault Zoe of 2020 passed at 73 km/h and not at 78 km/h (km77, by evnewstopic.com), that of 2019 at 74 and 76 km/h
-and not at 80 km/h (Motor1 Türkiye, by automotivetip.com), with people at the wheel and with stability control. The
-hatchback is of that class and no Zoe: mass, tyres and springs are between those of measured cars. It has no stability
-control, and the best of four drivers of the catalogue steers it.
+and not at 80 km/h (Motor1 Türkiye, by automotivetip.com), with human drivers and stability control. The hatchback is of
+that class, with mass, tyres and springs between those of measured cars; it has no stability control, and the best of
+four drivers of the catalogue steers it.
 """
 
 from pathlib import Path
@@ -23,7 +23,7 @@ FASTEST = Published(
 
 
 def compared(car: str = CAR) -> list[tuple[Published, float]]:
-    """What was published, and the entry speed of the hatchback as the catalogue finds it."""
+    """Published fastest entry speed, and that of the hatchback by the catalogue, km/h."""
     test = standard_test("double_lane_change")
     record = test.perform(
         TestedCar(car, FmuSource(fmu_file(Path(car)))), settings_of_test(test, SETTINGS), lambda done: None

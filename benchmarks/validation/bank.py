@@ -1,12 +1,10 @@
-"""Bank of the road from the accelerometer: at each sample, or by place from the seconds that models are fitted on.
+"""Bank of the road from the accelerometer, as a function of the position in the lap.
 
-A sensor of lateral acceleration measures the forces of the tyres and not the weight: on a road that falls to the left
-by an angle b it shows the acceleration less g sin b. As the body rolls, it shows a share of the acceleration in
-addition.
+An accelerometer measures specific force: on a road that falls to the left by an angle b its lateral signal is the
+acceleration less g sin b. Roll of the body adds a share of the acceleration to the signal.
 """
 
 import gzip
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,96 +14,73 @@ from scipy.signal import butter, sosfiltfilt
 from benchmarks.validation.drive import FITTED, Array, Drive, Spans
 
 PORT = "point_reference.Fy"
-"""Of an FMU with the ports ``forces=vehicle``, at which the bank is a force."""
-CUT_OFF = 1.0  # Hz, of what is taken as the road
-PIECE = 10.0  # m of the track, over which the map is a mean
+"""Input of an FMU with the ports ``forces=vehicle`` for the bank as a force."""
+CUT_OFF = 1.0  # Hz, of the low-pass that leaves the bank
+PIECE = 10.0  # m, length of the track pieces over which the bank is averaged
 _SHORTEST = 1000.0  # m, shortest lap
 _LONGEST = 6000.0  # m, longest lap
-_SLOWEST = 5.0  # m/s, of a curvature
-_LIKE = 0.9  # correlation of the curvatures of one point in two laps
-_NEARLY = 0.02  # difference to the best correlation
+_SLOWEST = 5.0  # m/s, least speed in the curvature of the path
+_LEAST_CORRELATION = 0.9  # of the curvatures of two laps
+_NEARLY = 0.02  # largest difference from the best correlation
 
 
-@dataclass(frozen=True)
-class Bank:
-    """Lateral acceleration by the weight on the banked road, positive to the left, m/s2."""
+def bank_of(drive: Drive, seconds: Spans = FITTED) -> Array:
+    """Lateral acceleration by the weight on the banked road at each sample, m/s2, positive to the left, shape (n,).
 
-    by_sensor: Array
-    """At each sample of the drive, from that sample, shape (n,): a model that is judged with it uses the accelerometer
-    of the judged seconds."""
-    by_place: Array
-    """At each sample, from the fitted seconds alone, by the place of the car in its lap, shape (n,)."""
-    roll_share: float
-    """Share of the acceleration that roll adds to the sensor's signal."""
-    lap: float
-    """Length of a lap, m."""
-    repeated: float
-    """Correlation of `by_sensor` with itself a lap later."""
-    unseen: float
-    """Share of the lap without a fitted second."""
-
-
-def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
-    """Find the bank of the road of a drive in laps.
-
-    `seconds`: from which the share of the roll and the map are taken, s. Raises `ValueError`: the log has no
-    accelerometer, or the drive does not come to the same places again.
+    The bank is a function of the position in the lap, from the samples in the spans `seconds`. Raises `ValueError`: the
+    log has no accelerometer, or the drive has no laps.
     """
     if not drive.ay.size:
         raise ValueError("The log has no lateral acceleration, 'chassis.ay'.")
     sections = butter(2, CUT_OFF, fs=1.0 / drive.interval, output="sos")
-    moved, felt = (
+    acceleration, sensed = (
         sosfiltfilt(sections, a) for a in (np.gradient(drive.vy, drive.interval) + drive.yaw_rate * drive.vx, drive.ay)
     )
-    inside = drive.inside(seconds)
-    columns = np.column_stack([moved, np.ones_like(moved)])
-    share = np.linalg.lstsq(columns[inside], (felt - moved)[inside], rcond=None)[0]
-    by_sensor = -(felt - moved - columns @ share)
-    distance, lap = way_of(drive)
+    in_seconds = drive.inside(seconds)
+    columns = np.column_stack([acceleration, np.ones_like(acceleration)])
+    share = np.linalg.lstsq(columns[in_seconds], (sensed - acceleration)[in_seconds], rcond=None)[0]
+    bank = -(sensed - acceleration - columns @ share)
+    distance, lap = distance_and_lap(drive)
     count = round(lap / PIECE)
     piece = pieces(distance, lap)
-    passed = np.bincount(piece[inside], minlength=count)
+    passed = np.bincount(piece[in_seconds], minlength=count)
     seen = np.flatnonzero(passed)
-    means = np.bincount(piece[inside], by_sensor[inside], count)[seen] / passed[seen]
+    means = np.bincount(piece[in_seconds], bank[in_seconds], count)[seen] / passed[seen]
     middle = (seen + 0.5) * lap / count
-    by_place = np.interp(distance % lap, middle, means, period=lap)
-    later = np.interp(distance + lap, distance, by_sensor, right=np.nan)
-    both = np.isfinite(later)
-    repeated = float(np.corrcoef(by_sensor[both], later[both])[0, 1])
-    return Bank(by_sensor, by_place, float(share[0]), lap, repeated, 1.0 - len(seen) / count)
+    return np.interp(distance % lap, middle, means, period=lap)
 
 
-def way_of(drive: Drive) -> tuple[Array, float]:
-    """Way along the track at each sample, of shape (n,), and the length of a lap, m. Raises `ValueError`: no laps."""
+def distance_and_lap(drive: Drive) -> tuple[Array, float]:
+    """Distance along the track at each sample, shape (n,), and the length of a lap, m. Raises `ValueError`: no laps."""
     distance = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
     return distance, _lap(distance, drive.yaw_rate / np.maximum(drive.vx, _SLOWEST))
 
 
 def pieces(distance: Array, lap: float) -> NDArray[np.intp]:
-    """Number of the piece of the lap in which each sample lies, shape (n,). `distance`, `lap`: of `way_of`."""
+    """Number of the lap piece of each sample, shape (n,). `distance`, `lap`: of `distance_and_lap`."""
     count = round(lap / PIECE)
     return np.asarray(((distance % lap) / lap * count).astype(np.intp) % count)
 
 
 def _lap(distance: Array, curvature: Array) -> float:
-    """Length of a lap, m: the shift at which the curvature of the path correlates best with itself."""
+    """Length of a lap, m: the shift with the largest autocorrelation of the path's curvature."""
     even = np.interp(np.arange(0.0, distance[-1]), distance, curvature)
     shifts = np.arange(int(_SHORTEST), int(min(_LONGEST, distance[-1] - _SHORTEST)))
-    alike = np.array([np.corrcoef(even[:-k], even[k:])[0, 1] for k in shifts])
-    if not alike.max() > _LIKE:
+    correlations = np.array([np.corrcoef(even[:-k], even[k:])[0, 1] for k in shifts])
+    if not correlations.max() > _LEAST_CORRELATION:
         raise ValueError(
-            f"The drive does not repeat its path: the best correlation of its curvature is {alike.max():.2f}."
+            f"The drive does not repeat its path: the best correlation of its curvature is {correlations.max():.2f}."
         )
-    near = np.flatnonzero(alike > alike.max() - _NEARLY)
-    first = near[near <= near[0] + _SHORTEST / 2.0]  # one lap, where there is room for several
-    return float(shifts[first[np.argmax(alike[first])]])
+    near = np.flatnonzero(correlations > correlations.max() - _NEARLY)
+    first = near[near <= near[0] + _SHORTEST / 2.0]  # one lap, not several
+    return float(shifts[first[np.argmax(correlations[first])]])
 
 
 def write_banked(folder: Path, log: Path, aliases: Path, bank: Array, mass: float) -> tuple[Path, Path]:
-    """Write the log and its alias file with one more column: mass times bank, a lateral force at the reference point.
+    """Write a log and its alias file with a further column: mass times bank, a lateral force at the reference point, N.
 
-    `bank`: of each row of the log, m/s2, positive to the left, shape (n,); `mass`: of the car, kg. The loads of the
-    wheels on a banked road are not in this force.
+    `bank`: of each row of the log, m/s2, positive to the left, shape (n,); `mass`: of the car, kg. Returns both files.
+    The force does not have the effect of the bank on the wheel loads.
     """
     packed = log.suffix == ".gz"
     text = gzip.decompress(log.read_bytes()).decode() if packed else log.read_text(encoding="utf-8")

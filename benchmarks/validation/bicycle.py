@@ -1,4 +1,4 @@
-"""Bicycle models of growing detail, many windows at once."""
+"""Bicycle models of increasing detail, simulated for many windows at once."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from benchmarks.validation.drive import Drive
 Array = NDArray[np.float64]
 G = 9.81  # m/s2
 AIR = 1.2  # kg/m3
-HEIGHT = 0.42  # m, of the centre of mass: as assumed in the file of the car
+HEIGHT = 0.42  # m, of the centre of mass, as in the car file
 
 
 @dataclass(frozen=True)
@@ -20,28 +20,28 @@ class Body:
 
     mass: float
     yaw_inertia: float
-    """`mass`, `yaw_inertia`: kg, kg m2."""
+    """`mass`, kg; `yaw_inertia`, kg m2."""
     front: float
     rear: float
-    """`front`, `rear`: distance of the axles from the centre of mass, m."""
+    """`front`, `rear`: distances of the axles from the centre of mass, m."""
     drag_area: float = 0.0
     """Drag coefficient times frontal area, m2."""
 
     @property
     def wheelbase(self) -> float:
-        """m."""
+        """Wheelbase, m."""
         return self.front + self.rear
 
 
 @dataclass(frozen=True)
 class Unknown:
-    """A number that is fitted."""
+    """A fitted parameter."""
 
     name: str
     unit: str
     low: float
     high: float
-    """`low`, `high`: between which starts are drawn and the number stays."""
+    """`low`, `high`: bounds of the parameter and range of its start values."""
 
 
 @dataclass(frozen=True)
@@ -51,26 +51,27 @@ class Model:
     name: str
     unknowns: tuple[Unknown, ...]
     forces: Callable[[Body, Array, Array, Array, Mapping[str, Array]], tuple[Array, Array]] | None = None
-    """Lateral forces of both axles over the mass from slip angles (front, rear), ax and the numbers; None: the yaw rate
-    follows the steering angle at once, by ``understeer``."""
+    """Returns lateral forces of both axles, N, from slip angles (front, rear), rad, ax, m/s2, and the parameters. None:
+    a static relation of yaw rate and steering angle, by ``understeer``.
+    """
     simulate: Callable[..., tuple[Array, Array]] | None = None
-    """In place of the `simulate` of a bicycle."""
+    """Replaces the `simulate` of a bicycle."""
     bank: bool = False
     open: bool = False
-    """`bank`, `open`: whether it knows the bank of the road; whether its differential is open. Of a model with its own
-    `simulate`."""
+    """`bank`, `open`, of a model with its own `simulate`: whether it includes the bank of the road, and whether its
+    differential is open."""
 
     @property
     def moves_across(self) -> bool:
-        """Whether it has a lateral velocity."""
+        """Whether the model has a lateral velocity."""
         return self.forces is not None or self.simulate is not None
 
 
 def _loads(body: Body, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
-    """Loads of both axles, N; the height of the centre of mass moves them with ax."""
-    moved = body.mass * ax * p.get("height", np.float64(0.0)) / body.wheelbase
+    """Loads of both axles, N, with the load transfer by ax at the parameter "height"."""
+    transfer = body.mass * ax * p.get("height", np.float64(0.0)) / body.wheelbase
     total = body.mass * G / body.wheelbase
-    return total * body.rear - moved, total * body.front + moved
+    return total * body.rear - transfer, total * body.front + transfer
 
 
 def _linear(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
@@ -78,11 +79,15 @@ def _linear(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array])
 
 
 def _saturating(curve: Callable[[Array], Array]) -> Callable[..., tuple[Array, Array]]:
-    """Forces that reach grip times load along a curve of slope one; stiffness and grip go with the load."""
+    """Forces up to grip times load, by a curve with initial slope one; stiffness and grip are proportional to the
+    load.
+    """
 
     def forces(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
-        results, still = [], _loads(body, np.float64(0.0), {})
-        for axle, slip, load, at_rest in zip(("front", "rear"), (af, ar), _loads(body, ax, p), still, strict=True):
+        results, static_loads = [], _loads(body, np.float64(0.0), {})
+        for axle, slip, load, at_rest in zip(
+            ("front", "rear"), (af, ar), _loads(body, ax, p), static_loads, strict=True
+        ):
             grip = p.get(f"{axle} grip", p.get("grip"))
             results.append(-grip * load * curve(p[f"{axle} stiffness"] / at_rest * slip / grip))
         return results[0], results[1]
@@ -91,19 +96,21 @@ def _saturating(curve: Callable[[Array], Array]) -> Callable[..., tuple[Array, A
 
 
 def _degressive(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
-    """Forces along `root` where stiffness and grip go with less than the load, at the height of the car file."""
+    """Forces by the curve `root` with degressive stiffness and grip, and load transfer at the height of the car
+    file.
+    """
     results = []
-    still, moved = _loads(body, np.float64(0.0), {}), _loads(body, ax, {"height": np.float64(HEIGHT)})
-    for axle, slip, at_rest, load in zip(("front", "rear"), (af, ar), still, moved, strict=True):
+    static_loads, loads = _loads(body, np.float64(0.0), {}), _loads(body, ax, {"height": np.float64(HEIGHT)})
+    for axle, slip, at_rest, load in zip(("front", "rear"), (af, ar), static_loads, loads, strict=True):
         share = load / at_rest
-        most = p[f"{axle} grip"] * (1.0 - p["grip lost by load"] * (share - 1.0)) * load
+        max_force = p[f"{axle} grip"] * (1.0 - p["grip lost by load"] * (share - 1.0)) * load
         stiffness = p[f"{axle} stiffness"] * share ** p["exponent of stiffness"]
-        results.append(-most * root(stiffness * slip / most))
+        results.append(-max_force * root(stiffness * slip / max_force))
     return results[0], results[1]
 
 
 def root(x: Array) -> Array:
-    """A curve from slope one to one, that of the slip over the force it reaches."""
+    """Force curve x / sqrt(1 + x^2), with initial slope one and limit one."""
     return x / np.sqrt(1.0 + x * x)
 
 
@@ -153,16 +160,16 @@ MODELS = (
 def simulate(
     model: Model, body: Body, drive: Drive, begins: NDArray[np.intp], steps: int, numbers: Array
 ) -> tuple[Array, Array]:
-    """Drive a model by the measured angle of the wheels at the measured speed.
+    """Simulate a model with the measured steering angle and speed.
 
-    `begins`: samples at which windows begin, with the measured lateral velocity and yaw rate, shape (w,); `steps`:
-    samples of a window after its first; `numbers`: sets of numbers, shape (k, p); all windows are driven with each.
-    Returns `vy` and `yaw_rate`, shape (k, w, steps + 1): at the centre of mass.
+    `begins`: first samples of the windows, which start from the measured lateral velocity and yaw rate, shape (w,);
+    `steps`: number of steps in a window; `numbers`: k sets of parameters, shape (k, p). Returns `vy`, m/s, and
+    `yaw_rate`, rad/s, at the centre of mass, shape (k, w, steps + 1).
 
     Notes
     -----
-    Heun's method with a step a sample. Near the limit of the tyres its largest error in 275 s was 3e-3 rad/s, against
-    LSODA with a tolerance of 1e-9.
+    Heun's method with one step per sample. Near the limit of the tyres its largest error in 275 s was 3e-3 rad/s,
+    against LSODA with a tolerance of 1e-9.
     """
     rows = begins[:, None] + np.arange(steps + 1)
     steer, vx, ax = drive.steer[rows], drive.vx[rows], drive.ax[rows]
@@ -181,7 +188,9 @@ def simulate(
         ar = np.arctan2(vy - body.rear * r, vx[:, k])
         front, rear = forces(body, af, ar, ax[:, k], p)
         across = front * np.cos(angle)
-        along = body.mass * ax[:, k] + 0.5 * AIR * body.drag_area * vx[:, k] ** 2  # of all wheels, in the middle
+        along = (
+            body.mass * ax[:, k] + 0.5 * AIR * body.drag_area * vx[:, k] ** 2
+        )  # total longitudinal force, in the middle plane
         turning = body.front * across - body.rear * rear + along * p.get("centre of mass to the left", np.float64(0.0))
         return (across + rear) / body.mass - vx[:, k] * r, turning / inertia
 
@@ -195,10 +204,10 @@ def heun(
     steps: int,
     sets: int,
 ) -> tuple[Array, Array]:
-    """Lateral velocity and yaw rate by Heun's method with a step a sample, from what was measured.
+    """Lateral velocity and yaw rate by Heun's method with one step per sample, from measured initial values.
 
-    `change`: their rates, m/s2 and rad/s2, at a sample of the windows; `begins`: samples at which windows begin, shape
-    (w,). Returns `vy` and `yaw_rate`, shape (sets, w, steps + 1): in m/s, rad/s.
+    `change`: their rates, m/s2 and rad/s2, at a sample of the windows; `begins`: first samples of the windows, shape
+    (w,). Returns `vy`, m/s, and `yaw_rate`, rad/s, shape (sets, w, steps + 1).
     """
     shape = (sets, len(begins), steps + 1)
     vy, r = np.empty(shape), np.empty(shape)

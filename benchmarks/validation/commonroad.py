@@ -1,7 +1,7 @@
 """Cars by CommonRoad's parameters against its own multi-body model.
 
-The references are made by `commonroad_reference`. Both are asked for the same angle of the front wheels and the same
-torque of the brakes; engine and air are left out here, as that model has none.
+`commonroad_reference` writes the references. Both have the same angle of the front wheels and the same brake torque;
+engine and air are left out here, since that model has none.
 """
 
 from collections.abc import Mapping
@@ -26,10 +26,10 @@ from mbs.vehicle import Car, load
 
 Array = NDArray[np.float64]
 
-STEP = 0.002
-ROLLING = 0.344  # m, R_w
+STEP = 0.002  # s
+ROLLING = 0.344  # m, rolling radius R_w of that model
 SAME = {"steering.frequency": 200.0, "ports.torque": "half_shafts"}
-"""Of the cars here: their wheels follow the demand at once, and nothing drives or drags."""
+"""Changes of the cars here: fast steering, and no torque of drive and engine drag."""
 
 
 @dataclass(frozen=True)
@@ -37,12 +37,12 @@ class Compared:
     """A manoeuvre of both models, at the times of the reference."""
 
     reference: Mapping[str, Array]
-    found: Mapping[str, Array]
-    """`reference`, `found`, each of shape (n,): by the names of the reference's columns."""
+    simulated: Mapping[str, Array]
+    """`reference`, `simulated`: values by column of the reference, each of shape (n,)."""
 
 
 def compared(name: str, manoeuvre: str) -> Compared:
-    """Drive a car as its reference was driven. `manoeuvre`: of `MANOEUVRES`."""
+    """Simulate a car in the manoeuvre of its reference. `manoeuvre`: of `MANOEUVRES`."""
     table = np.genfromtxt(FOLDER / f"{name}_{manoeuvre}.csv", delimiter=",", names=True)
     table = table[table["time"] > BEGIN - 0.1]
     reference = {column: np.asarray(table[column]) for column in table.dtype.names}
@@ -61,20 +61,20 @@ def compared(name: str, manoeuvre: str) -> Compared:
 
 
 def _consistent(car: Car) -> dict[str, Any]:
-    """The wheels' carriers as heavy as `commonroad_reference.consistent` has the axles."""
+    """Masses of the wheel carriers that give the axle masses of `commonroad_reference.consistent`."""
     sprung = -car.chassis.com[0]
     axles = {"front": car.wheelbase - sprung, "rear": sprung}
-    parts = {axle: getattr(car, axle) for axle in axles}
-    carried = {axle: part.suspension.bodies.carrier.mass for axle, part in parts.items()}
-    half = sum(carried[axle] + part.wheel.mass for axle, part in parts.items())
+    axle_data = {axle: getattr(car, axle) for axle in axles}
+    carriers = {axle: data.suspension.bodies.carrier.mass for axle, data in axle_data.items()}
+    half = sum(carriers[axle] + data.wheel.mass for axle, data in axle_data.items())
     return {
-        f"{axle}.suspension.bodies.carrier.mass": half * lever / car.wheelbase - parts[axle].wheel.mass
+        f"{axle}.suspension.bodies.carrier.mass": half * lever / car.wheelbase - axle_data[axle].wheel.mass
         for axle, lever in axles.items()
     }
 
 
 def _inputs(car: Car, manoeuvre: str) -> dict[str, tuple[Array, Array]]:
-    """Of both models the same."""
+    """Inputs of both models in a manoeuvre."""
     if manoeuvre != "braking":
         most = car.steering.front_wheel_angle_max
         t = np.array([0.0, BEGIN, BEGIN + STEER / STEER_SPEED, SECONDS])

@@ -1,4 +1,4 @@
-"""Lateral acceleration, understeer angle and sideslip, of models and of the measurement over the same seconds."""
+"""Lateral acceleration, understeer angle and sideslip, of models and of the measurement."""
 
 from dataclasses import dataclass
 
@@ -10,10 +10,10 @@ from benchmarks.validation.fitting import begins
 
 G = 9.81
 WIDTH = 0.1  # g, of a bin: 0.05 g to either side of its middle
-SLOW = 1.0  # filter of the acceleration for the bins, Hz
-FAST = 2.0  # filter of the compared acceleration, Hz
-ENOUGH = 2.0  # s in a bin whose means are judged
-STEADY = 0.5  # s at the beginning of a window, in which the start is forgotten
+SLOW = 1.0  # cut-off of the acceleration for the bins, Hz
+FAST = 2.0  # cut-off of the compared acceleration, Hz
+ENOUGH = 2.0  # s, least time in a compared bin
+STEADY = 0.5  # s at the beginning of a window that are left out
 
 
 @dataclass(frozen=True)
@@ -24,37 +24,37 @@ class Curve:
     acceleration: float
     """Middle of the bin, g, positive to the left."""
     seconds: float
-    """Of the drive in it; a second that two windows share counts once."""
+    """Time of the drive in the bin, s; time in two windows counts once."""
     measured: float
     spread: float
-    """`measured`, `spread`: mean and standard deviation of what was measured, deg."""
+    """`measured`, `spread`: mean and standard deviation of the measured values, deg."""
     difference: float
-    """Mean of simulated minus measured, deg."""
+    """Mean difference of simulated less measured values, deg."""
 
 
 def low_passed(values: Array, cut_off: float, interval: float) -> Array:
-    """Values of shape (..., n) without delay below a frequency in Hz: Butterworth's filter, both ways."""
+    """Values (..., n) after a Butterworth low-pass forward and back. `cut_off`: Hz; `interval`: s."""
     return np.asarray(sosfiltfilt(butter(2, cut_off, fs=1.0 / interval, output="sos"), values, axis=-1))
 
 
 def lateral_acceleration(vx: Array, vy: Array, rate: Array, interval: float) -> Array:
-    """Of the centre of mass along the road: vy' + rate vx, m/s2, of shape (..., n)."""
+    """Lateral acceleration of the centre of mass along the road, vy' + rate vx, m/s2, shape (..., n)."""
     return np.asarray(np.gradient(vy, interval, axis=-1) + rate * vx)
 
 
 def window_rows(drive: Drive) -> Array:
-    """Samples of the windows that were not fitted, of shape (w, m)."""
+    """Indices of the samples in the windows that were not fitted, shape (w, m)."""
     return begins(drive, JUDGED)[:, None] + np.arange(round(LENGTH / drive.interval) + 1)
 
 
 def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
-    """Root mean square deviation of the lateral acceleration in the windows that were not fitted, m/s2.
+    """Root mean square error of the lateral acceleration in the windows that were not fitted, m/s2.
 
     `vy`, `rate`: of a model in these windows, shape (w, m).
 
     Notes
     -----
-    Both are taken from velocities, so that slope, bank and roll of the body are in neither; below 2 Hz.
+    Both accelerations are computed from velocities, so that they do not include slope, bank and roll; below 2 Hz.
     """
     rows = window_rows(drive)
     exact = lateral_acceleration(drive.vx[rows], drive.vy[rows], drive.yaw_rate[rows], drive.interval)
@@ -63,7 +63,7 @@ def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
 
 
 def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve]:
-    """Understeer angle and sideslip over the measured lateral acceleration at 1 Hz.
+    """Understeer angle and sideslip over the measured lateral acceleration below 1 Hz.
 
     `wheelbase`: in m; `vy`, `rate`: of a model in the windows that were not fitted, shape (w, m).
 
@@ -91,21 +91,23 @@ def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve
     results = []
     for quantity, (measured, simulated) in pairs.items():
         for k in np.unique(number):
-            own = number == k
+            in_bin = number == k
             results.append(
                 Curve(
                     quantity,
                     float(k * WIDTH),
-                    len(np.unique(rows[own])) * drive.interval,
-                    float(measured[own].mean()),
-                    float(measured[own].std()),
-                    float((simulated - measured)[own].mean()),
+                    len(np.unique(rows[in_bin])) * drive.interval,
+                    float(measured[in_bin].mean()),
+                    float(measured[in_bin].std()),
+                    float((simulated - measured)[in_bin].mean()),
                 )
             )
     return results
 
 
 def within(curves: list[Curve], quantity: str, aim: float) -> tuple[int, int]:
-    """How many bins with enough seconds have a mean difference within an aim in degrees, and how many there are."""
+    """Number of bins with enough time whose mean difference is within `aim`, deg, and number of bins with enough
+    time.
+    """
     judged = [c for c in curves if c.quantity == quantity and c.seconds >= ENOUGH]
     return sum(abs(c.difference) <= aim for c in judged), len(judged)

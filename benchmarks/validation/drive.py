@@ -1,4 +1,4 @@
-"""A measured drive as equally spaced samples, and the seconds that models are fitted and judged on."""
+"""A measured drive as equally spaced samples, and the seconds in which models are fitted and compared."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,11 +17,11 @@ Array = NDArray[np.float64]
 Spans = tuple[tuple[float, float], ...]
 
 LENGTH = 10.0  # length of a window, s
-EVERY = 5.0  # from one window to the next, s
-FITTED: Spans = ((0.0, 80.0), (160.0, 240.0))  # s that models are fitted on
-JUDGED: Spans = ((80.0, 160.0), (240.0, 275.0))  # s that tell what they predict
-CUT_OFF = 2.0  # Hz, of the accelerations that move load between the axles
-_UNEVEN = 1e-3  # of the interval between samples
+EVERY = 5.0  # interval between the starts of windows, s
+FITTED: Spans = ((0.0, 80.0), (160.0, 240.0))  # s in which models are fitted
+JUDGED: Spans = ((80.0, 160.0), (240.0, 275.0))  # s in which predictions are compared
+CUT_OFF = 2.0  # Hz, of the acceleration for the load transfer
+_UNEVEN = 1e-3  # largest relative difference of sample intervals
 
 
 @dataclass(frozen=True)
@@ -29,62 +29,61 @@ class Drive:
     """A measured drive."""
 
     time: Array
-    """Shape (n,): equally spaced, s."""
+    """Equally spaced times, s, shape (n,)."""
     steer: Array
-    """Shape (n,): mean angle of both front wheels on the road, positive to the left, rad."""
+    """Mean steering angle of the front wheels, positive to the left, rad, shape (n,)."""
     vx: Array
     vy: Array
-    """`vx`, `vy`, shape (n,): of the centre of mass in axes of the car, y to the left, m/s."""
+    """`vx`, `vy`: velocity of the centre of mass in vehicle axes, y to the left, m/s, shape (n,)."""
     yaw_rate: Array
-    """Shape (n,): rad/s."""
+    """rad/s, shape (n,)."""
     ay: Array = field(default_factory=lambda: np.zeros(0))
-    """Shape (n,): as the accelerometer shows it, m/s2; empty where it is not needed."""
+    """Signal of the lateral accelerometer, m/s2, shape (n,); empty if the log has none."""
     bank: Array = field(default_factory=lambda: np.zeros(0))
-    """Shape (n,): lateral acceleration by the weight on a banked road, positive to the left, m/s2; empty where it is
-    not known."""
+    """Lateral acceleration by the weight on a banked road, positive to the left, m/s2, shape (n,); empty if unknown."""
 
     @property
     def interval(self) -> float:
-        """Between samples, s."""
+        """Interval between samples, s."""
         return float(self.time[1] - self.time[0])
 
     @property
     def ax(self) -> Array:
-        """Acceleration of the centre of mass along x, vx' - yaw_rate vy, below 2 Hz, m/s2, of shape (n,)."""
+        """Longitudinal acceleration of the centre of mass, vx' - yaw_rate vy, below `CUT_OFF`, m/s2, shape (n,)."""
         raw = np.gradient(self.vx, self.interval) - self.yaw_rate * self.vy
         return np.asarray(sosfiltfilt(butter(2, CUT_OFF, fs=1.0 / self.interval, output="sos"), raw))
 
     def inside(self, spans: Spans) -> NDArray[np.bool_]:
-        """Which samples lie in spans of time, ends included; of shape (n,)."""
+        """Whether each sample is in one of the spans, ends included, shape (n,)."""
         edge = 0.5 * self.interval
         return np.any([(self.time >= a - edge) & (self.time <= b + edge) for a, b in spans], axis=0)
 
 
 def text_of(spans: Spans) -> str:
-    """Spans as ``ali3 compare --seconds`` takes them."""
+    """Spans as the argument of ``ali3 compare --seconds``."""
     return ",".join(f"{a:g}:{b:g}" for a, b in spans)
 
 
 def read_drive(file: Path, aliases: Path) -> Drive:
-    """Read a log; single samples that no neighbour supports are bridged by a straight line.
+    """Read a log; single outliers are replaced by linear interpolation.
 
-    `file`: CSV, perhaps packed (.gz); `aliases`: its alias file, with the angles of both front wheels, the speeds and
+    `file`: CSV, or packed (.csv.gz); `aliases`: its alias file, with the angles of both front wheels, the speeds and
     the yaw rate. Raises `HostError`: a column is missing, or its samples are not equally spaced.
     """
-    written = read_log_aliases(aliases)
-    raw = read_log(file, written.dialect)
+    log_aliases = read_log_aliases(aliases)
+    raw = read_log(file, log_aliases.dialect)
 
     def column(name: str, unit: str) -> Array:
-        if name not in written.columns:
+        if name not in log_aliases.columns:
             raise HostError(f"{aliases} has no '{name}', which this needs.")
-        c = written.columns[name]
+        c = log_aliases.columns[name]
         factor = unit_definition(c.unit or unit, c.name).factor
         values = (raw.numbers(c.name) - c.offset) / c.factor * factor
-        wrong = spikes(time, values)
-        values[wrong] = np.interp(time[wrong], time[~wrong], values[~wrong])
+        outliers = spikes(time, values)
+        values[outliers] = np.interp(time[outliers], time[~outliers], values[~outliers])
         return np.asarray(values)
 
-    time = raw.numbers(written.clock.name or "time")
+    time = raw.numbers(log_aliases.clock.name or "time")
     if np.ptp(np.diff(time)) > 2.0 * _UNEVEN * float(np.median(np.diff(time))) + 1e-9:
         raise HostError(f"The samples of {file} are not equally spaced.")
     steer = 0.5 * (column("wheel_FL.steer", "rad") + column("wheel_FR.steer", "rad"))
@@ -94,5 +93,5 @@ def read_drive(file: Path, aliases: Path) -> Drive:
         column("chassis.vx", "m/s"),
         column("chassis.vy", "m/s"),
         column("chassis.wz", "rad/s"),
-        column("chassis.ay", "m/s2") if "chassis.ay" in written.columns else np.zeros(0),
+        column("chassis.ay", "m/s2") if "chassis.ay" in log_aliases.columns else np.zeros(0),
     )

@@ -1,4 +1,4 @@
-"""Fits a bicycle to windows of a drive, from several starts, and measures its deviation in other windows."""
+"""Fits a bicycle model to windows of a drive from several starts, and computes its errors in other windows."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,86 +13,88 @@ from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Drive, Sp
 Array = NDArray[np.float64]
 STARTS = 2
 SEED = 1
-SCALES = 0.02, 0.3  # rad/s and m/s: deviations of yaw rate and lateral velocity that count the same
-STEP = 1e-4  # of the differences, of the range of a number
+SCALES = 0.02, 0.3  # rad/s and m/s: weights of errors of yaw rate and lateral velocity
+STEP = 1e-4  # step of the difference quotients over the range of a parameter
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """A model with its fitted numbers."""
+    """A model with its fitted parameters and errors."""
 
     model: Model
     numbers: Array
-    """Shape (p,)."""
-    found: list[float]
-    """By start: root mean square deviation that it led to in the fitted windows, in `SCALES`."""
+    """Parameters, shape (p,)."""
+    deviations: list[float]
+    """Root mean square error in the fitted windows after the fit from each start, in `SCALES`."""
     fitted: float
-    """Root mean square deviation of the yaw rate in the fitted windows, rad/s."""
+    """Root mean square error of the yaw rate in the fitted windows, rad/s."""
     windows: float
-    """The same in the other windows."""
+    """Root mean square error of the yaw rate in the other windows, rad/s."""
     whole: float
-    """The same of one run without restart, over the seconds of the other windows."""
+    """Root mean square error of the yaw rate of a run without restart in the other seconds, rad/s."""
     lateral: float
-    """Root mean square deviation of the lateral velocity in the other windows, m/s; NaN: it was not measured."""
+    """Root mean square error of the lateral velocity in the other windows, m/s; NaN: the model has none."""
     departed: int
-    """Number of other windows in which the yaw rate deviates by more than the range of the measured one."""
+    """Number of other windows with a yaw-rate error above the range of the measured yaw rate."""
     path: Array
-    """Shape (n,): yaw rate of the run without restart, rad/s."""
+    """Yaw rate of the run without restart, rad/s, shape (n,)."""
     predicted: tuple[Array, Array]
-    """Each of shape (w, m): lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s."""
+    """Lateral velocity, m/s, and yaw rate, rad/s, in the windows that were not fitted, shape (w, m) each."""
 
 
 def begins(drive: Drive, seconds: Spans, every: float = EVERY) -> NDArray[np.intp]:
-    """First samples of the windows within spans of time. `every`: time from one window to the next, s."""
+    """Indices of the first samples of the windows in spans of time. `every`: interval between the starts of
+    windows, s.
+    """
     times = [t for a, b in seconds for t in np.arange(a, b - LENGTH + 1e-9, every)]
     return np.array([round((t - drive.time[0]) / drive.interval) for t in times], dtype=np.intp)
 
 
-def drive_of(model: Model, *arguments: Any) -> tuple[Array, Array]:
+def simulate_model(model: Model, *arguments: Any) -> tuple[Array, Array]:
     """Lateral velocity (m/s) and yaw rate (rad/s) of a model, by its own `simulate` or that of a bicycle."""
     return (model.simulate or simulate)(model, *arguments)
 
 
 class Windows:
-    """A model in windows of a drive; in each it starts from the measured state.
+    """A model in windows of a drive, each of which starts from the measured state.
 
     Attributes
     ----------
     samples : array of int
-        Samples of the drive, shape (w, m): m of each of w windows.
+        Indices of the m samples of each of w windows, shape (w, m).
     low, high : array
-        Bounds of the p numbers of the model, shape (p,).
+        Bounds of the p parameters of the model, shape (p,).
     """
 
     def __init__(self, model: Model, body: Body, drive: Drive, seconds: Spans, every: float = EVERY) -> None:
-        self._given = model, body, drive
+        self._arguments = model, body, drive
         self._steps = round(LENGTH / drive.interval)
         self._begins = begins(drive, seconds, every)
         self.samples = self._begins[:, None] + np.arange(self._steps + 1)
         self.low, self.high = (np.array([getattr(u, end) for u in model.unknowns]) for end in ("low", "high"))
 
-    def driven(self, numbers: Array) -> tuple[Array, Array]:
-        """Lateral velocity and yaw rate, each (k, w, m), for k sets of numbers, shape (k, p)."""
-        model, body, drive = self._given
-        return drive_of(model, body, drive, self._begins, self._steps, numbers)
+    def simulated(self, numbers: Array) -> tuple[Array, Array]:
+        """Lateral velocity, m/s, and yaw rate, rad/s, (k, w, m) each, for k sets of parameters, shape (k, p)."""
+        model, body, drive = self._arguments
+        return simulate_model(model, body, drive, self._begins, self._steps, numbers)
 
     def deviations(self, numbers: Array) -> tuple[Array, Array]:
-        """Deviation of `driven` from the measurement."""
-        vy, rate = self.driven(numbers)
-        return vy - self._given[2].vy[self.samples], rate - self._given[2].yaw_rate[self.samples]
+        """Differences of `simulated` from the measurement."""
+        vy, rate = self.simulated(numbers)
+        return vy - self._arguments[2].vy[self.samples], rate - self._arguments[2].yaw_rate[self.samples]
 
     def errors(self, numbers: Array) -> Array:
-        """Deviations in `SCALES`, of shape (k, n): of the yaw rate, then of the lateral velocity if there is one."""
+        """Errors in `SCALES`, shape (k, n): of the yaw rate, then of the lateral velocity if the model has one."""
         across, turning = (e.reshape(len(e), -1) for e in self.deviations(numbers))
         turning = turning / SCALES[0]
-        return np.asarray(np.hstack([turning, across / SCALES[1]]) if self._given[0].moves_across else turning)
+        return np.asarray(np.hstack([turning, across / SCALES[1]]) if self._arguments[0].moves_across else turning)
 
     def residuals(self, p: Array) -> Array:
-        """`errors` of one set of numbers, shape (n,); 1000 where the model diverges."""
+        """`errors` of one set of parameters, shape (n,); 1000 where the model diverges."""
         return np.nan_to_num(self.errors(p[None])[0], nan=1e3)
 
     def jacobian(self, p: Array) -> Array:
-        """Derivatives of `errors` by the numbers, of shape (n, p)."""
+        """Derivatives of `errors` with respect to the parameters, shape (n, p)."""
         step = STEP * (self.high - self.low)
         side = np.where(p + step > self.high, -1.0, 1.0) * step
         e = self.errors(np.vstack([p, p + np.diag(side)]))
@@ -100,7 +102,9 @@ class Windows:
 
 
 def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
-    """Fit a model to yaw rate and, if it has one, lateral velocity in the spans `seconds`; judge it in `others`."""
+    """Fit a model to the yaw rate, and lateral velocity if it has one, in the spans `seconds`; errors are in
+    `others`.
+    """
     windows, judged = (Windows(model, body, drive, spans) for spans in (seconds, others))
     low, high = windows.low, windows.high
     random, results = np.random.default_rng(SEED), []
@@ -118,8 +122,8 @@ def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others:
             )
         )
     numbers = min(results, key=lambda r: float(r.cost)).x if results else np.zeros(0)
-    vy, rate = (states[0] for states in judged.driven(numbers[None]))
-    path = drive_of(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
+    vy, rate = (states[0] for states in judged.simulated(numbers[None]))
+    path = simulate_model(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
     turning = rate - drive.yaw_rate[judged.samples]
     return Fitted(
         model,

@@ -1,4 +1,4 @@
-"""The multibody car in the same drive, by ``ali3 compare`` as a user calls it."""
+"""The multibody car in the measured drive, by the command ``ali3 compare``."""
 
 import csv
 import json
@@ -19,34 +19,36 @@ from hosts.fmu.fmu_file import fmu_file
 
 YAW = "chassis.wz"
 LATERAL = "chassis.vy"
-INTERVAL = 0.01  # s, of the samples in `Judged.predicted`
+INTERVAL = 0.01  # s, of the samples in `DriveComparison.predicted`
 _COLUMNS = f"{LATERAL}.simulated [m/s]", f"{YAW}.simulated [rad/s]"
 
 
 @dataclass(frozen=True)
-class Judged:
-    """A car that was driven through the measured drive."""
+class DriveComparison:
+    """Errors of a car in the measured drive."""
 
     fitted: float
     whole: float
     windows: float
     lateral: float
-    """`fitted`, `whole`, `windows`, `lateral`: as of `benchmarks.validation.fitting.Fitted`."""
+    """`fitted`, `whole`, `windows`, `lateral`: errors as in `benchmarks.validation.fitting.Fitted`."""
     departed: list[str]
-    """Windows that were not fitted and departed: their begin, s, and the signal."""
+    """Departed windows that were not fitted: begin, s, and signal."""
     notes: list[str]
     time: Array
     path: Array
-    """`time`, `path`, shape (n,): yaw rate of the run without restart, s and rad/s."""
+    """`time`, s, and `path`: yaw rate of the run without restart, rad/s, shape (n,) each."""
     predicted: tuple[Array, Array]
-    """Each of shape (w, m): lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s."""
+    """Lateral velocity, m/s, and yaw rate, rad/s, in the windows that were not fitted, shape (w, m) each."""
 
 
-def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief: bool = False) -> Judged:
-    """Drive a car through a log in windows and without restart.
+def compare_drive(
+    car: str, log: Path, aliases: Path, settings: dict[str, float], brief: bool = False
+) -> DriveComparison:
+    """Simulate a car in a measured drive, in windows and without restart.
 
-    `car`: what ``ali3 compare`` takes: an FMU, or a car; `brief`: drive only the windows that were not fitted; `fitted`
-    and `whole` are then NaN.
+    `car`: argument of ``ali3 compare``: an FMU or a car; `settings`: start values; `brief`: only the windows that were
+    not fitted, with NaN for `fitted` and `whole`.
     """
     windows = ["--windows", f"{LENGTH:g}", "--window-every", f"{EVERY:g}"]
     with tempfile.TemporaryDirectory() as folder:
@@ -65,17 +67,17 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
         departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
         errors = _rms(others, YAW), _rms(others, LATERAL), departed
         if brief:
-            return Judged(math.nan, math.nan, *errors, [], np.zeros(0), np.zeros(0), predicted)
+            return DriveComparison(math.nan, math.nan, *errors, [], np.zeros(0), np.zeros(0), predicted)
         first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW)
         whole, signals = run("whole")
         time, path = _signal(signals, f"{YAW}.simulated [rad/s]")
         measured = _signal(signals, f"{YAW}.measured [rad/s]")[1]
     error = _rms_inside(time, path - measured, JUDGED)
-    return Judged(first, error, *errors, whole["notes"] + whole["problems"], time, path, predicted)
+    return DriveComparison(first, error, *errors, whole["notes"] + whole["problems"], time, path, predicted)
 
 
 def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seconds: Spans) -> Task:
-    """What ``ali3 compare`` drives in windows of some seconds, end to end. `car`, `settings`: as of `judge`."""
+    """Task of ``ali3 compare`` for adjacent windows in some seconds. `car`, `settings`: of `compare_drive`."""
     windows = ["--windows", f"{LENGTH:g}", "--seconds", text_of(seconds)]
     options = parser_of().parse_args([*arguments_of(car, log, aliases, settings), *windows])
     options.fmu = fmu_file(options.fmu)
@@ -83,23 +85,23 @@ def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seco
 
 
 def arguments_of(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> list[str]:
-    """Of ``ali3 compare`` for the signals that are judged. `car`, `settings`: as of `judge`."""
+    """Arguments of ``ali3 compare`` for the compared signals. `car`, `settings`: of `compare_drive`."""
     options = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
     signals = ["--signals", f"{YAW},{LATERAL}"]
     return [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *signals, *options]
 
 
 def in_windows(time: Array, values: Array, count: int) -> Array:
-    """A signal of windows that stand one after the other, of shape (windows, samples).
+    """A signal of successive windows, shape (windows, samples).
 
-    `time`, `values`: shape (n,), s; `count`: of the windows.
+    `time`, s, and `values`: shape (n,); `count`: number of windows.
     """
     at = INTERVAL * np.arange(round(LENGTH / INTERVAL) + 1)
     return np.array([np.interp(k * (LENGTH + GAP) + at, time, values) for k in range(count)])
 
 
 def _rms(record: dict[str, Any], signal: str) -> float:
-    """Of all windows alike, as those of the bicycles."""
+    """Root mean square error of a signal over all windows, each with the same weight."""
     return float(np.sqrt(np.mean([w["rms"][signal] ** 2 for w in record["windows"]])))
 
 

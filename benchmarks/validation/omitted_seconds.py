@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared.command import watched
-from benchmarks.validation.bank import PIECE, pieces, way_of
+from benchmarks.validation.bank import PIECE, distance_and_lap, pieces
 from benchmarks.validation.bicycle import Body, Model
 from benchmarks.validation.drive import LENGTH, Array, Drive, Spans
 from benchmarks.validation.fitting import SCALES, Windows, begins, fit
 from benchmarks.validation.multibody import LATERAL, YAW, task_of
-from benchmarks.validation.refit import sought_in
+from benchmarks.validation.refit import read_ranges
 from hosts.compare.cross_validation import Parts, left_out_residuals
 from hosts.compare.fitted_parameters import fitted_parameters
 from hosts.compare.replay import Replay
@@ -28,38 +28,38 @@ from hosts.compare.segments import GAP
 from hosts.driving.result import Result
 
 Kinds = NDArray[np.intp]
-CURVED = 1.0 / 250.0  # 1/m, of the path, mean of the laps: from which on a place is of a corner
-SPEEDS = 5  # ranges of speed with equally many seconds
-ACCELERATIONS = -4.0, -1.0, 1.0, 3.0  # m/s2, between ranges
+CURVED = 1.0 / 250.0  # 1/m, least mean curvature of the path in a corner
+SPEEDS = 5  # ranges of speed with equal times
+ACCELERATIONS = -4.0, -1.0, 1.0, 3.0  # m/s2, limits of the ranges
 COLUMNS = {
     "model": "",
     **{f"{family}, {what}": ".4f" for family in ("corners", "speed", "acceleration") for what in ("mean", "worst")},
     "worst kind": "",
 }
-_DIFFERENCE = 5e-3  # of a range, to one side
+_DIFFERENCE = 5e-3  # step of the one-sided difference quotients over the range of a parameter
 
 
 @dataclass(frozen=True)
 class Family:
-    """A family of kinds of seconds, such as ranges of speed."""
+    """A partition of the seconds into kinds, such as ranges of speed."""
 
     names: list[str]
     number: Kinds
-    """Shape (n,): of the kind of each sample of the drive; that behind the last name is of no kind."""
+    """Index of the kind of each sample, shape (n,); the index after the last name is no kind."""
 
 
 def families(drive: Drive) -> dict[str, Family]:
     """Corners by place, ranges of speed, ranges of longitudinal acceleration. Raises `ValueError`: no laps."""
-    distance, lap = way_of(drive)
+    distance, lap = distance_and_lap(drive)
     piece, count = pieces(distance, lap), round(lap / PIECE)
     curvature = np.bincount(piece, drive.yaw_rate / drive.vx, count) / np.maximum(
         np.bincount(piece, minlength=count), 1
     )
     side = np.where(np.abs(curvature) > CURVED, np.sign(curvature), 0.0)
-    shift = int(np.flatnonzero(side == 0.0)[0])  # begin on a straight: the lap is a circle
-    turned = np.roll(side, -shift)
-    first = np.flatnonzero((turned != 0.0) & (turned != np.roll(turned, 1)))
-    of_piece = np.where(turned == 0.0, len(first), np.searchsorted(first, np.arange(count), side="right") - 1)
+    shift = int(np.flatnonzero(side == 0.0)[0])  # the lap is rotated to begin on a straight
+    rotated_side = np.roll(side, -shift)
+    first = np.flatnonzero((rotated_side != 0.0) & (rotated_side != np.roll(rotated_side, 1)))
+    of_piece = np.where(rotated_side == 0.0, len(first), np.searchsorted(first, np.arange(count), side="right") - 1)
     corners = [f"corner at {PIECE * ((k + shift) % count):.0f} m" for k in first]
     speeds = np.quantile(drive.vx, np.linspace(0.0, 1.0, SPEEDS + 1))
     return {
@@ -76,32 +76,32 @@ def _ranges(values: Array, edges: Sequence[float] | Array, unit: str) -> Family:
 
 
 def without_kinds(jacobian: Array, residual: Array, rows: Kinds, families: Mapping[str, Family]) -> dict[str, Any]:
-    """Mean and worst yaw rate over kinds that are left out, rad/s, by the columns of `COLUMNS`.
+    """Mean and largest yaw-rate error over the omitted kinds, rad/s, by the columns of `COLUMNS`.
 
-    `jacobian`, `residual`: of yaw rate and then lateral velocity in `SCALES`, shapes (2 m, p) and (2 m,); `rows`: of
-    the drive, in the order of either, shape (m,).
+    `jacobian`, `residual`: of yaw rate and then lateral velocity in `SCALES`, shapes (2 m, p) and (2 m,); `rows`:
+    indices of the samples of either, shape (m,).
     """
     row: dict[str, Any] = {}
     worst = []
     for name, family in families.items():
         number = family.number[rows]
         parts = Parts(np.tile(number, 2), np.arange(len(family.names) + 1.0), 1.0)
-        turning = left_out_residuals(jacobian, residual, parts)[: len(rows)] * SCALES[0]
-        sizes = [float(np.sqrt(np.mean(turning[number == k] ** 2))) for k in range(len(family.names))]
+        yaw_rate_errors = left_out_residuals(jacobian, residual, parts)[: len(rows)] * SCALES[0]
+        sizes = [float(np.sqrt(np.mean(yaw_rate_errors[number == k] ** 2))) for k in range(len(family.names))]
         row |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
         worst.append((max(sizes), family.names[int(np.argmax(sizes))]))
     return row | {"worst kind": max(worst)[1]}
 
 
-def of_simple(model: Model, body: Body, drive: Drive, families: Mapping[str, Family]) -> dict[str, Any]:
-    """A row of `COLUMNS` of a simple model."""
+def row_of_simple_model(model: Model, body: Body, drive: Drive, families: Mapping[str, Family]) -> dict[str, Any]:
+    """Row of `COLUMNS` of a simple model."""
     numbers = fit(model, body, drive).numbers
-    windows = Windows(model, body, drive, _all(drive), LENGTH)
+    windows = Windows(model, body, drive, _all_seconds(drive), LENGTH)
     jacobian, residual = windows.jacobian(numbers), windows.residuals(numbers)
     return {"model": model.name} | without_kinds(jacobian, residual, windows.samples.ravel(), families)
 
 
-def of_car(
+def row_of_car(
     car: str,
     log: Path,
     aliases: Path,
@@ -110,9 +110,9 @@ def of_car(
     drive: Drive,
     families: Mapping[str, Family],
 ) -> dict[str, Any]:
-    """A row of `COLUMNS` of the multibody car: by the numbers that `refit` seeks, from those of its file."""
-    ranges = sought_in(bounds)
-    task = task_of(car, log, aliases, settings, _all(drive))
+    """Row of `COLUMNS` of the multibody car: by the parameters that `refit` fits, from the values of its file."""
+    ranges = read_ranges(bounds)
+    task = task_of(car, log, aliases, settings, _all_seconds(drive))
     unknowns = fitted_parameters([f"{n}={span}" for n, span in ranges.items()], task.parameters, task.set_values)
     outputs = {name: task.outputs[name] for name in (YAW, LATERAL)}
     steps = np.array([_DIFFERENCE * (u.high - u.low) for u in unknowns])
@@ -124,18 +124,18 @@ def of_car(
         residuals = Residuals(outputs, unknowns, dict(zip(outputs, SCALES, strict=True)), simulate, steps)
         p = np.array([u.start for u in unknowns])
         residual, jacobian = residuals(p), residuals.one_sided_jacobian(p)
-    place = outputs[YAW].time
-    window = np.floor((place + 0.5 * GAP) / (LENGTH + GAP)).astype(np.intp)
-    first = begins(drive, _all(drive), LENGTH)
-    rows = first[window] + np.round((place - window * (LENGTH + GAP)) / drive.interval).astype(np.intp)
+    time = outputs[YAW].time
+    window = np.floor((time + 0.5 * GAP) / (LENGTH + GAP)).astype(np.intp)
+    first = begins(drive, _all_seconds(drive), LENGTH)
+    rows = first[window] + np.round((time - window * (LENGTH + GAP)) / drive.interval).astype(np.intp)
     return {"model": "multibody car"} | without_kinds(jacobian, residual, rows, families)
 
 
-def _all(drive: Drive) -> Spans:
+def _all_seconds(drive: Drive) -> Spans:
     return ((0.0, float(drive.time[-1])),)
 
 
 def rows_of(models: Sequence[Model], body: Body, drive: Drive, car: Sequence[Any]) -> list[dict[str, Any]]:
-    """Rows of `COLUMNS`. `car`: the first five arguments of `of_car`."""
+    """Rows of `COLUMNS`. `car`: the first five arguments of `row_of_car`."""
     result = families(drive)
-    return [*(of_simple(m, body, drive, result) for m in watched(models)), of_car(*car, drive, result)]
+    return [*(row_of_simple_model(m, body, drive, result) for m in watched(models)), row_of_car(*car, drive, result)]

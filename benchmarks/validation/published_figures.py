@@ -1,4 +1,4 @@
-"""Figures that others have published of the same car on a straight road."""
+"""Published figures of a car, and full-throttle runs on a straight road."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +12,7 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
 
-LENGTH = 90.0  # s
+LENGTH = 90.0  # s, duration of a run
 STEP = 0.01  # s
 KMH = 3.6  # km/h per m/s
 _HUNDRED = 100.0 / KMH
@@ -20,23 +20,25 @@ _HUNDRED = 100.0 / KMH
 
 @dataclass(frozen=True)
 class Published:
-    """A figure that several sources give."""
+    """A figure that several sources publish."""
 
     test: str
     unit: str
-    told: dict[str, float]
-    """By source."""
+    values: dict[str, float]
+    """Values by source."""
     digit: float
-    """Half of the last digit that they print: the error with which it can be read."""
+    """Half a unit of the last published digit: the reading error."""
 
     def row(self, computed: float) -> dict[str, Any]:
-        """Of the table: the verdict is whether the car lies between the sources, widened by their last digit."""
-        low, high = min(self.told.values()) - self.digit, max(self.told.values()) + self.digit
+        """Row of the table: the verdict is whether the computed value is within the published ones and their
+        reading error.
+        """
+        low, high = min(self.values.values()) - self.digit, max(self.values.values()) + self.digit
         off = computed / float(np.clip(computed, low, high)) - 1.0
         verdict = "within" if off == 0.0 else f"{100.0 * off:+.2g} %"
         return {
             "test": f"{self.test}, {self.unit}",
-            "published": "; ".join(f"{value:g} ({source})" for source, value in self.told.items()),
+            "published": "; ".join(f"{value:g} ({source})" for source, value in self.values.items()),
             "read within": self.digit,
             "car": computed,
             "verdict": verdict,
@@ -50,7 +52,7 @@ TOP_SPEED = Published(
 
 
 def full_throttle(car: str, settings: dict[str, float]) -> tuple[Array, Array]:
-    """Time in s and speed in m/s of a car that starts from rest with full throttle, steering held."""
+    """Time, s, and speed, m/s, of a car from rest at full throttle, with the steering straight."""
     time = np.array([0.0, LENGTH])
     inputs = {"steering": np.zeros(2), "throttle": np.ones(2), "brake": np.zeros(2)}
     with Fmu(fmu_file(Path(car))) as fmu:
@@ -60,7 +62,7 @@ def full_throttle(car: str, settings: dict[str, float]) -> tuple[Array, Array]:
 
 
 def published_rows(time: Array, speed: Array) -> list[dict[str, Any]]:
-    """The table, from a drive with full throttle."""
+    """Rows of the table, from a full-throttle run."""
     fast = int(np.argmax(speed >= _HUNDRED))
     reached = float(np.interp(_HUNDRED, speed[fast - 1 : fast + 1], time[fast - 1 : fast + 1]))
     return [FROM_REST.row(reached), TOP_SPEED.row(KMH * float(speed.max()))]

@@ -13,7 +13,7 @@ from benchmarks.validation.multibody import arguments_of
 from hosts.compare.command import main as compare
 
 BOUNDS = Path(__file__).with_name("ferrari_250_lm_fit.toml")
-NEAR = 0.02  # of the range: a number this near to a bound is marked
+NEAR = 0.02  # distance from a bound, over the range, up to which a parameter is marked
 COLUMNS = {
     "number": "",
     "low": ".4g",
@@ -25,22 +25,22 @@ COLUMNS = {
     "near a bound": "",
 }
 STEP = 0.01  # inner step, s
-EVERY = 10.0  # from one window to the next, s
+EVERY = 10.0  # interval between the starts of windows, s
 
 
-def sought_in(file: Path) -> dict[str, str]:
-    """Range of each fitted number, by name, as ``--fit`` takes it. `file`: TOML, a table with ``low`` and ``high``
-    each.
+def read_ranges(file: Path) -> dict[str, str]:
+    """Ranges of the fitted parameters by name, as arguments of ``--fit``. `file`: TOML, tables with ``low`` and
+    ``high``.
     """
     return {n: f"{float(t['low'])!r}:{float(t['high'])!r}" for n, t in read_toml(file, UserError).items()}
 
 
 def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, Any]]:
-    """Rows of `COLUMNS`, one for each fitted number.
+    """Rows of `COLUMNS`, one for each fitted parameter.
 
-    `car`: what ``ali3 compare`` takes; `bounds`: a file for `sought_in`. Raises `UserError`: the command did not fit.
+    `car`: argument of ``ali3 compare``; `bounds`: file for `read_ranges`. Raises `UserError`: the command failed.
     """
-    ranges = sought_in(bounds)
+    ranges = read_ranges(bounds)
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder, "record.json")
         arguments = [*arguments_of(car, log, aliases, {"step_size": STEP}), "--windows", f"{LENGTH:g}"]
@@ -54,7 +54,7 @@ def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, An
 
 
 def row_of(fitted: dict[str, Any], low: float, high: float) -> dict[str, Any]:
-    """A row of `COLUMNS`. `fitted`: as the record of ``ali3 compare --fit`` has it."""
+    """Row of `COLUMNS`. `fitted`: entry of a record of ``ali3 compare --fit``."""
     value, folds = fitted["value"], fitted["folds"]
     near = min(value - low, high - value) < NEAR * (high - low)
     return {
@@ -70,7 +70,7 @@ def row_of(fitted: dict[str, Any], low: float, high: float) -> dict[str, Any]:
 
 
 def problems(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Sentences on numbers that lie near a bound."""
+    """Sentences on parameters near a bound."""
     return [
         f"{row['number']} = {row['found']:.4g} lies within {NEAR:.0%} of a bound: it makes up for what the model lacks."
         for row in rows

@@ -1,4 +1,4 @@
-"""A two-track model: loads of four wheels, brakes that differ from left to right, drive forces by load."""
+"""A two-track model: loads of four wheels, different brakes left and right, drive forces by load."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,46 +8,49 @@ from benchmarks.validation.drive import Drive
 
 Array = NDArray[np.float64]
 TRACK = 1.345  # m, mean of both axles
-BALANCE = 0.70  # of the brakes: as assumed in the file of the car
-_LEAST = 50.0  # N, of a wheel that would lift
+BALANCE = 0.70  # front share of the brake force, as in the car file
+_LEAST = 50.0  # N, load of a wheel that would lift off
 
 
 def simulate(
     model: Model, body: Body, drive: Drive, begins: NDArray[np.intp], steps: int, numbers: Array
 ) -> tuple[Array, Array]:
-    """Drive the model by the measured angle of the wheels at the measured speed, as `bicycle.simulate`.
+    """Simulate the model with the measured steering angle and speed, as `bicycle.simulate`.
 
     Notes
     -----
-    Loads move with ax and with what the tyres give across, both at the height of the car file, half of the latter in
-    front. Stiffness goes with a power of the load, forces follow x/sqrt(1 + x^2). Drive forces are shared in proportion
-    to the loads: both wheels of the axle then slip alike, as with a differential that locks.
+    Load transfer is by ax and by the lateral force, both at the height of the car file, the latter in equal parts front
+    and rear. Stiffness is a power of the load, forces follow x/sqrt(1 + x^2). Drive forces are proportional to the
+    loads: both wheels of the axle then have equal slip, as with a locked differential.
     """
     rows = begins[:, None] + np.arange(steps + 1)
     steer, vx, ax = drive.steer[rows], drive.vx[rows], drive.ax[rows]
     bank = drive.bank[rows] if model.bank else np.zeros(rows.shape)
     p = {u.name: numbers[:, k, None] for k, u in enumerate(model.unknowns)}
     locked = 0.0 if model.open else 1.0
-    still = body.mass * G / body.wheelbase / 2.0 * np.array([body.rear, body.front])
+    static_loads = body.mass * G / body.wheelbase / 2.0 * np.array([body.rear, body.front])
 
     def change(k: int, vy: Array, r: Array) -> tuple[Array, Array]:
         v, a = vx[:, k], ax[:, k]
         along = body.mass * a + 0.5 * AIR * body.drag_area * v**2
         brake, pull = np.minimum(along, 0.0), np.maximum(along, 0.0)
-        pitched = body.mass * a * HEIGHT / body.wheelbase / 2.0
-        rolled = body.mass * (r * v - bank[:, k]) * HEIGHT / TRACK / 2.0
+        longitudinal_transfer = body.mass * a * HEIGHT / body.wheelbase / 2.0
+        lateral_transfer = body.mass * (r * v - bank[:, k]) * HEIGHT / TRACK / 2.0
         across, turning = np.zeros_like(vy), np.zeros_like(vy)
         for axle, x, sign in (("front", body.front, -1.0), ("rear", -body.rear, 1.0)):
-            at_rest = still[0 if sign < 0.0 else 1]
-            loads = [np.maximum(at_rest + sign * pitched - side * rolled, _LEAST) for side in (1.0, -1.0)]
+            at_rest = static_loads[0 if sign < 0.0 else 1]
+            loads = [
+                np.maximum(at_rest + sign * longitudinal_transfer - side * lateral_transfer, _LEAST)
+                for side in (1.0, -1.0)
+            ]
             angle = steer[:, k] if axle == "front" else np.zeros_like(v)
             share = BALANCE if axle == "front" else 1.0 - BALANCE
             for side, load in zip((1.0, -1.0), loads, strict=True):
                 y = 0.5 * side * TRACK
                 slip = np.arctan2(vy + x * r, v - r * y) - angle
-                most = p[f"{axle} grip"] * load
+                max_force = p[f"{axle} grip"] * load
                 stiffness = 0.5 * p[f"{axle} stiffness"] * (load / at_rest) ** p["exponent of stiffness"]
-                fy = -most * root(stiffness * slip / most)
+                fy = -max_force * root(stiffness * slip / max_force)
                 fx = 0.5 * share * brake * (1.0 + side * p["brake side"])
                 if axle == "rear":
                     fx = fx + 0.5 * pull * (1.0 + locked * (2.0 * load / (loads[0] + loads[1]) - 1.0))

@@ -1,6 +1,6 @@
-"""A published tyre on a rig: forces of both tyre formulas of the engine against the coefficients of others.
+"""A published tyre on a rig: forces of both tyre models of the engine against a published formula.
 
-The tyre is the Michelin MXV8 of the early Magic Formula, with the coefficients that stand in the repository
+The tyre is the Michelin MXV8 with coefficients of the early Magic Formula from the repository
 n-jokic/Vehicle_MPC_control, src/simulink/pacajeka_init.m. With the load in kN, the slip angle in degrees and the slip
 in percent:
 
@@ -31,19 +31,16 @@ NOMINAL = 4000.0  # N
 LOADS = (2000.0, 6000.0)  # N: TMeasy is fitted at 4 and 8 kN
 ANGLES = (2.0, 8.0)  # deg
 SLIPS = (-5.0, -15.0)  # %
-SPEED = 20.0  # m/s; the formula has no speed
+SPEED = 20.0  # m/s; the formula does not depend on it
 RADIUS = 0.30  # m
 STIFFNESS = 200e3  # N/m
-_SLED = 1e9  # kg, so that forces do not slow it
-_SETTLED = 1.0  # s
+_SLED = 1e9  # kg, so that forces do not change its speed
+_SETTLED = 1.0  # s, duration
 _STEP = 0.002  # s
 
 
 def published(coefficients: Sequence[float], lateral: bool, load: float, slip: float) -> float:
-    """Force of the published formula, N, with the sign of the slip.
-
-    `load`: in N; `slip`: in deg or %.
-    """
+    """Force of the published formula, N, with the sign of the slip. `load`: N; `slip`: deg or %."""
     c, a1, a2, a3, a4, a5, a6, a7, a8 = coefficients
     q = 1e-3 * load
     most = a1 * q * q + a2 * q
@@ -53,7 +50,7 @@ def published(coefficients: Sequence[float], lateral: bool, load: float, slip: f
 
 
 def read_within(lateral: bool, load: float, slip: float) -> float:
-    """Largest change of the force by half of the last digit of each coefficient, N."""
+    """Largest change of the force by half a unit of the last digit of each coefficient, N."""
     of, digits = (LATERAL, LAST_DIGITS[0]) if lateral else (LONGITUDINAL, LAST_DIGITS[1])
     nominal = published(of, lateral, load, slip)
     changed = ([*of[:k], of[k] + 0.5 * digits[k], *of[k + 1 :]] for k in range(len(of)))
@@ -61,7 +58,7 @@ def read_within(lateral: bool, load: float, slip: float) -> float:
 
 
 def magic() -> MagicTyre:
-    """The same formula by the names of property files: with loads over the nominal one it is the same to the digit."""
+    """The published formula with the coefficients of a tyre property file, to which it can be converted exactly."""
     _, a1, a2, a3, a4, a5, _, a7, a8 = LATERAL
     _, b1, b2, b3, b4, b5, b6, b7, b8 = LONGITUDINAL
     q = 1e-3 * NOMINAL
@@ -91,15 +88,15 @@ def magic() -> MagicTyre:
     )
 
 
-def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: float = 0.0) -> tuple[float, float]:
+def rig_forces(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: float = 0.0) -> tuple[float, float]:
     """Steady forces of a wheel on a heavy sled.
 
-    `load`: in N; `angle`: by which the sled goes to the right of the wheel's heading, deg; `slip`: longitudinal, % of
-    the speed along the wheel, positive when driven. Returns `longitudinal` and `lateral`: forces of the road along the
+    `load`: N; `angle`: direction of the sled to the right of the wheel's heading, deg; `slip`: longitudinal, % of the
+    speed along the wheel, positive when driven. Returns `longitudinal` and `lateral`: forces of the road along the
     wheel's heading and to its left, N.
     """
     height = RADIUS - load / STIFFNESS
-    rolling = (2.0 * RADIUS + height) / 3.0  # of both formulas, where a tyre tells no other
+    rolling = (2.0 * RADIUS + height) / 3.0  # of both models for a tyre without its own rolling radius
     direction = np.array([cos(angle * pi / 180.0), -sin(angle * pi / 180.0), 0.0])
     m = Model("tyre rig")
     centre = (0.0, 0.0, height)
@@ -125,14 +122,14 @@ def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: fl
 
 
 def compared() -> list[tuple[Published, float]]:
-    """What the formula gives and what the rig measures, of both formulas of the engine."""
+    """Published forces, each with that of the rig, for both tyre models of the engine."""
     own = magic()
     results = []
     for name, tyre in (("Magic Formula", own), ("TMeasy, fitted at 4 and 8 kN", tmeasy_of_magic(own)[0])):
         for load in LOADS:
             for lateral, at in [*((True, angle) for angle in ANGLES), *((False, slip) for slip in SLIPS)]:
                 force = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
-                forces = on_the_rig(tyre, load, angle=at) if lateral else on_the_rig(tyre, load, slip=at)
+                forces = rig_forces(tyre, load, angle=at) if lateral else rig_forces(tyre, load, slip=at)
                 label = f"side force at {at:g} deg" if lateral else f"force along at {at:g} % slip"
                 test = f"tyre MXV8 on the rig, {name}: {label}, {1e-3 * load:g} kN"
                 results.append((Published(test, "N", {SOURCE: force}, read_within(lateral, load, at)), forces[lateral]))

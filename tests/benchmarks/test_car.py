@@ -11,7 +11,7 @@ from benchmarks.car import measures
 from benchmarks.car.accuracy import STEPS
 from benchmarks.car.measures import MEASURES
 from benchmarks.car.trajectories import LOADS, load_error, load_error_in_time
-from benchmarks.paper.kerb import left_at_the_end
+from benchmarks.paper.kerb import residual_moments
 from mbs.vehicle import Fidelity
 
 KEYS = {
@@ -96,6 +96,6 @@ class Run(dict):
 @pytest.mark.slow
 def test_moments_that_friction_holds_go_with_it_and_nothing_is_warned_of():
     """The tyres hold the car sideways on the kerb; what is left without friction is 11 times less."""
-    held, free = left_at_the_end(Fidelity(2), 0.02)
+    held, free = residual_moments(Fidelity(2), 0.02)
     assert 0.05 < held < 0.1
     assert free < 0.01

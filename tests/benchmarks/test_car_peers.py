@@ -111,7 +111,7 @@ def test_exudyns_car_turns_and_leans_as_its_numbers_say(rates: dict[str, float])
 
 
 def test_programs_that_are_not_installed_are_left_out_with_a_message(capsys, monkeypatch) -> None:
-    monkeypatch.setattr(car_peers, "PEERS", {"Exudyn": ("no_such_module",)})
+    monkeypatch.setattr(car_peers, "MODULES", {"Exudyn": ("no_such_module",)})
     monkeypatch.setattr(car_peers, "SCENES", ())
     assert car_peers.main([]) == 0
     captured = capsys.readouterr()

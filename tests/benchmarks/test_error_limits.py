@@ -6,7 +6,7 @@ from benchmarks.car import error_limits
 from benchmarks.shared.figures import rows_of
 
 
-@pytest.mark.parametrize("steps", error_limits.IN_A_PERIOD)
+@pytest.mark.parametrize("steps", error_limits.STEPS_IN_A_PERIOD)
 def test_the_period_error_is_that_of_the_trapezoidal_rule(steps):
     """Its frequency is 2 atan(omega h / 2) / h: (omega h)^2 / 12 less, and no more than the next term of the series."""
     row = error_limits.frequency(steps)

@@ -91,7 +91,7 @@ def test_a_chart_carries_its_description_and_changed_panels_are_reported(tmp_pat
     assert message.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
 
 
-@pytest.mark.parametrize("name", chart_commands.DRAWN)
+@pytest.mark.parametrize("name", chart_commands.CHARTS)
 def test_redrawn_charts_carry_their_description(name):
     page = f"docs/images/{name}"
     assert len(read(page).splitlines()) > 1
@@ -109,13 +109,13 @@ def test_a_table_is_written_with_the_new_cells_and_keeps_the_rest():
 
 
 def test_figures_of_the_readme_agree_with_the_tables_of_the_pages():
-    result = [*figures.readme(), *figures.instructions()]
+    result = [*figures.readme_sentences(), *figures.instruction_table()]
     assert [line for again in result for line in differences(again, read(again.page))] == []
 
 
 def test_each_figure_of_the_readme_is_held():
     """A digit at a time, all others as they are."""
-    for again in figures.readme():
+    for again in figures.readme_sentences():
         page, figure = (" ".join(text.split()) for text in (read(again.page), again.text))
         assert page.count(figure) == 1
         digits = [page.index(figure) + found.start() for found in re.finditer(r"\d", figure)]
@@ -126,7 +126,7 @@ def test_each_figure_of_the_readme_is_held():
 
 
 def test_each_cell_of_the_table_of_instructions_is_held():
-    again, _ = figures.instructions()
+    again, _ = figures.instruction_table()
     page = read(again.page)
     table = between(page, again.table)
     cells = [found.span() for found in re.finditer(r"(?<=\| )[^|\n]*\d[^|\n]*(?= \|)", table)]

@@ -10,7 +10,7 @@ import mbs
 from benchmarks import work_precision
 from benchmarks.methods.free_elements import ELEMENTS
 from benchmarks.methods.free_runs import MECHANISMS, STEPS, TURNS, WRONG, measure
-from benchmarks.methods.free_wheels import Free
+from benchmarks.methods.free_wheels import FreeModel
 from mbs.elements import ElementType
 from tests.quick import quick
 
@@ -51,7 +51,7 @@ def test_energy_momentum_keeps_the_energy_of_each():
 
 def test_a_force_that_gives_energy_is_seen():
     """A spring without its energy: what the bodies have is not kept."""
-    result = measure("spring, stops", 0.5, 500, "runge_kutta_8", told=True)
+    result = measure("spring, stops", 0.5, 500, "runge_kutta_8", with_check=True)
     assert result["energy"] > WRONG
     assert result["grows"]
     assert "AccuracyWarning" in result["told"]
@@ -67,7 +67,7 @@ def test_what_grows_is_reported_over_a_hundred_thousand_steps():
     """Bounded errors beyond `WRONG` are those of the page."""
     for name in MECHANISMS:
         for turn in TURNS:
-            result = measure(name, turn, STEPS, told=True)
+            result = measure(name, turn, STEPS, with_check=True)
             assert result["energy"] is None or result["energy"] < WRONG or result["told"] or not result["grows"], result
 
 
@@ -86,7 +86,7 @@ JOINTS = {
 
 def pair(rng):
     """Two bodies in a row on two joints drawn by chance, with a force of each kind; the names of the joints too."""
-    free = Free(3, weight=rng.choice([0.0, 2.0]))
+    free = FreeModel(3, weight=rng.choice([0.0, 2.0]))
     m, chosen = free.model, [str(k) for k in rng.choice(list(JOINTS), 2, replace=False)]
     bodies = [m.ground]
     for k, joint in enumerate(chosen):

@@ -13,10 +13,10 @@ from benchmarks.methods import families, random_cars, random_honesty, random_mec
 from benchmarks.references.newton_euler import (
     GROUND,
     INSTANTS,
-    Drawing,
     Dynamics,
     Joint,
     Link,
+    Mechanism,
     NoReferenceError,
     motion,
 )
@@ -26,14 +26,14 @@ from mbs.simulation.prepared_system import length_of
 TUMBLES = 3  # a body that turns over, 95 % off
 
 
-def pendulum(dimension: int) -> Drawing:
+def pendulum(dimension: int) -> Mechanism:
     """A bar hinged at its end, from the horizontal."""
     end = np.array([1.0, 0.0, 0.0][:dimension])
     axis = np.array([0.0, 0.0, 1.0] if dimension == 2 else [0.0, -1.0, 0.0])
     inertia = 1.0 / 12.0 if dimension == 2 else np.diag([0.01, 1.0, 1.0]) / 12.0
     bar = Link(0.5 * end, 1.0, inertia)
     joint = Joint("hinge", 0, GROUND, np.zeros(dimension), axis)
-    return Drawing(dimension, [bar], [joint], [], [end], 0.0, 0.0, None, 2.0)
+    return Mechanism(dimension, [bar], [joint], [], [end], 0.0, 0.0, None, 2.0)
 
 
 @pytest.mark.slow
@@ -52,8 +52,8 @@ def test_the_reference_swings_as_the_elliptic_functions(dimension):
 @pytest.mark.parametrize("number", range(0, 24, 3))
 def test_the_reference_keeps_rows_and_axes(number):
     """Its accelerations are those of the rows: a step of the start along them opens no joint in second order."""
-    _, drawing = random_mechanisms.drawing(np.random.default_rng([7, number]))
-    dynamics = Dynamics(drawing)
+    _, mechanism = random_mechanisms.random_mechanism(np.random.default_rng([7, number]))
+    dynamics = Dynamics(mechanism)
     x, dt = dynamics.start(), 1e-4
     rate = dynamics.rates(0.0, x)
     middle = dynamics.rates(0.5 * dt, x + 0.5 * dt * rate)
@@ -61,8 +61,8 @@ def test_the_reference_keeps_rows_and_axes(number):
     _, _, rows, _ = dynamics._equations(dt, x1)
     speed = x1[-rows.shape[1] :]
     open_rows = rows @ speed
-    if drawing.drive is not None:
-        open_rows[-1] -= drawing.drive.derivative()(dt)
+    if mechanism.drive is not None:
+        open_rows[-1] -= mechanism.drive.derivative()(dt)
     assert np.abs(open_rows).max() < 1e-5 * max(1.0, np.abs(speed).max() ** 3)
 
 
@@ -158,7 +158,7 @@ def told_and_true(seed, number, h):
     """A run of a car that warns, with its error above 5 %."""
     rng = np.random.default_rng([seed, number])
     rng.random()
-    drive = random_cars.drive(rng)
+    drive = random_cars.random_drive(rng)
     with pytest.warns(mbs.AccuracyWarning):
         run = drive.run(h=h)
     fine, length = drive.run(h=2e-4, estimate_error=False), length_of(drive.system)

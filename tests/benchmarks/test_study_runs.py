@@ -14,8 +14,8 @@ def test_small_sizes_and_their_tables(tmp_path: Path) -> None:
     fmu = studies.spring_fmu(tmp_path)
     runs = studies.study_runs("spring", fmu, 40, 1, 0.2, tmp_path / "runs")
     again = studies.start_again("spring", 40, tmp_path / "runs")
-    written = studies.rows_written("spring", fmu, 1000, tmp_path / "rows")
-    plan = studies.plan_alone("spring", fmu, 2000, "sobol", tmp_path / "plan")
+    written = studies.measure_writer("spring", fmu, 1000, tmp_path / "rows")
+    plan = studies.measure_plan("spring", fmu, 2000, "sobol", tmp_path / "plan")
     assert (runs["runs"], runs["failed"], runs["workers"]) == (40, 0, 1)
     # What is not in the runs is overhead: together they are the time of the worker.
     assert 40 * (runs["run, s"] + 1e-3 * runs["overhead, ms/run"]) == pytest.approx(runs["elapsed_s"])

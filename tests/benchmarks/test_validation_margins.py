@@ -25,17 +25,17 @@ def segment() -> Segment:
 def test_a_start_beside_the_state_is_that_of_the_reference_point() -> None:
     """The velocity of a rigid body at a point is that of the origin and the yaw rate times the lever."""
     point = -1.33, 0.02
-    one, other = (s.manoeuvre.start for s in (segment(), margins.moved(segment(), 0.5, -0.3, 0.024, point)))
+    original, moved = (s.manoeuvre.start for s in (segment(), margins.with_offset(segment(), 0.5, -0.3, 0.024, point)))
 
     def at_point(start) -> list[float]:
         rate = start["initial.yaw_rate"]
         return [start["initial.speed"] - rate * point[1], start["initial.lateral_speed"] + rate * point[0], rate]
 
-    np.testing.assert_allclose(np.subtract(at_point(other), at_point(one)), [0.5, -0.3, 0.024], atol=1e-15)
+    np.testing.assert_allclose(np.subtract(at_point(moved), at_point(original)), [0.5, -0.3, 0.024], atol=1e-15)
 
 
 def test_a_faster_stretch_holds_and_starts_with_more_speed_at_the_same_steering() -> None:
-    faster = margins.quickened(segment(), 1.1)
+    faster = margins.with_speed(segment(), 1.1)
     assert faster.manoeuvre.start["initial.speed"] == pytest.approx(22.0)
     assert faster.speed is not None
     assert faster.speed.values.tolist() == pytest.approx([22.0, 26.4])
@@ -91,7 +91,7 @@ def test_a_kind_is_judged_by_what_the_others_lead_to() -> None:
 def test_the_bounds_of_a_fit_are_read_and_a_number_near_one_is_reported(tmp_path: Path) -> None:
     file = tmp_path / "fit.toml"
     file.write_text('["a.b"]\nlow = 1.0\nhigh = 2\n', encoding="utf-8")
-    assert refit.sought_in(file) == {"a.b": "1.0:2.0"}
+    assert refit.read_ranges(file) == {"a.b": "1.0:2.0"}
     results = {"name": "a.b", "value": 1.5, "half_width_95": 0.1, "folds": [1.4, 1.6], "without": 1.02}
     rows = [refit.row_of(results | {"value": value}, 1.0, 2.0) for value in (1.015, 1.5, 1.985)]
     assert [row["near a bound"] for row in rows] == ["yes", "no", "yes"]

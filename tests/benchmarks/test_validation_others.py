@@ -18,7 +18,7 @@ def test_the_rig_returns_the_published_force_with_its_sign(angle: float, slip: f
     force = tyre_rig.published(
         tyre_rig.LATERAL if lateral else tyre_rig.LONGITUDINAL, lateral, load, angle if lateral else slip
     )
-    actual = tyre_rig.on_the_rig(tyre_rig.magic(), load, angle, slip)
+    actual = tyre_rig.rig_forces(tyre_rig.magic(), load, angle, slip)
     assert actual[lateral] == pytest.approx(force, rel=3e-4)
     assert np.sign(actual[lateral]) == np.sign(angle + slip)
     assert abs(actual[not lateral]) < 0.01 * abs(force)
@@ -33,7 +33,7 @@ def test_the_error_of_the_other_formula_is_that_of_its_fit() -> None:
     load, most = 6000.0, 5500.0
     for angle in tyre_rig.ANGLES:
         force = tyre_rig.published(tyre_rig.LATERAL, True, load, angle)
-        off = abs(tyre_rig.on_the_rig(tyre, load, angle)[1] - force)
+        off = abs(tyre_rig.rig_forces(tyre, load, angle)[1] - force)
         assert 0.0 < off < 1.1 * errors["lateral"] * most
 
 

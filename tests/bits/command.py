@@ -1,8 +1,8 @@
-"""Compares the numbers that the product gives with those that are stored.
+"""Comparison of the results of the product with stored results.
 
     python -m tests.bits [--only TEXT] [--jobs N] [--update] [--list]
 
-Each group runs in a process of its own, on the code as it is in the tree; the exit code is 1 where a number differs.
+Each group runs in its own process, with the code of the working tree; the exit code is 1 if a number differs.
 """
 
 import argparse
@@ -46,8 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     result, failed = make_all(chosen, max(1, options.jobs))
     for name, message in failed.items():
         print(f"\n{name} cannot be made:\n{message}", file=sys.stderr)
-    done = {*chosen, *(() if options.only else ("",))} - failed.keys()  # "": what no group makes any more
-    kept = {name: entry for name, entry in stored.items() if group_of(name) in done}
+    completed = {*chosen, *(() if options.only else ("",))} - failed.keys()  # "": entries without a group
+    kept = {name: entry for name, entry in stored.items() if group_of(name) in completed}
     rows = [row for row in store.compare(kept, result) if _asked(row.entry, options.only)]
     report(rows, result, taken, options.most)
     if options.update:
@@ -55,14 +55,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         unaffected = {
             name: entry for name, entry in stored.items() if name not in kept or not _asked(name, options.only)
         }
-        store.write(unaffected | new, with_what())
+        store.write(unaffected | new, platform_versions())
         print(f"written: {store.BASELINE}")
         return 1 if failed else 0
     return 1 if rows or failed else 0
 
 
 def make(name: str, fmus: Path, file: Path) -> int:
-    """Make the entries of a group, in the process of it."""
+    """Write the entries of a group to a file and end the process."""
     with tempfile.TemporaryDirectory(prefix="bits-") as scratch:
         entries = list(GROUPS[name].make(fmus, Path(scratch)))
     file.write_text(store.to_json(entries), encoding="utf-8")
@@ -71,9 +71,9 @@ def make(name: str, fmus: Path, file: Path) -> int:
 
 
 def make_all(names: Sequence[str], jobs: int) -> tuple[dict[str, store.Entry], dict[str, str]]:
-    """Entries of groups, and what those said that failed; FMUs are built where a group needs them.
+    """Entries of groups, and the messages of those that failed; FMUs are built if a group needs them.
 
-    `names`: of groups; `jobs`: at a time.
+    `names`: of groups; `jobs`: number of processes.
     """
     from tqdm import tqdm
 
@@ -128,11 +128,13 @@ def plain_processor() -> dict[str, str]:
     }
 
 
-def report(rows: Sequence[store.Difference], found: dict[str, store.Entry], taken: dict[str, str], most: int) -> None:
-    """Print what differs, the largest first."""
-    count = sum(len(signals) for _, signals in found.values())
-    print(f"{len(found)} entries, {count} signals; differences: {len(rows)}, in {len({r.entry for r in rows})} entries")
-    here = with_what()
+def report(rows: Sequence[store.Difference], entries: dict[str, store.Entry], taken: dict[str, str], most: int) -> None:
+    """Print the differences in descending order."""
+    count = sum(len(signals) for _, signals in entries.values())
+    print(
+        f"{len(entries)} entries, {count} signals; differences: {len(rows)}, in {len({r.entry for r in rows})} entries"
+    )
+    here = platform_versions()
     if other := [
         f"{k} {taken[k]}, here {here.get(k, 'none')}" for k in taken if here.get(k) != taken[k] and k != "date"
     ]:
@@ -150,8 +152,8 @@ def report(rows: Sequence[store.Difference], found: dict[str, store.Entry], take
         print("by group: " + ", ".join(f"{name} {count}" for name, count in counts.most_common()))
 
 
-def with_what() -> dict[str, str]:
-    """What numbers may depend on beside the code."""
+def platform_versions() -> dict[str, str]:
+    """Versions of platform and packages on which results may depend."""
     results = {"python": platform.python_version(), "platform": f"{platform.system()} {platform.machine()}"}
     return results | {name: version(name) for name in ("numpy", "scipy", "fmpy", "pandas", "SALib")}
 
@@ -169,7 +171,7 @@ def _in_a_process(name: str, fmus: Path, folder: Path) -> tuple[dict[str, store.
         return {}, ""
     file = folder / f"{name.replace('/', '-')}.json"
     command = [sys.executable, "-m", "tests.bits", "--make", name, str(fmus), str(file)]
-    done = subprocess.run(command, cwd=doors.ROOT, capture_output=True, text=True, check=False)
+    completed = subprocess.run(command, cwd=doors.ROOT, capture_output=True, text=True, check=False)
     if file.is_file():
         return store.from_json(file.read_text(encoding="utf-8")), ""
-    return {}, f"{done.stdout[-2000:]}{done.stderr[-4000:]}\nexit code {done.returncode}"
+    return {}, f"{completed.stdout[-2000:]}{completed.stderr[-4000:]}\nexit code {completed.returncode}"

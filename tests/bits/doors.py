@@ -1,4 +1,4 @@
-"""All calls of the product that the baseline makes, so that renamed code is adapted here only."""
+"""All calls of the product for the stored results, so that only this module depends on its names."""
 
 import importlib
 import subprocess
@@ -12,7 +12,7 @@ from tests.modules import module_of
 
 ROOT = Path(__file__).parents[2]
 KINDS = {"fmi2": ("native", ""), "fmi3": ("fmi3", "FMI3"), "python": ("python", "Python")}
-"""Kinds of FMU: what `build` calls them, and what follows the name of the model in the file's name."""
+"""Kinds of FMU: name for `build`, and suffix of the file name."""
 MODEL = {"prototype": "Prototype", "hatchback": "Hatchback"}
 
 
@@ -32,15 +32,15 @@ def car(name: str, fidelity: int = 0, road: Any = None) -> mbs.Model:
 
 
 def ali3(*arguments: object, good: Sequence[int] = (0,)) -> str:
-    """What a command prints; one that ends with another code than the good ones is an error with all its words."""
-    done = subprocess.run(
+    """Output of a command. Raises `RuntimeError` for an exit code that is not in `good`."""
+    process = subprocess.run(
         [sys.executable, "-m", "ali3", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, check=False
     )
-    if done.returncode not in good:
+    if process.returncode not in good:
         raise RuntimeError(
-            f"ali3 {' '.join(map(str, arguments))} ended with {done.returncode}: {done.stdout}{done.stderr}"
+            f"ali3 {' '.join(map(str, arguments))} ended with {process.returncode}: {process.stdout}{process.stderr}"
         )
-    return done.stdout
+    return process.stdout
 
 
 def build(name: str, folder: Path, kinds: Sequence[str] = tuple(KINDS)) -> None:
@@ -50,57 +50,57 @@ def build(name: str, folder: Path, kinds: Sequence[str] = tuple(KINDS)) -> None:
 
 
 def fmu_file(name: str, kind: str, folder: Path) -> Path:
-    """Where `build` puts an FMU."""
+    """File of an FMU after `build`."""
     return folder / f"{MODEL[name]}{KINDS[kind][1]}.fmu"
 
 
 def drive(fmu: Path, manoeuvre: str, folder: Path, *options: object) -> Path:
-    """Drive an FMU through a manoeuvre; the table of the result."""
+    """Simulate an FMU in a manoeuvre; returns the file of the result."""
     ali3("run", fmu, "--manoeuvre", manoeuvre, "--out", folder, *options)
     return next(folder.glob("*.csv"))
 
 
 def catalogue(fmu: Path, tests: str, folder: Path, settings: Sequence[str]) -> Path:
-    """Do standard tests; the measures as JSON. The command ends with 1 where a car does not keep a limit."""
+    """Run standard tests; returns the file of the measures. The exit code 1 means that a car exceeds a limit."""
     options = [text for setting in settings for text in ("--test-setting", setting)]
     ali3("catalogue", fmu, "--tests", tests, "--jobs", 1, "--no-runs", "--out", folder, *options, good=(0, 1))
     return folder / "measures.json"
 
 
 def study(file: Path, folder: Path) -> Path:
-    """Make a study; the folder of its rows."""
+    """Run a study; returns the folder of its rows."""
     ali3("study", file, "--jobs", 1, "--no-report", "--out", folder)
     return folder / "runs"
 
 
 def compare(fmu: Path, log: Path, folder: Path, *options: str) -> Path:
-    """Hold an FMU against a log; all numbers as JSON."""
+    """Compare an FMU with a log; returns the file of all numbers."""
     ali3("compare", fmu, log, "--out", folder, "--json", folder.parent / "compare.json", *options)
     return folder.parent / "compare.json"
 
 
 def kinematics(name: str, folder: Path, points: int) -> tuple[Path, list[Path]]:
-    """Curves of a car: all numbers as JSON, and the tables."""
+    """Kinematics of a car; returns the file of all numbers and the tables of the curves."""
     file = folder / "kinematics.json"
     ali3("car", name, "--kinematics", "--points", points, "--out", folder / "curves", "--json", file)
     return file, sorted((folder / "curves").glob("*.csv"))
 
 
 def road(source: Path, folder: Path) -> tuple[Path, Path]:
-    """A road file and what draws it."""
+    """A road file and the file of its drawing."""
     road_file, part = folder / f"{source.stem}.road", folder / f"{source.stem}.json"
     ali3("road", source, road_file, "--part", part)
     return road_file, part
 
 
 def world(name: str, folder: Path) -> tuple[Path, Path]:
-    """The road file and the drawing of a world, made again."""
+    """The road file and the file of the drawing of a world, both computed."""
     ali3("road", "--world", name, "--out", folder)
     return folder / f"{name}.road", folder / f"{name}.json"
 
 
 def page(result: Path, fmu: Path, folder: Path) -> tuple[Path, Path]:
-    """The page of a result and its glTF."""
+    """The files of the page and the glTF of a result."""
     page, gltf = folder / f"{result.stem}.html", folder / "page.glb"
     ali3("view", result, "--geometry", fmu, "--no-open", "--most", 200, "--out", folder, "--gltf", gltf)
     return page, gltf

@@ -1,4 +1,4 @@
-"""What commands write: measures, rows of studies, comparisons, kinematics, roads, worlds, pages and glTF."""
+"""Entries of the files of commands: measures, studies, comparisons, kinematics, roads, worlds, pages and glTF."""
 
 import csv
 import hashlib
@@ -68,13 +68,13 @@ friction = 1.0""",
 
 
 def catalogue(car: str, test: str, settings: Sequence[str], fmus: Path, scratch: Path) -> Entries:
-    """Measures of a standard test, among them fits."""
+    """Measures of a standard test, which include fits."""
     file = doors.catalogue(doors.fmu_file(car, "fmi2", fmus), test, scratch, settings)
     yield f"catalogue/{car}/{test}", entry_of(tables.of_json_file(file), False)
 
 
 def studies(fmus: Path, scratch: Path) -> Entries:
-    """Rows of studies by all ways to choose points, in the order of their index."""
+    """Rows of studies with all methods of sampling, in the order of their index."""
     for name, (sampling, count, grip) in SAMPLINGS.items():
         text = STUDY.format(fmu=doors.fmu_file("hatchback", "fmi2", fmus), sampling=sampling, count=count, grip=grip)
         file = scratch / f"{name}.toml"
@@ -85,7 +85,7 @@ def studies(fmus: Path, scratch: Path) -> Entries:
 
 
 def comparison(fmus: Path, scratch: Path) -> Entries:
-    """An FMU against a log of another set of parameters, with a fit."""
+    """Comparison of an FMU with a log that has other parameters."""
     fmu = doors.fmu_file("hatchback", "fmi2", fmus)
     table = doors.drive(fmu, "step_steer_given_throttle", scratch / "drive", "--set", "front.spring.stiffness=27000")
     with table.open(newline="", encoding="utf-8") as file:
@@ -100,7 +100,7 @@ def comparison(fmus: Path, scratch: Path) -> Entries:
 
 
 def kinematics(car: str, fmus: Path, scratch: Path) -> Entries:
-    """Numbers and curves of both axles; they come from iterations and eigenvectors."""
+    """Numbers and curves of both axles, which depend on iterations and eigenvectors."""
     file, curves = doors.kinematics(car, scratch, 9)
     yield f"kinematics/{car}/numbers", entry_of(tables.of_json_file(file), False)
     for curve in curves:
@@ -108,7 +108,7 @@ def kinematics(car: str, fmus: Path, scratch: Path) -> Entries:
 
 
 def roads(fmus: Path, scratch: Path) -> Entries:
-    """Road files byte by byte, what draws them, and the proving ground."""
+    """Bytes and drawings of road files and of the proving ground."""
     for name, text in ROADS.items():
         source = scratch / f"{name}.toml"
         source.write_text(text, encoding="utf-8")
@@ -119,7 +119,7 @@ def roads(fmus: Path, scratch: Path) -> Entries:
     with heights.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows(rows)
     yield from _road("heights", *doors.road(heights, scratch))
-    os.environ["ALI3_CACHE"] = str(scratch / "cache")  # a world of before would be copied
+    os.environ["ALI3_CACHE"] = str(scratch / "cache")  # a cached world would be copied
     yield from _road("proving_ground", *doors.world("proving_ground", scratch))
 
 

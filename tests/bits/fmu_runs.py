@@ -1,4 +1,4 @@
-"""Both cars' FMUs of all kinds in every manoeuvre, through FMPy and through the command that drives."""
+"""Simulations of all kinds of FMUs of both cars in every manoeuvre, by FMPy and by the command."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -20,14 +20,14 @@ STARTS: dict[str, dict[str, float]] = {
     "steady_cornering": {"initial.speed": 8.0},
     "step_steer_given_throttle": {"initial.speed": 22.22},
 }
-"""What a kind of FMU is started with where the inputs of a manoeuvre are replayed."""
+"""Start values of an FMU for the inputs of a manoeuvre."""
 TUNED = {"front.spring.stiffness": 21000.0, "rear.tyre.grip": 0.8, "brakes.balance": 0.55, "road.friction": 0.7}
 INPUTS = ("steering", "throttle", "brake", "hand_brake", "selector", "steering_wheel_angle_demand")
 STEP = 0.01  # s
 
 
 def car_runs(car: str, fmus: Path, scratch: Path) -> Iterator[tuple[str, Entry]]:
-    """Results of the command in every manoeuvre, and those of all kinds with the same inputs."""
+    """Results of the command in every manoeuvre, and of all kinds of FMUs with the same inputs."""
     inputs = {}
     for manoeuvre in STARTS:
         table = tables.of_csv(doors.drive(doors.fmu_file(car, "fmi2", fmus), manoeuvre, scratch / manoeuvre))
@@ -73,7 +73,7 @@ def _kind_runs(
 
 
 def _scalars(result: np.ndarray) -> dict[str, np.ndarray]:
-    """Columns of a result; elements of arrays one by one, which are the scalars of another kind."""
+    """Columns of a result, with a column for each element of an array."""
     results = {}
     for name in result.dtype.names:
         shape = result[name].shape[1:]
@@ -83,7 +83,7 @@ def _scalars(result: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _inputs(table: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Columns of a result that are inputs, as FMPy takes them; the times of the steps are whole multiples."""
+    """Input columns of a result as an array for FMPy, at multiples of the step."""
     values = np.zeros(len(table["time"]), [("time", float), *((name, float) for name in INPUTS)])
     values["selector"] = 1.0
     for name in values.dtype.names:
@@ -93,7 +93,7 @@ def _inputs(table: Mapping[str, np.ndarray]) -> np.ndarray:
 
 
 def _derivatives(description: Any, folder: Path) -> dict[str, Any]:
-    """Derivatives of all outputs by the inputs in a turn under power."""
+    """Directional derivatives of all outputs by the inputs in a turn with throttle."""
     variables = {v.name: v for v in description.modelVariables}
     outputs = [v for v in description.modelVariables if v.causality == "output" and v.type in ("Real", "Float64")]
     known = ("steering", "throttle")

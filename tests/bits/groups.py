@@ -1,4 +1,4 @@
-"""What is run: groups of entries, each made by one process."""
+"""Groups of entries, each computed in one process."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -14,14 +14,14 @@ Entries = Iterator[tuple[str, Entry]]
 
 @dataclass(frozen=True)
 class Group:
-    """Entries whose names begin with one of some texts."""
+    """Entries with common prefixes of their names."""
 
     make: Callable[[Path, Path], Entries]
-    """Gives the entries from the folder of FMUs and one for what is written."""
+    """Function of the folder of FMUs and a scratch folder that yields the entries."""
     begins: tuple[str, ...]
-    """With which names begin."""
+    """Prefixes of the names."""
     needs: tuple[str, ...] = ()
-    """Cars whose FMUs must be there."""
+    """Cars whose FMUs are required."""
 
 
 CARS = ("prototype", "hatchback")
@@ -40,7 +40,7 @@ TESTS = {
 """Tests of the catalogue, with settings that leave out runs of the same kind."""
 OF_BOTH = ("straight_braking", "kerb", "drop")
 FEW = ("pendulum", "double_four_bar", "arm", "planar", "gears", "roller", "triangle", "sledge_on_waves")
-"""Mechanisms that have every joint, force and setting together."""
+"""Mechanisms that together contain every joint, force and setting."""
 
 
 def _groups() -> dict[str, Group]:
@@ -75,5 +75,5 @@ GROUPS = _groups()
 
 
 def group_of(entry: str) -> str:
-    """The group of an entry, "" where there is none."""
+    """The group of an entry, "" if there is none."""
     return next((name for name, group in GROUPS.items() if entry.startswith(group.begins)), "")

@@ -1,4 +1,4 @@
-"""The stored baseline: a hash of every signal, and numbers that tell the size of a difference.
+"""The stored baseline: a hash of every signal, and numbers to estimate the size of a difference.
 
 A signal is an array of numbers with a name. Its hash is that of its little-endian float64 bytes, so that -0.0 and 0.0
 differ, with every NaN as one. Beside it stand two projections on fixed random signs, divided by the root of the count:
@@ -23,14 +23,14 @@ from numpy.typing import ArrayLike, NDArray
 BASELINE = Path(__file__).with_name("baseline.json")
 RELATIVE = 1e-9
 ABSOLUTE = 1e-12
-"""Of entries that are not compared by bits: LAPACK and optimisers round differently on other processors."""
+"""Tolerances of entries that are not compared by bits: LAPACK and optimisers round differently on other processors."""
 _FORMAT = struct.Struct("<6sddff")  # hash, projections, smallest, largest
 _NAN = struct.pack("<d", math.nan)
 
 
 @dataclass(frozen=True)
 class Signal:
-    """What is stored of one signal."""
+    """Stored data of a signal."""
 
     digest: bytes
     """One byte of a BLAKE2 hash of the shape, five of one of the numbers."""
@@ -59,12 +59,12 @@ class Signal:
         return cls(digest, (sums[0], sums[1]), *(_single(v) for v in (low, high)))
 
     def text(self) -> str:
-        """All of it in base64."""
+        """The data in base64."""
         return base64.b64encode(_FORMAT.pack(self.digest, *self.projections, self.low, self.high)).decode()
 
     @classmethod
     def from_text(cls, text: str) -> Signal:
-        """What `text` wrote."""
+        """The inverse of `text`."""
         digest, one, two, low, high = _FORMAT.unpack(base64.b64decode(text, validate=True))
         return cls(digest, (one, two), low, high)
 
@@ -87,7 +87,7 @@ Entry = tuple[bool, dict[str, Signal]]
 
 @dataclass(frozen=True)
 class Difference:
-    """One signal that is not as stored."""
+    """A signal that differs from the stored one."""
 
     entry: str
     signal: str
@@ -132,7 +132,7 @@ def compare(stored: Mapping[str, Entry], found: Mapping[str, Entry], whole: bool
     return rows
 
 
-def write(entries: Mapping[str, Entry], taken: Mapping[str, str], path: Path = BASELINE) -> None:
+def write(entries: Mapping[str, Entry], versions: Mapping[str, str], path: Path = BASELINE) -> None:
     """Write the baseline: a line for each entry, and lists of names that several entries share once.
 
     Parameters
@@ -157,7 +157,7 @@ def write(entries: Mapping[str, Entry], taken: Mapping[str, str], path: Path = B
         "names": [f"{json.dumps(key)}: {json.dumps(names)}" for key, names in sorted(lists.items())],
         "numbers": [f"{json.dumps(key)}: {json.dumps(text[8:])}" for key, text in sorted(known.items())],
     }
-    body = [f'"taken": {json.dumps(taken)}']
+    body = [f'"taken": {json.dumps(versions)}']
     body += [f'"{part}": {{\n' + ",\n".join(rows) + "\n}" for part, rows in parts.items()]
     path.write_text("{\n" + ",\n".join(body) + "\n}\n", encoding="utf-8")
 

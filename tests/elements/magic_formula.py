@@ -1,4 +1,4 @@
-"""The Magic Formula as the publications write it, independent of the kernel; axes of the coefficients.
+"""The Magic Formula by the published equations, independent of the kernel; axes of the coefficients.
 
 `pac2002`: H. B. Pacejka, Tire and Vehicle Dynamics, 2nd ed., Elsevier, 2006, section 4.3.2, as PAC2002 and MF-Tyre 5.2
 have it, with angles for their tangents; the friction ellipse is that of PAC2002. `mf6`: the same, 3rd ed., 2012,
@@ -25,8 +25,10 @@ class Forces:
 
 
 @dataclass(frozen=True)
-class Given:
-    """What the tyre meets: load N, slip, slip angle rad, camber rad, speed m/s, pressure ratio less 1, friction."""
+class Operation:
+    """Operating point of a tyre: load, N, slip, slip angle, rad, camber, rad, speed, m/s, pressure ratio less 1,
+    friction.
+    """
 
     Fz: float
     kappa: float
@@ -52,7 +54,7 @@ def sgn(x: float) -> float:
     return -1.0 if x < 0.0 else 1.0
 
 
-def pac2002(p: Coefficients, g: Given, combination: str) -> Forces:
+def pac2002(p: Coefficients, g: Operation, combination: str) -> Forces:
     """PAC2002 and MF-Tyre 5.2."""
     Fz, kappa, alpha, gamma, dpi = g.Fz, g.kappa, g.alpha, g.gamma, g.dpi
     Fz0 = p.Fz0 * p.LFZO
@@ -128,7 +130,7 @@ def pac2002(p: Coefficients, g: Given, combination: str) -> Forces:
     return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx, Fz), Mz)
 
 
-def mf6(p: Coefficients, g: Given, combination: str) -> Forces:
+def mf6(p: Coefficients, g: Operation, combination: str) -> Forces:
     """MF-Tyre 6.1 and 6.2."""
     Fz, kappa, dpi = g.Fz, g.kappa, g.dpi
     Fz0 = p.LFZO * p.Fz0  # 4.E1
@@ -215,7 +217,7 @@ def mf6(p: Coefficients, g: Given, combination: str) -> Forces:
     return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx, p.Fz0 if p.QSY7 else Fz), Mz)
 
 
-def _mx(p: Coefficients, g: Given, Fy: float) -> float:
+def _mx(p: Coefficients, g: Operation, Fy: float) -> float:
     """4.E69, with QSX12 to QSX14; over the nominal load without LFZO."""
     Fz, Fz0, gam = g.Fz, p.Fz0, g.gamma
     Mx = p.QSX1 * p.LVMX - p.QSX2 * gam * (1 + p.PPMX1 * g.dpi) - p.QSX12 * gam * abs(gam) + p.QSX3 * Fy / Fz0
@@ -225,7 +227,7 @@ def _mx(p: Coefficients, g: Given, Fy: float) -> float:
     return p.R0 * p.LMX * (Fz * Mx + Fy * (p.QSX13 + p.QSX14 * abs(gam)))
 
 
-def _my(p: Coefficients, g: Given, Fx: float, Fz1: float) -> float:
+def _my(p: Coefficients, g: Operation, Fx: float, Fz1: float) -> float:
     """Positive against rolling; `Fz1`: of 4.E70 the load, of Besselink et al., A48, the nominal one."""
     Fz, v, gam = g.Fz, abs(g.V / p.LONGVL), g.gamma
     My = p.QSY1 + p.QSY2 * Fx / p.Fz0 + p.QSY3 * v + p.QSY4 * v**4 + p.QSY5 * gam**2 + p.QSY6 * Fz / p.Fz0 * gam**2

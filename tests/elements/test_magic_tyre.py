@@ -11,7 +11,7 @@ import pytest
 from mbs.elements import MagicTyre, PlaneRoad
 from mbs.tyre_files import TyreFile, read_tyre
 from tests.elements.harness import Element, Result, tangent_by_differences, vectors
-from tests.elements.magic_formula import Coefficients, Forces, Given, mf6, pac2002
+from tests.elements.magic_formula import Coefficients, Forces, Operation, mf6, pac2002
 
 DATA = Path(__file__).parents[1] / "tyre_files" / "data"
 OWN = [DATA / f"assumed_{version}.tir" for version in (52, 61, 62)]
@@ -75,7 +75,7 @@ def settled(element: Element, u: np.ndarray, ud: np.ndarray) -> Result:
 
 def book(t: MagicTyre, load: float, kappa: float, alpha: float, gamma: float, speed: float, mu: float) -> Forces:
     law = pac2002 if t.version in ("PAC2002", "MF52") else mf6
-    state = Given(load, kappa, alpha, gamma, speed, t.pressure, mu)
+    state = Operation(load, kappa, alpha, gamma, speed, t.pressure, mu)
     return law(Coefficients(t.coefficients, t.radius, t.nominal_load), state, t.combination)
 
 

@@ -1,4 +1,4 @@
-"""An FMU in hosts that are not in Python: the C host of the project, and libcosim."""
+"""Simulations of an FMU by the C host of the project and by libcosim."""
 
 import subprocess
 from collections.abc import Mapping, Sequence
@@ -14,25 +14,28 @@ from tests.fmu.native import compile_host, guid_of, unpack
 def by_c_host(
     fmu: Path, folder: Path, start: Mapping[str, object], outputs: Sequence[str], steps: int, step: float
 ) -> NDArray[np.float64]:
-    """Outputs behind each step, with values that are set before initialisation. `step`: s; the rows are the steps."""
+    """Outputs after each step by the C host, shape (steps, n).
+
+    `folder`: for the program and the unpacked FMU; `start`: values set before initialisation; `step`: s.
+    """
     program = compile_host(folder)
-    place = unpack(fmu, folder / "fmu")
+    unpacked = unpack(fmu, folder / "fmu")
     references = {v.name: v.valueReference for v in fmpy.read_model_description(str(fmu)).modelVariables}
     requested = [references[name] for name in outputs]
-    library = next((place / "binaries" / fmpy.platform).iterdir())
+    library = next((unpacked / "binaries" / fmpy.platform).iterdir())
     command = [
         program,
         library,
-        (place / "resources").as_uri(),
-        guid_of(place),
+        (unpacked / "resources").as_uri(),
+        guid_of(unpacked),
         steps,
         step,
         min(requested),
         max(requested),
     ]
     options = [part for name, value in start.items() for part in ("--set", f"{name}={value}")]
-    done = subprocess.run([*map(str, command), *options], capture_output=True, text=True, check=True)
-    rows = np.array([[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()])
+    process = subprocess.run([*map(str, command), *options], capture_output=True, text=True, check=True)
+    rows = np.array([[float.fromhex(word) for word in line.split()] for line in process.stdout.splitlines()])
     return rows[:, [1 + reference - min(requested) for reference in requested]]
 
 
@@ -44,7 +47,10 @@ def by_libcosim(
     step: float,
     start: Mapping[str, object] | None = None,
 ) -> NDArray[np.float64]:
-    """The same; `inputs` are set after initialisation, as libcosim does it, and `start` before."""
+    """Outputs after each step by libcosim, shape (steps, n).
+
+    `inputs`: constant, set after initialisation; `start`: values set before initialisation; `step`: s.
+    """
     from libcosimpy.CosimExecution import CosimExecution
     from libcosimpy.CosimManipulator import CosimManipulator
     from libcosimpy.CosimObserver import CosimObserver

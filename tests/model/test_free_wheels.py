@@ -5,7 +5,7 @@ import pytest
 
 import mbs
 from benchmarks.methods.free_runs import STEPS, TURNS, measure
-from benchmarks.methods.free_wheels import WHEELS, Free, alone_late, growth
+from benchmarks.methods.free_wheels import WHEELS, FreeModel, angle_error_alone, growth
 from tests.oracle.paper_step import PaperState, paper_step
 
 NAMES = pytest.mark.parametrize("name", WHEELS)
@@ -15,7 +15,7 @@ def check(name, turn, steps, method="ali3p"):
     result = measure(name, turn, steps, method)
     assert result["energy"] < 1e-3 * (turn / 0.5) ** 4 + 1e-9, result
     assert result["slip"] < 1e-11, result
-    assert result["late"] < alone_late(turn), result
+    assert result["late"] < angle_error_alone(turn), result
     return result
 
 
@@ -44,13 +44,13 @@ def test_steps_in_which_wheels_turn_far_are_halved_or_refused(turn):
 
 def test_a_wheel_alone_keeps_its_rate_and_is_late():
     """An angle that carries nothing is no reason to open its row."""
-    wheels = Free()
+    wheels = FreeModel()
     wheels.angle("angle", wheels.model.ground, wheels.wheel("wheel", 0.1), 50.0)
     wheels.model.sense_coordinate("rate", wheels.angles["angle"][0], order=1)
     r = mbs.simulate(wheels.compiled(), 1.0, 0.01, progress=False, estimate_error=False)
     assert np.ptp(r["energy"]) < 1e-9 * r["energy"][0]
     assert np.ptp(r["rate"]) < 1e-7
-    assert 1.0 - r["angle"][-1] / 50.0 == pytest.approx(alone_late(0.5), rel=1e-6)
+    assert 1.0 - r["angle"][-1] / 50.0 == pytest.approx(angle_error_alone(0.5), rel=1e-6)
 
 
 class Pair:

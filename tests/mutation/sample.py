@@ -1,4 +1,4 @@
-"""Mutants drawn by chance, kept as text: a mutant is found again where its file was moved or its lines were wrapped.
+"""Random mutants, stored as text: a mutant is found again if its file was moved or its lines were wrapped.
 
 What identifies a mutant is its line, or lines where a statement has several. Spaces and line ends do not count. Where
 the line stands more than once, or no longer in its file, the function around it and the lines before and after decide.
@@ -23,7 +23,7 @@ ENOUGH = 2  # points of `Sampled.find`: a line that is short may stand elsewhere
 
 @dataclass(frozen=True)
 class Sampled:
-    """A mutant that was drawn."""
+    """A random mutant."""
 
     file: str
     """Path from the root, when it was drawn."""
@@ -120,7 +120,7 @@ def sources(root: Path = ROOT) -> list[Path]:
 
 
 def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
-    """Mutants by chance, the same for the same seed and tree.
+    """Random mutants, equal for equal seeds and trees.
 
     A room is a folder. Its share grows with the root of its size, so that small rooms are drawn too; so does the share
     of an operator in a file. Returns one for each mutant; the next of an iterator stands in for one that does not

@@ -44,11 +44,11 @@ class Applied(Protocol):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What tests say of a copy."""
+    """Result of the tests for a copy of the project."""
 
     outcome: str
     why: str
-    """`outcome`, `why`: one of the four words, and the reason in one line."""
+    """`outcome`, `why`: one of the four outcomes, and the reason in one line."""
     test: str = ""
     """The test that failed, or that was running at the end; empty where all passed."""
     seconds: float = 0.0

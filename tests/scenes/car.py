@@ -32,12 +32,12 @@ def drive(system, t_end, h=H, inputs=None, *, neutral=False, pose=None, every=1,
     return simulate(system, t_end, h, inputs, None, parameters, progress=False, **more)
 
 
-def place(trajectory):
-    """Reference point, shape (n, 3), m."""
+def positions(trajectory):
+    """Positions of the reference point, m, shape (n, 3)."""
     return np.array([trajectory[f"chassis.{c}"] for c in "xyz"]).T
 
 
-def moved(trajectory, begin, end):
-    """Largest distance of the reference point from where it was at `begin`, s, until `end`, s."""
-    part = place(trajectory)[(trajectory.t > begin - 1e-9) & (trajectory.t < end + 1e-9)]
+def displacement(trajectory, begin, end):
+    """Largest distance of the reference point from its position at `begin`, s, until `end`, s; m."""
+    part = positions(trajectory)[(trajectory.t > begin - 1e-9) & (trajectory.t < end + 1e-9)]
     return np.linalg.norm(part - part[0], axis=1).max()

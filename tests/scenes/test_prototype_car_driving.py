@@ -8,7 +8,7 @@ from mbs import Pose, Simulation
 from mbs.scenes import prototype_car
 from mbs.vehicle.environment import GRAVITY
 from tests.elements import tmeasy
-from tests.scenes.car import WHEELS, H, car, drive, place
+from tests.scenes.car import WHEELS, H, car, drive, positions
 
 CAR = prototype_car.car()
 FRICTION, AIR = CAR.road.friction, CAR.aerodynamics
@@ -115,8 +115,8 @@ def test_start_turned_and_shifted_gives_the_turned_and_shifted_path():
     plain = drive(car(), 4.0, H, inputs, pose=Pose(speed=10.0))
     turned = drive(car(), 4.0, H, inputs, pose=Pose(shift[0], shift[1], 0.0, yaw, 10.0))
     rotation = np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
-    expected = place(plain)[:, :2] @ rotation.T + shift
-    np.testing.assert_allclose(place(turned)[:, :2], expected, rtol=0, atol=1e-6)
+    expected = positions(plain)[:, :2] @ rotation.T + shift
+    np.testing.assert_allclose(positions(turned)[:, :2], expected, rtol=0, atol=1e-6)
     heading = np.unwrap(turned["chassis.yaw"]) - np.unwrap(plain["chassis.yaw"])
     np.testing.assert_allclose(np.exp(1j * heading), np.exp(1j * yaw), rtol=0, atol=1e-6)
     for name in ("wheel_FL.Fz", "wheel_RR.Fy", "chassis.ay", "speed"):

@@ -8,7 +8,7 @@ from benchmarks.car.manoeuvres import rise
 from mbs import Pose, Settings, compile, simulate
 from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car
-from tests.scenes.car import H, car, drive, moved, place
+from tests.scenes.car import H, car, displacement, drive, positions
 
 STILL = 1e-3  # m
 CREEP = 1e-6  # m/s on a slope of ten per cent
@@ -21,8 +21,8 @@ def test_forty_seconds_at_rest(case):
     """With the brake on, the drive's creep torque leans on it: it moves the car by a fraction of a millimetre, once."""
     braked = case == "brake"
     t = drive(car(), 40.0, H, {"brake": 1.0 if braked else 0.0}, neutral=not braked, every=10)
-    assert moved(t, 0.0, 40.0) < (STILL if braked else 1e-9)
-    assert moved(t, 10.0, 40.0) < 1e-6
+    assert displacement(t, 0.0, 40.0) < (STILL if braked else 1e-9)
+    assert displacement(t, 10.0, 40.0) < 1e-6
     energy = t["energy.total"] - t["energy.total"][0]
     work = 2 * 60.0 * 2 * 0.9e-3 / 0.29  # J: creep torque times the give of the brakes
     assert energy.max() < (work if braked else 1e-9)
@@ -37,8 +37,8 @@ def test_the_braked_car_stands_with_the_energy_momentum_step():
     """Its carried velocity rings; brushes and brakes that took that for a motion let the car creep by metres."""
     settings = Settings(method="energy_momentum")
     t = simulate(car(), 60.0, H, {"brake": 1.0}, settings, every=10, progress=False, estimate_error=False)
-    assert moved(t, 0.0, 60.0) < STILL
-    assert moved(t, 20.0, 60.0) < SETTLED
+    assert displacement(t, 0.0, 60.0) < STILL
+    assert displacement(t, 20.0, 60.0) < SETTLED
 
 
 @pytest.mark.slow
@@ -50,7 +50,7 @@ def test_parked_on_a_slope_up_and_across(way, grade):
     pull = {"grade_x": "Fx", "grade_y": "Fy"}[way]
     force = sum(t[f"wheel_{w}.{pull}"][-1] for w in ("FL", "FR", "RL", "RR"))
     assert abs(force) == pytest.approx(597.0 * 9.81 * GRADE / np.hypot(1.0, GRADE), rel=0.02)
-    assert moved(t, 15.0, 25.0) < 10.0 * CREEP
+    assert displacement(t, 15.0, 25.0) < 10.0 * CREEP
     assert t["energy.kinetic"][-1] < 1e-9
 
 
@@ -66,10 +66,10 @@ def test_braked_from_15_m_s_to_a_stop_that_lasts(road, slope):
     deceleration = (t["speed"][fast] - t["speed"][slow]) / (t.t[slow] - t.t[fast])
     torque = 650.0 / 0.263 + 450.0 / 0.281  # N: both wheels of an axle at half pedal, rolling radii
     assert deceleration == pytest.approx(torque / 597.0 + 9.81 * slope, rel=0.06)
-    assert moved(t, stop + 3.0, stop + 13.0) < 2e-4
-    assert moved(t, stop + 8.0, stop + 13.0) < 1e-5
+    assert displacement(t, stop + 3.0, stop + 13.0) < 2e-4
+    assert displacement(t, stop + 8.0, stop + 13.0) < 1e-5
     assert t["energy.kinetic"][-1] < 1e-6
-    assert place(t)[-1][0] > 40.0
+    assert positions(t)[-1][0] > 40.0
 
 
 def test_wheels_of_a_car_that_drives_forward_turn_forward():

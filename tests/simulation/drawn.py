@@ -1,4 +1,4 @@
-"""Random mechanisms by number, after one unused random number."""
+"""Random mechanisms of the benchmarks by seed and number."""
 
 import numpy as np
 
@@ -7,9 +7,9 @@ from benchmarks.methods import random_mechanisms
 
 
 def drawn(kind: str, seed: int, number: int) -> tuple[mbs.System, float]:
-    """A mechanism, and its duration, s. `kind`: what its kind must have in its name."""
+    """A mechanism and its duration, s. `kind`: expected part of the name of its kind."""
     rng = np.random.default_rng([seed, number])
     rng.random()
-    result, drawing = random_mechanisms.drawing(rng)
+    result, mechanism = random_mechanisms.random_mechanism(rng)
     assert kind in result
-    return mbs.compile(random_mechanisms.model_of(drawing)), drawing.span
+    return mbs.compile(random_mechanisms.model_of(mechanism)), mechanism.span

@@ -242,7 +242,7 @@ def test_half_a_step_of_high_order_decides_nothing_near_the_limit(number, method
 
 def test_coarser_runs_that_do_not_come_nearer_clear_no_contact() -> None:
     """A mass in a play of 3 mm, 5.3 % off: runs with eight, four and twice the step are off alike, 5 to 7 % from it."""
-    kind, machine = random_machines.machine(np.random.default_rng([102, 0]))
+    kind, machine = random_machines.random_machine(np.random.default_rng([102, 0]))
     assert kind == "play"
     system = mbs.compile(random_machines.model_of(machine))
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.[5-8] %"):

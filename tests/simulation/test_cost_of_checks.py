@@ -103,8 +103,8 @@ def test_a_coarser_run_continues_where_a_difference_grows(
 
 def machine(number: int) -> tuple[mbs.System, float]:
     """A random one of seed 1, and its span, s."""
-    _, drawing = random_machines.machine(np.random.default_rng([1, number]))
-    return mbs.compile(random_machines.model_of(drawing)), drawing.span
+    _, machine = random_machines.random_machine(np.random.default_rng([1, number]))
+    return mbs.compile(random_machines.model_of(machine)), machine.span
 
 
 def test_no_16th_of_the_step_follows_where_an_eighth_decides() -> None:

@@ -47,7 +47,7 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     assert instants(201).tolist() == list(range(201))
     assert len(instants(202)) == 51
     assert instants(1).tolist() == [0]
-    drive = random_cars.drive(_stream(2, 14))
+    drive = random_cars.random_drive(_stream(2, 14))
     fine = drive.run(h=0.00125, estimate_error=False)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5.[67] %"):
         run = drive.run(h=0.02)

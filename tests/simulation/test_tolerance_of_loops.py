@@ -53,13 +53,13 @@ def test_arms_that_are_folded_do_not_hide_the_joint_that_passes() -> None:
     """A driven slider-crank, its rod longer by 0.0025: folded, the sine between its arms is nothing and changes sign by
     interpolation, while a step of a radian and both its halves take the rod to the other side.
     """
-    drawing = random_mechanisms.drawing(np.random.default_rng([3, 12]), 2)[1]
-    pin, _, end = drawing.tips
-    crank, rod, turned = np.linalg.norm(pin), np.linalg.norm(end - pin), drawing.drive
+    mechanism = random_mechanisms.random_mechanism(np.random.default_rng([3, 12]), 2)[1]
+    pin, _, end = mechanism.tips
+    crank, rod, turned = np.linalg.norm(pin), np.linalg.norm(end - pin), mechanism.drive
     assert 0.0 < rod / crank - 1.0 < 3e-3
     assert turned is not None
-    system, times = mbs.compile(random_mechanisms.model_of(drawing)), np.linspace(0.0, drawing.span, 51)
-    run = mbs.simulate(system, drawing.span, tolerance=1e-2, times=times, progress=False)
+    system, times = mbs.compile(random_mechanisms.model_of(mechanism)), np.linspace(0.0, mechanism.span, 51)
+    run = mbs.simulate(system, mechanism.span, tolerance=1e-2, times=times, progress=False)
     assert run.control is not None
     angle = np.arctan2(pin[1], pin[0]) + turned(run.t)
     exact = crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle)) ** 2)

@@ -82,7 +82,7 @@ def test_a_method_that_cannot_hold_a_tolerance_hands_on(monkeypatch: pytest.Monk
 
 def test_a_cam_that_the_default_cannot_hold_is_held_by_another_method() -> None:
     """A follower behind a table: ALi3-P alone was a candidate, and refused 1e-3 and 1e-4."""
-    kind, machine = random_machines.machine(np.random.default_rng([2, 7]))
+    kind, machine = random_machines.random_machine(np.random.default_rng([2, 7]))
     assert kind == "cam"
     system = mbs.compile(random_machines.model_of(machine))
     with pytest.raises(mbs.SimulationError, match="cannot be held by 'ali3p'"):

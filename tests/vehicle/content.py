@@ -42,39 +42,42 @@ def numbers(name):
 
 
 def new_with(name, paths, names):
-    """Key paths of a car, by a function of its name, that none of the names before it has: a suspension by its kind."""
+    """Key paths of a car that no car before it in `names` has, where suspensions differ by kind.
+
+    `paths`: function of the name of a car.
+    """
     *before, _ = names[: names.index(name) + 1]
-    known = {_place(other, path) for other in before for path in paths(other)}
-    return [path for path in paths(name) if _place(name, path) not in known]
+    known = {_path_with_kind(other, path) for other in before for path in paths(other)}
+    return [path for path in paths(name) if _path_with_kind(name, path) not in known]
 
 
-def _place(name, path):
+def _path_with_kind(name, path):
     axle, _, rest = path.partition(".")
     return path, load(name)._data[axle]["suspension"]["kind"] if rest.startswith("suspension") else ""
 
 
-def sentences(message, what):
-    """The lines of an error, each a sentence for people."""
+def sentences(message, prefix):
+    """Lines of a message; fails if one is not a sentence that begins with `prefix`."""
     lines = str(message).split("\n")
     assert 1 <= len(lines) <= 9
     for line in lines:
-        assert line.startswith(what), line
+        assert line.startswith(prefix), line
         assert line[-1] in ".?", line
         assert not FORBIDDEN.search(line), line
         assert len(line) < 500, line
     return lines
 
 
-def told(changes, name):
-    """Sentences of the error or of the warnings for a car's file with other values; none: it is accepted in silence."""
+def problems_of(changes, name):
+    """Sentences of the error or the warnings for a car's file with changed values; empty if there are none."""
     try:
-        return warned(changes, name)
+        return warnings_of(changes, name)
     except CarFileError as error:
         return sentences(error, "x: ")
 
 
-def warned(changes, name):
-    """Sentences of the warnings for a car's file with other values, without a frame that they do not concern."""
+def warnings_of(changes, name):
+    """Sentences of the warnings for a car's file with changed values, without its frame unless a change is in it."""
     car = load(name)
     data = changed_content(car._data, changes, "x")
     if not any(path.startswith("chassis.") for path in changes):

@@ -1,4 +1,4 @@
-"""Motion of suspensions at an instant, from their hard points by linear algebra, without the engine.
+"""Velocities of suspensions at the design position, from their hard points by linear algebra, without the engine.
 
 The left wheel moves against the chassis by a twist: velocity v of the origin and angular velocity w, so that a point p
 moves with v + w x p.
@@ -16,15 +16,15 @@ def velocity(twist, p):
 
 
 def moves_along(p, n):
-    """Row of n . (v + w x p) = 0."""
+    """Row of the twist for n . (v + w x p) = 0: p has no velocity along n."""
     return np.concatenate([n, np.cross(p, n)])
 
 
 def macpherson(points):
-    """Twist of the upright per wheel travel, with the wheel's centre to be given its rate by the caller."""
+    """Twist of the upright of a MacPherson strut with arbitrary length; `per_travel` scales it."""
     p = {name: np.array(value) for name, value in points}
     axis = p["lower_pivot_front"] - p["lower_pivot_rear"]
-    arm = np.cross(axis, p["lower_ball_joint"] - p["lower_pivot_rear"])  # the way of the ball joint
+    arm = np.cross(axis, p["lower_ball_joint"] - p["lower_pivot_rear"])  # direction in which the ball joint moves
     strut = p["strut_top"] - p["strut_lower"]
     rows = [moves_along(p["lower_ball_joint"], n) for n in _across(arm)]
     rows += [moves_along(p["strut_top"], n) for n in _across(strut)]
@@ -40,7 +40,7 @@ def twist_beam(points, mode):
 
 
 def per_travel(twist, centre):
-    """The twist with a wheel centre that rises by 1."""
+    """The twist scaled to unit vertical velocity of the wheel centre."""
     return twist / velocity(twist, np.array(centre))[2]
 
 
@@ -49,7 +49,7 @@ def contact(centre):
 
 
 def lever_rate(bar, twist):
-    """Angular velocity of a lever of the bar about +y."""
+    """Angular velocity about +y of a lever of the anti-roll bar for a twist of the upright."""
     pivot, end, link = (point(bar.points, name) for name in ("pivot", "lever_end", "link_end"))
     rod = link - end
     direction = np.cross((0.0, 1.0, 0.0), end - np.array([pivot[0], end[1], pivot[2]]))
@@ -57,5 +57,5 @@ def lever_rate(bar, twist):
 
 
 def _across(v):
-    """Two vectors square to v."""
+    """Two orthonormal vectors perpendicular to v."""
     return np.linalg.svd(v[None])[2][1:]

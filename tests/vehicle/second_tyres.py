@@ -1,4 +1,4 @@
-"""Copies of the tyres of a car in a second place, at the ports of its hubs, and the table of where they shake.
+"""Copies of the tyres of a car outside of its model, at the ports of its hubs, and tables of their stability.
 
 python -m tests.vehicle.second_tyres [--limits]
 """
@@ -22,12 +22,12 @@ INNER = 0.002  # s
 
 @cache
 def saloon() -> Car:
-    """Tyres of a property file, with less damping of their own."""
+    """A car with tyres of a property file, which have less damping."""
     return load("saloon")
 
 
 class SecondTyre:
-    """A tyre that knows how its hub moves alone."""
+    """A tyre that is computed from the motion of its hub alone."""
 
     def __init__(self, wheel: str, car: Car) -> None:
         record = next(e for e in car.model().elements if e.name == f"tyre {wheel}")
@@ -56,22 +56,23 @@ def drive(
     steer: float = 0.3,
     pedals: Mapping[str, float] | None = None,
 ) -> tuple[float, float, float, mbs.Simulation]:
-    """Deviations of load, path and speed of a wheel, each over its own size, from the closed car; and the loop.
+    """Relative differences of wheel loads, path and wheel speeds to the closed model, and the car with the loop.
+    `step`: s.
 
-    With `slopes` the forces go on within a step as they went in the last one, as by derivatives of inputs; with `late`
-    they come a step later, as where both step at once.
+    With `slopes` forces are extrapolated linearly within a step, as by derivatives of inputs; with `late` they act one
+    step later, as when both parts step at the same time.
     """
     closed, loop = simulation(make, speed), simulation(make, speed, tyre="hub")
     names = [entry["name"] for entry in loop.system.meta["inputs"]]
     tyres = [SecondTyre(w, make()) for w in WHEELS]
-    places = [[names.index(f"wheel_{w}.{n}") for n in HUB] for w in WHEELS]
+    indices = [[names.index(f"wheel_{w}.{n}") for n in HUB] for w in WHEELS]
     n, loads, last = max(1, round(step / INNER)), [], None
     coming = None
     for k in range(round(time / step)):
         now = loop.sensors
         wrenches = [tyre.wrench(now, step if k else 0.0) for tyre in tyres]
-        found = np.array([each for each, _ in wrenches])
-        wrench, coming = found if not late or coming is None else coming, found
+        computed = np.array([each for each, _ in wrenches])
+        wrench, coming = computed if not late or coming is None else coming, computed
         rate = np.zeros_like(wrench) if last is None or not slopes else (wrench - last) / step
         last = wrench
         loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, wrenches, strict=True)])
@@ -79,27 +80,27 @@ def drive(
             s.set_input("steering", steer * np.sin(5.0 * s.time))
             for pedal, value in (pedals or {}).items():
                 s.set_input(pedal, value)
-        for place, values in zip(places, wrench, strict=True):
-            for index, value in zip(place, values, strict=True):
+        for wheel_indices, values in zip(indices, wrench, strict=True):
+            for index, value in zip(wheel_indices, values, strict=True):
                 loop.set_input(names[index], float(value))
         row = np.array([loop.instance.get_input(i) for i in range(len(names))])
         for j in range(n):
-            row[np.array(places)] = wrench + rate * (j + 1) * step / n
+            row[np.array(indices)] = wrench + rate * (j + 1) * step / n
             loop.instance.run(step / n, 1, row)
         closed.step(step / n, n)
     pairs, first, now = np.array(loads), closed.sensors, loop.sensors
-    away = [np.array([s["chassis.x"], s["chassis.y"]]) for s in (first, now)]
+    ends = [np.array([s["chassis.x"], s["chassis.y"]]) for s in (first, now)]
     spins = [np.array([s[f"wheel_{w}.omega"] for w in WHEELS]) for s in (first, now)]
     return (
         float(np.sqrt(np.mean(np.diff(pairs) ** 2)) / pairs.mean()),
-        float(np.linalg.norm(away[0] - away[1]) / max(np.linalg.norm(away[0]), 1.0)),
+        float(np.linalg.norm(ends[0] - ends[1]) / max(np.linalg.norm(ends[0]), 1.0)),
         float(np.abs(spins[1] - spins[0]).max() / max(np.abs(spins[0]).max(), 1.0)),
         loop,
     )
 
 
 def longest(car: Car, speed: float, *, slopes: bool, late: bool) -> float:
-    """The step at which the spin of a front wheel is not damped (decision 225), s."""
+    """Step at the stability limit of the spin of a front wheel (decision 225), s."""
     by_slip, stiffness, settling, fading = car.front.tyre.carcass
     lever = car.front.tyre.radius**2 / car.front.wheel.spin_inertia
     time = settling / (1.0 + fading * speed**2) + speed / (by_slip * lever)
@@ -109,7 +110,7 @@ def longest(car: Car, speed: float, *, slopes: bool, late: bool) -> float:
 
 
 def print_limits() -> None:
-    """The deviation of the speed of the wheels at parts of the longest step, in per cent."""
+    """Print the relative difference of the wheel speeds for steps near the stability limit, %."""
     parts = (0.85, 1.0, 1.2, 1.5)
     print("| car | forces | H, ms | " + " | ".join(f"{part:g} H" for part in parts) + " |")
     print("| --- | --- | --- |" + " --- |" * len(parts))
@@ -125,7 +126,7 @@ def print_limits() -> None:
 
 
 def main() -> None:
-    """Print the deviation of the speed of the wheels, in per cent, held and with derivatives."""
+    """Print the relative difference of the wheel speeds, %, for held and for extrapolated forces."""
     steps = (0.001, 0.002, 0.005, 0.008, 0.01)
     print("| car | speed, m/s | " + " | ".join(f"{1e3 * step:g} ms" for step in steps) + " |")
     print("| --- | --- |" + " --- |" * len(steps))

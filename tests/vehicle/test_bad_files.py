@@ -10,7 +10,7 @@ from mbs.vehicle import Car, CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
 from tests.quick import quick
-from tests.vehicle.content import new_with, numbers, sentences, tables, told, warned
+from tests.vehicle.content import new_with, numbers, problems_of, sentences, tables, warnings_of
 
 FIRST = "prototype"
 CAR_NAMES = sorted(car_names(), reverse=True)
@@ -48,7 +48,7 @@ def test_each_number_in_a_unit_wrong_by_1000_is_reported(name, factor):
     silent = set()
     values = numbers(name)
     for path in new_with(name, numbers, CAR_NAMES):
-        if values[path] and not told({path: factor * values[path]}, name):
+        if values[path] and not problems_of({path: factor * values[path]}, name):
             silent.add(path)
     angles = {
         f"{axle}.alignment.{what}_{side}"
@@ -66,7 +66,7 @@ def test_each_table_in_a_wrong_unit_or_negative(name, factor):
     for table in tables(load(name)._data):
         changes = {p: factor * v for p, v in numbers(name).items() if p.startswith(f"{table}.")}
         if changes and not table.endswith(".alignment"):  # any sign, and any small angle, is one that a wheel has
-            assert told(changes, name), table
+            assert problems_of(changes, name), table
 
 
 @pytest.mark.parametrize("name", SWEPT)
@@ -206,7 +206,7 @@ ODD = {
 @pytest.mark.parametrize("case", quick(("tyres without grip", "ice", "soft springs", "brakes behind only"), ODD))
 def test_implausible_values_are_reported_and_built(case):
     changes, message = ODD[case]
-    lines = warned(changes, "prototype")
+    lines = warnings_of(changes, "prototype")
     assert (lines == []) if message is None else any(message in line for line in lines)
 
 

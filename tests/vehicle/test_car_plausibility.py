@@ -21,7 +21,7 @@ from mbs.vehicle.command import main
 from mbs.vehicle.errors import CarWarning
 from mbs.vehicle.summary import summary
 from tests.quick import quick
-from tests.vehicle.content import told
+from tests.vehicle.content import problems_of
 
 DEG = 57.29577951308232
 
@@ -69,7 +69,7 @@ PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
 @pytest.mark.parametrize("case", quick(("no final drive", "share of the rear", "lock to lock"), PLANTED))
 def test_a_mistake_of_a_car_is_reported(case: str) -> None:
     name, changes, message = PLANTED[case]
-    lines = told(changes(), name)
+    lines = problems_of(changes(), name)
     assert any(message in line for line in lines), lines
 
 
@@ -83,7 +83,9 @@ def test_cars_of_the_package_lie_inside(name: str) -> None:
 @pytest.mark.slow
 def test_the_kind_of_a_car_narrows_its_ranges() -> None:
     changes = {"front.wheel.centre.1": 0.97, "rear.wheel.centre.1": 0.97, "vehicle.width": 2.1}
-    lines = {kind: told(changes | {"vehicle.category": kind}, "hatchback") for kind in ("passenger_car", "truck")}
+    lines = {
+        kind: problems_of(changes | {"vehicle.category": kind}, "hatchback") for kind in ("passenger_car", "truck")
+    }
     assert any("front track is 1.94 m; usual is 1 to 1.85 m" in line for line in lines["passenger_car"])
     assert not any("track is" in line for line in lines["truck"])
 

@@ -66,7 +66,7 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
     np.testing.assert_allclose(stress(part, eta), motion.stress, rtol=0, atol=STRESS * motion.stress.max())
     moved = places(part, eta)
     drawn = moved + prototype_car.car().vehicle.reference_point
-    np.testing.assert_allclose(drawn, motion.places, rtol=0, atol=PLACE)
+    np.testing.assert_allclose(drawn, motion.positions, rtol=0, atol=PLACE)
     in_the_earth = turned(run, "chassis", moved)
     for node in NODES:
         expected = np.column_stack([run[f"node.{node}.{c}"] for c in "xyz"])

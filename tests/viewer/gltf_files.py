@@ -52,7 +52,7 @@ def accessor(path, index):
 
 @cache
 def _read(path, times):
-    """What three.js has of a file at times."""
+    """Data of a file at times by three.js."""
     return run_node("read_gltf.mjs", path, *times)[0]
 
 
@@ -72,10 +72,10 @@ class Part(NamedTuple):
 
     node: str
     frame: str
-    """The node that it hangs on."""
+    """Its parent node."""
     look: dict[str, Any]
     mesh: trimesh.Trimesh
-    """In the axes of the frame."""
+    """Matrix in the axes of the frame."""
     normals: np.ndarray | None
 
 

@@ -18,9 +18,9 @@ class Poses:
     """A frame over time: earth = position + R(quaternion) local."""
 
     position: Vectors
-    """Of its origin in earth axes, m, shape (n, 3)."""
+    """Positions of its origin in earth axes, m, shape (n, 3)."""
     quaternion: Vectors
-    """Unit, scalar first, of continuous sign, shape (n, 4)."""
+    """Unit quaternions, scalar first, of continuous sign, shape (n, 4)."""
 
     def points(self, local: Sequence[float] | Vectors) -> Vectors:
         """Earth positions of a point of the frame, of shape (n, 3)."""

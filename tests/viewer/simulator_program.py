@@ -109,7 +109,7 @@ class Program:
         self.sockets[-1].send(json.dumps(message))
 
     def row(self, time: float) -> list[float]:
-        """What the columns are at a time, with `values` in place of some."""
+        """Values of the columns at a time, replaced by `values` where given."""
         t = self.recording.t
         k = int(np.clip(np.searchsorted(t, time), 0, len(t) - 1))
         own = {name: float(column[k]) for name, column in self.recording.columns.items()}
@@ -135,11 +135,11 @@ class Program:
         self.sockets[-1].send(bytes_ + np.asarray(row, "<f8").tobytes())
 
     def ask(self, expression: str) -> Any:
-        """What an expression in the page is worth."""
+        """Value of an expression in the page."""
         return self.page.evaluate(expression)
 
     def text(self, what: str) -> str:
-        """The words of an element by its name for programs."""
+        """Text of an element by its accessible name."""
         return str(self.page.locator(f'[data-a3="{what}"]').first.text_content())
 
     def wanted(self) -> dict[str, list[Any]]:

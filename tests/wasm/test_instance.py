@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from wasm_hosts import Fmu, Plan, counts_by_node
+from wasm_hosts import Fmu, Plan, run_in_node
 
 pytestmark = pytest.mark.slow  # the C library of WebAssembly is compiled for the first of them
 
@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow  # the C library of WebAssembly is compiled for th
 @pytest.fixture(scope="module")
 def told(prototype: Fmu) -> Any:
     """What `instance.mjs` saw."""
-    return counts_by_node("instance.mjs", prototype.job(Plan({}, [], [])))
+    return run_in_node("instance.mjs", prototype.job(Plan({}, [], [])))
 
 
 LOADING = (

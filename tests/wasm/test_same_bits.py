@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wasm_hosts import Chromium, Driven, Fmu, Plan, assert_same, native, node, wasmtime
+from wasm_hosts import Chromium, Fmu, HostResult, Plan, assert_same, native, node, wasmtime
 
 from hosts.common.options import FmuOptions
 from hosts.fmu.fmu import described
@@ -33,17 +33,17 @@ def drive(steps: int, start: dict[str, Any], every: int = 250, h: float = H) -> 
     return Plan(start, ["steering", "throttle", "brake"], plan_steps)
 
 
-def moved(driven: Driven) -> int:
+def moved(driven: HostResult) -> int:
     """Outputs that changed: a drive that stands still compares nothing."""
     return int((np.ptp(driven.rows, axis=0) > 1e-6).sum())
 
 
 @pytest.fixture(scope="module")
-def expected() -> Callable[[Fmu, str, Plan], Driven]:
+def expected() -> Callable[[Fmu, str, Plan], HostResult]:
     """What the native library gives, driven once a plan."""
-    results: dict[str, Driven] = {}
+    results: dict[str, HostResult] = {}
 
-    def get(fmu: Fmu, name: str, plan: Plan) -> Driven:
+    def get(fmu: Fmu, name: str, plan: Plan) -> HostResult:
         if name not in results:
             results[name] = native(fmu, plan)
         return results[name]
@@ -59,7 +59,7 @@ PLANS = {
 
 
 @pytest.mark.parametrize(("host", "name"), [(wasmtime, "rigid"), (node, "road file"), (node, "load paths")])
-def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
+def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], HostResult]) -> None:
     steps, start = PLANS[name]
     plan = drive(steps, dict(start))
     compared = expected(prototype, name, plan)

@@ -35,8 +35,8 @@ class Plan:
 
 
 @dataclass
-class Driven:
-    """What a host saw: the outputs before the first and after each step, states, refused steps."""
+class HostResult:
+    """Results of a host: outputs before the first and after each step, saved states, refused steps."""
 
     rows: NDArray[np.float64]
     states: list[bytes]
@@ -67,10 +67,10 @@ class Fmu:
         return job_of(self.path, description, self.added)
 
 
-def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:
-    """Drive something with the calls of FMPy's slave."""
+def _drive(slave: Any, fmu: Fmu, plan: Plan) -> HostResult:
+    """Simulate an object that has the methods of FMPy's slave."""
 
-    def put(names: list[str], values: list[Any]) -> None:
+    def write(names: list[str], values: list[Any]) -> None:
         for name, value in zip(names, values, strict=True):
             kind, reference = fmu.kinds[name]
             getattr(slave, f"set{kind}")([reference], [value])
@@ -86,12 +86,12 @@ def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:
     outputs = fmu.outputs(plan)
     groups = {kind: [name for name in outputs if fmu.kinds[name][0] == kind] for kind in ("Real", "Integer")}
     slave.setupExperiment(startTime=0.0)
-    put(list(plan.start), list(plan.start.values()))
+    write(list(plan.start), list(plan.start.values()))
     slave.enterInitializationMode()
     slave.exitInitializationMode()
-    driven, time, rows = Driven(np.empty(0), [], []), 0.0, [row()]
+    driven, time, rows = HostResult(np.empty(0), [], []), 0.0, [row()]
     for k, step in enumerate(plan.steps):
-        put(plan.inputs, step["inputs"])
+        write(plan.inputs, step["inputs"])
         try:
             slave.doStep(time, step["h"])
             time += step["h"]
@@ -106,7 +106,7 @@ def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:
     return driven
 
 
-def native(fmu: Fmu, plan: Plan) -> Driven:
+def native(fmu: Fmu, plan: Plan) -> HostResult:
     """The library of this machine, through FMPy."""
     callbacks = fmi2CallbackFunctions()
     callbacks.allocateMemory, callbacks.freeMemory = defaultCallbacks.allocateMemory, defaultCallbacks.freeMemory
@@ -124,18 +124,18 @@ def native(fmu: Fmu, plan: Plan) -> Driven:
         slave.freeInstance()
 
 
-def wasmtime(fmu: Fmu, plan: Plan) -> Driven:
+def wasmtime(fmu: Fmu, plan: Plan) -> HostResult:
     """The module in wasmtime, called without the page's JavaScript."""
     return _drive(FmuModule(fmu.wasm, fmu.resources, fmu.description.guid), fmu, plan)
 
 
-def node(fmu: Fmu, plan: Plan) -> Driven:
+def node(fmu: Fmu, plan: Plan) -> HostResult:
     """The module in Node, through the page's `fmu.js`."""
-    return decoded(counts_by_node("node_drive.mjs", fmu.job(plan)), plan)
+    return decoded(run_in_node("node_drive.mjs", fmu.job(plan)), plan)
 
 
-def counts_by_node(script: str, job: dict[str, Any]) -> Any:
-    """What a script of the folder js prints that gets a job."""
+def run_in_node(script: str, job: dict[str, Any]) -> Any:
+    """Result of a script of the folder js for a job, by Node."""
     try:
         return in_node(JS / script, job)
     except NotHereError as error:
@@ -155,29 +155,29 @@ class Chromium:
     def __exit__(self, *of: object) -> None:
         self._page.__exit__(*of)
 
-    def __call__(self, fmu: Fmu, plan: Plan) -> Driven:
+    def __call__(self, fmu: Fmu, plan: Plan) -> HostResult:
         code = "async (job) => (await import('/drive.js')).drive((await import('/fmu.js')).loadFmu, job)"
         return decoded(self.run(code, fmu.job(plan)), plan)
 
     def run(self, code: str, argument: Any = None) -> Any:
-        """What JavaScript in the page gives."""
+        """Value of a JavaScript function in the page."""
         return self._page.run(code, argument)
 
 
-def decoded(encoded: dict[str, Any], plan: Plan) -> Driven:
-    """What `drive.js` gave."""
+def decoded(encoded: dict[str, Any], plan: Plan) -> HostResult:
+    """Results of `drive.js` as arrays and bytes."""
     rows = np.frombuffer(base64.b64decode(encoded["rows"]))
     states = [base64.b64decode(text) for text in encoded["states"]]
     refusals = [(k, status) for k, status, _ in encoded["refusals"]]
-    return Driven(rows.reshape(len(plan.steps) + 1, -1), states, refusals)
+    return HostResult(rows.reshape(len(plan.steps) + 1, -1), states, refusals)
 
 
-def assert_same(found: Driven, expected: Driven, fmu: Fmu, plan: Plan) -> None:
+def assert_same(actual: HostResult, expected: HostResult, fmu: Fmu, plan: Plan) -> None:
     """Fails with the first value that differs."""
-    assert found.refusals == expected.refusals
-    differ = found.rows.view(np.int64) != expected.rows.view(np.int64)
+    assert actual.refusals == expected.refusals
+    differ = actual.rows.view(np.int64) != expected.rows.view(np.int64)
     if differ.any():
         k, i = np.argwhere(differ)[0]
-        name, values = fmu.outputs(plan)[i], (found.rows[k, i], expected.rows[k, i])
+        name, values = fmu.outputs(plan)[i], (actual.rows[k, i], expected.rows[k, i])
         pytest.fail(f"{differ.sum()} values differ, first '{name}' after step {k}: {values[0]!r} and {values[1]!r}")
-    assert found.states == expected.states
+    assert actual.states == expected.states

@@ -1,5 +1,5 @@
 # ruff: noqa: B905
-"""The slave of an FMU: one car, whose state other programs tell in other names, units, signs and frames.
+"""The slave of an FMU: a car with the names, units, signs and frames of other programs.
 
 A single-track car with linear tyres, a roll angle that follows the lateral acceleration, and pedals; what is told
 of it is chosen by `STYLE`, which is replaced when the FMU is built.
@@ -22,7 +22,7 @@ PRESSURE = 12e6  # Pa
 ROLL_PER_AY = 0.006  # rad s2/m
 ROLL_TIME = 0.15  # s
 POINT = (-0.35, 0.0, 0.25)  # of the reference frames that are not the centre of mass, from it
-SUBSTEP = 0.001
+SUBSTEP = 0.001  # s
 GRAVITY = 9.80665
 
 
@@ -35,7 +35,7 @@ class Car:
         self.steering = self.throttle = self.brake = 0.0
 
     def rates(self, state):
-        """Of x, y, yaw, vx, vy, wz, roll, roll rate."""
+        """Rates of x, y, yaw, vx, vy, wz, roll and roll rate."""
         _, _, yaw, vx, vy, wz, roll, wx = state
         steer = self.steering * LOCK / RATIO
         v = max(vx, 1.0)
@@ -53,7 +53,7 @@ class Car:
         return (self.x, self.y, self.yaw, self.vx, self.vy, self.wz, self.roll, self.wx)
 
     def advance(self, h):
-        """By Heun's method in steps of `SUBSTEP`."""
+        """Integrate over `h`, s, by Heun's method with steps of about `SUBSTEP`, s."""
         n = max(1, round(h / SUBSTEP))
         for _ in range(n):
             s = self.state
@@ -92,7 +92,7 @@ def to_earth(axes, v):
 
 
 def quaternion(yaw, roll):
-    """Scalar first."""
+    """Unit quaternion, scalar first."""
     cy, sy, cr, sr = math.cos(yaw / 2), math.sin(yaw / 2), math.cos(roll / 2), math.sin(roll / 2)
     return (cy * cr, cy * sr, sy * sr, sy * cr)
 
@@ -104,7 +104,7 @@ def quaternion_rate(q, w):
     return (-0.5 * sum(a * b for a, b in zip(v, w)), *(0.5 * x for x in vector))
 
 
-def told(style, car):
+def outputs_of(style, car):
     """All outputs of a style by name, and their units."""
     axes, v, a, w, dw = car.motion()
     position = (car.x, car.y, 0.5)
@@ -212,7 +212,7 @@ class ForeignCar(Fmi2Slave):
                     setter=lambda x, n=ours, m=largest: setattr(self.car, n, x / m),
                 )
             )
-        for name in told(STYLE, self.car):
+        for name in outputs_of(STYLE, self.car):
             self.register_variable(Real(name, causality=Fmi2Causality.output, getter=lambda n=name: self.output(n)))
         self.register_variable(
             Real(
@@ -228,7 +228,7 @@ class ForeignCar(Fmi2Slave):
     def output(self, name):
         now = (self.car.state, self.car.steering, self.car.throttle, self.car.brake)
         if self.kept[0] != now:
-            self.kept = (now, told(STYLE, self.car))
+            self.kept = (now, outputs_of(STYLE, self.car))
         return self.kept[1][name]
 
     def do_step(self, current_time, step_size):

@@ -27,7 +27,7 @@ OUTPUTS = ("chassis.wz", "chassis.ay", "sideslip", "chassis.roll", "speed")
 
 
 def bicycle(speed: float) -> StateSpace:
-    """From the steering wheel angle, rad, to yaw rate, lateral acceleration and sideslip angle."""
+    """Transfer functions from the steering wheel angle, rad, to yaw rate, lateral acceleration and sideslip angle."""
     c0, c1 = STIFF_FRONT, STIFF_REAR
     a = np.array(
         [
@@ -53,7 +53,7 @@ class BicycleCar(TestedCar):
     told: Mapping[str, float] = field(default_factory=dict)
     """Constants."""
     top_speed: float = 60.0
-    """At full throttle, m/s."""
+    """Speed at full throttle, m/s."""
     strongest: float = math.inf
     """Lateral acceleration at which tyres slide: the angle has no more effect beyond, m/s²."""
     turn_right: float = 1.0

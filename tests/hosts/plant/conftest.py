@@ -19,11 +19,11 @@ Made = Callable[[str, Callable[[Path], None]], Path]
 
 @pytest.fixture(scope="session")
 def rigid_fmu(prototype_fmu: Path) -> Path:
-    """As it is driven."""
+    """The FMU without ports."""
     return prototype_fmu
 
 
 @pytest.fixture(scope="session")
 def braked_fmu(made_once: Made) -> Path:
-    """With ports of the brakes."""
+    """The FMU with ports of the brakes."""
     return made_once("rigid_car_brakes", lambda folder: _built(folder, "--ports", "brakes")) / "PrototypePorts.fmu"

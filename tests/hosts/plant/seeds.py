@@ -5,7 +5,7 @@ import numpy as np
 
 
 def check_seeds(name: str, **options: str) -> None:
-    """Equal seeds give equal episodes, another one another."""
+    """Equal seeds give equal episodes, other seeds other ones."""
     episodes = []
     for seed in (3, 3, 4):
         with gymnasium.make(name, **options) as env:

@@ -27,7 +27,7 @@ def fmus(fmu: Callable[[str], Path]) -> dict[str, Path]:
 
 
 class FakeClock:
-    """Time passes only where it is told to; a sleep may wake late."""
+    """A clock that only the tests advance; a sleep may end late."""
 
     def __init__(self) -> None:
         self.time, self.wakes_late = 100.0, 0.0

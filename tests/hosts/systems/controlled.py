@@ -1,4 +1,4 @@
-"""Cars with controllers in second FMUs, and the effect of the communication step."""
+"""Systems of cars and controllers in separate FMUs, to test the effect of the communication step."""
 
 from dataclasses import dataclass, field
 from functools import cache
@@ -17,7 +17,7 @@ from tests.vehicle.cars_with_ports import WHEELS
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
 FRONT = ("FL", "FR")
 REAR = ("RL", "RR")
-INNER = 0.001  # s
+INNER = 0.001  # s, step of the cars
 
 
 @dataclass(frozen=True)
@@ -29,13 +29,13 @@ class Controlled:
     controllers: dict[str, str]
     """Names of their files by names of parts."""
     wires: dict[str, str]
-    """As `CoupledFmus` takes them."""
+    """Connections, argument of `CoupledFmus`."""
     start: dict[str, Value]
     """Start values, of which `switch` turns the controller on."""
     time: float
-    """s."""
+    """Duration, s."""
     measure: str
-    """What is compared between communication steps at the end."""
+    """Output whose final values are compared between communication steps."""
     reads: tuple[str, ...]
     switch: dict[str, float] = field(default_factory=dict)
     sources: dict[str, str] = field(default_factory=dict)
@@ -107,7 +107,7 @@ SYSTEMS = {
 
 @cache
 def controller_fmu(name: str) -> Path:
-    """A controller whose state can be saved, built by PythonFMU once a process."""
+    """The FMU of a controller whose state can be saved, built by PythonFMU once per process."""
     file = CONTROLLERS / f"{name}.py"
     return Path(FmuBuilder.build_FMU(file, dest=passing_folder(), canGetAndSetFMUstate=True))
 
@@ -130,7 +130,7 @@ def start_of(name: str, on: bool = True) -> dict[str, Value]:
 def run(
     name: str, step: float, *, order: Order = "in turn", inputs: Inputs = "held", on: bool = True
 ) -> dict[str, np.ndarray]:
-    """Columns of a run by name, with or without its controller; and what was said, which must be nothing."""
+    """Columns of a run by name, with or without its controller; fails if there are messages."""
     case = SYSTEMS[name]
     start = start_of(name, on)
     with CoupledFmus(parts_of(case), case.wires, step=step, order=order, inputs=inputs) as system:

@@ -61,7 +61,7 @@ def add_trailer(m: Model, road: int) -> Body:
 
 
 def trailer() -> Model:
-    """Alone, with forces at its hitch as inputs; earth axes."""
+    """The trailer alone, with forces at its hitch as inputs; earth axes."""
     m = mbs.Model("trailer")
     m.floating = True
     m.step = 0.002
@@ -96,7 +96,7 @@ def with_trailer() -> mbs.System:
 
 
 def passing_folder() -> Path:
-    """A folder that goes with the process."""
+    """A folder that is deleted at the end of the process."""
     folder = tempfile.mkdtemp()
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return Path(folder)
@@ -104,7 +104,7 @@ def passing_folder() -> Path:
 
 @cache
 def fmus() -> dict[str, Path]:
-    """FMUs of the car and the trailer, built once a process."""
+    """FMUs of the car and the trailer, built once per process."""
     results = {}
     for name, model in (("car", car_with_hitch().model()), ("trailer", trailer())):
         folder = passing_folder()

@@ -43,7 +43,7 @@ class _Car:
         return self.car.save()
 
     def step(self, state: bytes, inputs: Values, time: float, h: float) -> None:
-        """From a state, with inputs that go straight to those of the end."""
+        """Step from a state with inputs that change linearly to those at the end."""
         self.car.restore(state)
         row = [inputs.get(name, self.car.instance.get_input(i)) for i, name in enumerate(self.names)]
         self.car.instance.run(h, 1, np.array(row))
@@ -72,7 +72,7 @@ class _Law:
         return self.read()
 
     def step(self, state: Values, inputs: Values, time: float, h: float) -> None:
-        """From a state, with inputs of the end."""
+        """Step from a state with the inputs at the end."""
         self.give(state | inputs)
         self.slave.do_step(time, h)
 

@@ -1,4 +1,4 @@
-"""How far cars wired to parts in second FMUs are from the same as one model, over the communication step."""
+"""Errors of cars coupled with parts in second FMUs against one model, by the communication step."""
 
 import tempfile
 from collections.abc import Callable, Iterator
@@ -42,13 +42,13 @@ class Case:
     partner: str
     """`car`, `ports`, `partner`: names."""
     wires: Wires
-    """As `CoupledFmus` takes them; the car is ``car``."""
+    """Connections, argument of `CoupledFmus`; the car is ``car``."""
     loads: tuple[str, ...]
     """Wheel loads, as ``part.variable``."""
     inputs: dict[str, float]
-    """Of the driver, held over the run; `throttle` of the closed car may follow a schedule."""
+    """Constant inputs of the driver; `throttle` of the closed car may follow a schedule."""
     path: tuple[str, str] = ("car.chassis.x", "car.chassis.y")
-    """What is compared at the end, as ``part.variable``."""
+    """Output compared at the end, as ``part.variable``."""
     throttle: Callable[[float], float] | None = None
 
 
@@ -88,7 +88,7 @@ CASES = {
 
 @cache
 def partner_fmu(name: str) -> Path:
-    """The FMU of a script, built by PythonFMU once a process."""
+    """The FMU of a script, built by PythonFMU once per process."""
     return Path(FmuBuilder.build_FMU(FMUS / f"{name}.py", dest=trailer.passing_folder(), canGetAndSetFMUstate=True))
 
 
@@ -123,7 +123,7 @@ def start_of(name: str, order: Order = "at once", inputs: Inputs = "held") -> di
 
 
 def closed_system(name: str) -> mbs.System:
-    """The same as one model."""
+    """The case as one model."""
     if name == "trailer":
         return trailer.with_trailer()
     return test_road_port.closed() if name == "road" else mbs.compile(load(CASES[name].car).model())

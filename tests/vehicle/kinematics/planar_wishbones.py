@@ -14,7 +14,7 @@ TRACK_HALF = 0.67  # m
 
 @dataclass(frozen=True)
 class FourBar:
-    """Pivots and ball joints (y, z) of the left side as drawn, m."""
+    """Pivots and ball joints (y, z) of the left side at the design position, m."""
 
     lower_pivot: tuple[float, float]
     lower_ball: tuple[float, float]
@@ -26,7 +26,7 @@ class FourBar:
         return _car(self, tuple(more.items()))
 
     def points(self):
-        """Hard points as the file names them."""
+        """Hard points by the names of a car file."""
         (ly, lz), (by, bz), (uy, uz), (vy, vz) = (
             self.lower_pivot,
             self.lower_ball,
@@ -45,52 +45,52 @@ class FourBar:
         }
 
     def upright(self, angle):
-        """Lower ball joint and turn of the upright about x for an angle of the lower arm, rad."""
+        """Lower ball joint (y, z), m, and rotation of the upright about x, rad, for an angle of the lower arm, rad."""
         pivot, ball, top, head = (
             np.array(p) for p in (self.lower_pivot, self.lower_ball, self.upper_pivot, self.upper_ball)
         )
         low = pivot + np.linalg.norm(ball - pivot) * np.array([np.cos(angle), np.sin(angle)])
         post, arm = np.linalg.norm(head - ball), np.linalg.norm(head - top)
         gap = top - low
-        far = np.linalg.norm(gap)
-        along = (far**2 + post**2 - arm**2) / (2.0 * far)
+        distance = np.linalg.norm(gap)
+        along = (distance**2 + post**2 - arm**2) / (2.0 * distance)
         across = np.sqrt(post**2 - along**2)
-        unit = gap / far
+        unit = gap / distance
         head_now = low + along * unit + across * np.array([unit[1], -unit[0]])  # outboard of the line to the pivot
         drawn, now = head - ball, head_now - low
-        turn = np.arctan2(drawn[0] * now[1] - drawn[1] * now[0], drawn @ now)
-        return low, turn
+        rotation = np.arctan2(drawn[0] * now[1] - drawn[1] * now[0], drawn @ now)
+        return low, rotation
 
     def wheel(self, travel):
-        """Centre (y, z), turn about x and contact (y, z) of the left wheel at a travel, m."""
+        """Centre (y, z), m, rotation about x, rad, and contact (y, z), m, of the left wheel at a travel, m."""
 
         def at(angle):
-            low, turn = self.upright(angle)
+            low, rotation = self.upright(angle)
             gap = np.subtract((TRACK_HALF, CENTRE), self.lower_ball)
-            c, s = np.cos(turn), np.sin(turn)
-            return low + np.array([c * gap[0] - s * gap[1], s * gap[0] + c * gap[1]]), turn
+            c, s = np.cos(rotation), np.sin(rotation)
+            return low + np.array([c * gap[0] - s * gap[1], s * gap[0] + c * gap[1]]), rotation
 
         drawn = np.arctan2(*np.subtract(self.lower_ball, self.lower_pivot)[::-1])
         angle = brentq(lambda a: at(a)[0][1] - CENTRE - travel, drawn - 0.8, drawn + 0.8, xtol=1e-14)
-        centre, turn = at(angle)
-        return centre, turn, centre - CENTRE * np.array([-np.sin(turn), np.cos(turn)])
+        centre, rotation = at(angle)
+        return centre, rotation, centre - CENTRE * np.array([-np.sin(rotation), np.cos(rotation)])
 
     def pole(self, travel):
-        """Instantaneous centre (y, z) of the upright: where the lines of both arms meet."""
+        """Instantaneous centre (y, z) of the upright, m: the intersection of the lines of both arms. `travel`: m."""
         drawn = np.arctan2(*np.subtract(self.lower_ball, self.lower_pivot)[::-1])
         angle = brentq(lambda a: self._height(a) - CENTRE - travel, drawn - 0.8, drawn + 0.8, xtol=1e-14)
-        low, turn = self.upright(angle)
+        low, rotation = self.upright(angle)
         post = np.subtract(self.upper_ball, self.lower_ball)
-        c, s = np.cos(turn), np.sin(turn)
+        c, s = np.cos(rotation), np.sin(rotation)
         head = low + np.array([c * post[0] - s * post[1], s * post[0] + c * post[1]])
         first, second = low - self.lower_pivot, head - self.upper_pivot
         share = np.linalg.solve(np.column_stack([first, -second]), np.subtract(self.upper_pivot, self.lower_pivot))
         return np.array(self.lower_pivot) + share[0] * first
 
     def _height(self, angle):
-        low, turn = self.upright(angle)
+        low, rotation = self.upright(angle)
         gap = np.subtract((TRACK_HALF, CENTRE), self.lower_ball)
-        return low[1] + np.sin(turn) * gap[0] + np.cos(turn) * gap[1]
+        return low[1] + np.sin(rotation) * gap[0] + np.cos(rotation) * gap[1]
 
 
 @cache

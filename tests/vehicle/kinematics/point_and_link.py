@@ -1,6 +1,7 @@
 """Positions of the suspensions from their hard points alone, by SciPy's least squares on the poses of rigid uprights.
 
-An independent model: no coordinates, rows or kernel of the engine. Unknown of a body are its shift and rotation vector.
+An independent model: no coordinates, rows or kernel of the engine. The unknowns of a body are its translation, m, and
+its rotation vector, rad.
 """
 
 import numpy as np
@@ -9,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 
 def moved(pose, points):
-    """Points as drawn at a pose (shift, rotation vector)."""
+    """Positions of points of the design position at a pose (translation, rotation vector)."""
     return Rotation.from_rotvec(pose[3:]).apply(points) + pose[:3]
 
 
@@ -29,14 +30,14 @@ class Upright:
         self.pose = np.zeros(6)
 
     def at(self, travel, rack=0.0):
-        """The pose at a travel and a shift of the inner end of the rod, near the last one."""
+        """Set the pose to a wheel travel and a lateral displacement of the inner tie rod end, m, near the last pose."""
         fit = least_squares(self._off, self.pose, args=(travel, rack), xtol=1e-15, ftol=1e-15, gtol=1e-15, x_scale=0.1)
         assert np.abs(fit.fun).max() < 1e-12
         self.pose = fit.x
         return self
 
     def wheel(self):
-        """Centre and axis to the left."""
+        """Wheel centre, and unit vector of the wheel axis to the left."""
         return moved(self.pose, self.centre), Rotation.from_rotvec(self.pose[3:]).apply([0.0, 1.0, 0.0])
 
     def axis(self):
@@ -47,24 +48,24 @@ class Upright:
     def _off(self, pose, travel, rack):
         p = self.p
 
-        def stretched(fixed, outer):
+        def elongation(fixed, outer):
             return np.linalg.norm(moved(pose, p[outer]) - fixed) - np.linalg.norm(p[outer] - fixed)
 
-        off = [stretched(p[f"lower_pivot_{end}"], "lower_ball_joint") for end in ("front", "rear")]
+        errors = [elongation(p[f"lower_pivot_{end}"], "lower_ball_joint") for end in ("front", "rear")]
         inner = p[f"{self.rod}_inner"]
-        shifted = inner + np.array([0.0, rack, 0.0])
+        rack_end = inner + np.array([0.0, rack, 0.0])
         outer = f"{self.rod}_outer"
-        off.append(np.linalg.norm(moved(pose, p[outer]) - shifted) - np.linalg.norm(p[outer] - inner))
-        off.append(moved(pose, self.centre)[2] - self.centre[2] - travel)
+        errors.append(np.linalg.norm(moved(pose, p[outer]) - rack_end) - np.linalg.norm(p[outer] - inner))
+        errors.append(moved(pose, self.centre)[2] - self.centre[2] - travel)
         if self.kind == "double_wishbone":
-            off += [stretched(p[f"upper_pivot_{end}"], "upper_ball_joint") for end in ("front", "rear")]
+            errors += [elongation(p[f"upper_pivot_{end}"], "upper_ball_joint") for end in ("front", "rear")]
         else:
             foot = p["strut_lower" if self.kind == "macpherson" else "lower_ball_joint"]
             axis = p["strut_top"] - foot
-            directions = np.linalg.svd(axis[None])[2][1:]  # two directions of the upright square to the strut
+            directions = np.linalg.svd(axis[None])[2][1:]  # perpendicular to the strut, fixed to the upright
             gap = p["strut_top"] - moved(pose, foot)
-            off += list(Rotation.from_rotvec(pose[3:]).apply(directions) @ gap)
-        return np.array(off)
+            errors += list(Rotation.from_rotvec(pose[3:]).apply(directions) @ gap)
+        return np.array(errors)
 
 
 class Beam:
@@ -76,26 +77,26 @@ class Beam:
         self.poses = np.zeros(12)
 
     def at(self, left, right):
-        """The poses at two travels, near the last ones."""
+        """Set the poses to two wheel travels, m, near the last poses."""
         fit = least_squares(self._off, self.poses, args=((left, right),), xtol=1e-15, ftol=1e-15, gtol=1e-15)
         assert np.abs(fit.fun).max() < 1e-12
         self.poses = fit.x
         return self
 
     def wheel(self, k):
-        """Centre and axis to the left; k is 0 left, 1 right."""
+        """Wheel centre, and unit vector of the wheel axis to the left; k is 0 left, 1 right."""
         pose = self.poses[6 * k : 6 * k + 6]
         return moved(pose, self.centres[k]), Rotation.from_rotvec(pose[3:]).apply([0.0, 1.0, 0.0])
 
     def _off(self, poses, travel):
         x, _, z = self.points.cross_beam
-        middle, lines, off = np.array([x, 0.0, z]), [], []
+        middle, lines, errors = np.array([x, 0.0, z]), [], []
         for k, side in enumerate((1, -1)):
             pose = poses[6 * k : 6 * k + 6]
             pivot = mirrored(self.points.pivot, side)
-            off += list(moved(pose, pivot) - pivot)
-            off.append(moved(pose, self.centres[k])[2] - self.centres[k][2] - travel[k])
+            errors += list(moved(pose, pivot) - pivot)
+            errors.append(moved(pose, self.centres[k])[2] - self.centres[k][2] - travel[k])
             lines.append((moved(pose, middle), Rotation.from_rotvec(pose[3:]).apply(np.eye(3))))
         (a, first), (b, second) = lines  # one axis: parallel, and each on the other
-        off += [second[1] @ first[0], second[1] @ first[2], (b - a) @ first[0], (b - a) @ first[2]]
-        return np.array(off)
+        errors += [second[1] @ first[0], second[1] @ first[2], (b - a) @ first[0], (b - a) @ first[2]]
+        return np.array(errors)

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from benchmarks.car.rig import HEAVE, NEAR, moved, slope
+from benchmarks.car.rig import FIT_RANGES, HEAVE, simulate_motion, slope
 from mbs.vehicle import load
 from mbs.vehicle.kinematics.axle_measures import travel_measures, wheel_measures
 from mbs.vehicle.linkages.continuation import HEAVE as BOTH
@@ -16,7 +16,7 @@ EVERY = 100
 
 @cache
 def run(car, motion):
-    return moved(load(car), motion)
+    return simulate_motion(load(car), motion)
 
 
 @pytest.mark.parametrize(
@@ -52,7 +52,7 @@ def test_the_wheel_rate_is_that_of_the_loads_on_the_ground():
     done = run("prototype", "heave")
     for axle, name in (("front", "FL"), ("rear", "RL")):
         linkage = Linkage(load("prototype"), axle)
-        measured = slope(done[f"wheel_{name}.travel"], done[f"wheel_{name}.Fz"], NEAR["travel"])
+        measured = slope(done[f"wheel_{name}.travel"], done[f"wheel_{name}.Fz"], FIT_RANGES["travel"])
         actual = travel_measures(linkage, linkage.drawn, BOTH)
         assert actual["wheel_rate_left"] == pytest.approx(measured, rel=0.012)
     assert HEAVE == 0.04

@@ -1,4 +1,4 @@
-"""In place of SDL's haptic calls: virtual devices have no motor."""
+"""Substitutes for SDL's haptic functions: virtual devices have no motor."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ HANDLE = 77
 
 @dataclass
 class Haptics:
-    """What was asked of the motor of a device."""
+    """Calls to the motor of a device."""
 
     can: int = CONSTANT | DAMPER | SPRING | sdl2.SDL_HAPTIC_GAIN | sdl2.SDL_HAPTIC_AUTOCENTER
-    """Bits that the device says it can."""
+    """Bits of the supported effects."""
     calls: list[str] = field(default_factory=list)
     """Names of the calls, without ``SDL_Haptic``."""
     effects: dict[int, dict[str, Any]] = field(default_factory=dict)
     running: set[int] = field(default_factory=set)
     """Effects that run, by number: `type`, `direction`, `length`, and `level` or `coefficient`."""
     levels: list[int] = field(default_factory=list)
-    """Of the constant force, in order."""
+    """Levels of the constant force, in order."""
     refuse: set[str] = field(default_factory=set)
     """Calls that fail."""
     open: bool = False
     hang: Event | None = None
-    """Updates wait for it."""
+    """Event for which updates wait."""
 
     def install(self, monkeypatch: pytest.MonkeyPatch) -> Haptics:
         for name in (n for n in dir(self) if n.startswith("on_")):

@@ -37,7 +37,7 @@ class VirtualDevice:
         self.handle = sdl2.SDL_JoystickOpen(index)
 
     def axis(self, number: int, value: float) -> None:
-        """From -1 to 1."""
+        """Set an axis, from -1 to 1."""
         raw = round(value * (32767 if value >= 0 else 32768))
         assert sdl2.SDL_JoystickSetVirtualAxis(self.handle, number, raw) == 0
 
@@ -76,7 +76,7 @@ class RecordedArbiter:
 
 
 def until(what: Callable[[], Any], seconds: float = 60.0) -> Any:
-    """Wait until something is true; its value."""
+    """Wait until the value of a function is true; returns it."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         value = what()

@@ -7,7 +7,7 @@ from tests.vehicle.cars_with_ports import SecondDrive, rigid, throttle_at
 
 
 class DrivePartner(Partner):
-    """Knows the speeds of the driven wheels alone; a schedule moves its throttle."""
+    """Computes drive torques from the speeds of the driven wheels alone, with a throttle by schedule."""
 
     inputs = ("omega_L", "omega_R")
     outputs = ("torque",)

@@ -11,7 +11,7 @@ ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
 
 
 class SecondRoad(Partner):
-    """Tells the plane that touches the waves at the point asked for."""
+    """Computes the tangent plane of the waves at the requested point."""
 
     inputs = tuple(f"{w}.{c}" for w in WHEELS for c in "xy")
     outputs = tuple(f"{w}.road_{n}" for w in WHEELS for n in ANSWER)

@@ -13,7 +13,7 @@ READ = (
 
 
 class TyresPartner(Partner):
-    """Know how their hubs move alone."""
+    """Computes the wrenches on the hubs from the motions of the hubs alone."""
 
     inputs = tuple(f"wheel_{w}.{n}" for w in WHEELS for n in READ)
     outputs = (*(f"wheel_{w}.{n}" for w in WHEELS for n in HUB), *(f"wheel_{w}.load" for w in WHEELS))

@@ -6,7 +6,7 @@ from pythonfmu import Boolean, Fmi2Causality, Fmi2Slave, Fmi2Variability, Intege
 
 
 class Settings(Fmi2Slave):
-    """It does nothing with them."""
+    """Has parameters without an effect."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -10,7 +10,7 @@ GEARS = 3
 
 
 class ShiftLaw(Partner):
-    """Asks for the next gear above one speed of the engine and for the one before below another."""
+    """Demands the next gear above one engine speed, and the previous one below another."""
 
     inputs = ("engine_speed", "gear")
     outputs = ("request",)
