@@ -129,7 +129,7 @@ def check_states(subject: Subject) -> Finding:
         return Finding("states", "bad", f"a state goes on differently in another instance: {differs} {clause}")
     if initialised:
         message = "a state goes on in another instance only where that was initialised; save its mode too"
-        return Finding("states", "bad" if subject.three else "note", f"{message} {clause}")
+        return Finding("states", "bad" if subject.is_fmi3 else "note", f"{message} {clause}")
     return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes")
 
 
@@ -205,7 +205,7 @@ def check_refusals(subject: Subject) -> Finding:
         expect("NaN for an input", driven, lambda: driven.set_input(subject.inputs[0], math.nan), warned=True)
         # an input may keep its last value with a message
     unknown = Instance(subject).start()
-    getter = unknown.slave.getFloat64 if unknown.three else unknown.slave.getReal
+    getter = unknown.slave.getFloat64 if unknown.is_fmi3 else unknown.slave.getReal
     expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))
     if accepted:
         message = f"accepted without a message: {', '.join(accepted)}"

@@ -45,7 +45,7 @@ def check_dependencies(subject: Subject) -> Finding:
             instance.set_input(v, value_in_range(v, 0.37))
             after = instance.get(outputs)
             instance.set_input(v, value_in_range(v, 0.0))
-            input_name = variable_names[subject.places[v.name].reference]
+            input_name = variable_names[subject.scalars[v.name].reference]
             for name, one, other in zip(names, before, after, strict=True):
                 if one == other or (one != one and other != other):
                     continue
@@ -55,7 +55,7 @@ def check_dependencies(subject: Subject) -> Finding:
                     message = f"{name} goes from {one:g} to {other:g} as {input_name} is set, on which it is said not "
                     message += f"to depend; declare it in ModelStructure {clause}"
                     return Finding("dependencies", "bad", message)
-    perturbed = {variable_names[subject.places[v.name].reference] for v in subject.inputs}
+    perturbed = {variable_names[subject.scalars[v.name].reference] for v in subject.inputs}
     inputs = {v.name for v in subject.description.modelVariables if v.causality == "input"}
     listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
     declared_inputs = {name: inputs if listed is None else listed & inputs for name, listed in listed_of.items()}
@@ -72,16 +72,16 @@ def check_dependencies(subject: Subject) -> Finding:
 
 
 def _provides_derivatives(subject: Subject) -> bool:
-    name = "providesDirectionalDerivatives" if subject.three else "providesDirectionalDerivative"
+    name = "providesDirectionalDerivatives" if subject.is_fmi3 else "providesDirectionalDerivative"
     return subject.co_simulation_element is not None and subject.co_simulation_element.get(name) == "true"
 
 
 def _derivatives(
     subject: Subject, instance: Instance, outputs: list[ScalarVariable], input_variable: ScalarVariable
 ) -> Any:
-    scalar = subject.places[input_variable.name]
-    seed = [float(k == scalar.item) for k in range(scalar.size)]
-    count = (sum(map(count_of, outputs)),) if subject.three else ()
+    scalar = subject.scalars[input_variable.name]
+    seed = [float(k == scalar.index) for k in range(scalar.size)]
+    count = (sum(map(count_of, outputs)),) if subject.is_fmi3 else ()
     return np.array(
         instance.slave.getDirectionalDerivative([v.valueReference for v in outputs], [scalar.reference], seed, *count)
     )

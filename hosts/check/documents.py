@@ -38,7 +38,7 @@ def check_functions(subject: Subject) -> Finding:
     library = (
         subject.folder
         / "binaries"
-        / (platform_tuple if subject.three else platform)
+        / (platform_tuple if subject.is_fmi3 else platform)
         / f"{model}{sharedLibraryExtension}"
     )
 
@@ -49,7 +49,7 @@ def check_functions(subject: Subject) -> Finding:
         loaded_library = marked("dlopen", ctypes.CDLL)(str(library))
     except OSError as error:
         return bad_finding(f"the library cannot be loaded: {error}{cause_text(error)}")
-    slave_class, prefix = (FMU3Slave, "fmi3") if subject.three else (FMU2Slave, "fmi2")
+    slave_class, prefix = (FMU3Slave, "fmi3") if subject.is_fmi3 else (FMU2Slave, "fmi2")
     names = [name for name in dir(slave_class) if name.startswith(prefix)]
     missing = [name for name in names if not hasattr(loaded_library, name)]
     if not missing:

@@ -21,7 +21,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
 from hosts.fmu.description_file import DESCRIPTION, opened, read_description
-from hosts.fmu.scalars import Place
+from hosts.fmu.scalars import Scalar
 from hosts.fmu.variables import check_co_simulation, default_step
 
 
@@ -63,7 +63,7 @@ class Subject:
     description: ModelDescription
     by_elements: ModelDescription
     """The description with elements of arrays as variables of their own."""
-    places: Mapping[str, Place]
+    scalars: Mapping[str, Scalar]
     """Scalars of these variables, by name."""
     steps: int
     """Communication steps per run."""
@@ -78,7 +78,7 @@ class Subject:
     """Size and time of change of each file around the FMU before its first call in this process, if recorded."""
 
     @property
-    def three(self) -> bool:
+    def is_fmi3(self) -> bool:
         """Whether the FMU follows FMI 3.0."""
         return str(self.description.fmiVersion).startswith("3")
 
@@ -89,7 +89,7 @@ class Subject:
 
     def clause(self, fmi2: str, fmi3: str) -> str:
         """The clause of the version of FMI that the FMU follows, as a remark in brackets."""
-        return f"(FMI {'3.0' if self.three else '2.0'}, {fmi3 if self.three else fmi2})"
+        return f"(FMI {'3.0' if self.is_fmi3 else '2.0'}, {fmi3 if self.is_fmi3 else fmi2})"
 
     @cached_property
     def root(self) -> ElementTree.Element:
@@ -189,7 +189,7 @@ class Instance(instance.Instance):
 
     def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
         """Set the start values and leave initialisation mode."""
-        self.initialise({self.subject.places[n]: x for n, x in self.subject.start.items()}, start_time, stop_time)
+        self.initialise({self.subject.scalars[n]: x for n, x in self.subject.start.items()}, start_time, stop_time)
         return self
 
     def advance(self, time: float, step: float) -> bool:
@@ -199,11 +199,11 @@ class Instance(instance.Instance):
         try:
             answer = self.slave.doStep(time, step)
         except FMICallException as error:
-            if self.three or error.status != _DISCARD or not self._asks_to_end():
+            if self.is_fmi3 or error.status != _DISCARD or not self._asks_to_end():
                 raise
             self.ended = True
             return False
-        self.ended = bool(answer[1]) if self.three else False
+        self.ended = bool(answer[1]) if self.is_fmi3 else False
         return True
 
     def _asks_to_end(self) -> bool:
@@ -237,7 +237,7 @@ class Instance(instance.Instance):
             (integers, "getInteger", "getInt32"),
         ):
             references = [v.valueReference for v in members]
-            if references and self.three:
+            if references and self.is_fmi3:
                 values += getattr(self.slave, fmi3_function)(references, sum(map(count_of, members)))
             elif references:
                 values += getattr(self.slave, fmi2_function)(references)
@@ -245,7 +245,7 @@ class Instance(instance.Instance):
 
     def set_input(self, variable: ScalarVariable, value: float) -> None:
         """Set one of `Subject.inputs`."""
-        self.set({self.subject.places[variable.name]: value})
+        self.set({self.subject.scalars[variable.name]: value})
 
     def run(self, steps: int, begin: int = 0, origin: float = 0.0) -> list[list[float]]:
         """Outputs after each of `steps` steps from number `begin` on, up to an end that the FMU asks for.
@@ -262,7 +262,7 @@ class Instance(instance.Instance):
 
     def free(self) -> None:
         """Free the instance; the library stays loaded, as in hosts with several instances."""
-        if self.three:
+        if self.is_fmi3:
             self.slave.fmi3FreeInstance(self.slave.component)
         else:
             self.slave.fmi2FreeInstance(self.slave.component)
@@ -272,7 +272,7 @@ class Instance(instance.Instance):
 def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value]) -> Subject:
     """Read and unpack an FMU. `steps`: communication steps per run; `start`: start values of each instance."""
     try:
-        description, variables, places = read_description(path, validate=False)
+        description, variables, scalars = read_description(path, validate=False)
         with opened(path) as archive:
             archive.unpack(folder)
     except OSError as error:
@@ -280,4 +280,4 @@ def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value
     check_co_simulation(path, description)
     by_elements = copy.copy(description)
     by_elements.modelVariables = variables
-    return Subject(path, folder, description, by_elements, places, steps, default_step(description), start)
+    return Subject(path, folder, description, by_elements, scalars, steps, default_step(description), start)

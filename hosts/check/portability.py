@@ -90,7 +90,7 @@ def check_build_description(subject: Subject) -> Finding:
     uses_mathematics = any(
         "#include <math.h>" in f.read_text(encoding="utf-8", errors="replace") for f in sources.rglob("*.c")
     )
-    if not (subject.three and uses_mathematics):
+    if not (subject.is_fmi3 and uses_mathematics):
         return Finding("build description", "good", "not needed")
     is_named = description.exists() and any(
         e.get("name") == "m" for e in ElementTree.parse(description).getroot().iter("Library")
@@ -105,7 +105,7 @@ def check_time(subject: Subject) -> Finding:
     """Whether the variable time of FMI 3.0 can be read with others and twice in one call."""
     time = [v for v in subject.description.modelVariables if v.causality == "independent"]
     single = [v for v in subject.outputs if v.type == "Float64" and not v.dimensions]
-    if not subject.three or not time:
+    if not subject.is_fmi3 or not time:
         return Finding("time", "good", "no variable of its own")
     instance = Instance(subject).start()
     instance.run(2)
@@ -185,7 +185,7 @@ def check_resource_path(subject: Subject) -> Finding:
     if not folder.exists():
         shutil.copytree(source, folder) if source.is_dir() else folder.mkdir()
     try:
-        Instance(subject, resources=f"{folder}{os.sep}" if subject.three else folder.as_uri())
+        Instance(subject, resources=f"{folder}{os.sep}" if subject.is_fmi3 else folder.as_uri())
     except NotInstantiatedError:
         message = f"it is not instantiated with resources in a folder named '{folder.name}'; decode their location"
         return Finding("resource paths", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
@@ -194,7 +194,7 @@ def check_resource_path(subject: Subject) -> Finding:
 
 def check_uri_scheme(subject: Subject) -> Finding:
     """Whether the scheme of a URI may be written in capitals."""
-    if subject.three:
+    if subject.is_fmi3:
         return Finding("resources", "good", "FMI 3.0 gives a path")
     uri = (subject.folder / "resources").as_uri()
     Instance(subject, resources=uri)
@@ -263,7 +263,7 @@ def check_long_step(subject: Subject) -> Finding:
 def _step_status(instance: Instance, time: float, step: float) -> int:
     """Status of a step; FMPy does not report warnings."""
     slave, begin, length = instance.slave, c_double(time), c_double(step)
-    if not instance.three:
+    if not instance.is_fmi3:
         fmi2_do_step = marked("fmi2DoStep", slave.dll.fmi2DoStep)
         return int(fmi2_do_step(c_void_p(slave.component), begin, length, c_int(1)))
     fmi3_do_step = marked("fmi3DoStep", slave.dll.fmi3DoStep)

@@ -232,21 +232,21 @@ def check_messages(subject: Subject) -> Finding:
     instance.start()
     rows = instance.run(5)
     with suppress(Exception):
-        (instance.slave.getFloat64 if subject.three else instance.slave.getReal)([4_000_000_000])
-    for text in instance.raw:
+        (instance.slave.getFloat64 if subject.is_fmi3 else instance.slave.getReal)([4_000_000_000])
+    for text in instance.raw_messages:
         letters = set(_FORMAT.findall(text))
-        if "n" in letters or (subject.three and letters & set("sn")):
+        if "n" in letters or (subject.is_fmi3 and letters & set("sn")):
             message = (
                 f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
             )
-            verdict: Literal["note", "bad"] = "note" if subject.three else "bad"
+            verdict: Literal["note", "bad"] = "note" if subject.is_fmi3 else "bad"
             return Finding("messages", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
     quiet, message_count, message = Instance(subject).start(), len(instance.messages), ""
     quiet.run(5)
     if message_count > 20 * max(1, len(rows)):
         message = f"{message_count} in {len(rows)} steps; say what repeats once"
-    elif instance.without_text:
-        message = f"{instance.without_text} have no category or text; give both"
+    elif instance.incomplete_messages:
+        message = f"{instance.incomplete_messages} have no category or text; give both"
     elif quiet.ok_messages:
         message = (
             f"logging is off, and {quiet.ok_messages} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"

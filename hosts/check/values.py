@@ -25,7 +25,7 @@ def _scalars(subject: Subject, *causalities: str) -> list[ScalarVariable]:
 def _initialising_instance(subject: Subject) -> Instance:
     """A new instance in initialisation mode."""
     instance = Instance(subject)
-    if not subject.three:
+    if not subject.is_fmi3:
         instance.slave.setupExperiment(startTime=0.0)
     instance.slave.enterInitializationMode()
     return instance
@@ -58,7 +58,7 @@ def check_set_values(subject: Subject) -> Finding:
             continue
         value = near_start(v)
         try:
-            instance.set({subject.places[v.name]: value})
+            instance.set({subject.scalars[v.name]: value})
         except FMICallException:  # an FMU may refuse a value
             instance = _initialising_instance(subject)
             continue
@@ -127,9 +127,9 @@ def check_termination(subject: Subject) -> Finding:
     """Whether a run terminates without an error, and the library reports the version of the description."""
     instance = Instance(subject).start()
     instance.run(2)
-    name, version = _VERSION["3.0" if subject.three else "2.0"]
+    name, version = _VERSION["3.0" if subject.is_fmi3 else "2.0"]
     result = getattr(instance.slave, name)()
-    if result != version and not (subject.three and bytes(result).startswith(b"3.")):
+    if result != version and not (subject.is_fmi3 and bytes(result).startswith(b"3.")):
         message = f"{name} answers {bytes(result).decode(errors='replace')}, not {version.decode()}"
         return Finding("end", "bad", f"{message} {subject.clause('2.1.4', '2.2.5')}")
     if not instance.ended:
@@ -161,7 +161,7 @@ def check_start_time(subject: Subject) -> Finding:
 
 def check_step_results(subject: Subject) -> Finding:
     """Whether a step of FMI 3.0 reports its end, and no early return or event that was not allowed."""
-    if not subject.three:
+    if not subject.is_fmi3:
         return Finding("answers of steps", "good", "of FMI 3.0 alone")
     instance = Instance(subject).start()
     for k in range(4):

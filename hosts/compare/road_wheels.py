@@ -41,7 +41,7 @@ def steering_for(fmu: FmuSource, start: Mapping[str, Value], angle: Signal) -> S
     FMU whose column or frame gives turns its wheels by less than `angle` then, as the car does.
     """
     steering = np.linspace(-1.0, 1.0, _POINTS)
-    result = fmu.done_apart(_turned, (dict(start), steering), NDArray[np.float64], start)
+    result = fmu.run_isolated(_turned, (dict(start), steering), NDArray[np.float64], start)
     rises = np.diff(result)
     if not (rises > 0.0).all():
         raise HostError(f"{fmu.path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")

@@ -21,7 +21,7 @@ def starting_pedals(fmu: FmuSource, segments: Sequence[Segment], step: float) ->
     `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
     is not enough.
     """
-    pedals = fmu.done_apart(_pedals_of, (list(segments), step), list[float | None], {})
+    pedals = fmu.run_isolated(_pedals_of, (list(segments), step), list[float | None], {})
     return [s if pedal is None else _started(s, pedal) for s, pedal in zip(segments, pedals, strict=True)]
 
 

@@ -39,12 +39,12 @@ def set_in(
     """
     settings = Settings(fmu.table)
     settings.add_numbers(theirs(manoeuvre.start), f"{START_OF}{manoeuvre.name}")
-    settings.add_wishes(fmu_options, fidelity)
-    settings.overwritten(theirs(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
+    settings.add_options(fmu_options, fidelity)
+    settings.discard_overwritten(theirs(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
     if manoeuvre.find_throttle:
         result = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"
-        settings.overwritten(theirs({THROTTLE: 0.0}), result)
+        settings.discard_overwritten(theirs({THROTTLE: 0.0}), result)
     if manoeuvre.driver:
         acts = theirs(dict.fromkeys(ACTS, 0.0))
-        settings.overwritten(acts, f"the driver of the manoeuvre {manoeuvre.name} acts on it")
+        settings.discard_overwritten(acts, f"the driver of the manoeuvre {manoeuvre.name} acts on it")
     return replace(manoeuvre, start=settings.start), settings

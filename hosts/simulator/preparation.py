@@ -171,5 +171,5 @@ def _settings(asked: DriveRequest, source: FmuSource, variables: Variables, worl
         settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")
     settings.add_numbers(start, f"the world {world.name}")
     settings.add_numbers(asked.start(variables.names), f"{START_OF}{asked.manoeuvre}")
-    settings.add_wishes(asked.fmu_options, asked.fidelity)
+    settings.add_options(asked.fmu_options, asked.fidelity)
     return settings

@@ -123,10 +123,10 @@ def _component(
         connectors = SubElement(component, f"{_STRUCTURE}Connectors")
         for variable, causality in sorted(ends):
             end = SubElement(connectors, f"{_STRUCTURE}Connector", name=variable, kind=causality)
-            (place,) = fmu.places([variable])
-            if place.size > 1:
+            (scalar,) = fmu.scalars([variable])
+            if scalar.size > 1:
                 raise HostError(f"'{part}.{variable}' is a part of an array; SSP wires whole variables only.")
-            kind = _FIRST.get(place.type, place.type) if version == "1.0" else place.type
+            kind = _FIRST.get(scalar.type, scalar.type) if version == "1.0" else scalar.type
             SubElement(end, f"{_COMMON}{kind}")
     if (values := f"resources/{part}.ssv") in content:
         bindings = SubElement(component, f"{_STRUCTURE}ParameterBindings")
