@@ -209,7 +209,7 @@ def _read_settings(fmu: Path, settings: FmuOptions) -> Settings:
 def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """Run the checks in an isolated process; one that has ended is replaced for the next check."""
     from ali3.isolated_processes import Lost
-    from hosts.check.all_checks import CHECKS, Checker, left_out, lost
+    from hosts.check.all_checks import CHECKS, Checker, checks_left_out, finding_of_loss
     from hosts.check.archive import archive_findings
     from hosts.check.instance import Finding
     from hosts.experiment.pool import Pool
@@ -239,10 +239,10 @@ def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> in
                 continue
             begin = time.perf_counter()
             result = process.run(index)
-            finding = lost(check, result, limit) if isinstance(result, Lost) else result
+            finding = finding_of_loss(check, result, limit) if isinstance(result, Lost) else result
             print_finding(finding)
             cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))
-            skipped += [other.name for other in left_out(finding)]
+            skipped += [other.name for other in checks_left_out(finding)]
     if process.left:
         message = f"{process.left} that it had started were ended with it"
         print(f"{_MARKS['note']:>4}  {'processes':<{_NAME_WIDTH}}  {message}")
