@@ -147,7 +147,7 @@ def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
     with Car(settings(fmu("sledge"), tmp_path / "drive", paced=True)) as car:
         steps(car, 200)
         stall.set()
-        until(car, lambda _: car._mail is not None and car._shared.rows.has_room())
+        until(car, lambda _: car._messages is not None and car._shared.rows.has_room())
         lost = [e for e in car.events() if e.kind == "overflow"]
     lost += [e for e in car.events() if e.kind == "overflow"]
     number = int(lost[-1].text.split()[0])
