@@ -161,9 +161,9 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     for file in report_files.values():
         check_writable(file)
     if options.manoeuvre is not None:
-        from hosts.recordings.load_manoeuvre import check_asked
+        from hosts.recordings.load_manoeuvre import check_manoeuvre_option
 
-        check_asked(options.manoeuvre)
+        check_manoeuvre_option(options.manoeuvre)
     fmu = fmu_file(options.fmu)
     if table:
         from hosts.check.parameters import report_parameters

@@ -20,7 +20,7 @@ from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, digest, with_names_of
-from hosts.driving.manoeuvre_settings import set_in
+from hosts.driving.manoeuvre_settings import apply_settings
 from hosts.driving.manoeuvre_table import check_begin, read_table
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
@@ -219,7 +219,7 @@ def _read_reference(fmu: Fmu, file: Path, options: ReferenceOptions) -> _Referen
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
     driver = driver_of(fmu, manoeuvre)
-    manoeuvre, settings = set_in(fmu, manoeuvre, options.fmu_options, options.fidelity)
+    manoeuvre, settings = apply_settings(fmu, manoeuvre, options.fmu_options, options.fidelity)
     manoeuvre = replace(manoeuvre, stop_time=float(times[-1]))
     step = _communication_step(fmu, manoeuvre, times) if options.step is None else options.step
     _check_times(times, step, file)

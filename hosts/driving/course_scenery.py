@@ -26,8 +26,8 @@ _MOST = 3600
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
     """A scene with the cones of a course that a driver follows, on its roads.
 
-    `scene`: with settings applied to its roads; `course`: in earth axes. Returns the scene with cones in its scenery, or
-    with an entry in `missing` if the height of its road is not known.
+    `scene`: with settings applied to its roads; `course`: in earth axes. Returns the scene with cones in its scenery,
+    or with an entry in `missing` if the height of its road is not known.
     """
     return with_marks(
         scene, [lanes([astuple(gate) for gate in course.gates], (0.0, 0.0, 0.0))], f"cones of {course.name}"
@@ -35,7 +35,7 @@ def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
 
 
 def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> dict[str, Any]:
-    """A scene with marks on its roads. `name`: of the entry in `missing`, if the height of a road is unknown."""
+    """A scene with marks on its roads. `name`: of the entry in `missing`, if heights are unknown."""
     scenery = scenery_of(marks)
     flat = np.array([p for entry in scenery for p in entry.get("points", [entry.get("at")])], float).reshape(-1, 2)
     points = np.column_stack([flat, _heights(scene.get("roads", []), *flat.T)])

@@ -134,7 +134,7 @@ class RecordedRows:
     def _write(self, row: int) -> None:
         target, input_count = self._values[row], len(self._inputs)
         target[:input_count] = self._inputs
-        target[input_count:] = self._observation.whole()
+        target[input_count:] = self._observation.read_all()
         self._count[:1] = row + 1.0
 
     def close(self, last: bool) -> tuple[list[int], NDArray[np.float64]]:

@@ -11,11 +11,11 @@ ACTS = ("steering", "throttle", "brake")
 """Inputs that a driver of a course needs."""
 
 
-def refuse_missing(names: Sequence[str], subject: str) -> None:
-    """Raise `HostError` if variables are missing. `names`: the missing ones; `subject`: the FMU, for messages."""
+def refuse_missing(names: Sequence[str], owner: str) -> None:
+    """Raise `HostError` if `names`, of missing variables, has any. `owner`: the FMU, for messages."""
     if names:
         raise HostError(
-            f"The driver needs variables that {subject} does not have: {', '.join(names)}. Where they have other names, "
+            f"The driver needs variables that {owner} does not have: {', '.join(names)}. Where they have other names, "
             "an alias file says which (--aliases)."
         )
 
