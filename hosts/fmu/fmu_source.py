@@ -18,7 +18,7 @@ from hosts.fmu.named_row import NamedRow
 from hosts.fmu.own_process import files_of, in_own_process
 from hosts.fmu.variables import Variables
 
-_Result = TypeVar("_Made")
+_Result = TypeVar("_Result")
 
 
 class _OpenFmu(Protocol):

@@ -279,7 +279,7 @@ class Instance:
             serialize = self.slave.fmi3SerializeFMUState if self.is_fmi3 else self.slave.fmi2SerializeFMUstate
             target = ctypes.cast(buffer, ctypes.POINTER(fmi3Byte)) if self.is_fmi3 else buffer
             serialize(self.slave.component, state, target, size)
-            written = buffer.raw_messages
+            written = buffer.raw
             if written[size.value :] != _GUARD:
                 raise HostError(f"The FMU writes more than the {size.value} bytes that it says its state has.")
             return written[: size.value]
