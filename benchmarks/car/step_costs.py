@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.pilots.pilot import OBSERVED
-from hosts.driving.random_driver import RandomDriver, Target, wild_start
+from hosts.driving.random_driver import RandomDriver, Target, random_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 
 RUN = 20.0  # s, after which the car starts again
@@ -81,7 +81,7 @@ class _Drive:
                 if self.starts > 1:
                     self.car.reset()
                 chance = 1000 * self.seed + self.starts
-                self.car.initialise(self.values | wild_start(chance, self.targets))
+                self.car.initialise(self.values | random_start(chance, self.targets))
                 break
             except HostError:
                 if self.starts >= 50:

@@ -8,7 +8,7 @@ from pathlib import Path
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
-from hosts.driving.ground_marks import marked
+from hosts.driving.ground_marks import with_ground_marks
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.result import Result
@@ -87,7 +87,7 @@ class TestedCar:
             step = communication_step(fmu, manoeuvre, self.step)
             steps_per_row = 1 if record_step is None else max(1, round(record_step / step))
             driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=steps_per_row)
-            result = marked(driven, pilot)
+            result = with_ground_marks(driven, pilot)
             if wrong := result.not_finite():
                 raise FailedFmuError(f"{wrong} That run is not evaluated.")
             return result

@@ -1,4 +1,4 @@
-"""All checks of an FMU, each a task for a process, which a broken FMU may take down."""
+"""All checks of an FMU; each runs in an isolated process, which a faulty FMU may crash."""
 
 import tempfile
 from collections.abc import Callable, Mapping
@@ -31,17 +31,17 @@ CHECKS: tuple[Check, ...] = tuple(
         key=lambda check: check.crash == "note",
     )
 )
-"""First those of the process, which calls change for good.
+"""First those of process settings, which no later check can restore.
 
-Last those whose calls are not allowed: what these do to the memory of an FMU is no fault of a later check.
+Last those with calls that FMI does not allow, because these may corrupt the memory of the FMU.
 """
 
 
 @dataclass
 class Checker:
-    """Does the check of a number in `CHECKS`; the FMU is unpacked once in each process.
+    """Runs one of `CHECKS` by its index; each process unpacks the FMU once.
 
-    `fmu`: absolute; `steps`: communication steps per run; `start`: what is set in each instance before it starts.
+    `fmu`: absolute path; `steps`: communication steps per run; `start`: start values of each instance.
     """
 
     fmu: Path
@@ -49,15 +49,15 @@ class Checker:
     start: Mapping[str, Value]
     _subject: list[Subject] = field(default_factory=list)
 
-    def __call__(self, number: int, tell: Callable[[float], None]) -> Finding:
+    def __call__(self, index: int, tell: Callable[[float], None]) -> Finding:
         if not self._subject:
-            folder = Path(tempfile.mkdtemp(prefix="fmu_"))  # goes with the folder of the process
+            folder = Path(tempfile.mkdtemp(prefix="fmu_"))  # removed with the folder of the process
             self._subject.append(open_subject(self.fmu, folder, self.steps, self.start))
-        return done(CHECKS[number], self._subject[0])
+        return run_check(CHECKS[index], self._subject[0])
 
 
-def done(check: Check, subject: Subject) -> Finding:
-    """What a check finds; an error in it is bad."""
+def run_check(check: Check, subject: Subject) -> Finding:
+    """The finding of a check; an exception is a bad one."""
     try:
         return check.find(subject)
     except (ModuleNotFoundError, MemoryError):
@@ -70,8 +70,8 @@ def done(check: Check, subject: Subject) -> Finding:
         return Finding(check.name, "bad", f"ended with {type(error).__name__}: {error}")
 
 
-def lost(check: Check, loss: Lost, limit: float) -> Finding:
-    """What it says of an FMU that a check took its process down, or did not come back in a time, s."""
+def finding_of_loss(check: Check, loss: Lost, limit: float) -> Finding:
+    """The finding of a check whose process has ended or has exceeded a time, s."""
     verdict = check.crash if not loss.late else check.late if check.calls else "note"
     open_by = f" ({check.clause})" if verdict == "note" and check.clause else ""
     if loss.late:
@@ -81,6 +81,6 @@ def lost(check: Check, loss: Lost, limit: float) -> Finding:
     return Finding(check.name, verdict, message, last=check.name == FUNCTIONS)
 
 
-def left_out(finding: Finding) -> list[Check]:
-    """Checks that cannot be done after what one has found."""
+def checks_left_out(finding: Finding) -> list[Check]:
+    """Checks that cannot be run after a finding."""
     return [check for check in CHECKS if check.calls and check.name != finding.check] if finding.last else []

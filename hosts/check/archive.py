@@ -1,4 +1,4 @@
-"""Whether the archive of an FMU can be unpacked."""
+"""Checks whether the archive of an FMU can be unpacked."""
 
 from pathlib import Path
 
@@ -11,9 +11,9 @@ CHECK = "archive"
 
 
 def archive_findings(fmu: Path) -> list[Finding]:
-    """What keeps an FMU from being unpacked: bad where a standard forbids it, else a note; none: it can be unpacked.
+    """Faults of the archive of an FMU: bad where a standard forbids them, else notes; empty if it can be unpacked.
 
-    Raises `HostError`: it is no archive that can be read.
+    Raises `HostError`: it is not a readable archive.
     """
     if not is_file(fmu):
         raise HostError(no_file(fmu))

@@ -10,16 +10,15 @@ from fmpy.fmi1 import FMICallException
 from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject, count_of
 from hosts.common.errors import HostError
 
-# Two ways of dividing time differ by the error of the method.
-_SUBSTEP_SHARE = 0.05
-_NEAR = 1e-4  # of the largest value of an output: a usual tolerance of solvers
-_CROWD = 30  # instances
-_BUDGET = 5.0  # time in which they are made, s
+_SUBSTEP_SHARE = 0.05  # of the range of an output, by which runs with other steps may differ
+_NEARLY_EQUAL = 1e-4  # of the largest value of an output: a usual tolerance of solvers
+_MOST_INSTANCES = 30
+_CREATION_TIME = 5.0  # s, in which they are made
 _ALTERED = "FMI speaks of states of the same FMU alone: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
 
 
-def runs(subject: Subject) -> Finding:
-    """A run with finite outputs."""
+def check_run(subject: Subject) -> Finding:
+    """Whether a run gives finite outputs."""
     instance = Instance(subject).start()
     rows = [instance.get(subject.outputs), *instance.run(subject.steps)]
     names = [v.name for v in subject.outputs for _ in range(count_of(v))]
@@ -37,12 +36,12 @@ def runs(subject: Subject) -> Finding:
     return Finding("runs", "good", message)
 
 
-def repeats(subject: Subject) -> Finding:
-    """Two instances, interleaved, give what one gives."""
+def check_repetition(subject: Subject) -> Finding:
+    """Whether two interleaved instances, and one stepped in another thread, give the results of one alone."""
     alone = Instance(subject).start().run(subject.steps)
-    if subject.single:
+    if subject.is_single:
         if differs := first_difference(subject, alone, Instance(subject).start().run(subject.steps)):
-            return _not_repeated(subject, "after a first one", differs)
+            return _bad_repetition(subject, "after a first one", differs)
         return Finding("repeats", "good", "bit for bit, one after another")
     pair = [Instance(subject).start() for _ in range(2)]
     rows: list[list[list[float]]] = [[], []]
@@ -50,26 +49,26 @@ def repeats(subject: Subject) -> Finding:
         for instance, row in zip(pair, rows, strict=True):
             row += instance.run(1, k)
     if differs := first_difference(subject, alone, rows[0]) or first_difference(subject, alone, rows[1]):
-        return _not_repeated(subject, "beside a second one", differs)
-    by_thread: list[list[list[float]]] = []
-    mover = Instance(subject).start()
-    thread = Thread(target=lambda: by_thread.append(mover.run(subject.steps)))
+        return _bad_repetition(subject, "beside a second one", differs)
+    rows_of_thread: list[list[list[float]]] = []
+    other = Instance(subject).start()
+    thread = Thread(target=lambda: rows_of_thread.append(other.run(subject.steps)))
     thread.start()
     thread.join()
-    if not by_thread:
+    if not rows_of_thread:
         raise HostError("a run in another thread than the instance was made in fails")
-    if differs := first_difference(subject, alone, by_thread[0]):
-        return _not_repeated(subject, "in another thread than its instance was made in", differs)
+    if differs := first_difference(subject, alone, rows_of_thread[0]):
+        return _bad_repetition(subject, "in another thread than its instance was made in", differs)
     return Finding("repeats", "good", "bit for bit, also interleaved and in another thread")
 
 
-def _not_repeated(subject: Subject, when: str, differs: str) -> Finding:
+def _bad_repetition(subject: Subject, when: str, differs: str) -> Finding:
     message = f"a run {when} differs: {differs}; keep all that a run needs in its instance"
     return Finding("repeats", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
 
 
 def first_difference(subject: Subject, one: list[list[float]], other: list[list[float]], begin: int = 0) -> str:
-    """The first value in which the rows of two runs are different, or nothing."""
+    """The first value in which the rows of two runs differ, as text; empty if they are equal."""
     names = [v.name for v in subject.outputs for _ in range(count_of(v))]
     for k, (first, second) in enumerate(zip(one, other, strict=False)):
         for name, a, b in zip(names, first, second, strict=True):
@@ -78,8 +77,8 @@ def first_difference(subject: Subject, one: list[list[float]], other: list[list[
     return "" if len(one) == len(other) else f"one ends after {len(one)} steps, the other after {len(other)}"
 
 
-def resets(subject: Subject) -> Finding:
-    """A reset instance is a new one."""
+def check_reset(subject: Subject) -> Finding:
+    """Whether an instance behaves as a new one after a reset."""
     instance = Instance(subject).start()
     first = instance.run(subject.steps)
     instance.reset()
@@ -97,8 +96,8 @@ def resets(subject: Subject) -> Finding:
     return Finding("reset", "good", "as at the first start")
 
 
-def states(subject: Subject) -> Finding:
-    """Roll back, another instance through bytes."""
+def check_states(subject: Subject) -> Finding:
+    """Whether a restored state continues exactly, also in another instance to which it is passed as bytes."""
     if not _has_states(subject):
         return Finding("states", "note", "cannot be saved and restored")
     half = max(1, subject.steps // 2)
@@ -112,11 +111,11 @@ def states(subject: Subject) -> Finding:
     first = instance.run(half, half)
     instance.restore_bytes(data)
     again = instance.run(half, half)
-    if fault := _kept_state(subject):
+    if fault := _fault_of_state(subject):
         return Finding("states", "bad", f"{fault} {clause}")
     if differs := first_difference(subject, first, again, half):
         message = f"a restored state goes on differently: {differs}; save all of it, with the solver's own"
-        return Finding("states", "note" if _near(first, again) else "bad", f"{message} {clause}")
+        return Finding("states", "note" if _nearly_equal(first, again) else "bad", f"{message} {clause}")
     for initialised in (False, True):
         receiver = Instance(subject).start() if initialised else Instance(subject)
         try:
@@ -130,12 +129,12 @@ def states(subject: Subject) -> Finding:
         return Finding("states", "bad", f"a state goes on differently in another instance: {differs} {clause}")
     if initialised:
         message = "a state goes on in another instance only where that was initialised; save its mode too"
-        return Finding("states", "bad" if subject.three else "note", f"{message} {clause}")
+        return Finding("states", "bad" if subject.is_fmi3 else "note", f"{message} {clause}")
     return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes")
 
 
-def _kept_state(subject: Subject) -> str:
-    """What is wrong with a state that is used twice and freed, or nothing."""
+def _fault_of_state(subject: Subject) -> str:
+    """The fault of a state that is restored twice and freed, as text; empty if there is none."""
     instance = Instance(subject).start()
     instance.run(2)
     state, rows = instance.state(), []
@@ -148,21 +147,21 @@ def _kept_state(subject: Subject) -> str:
     return "a state that was freed keeps its pointer; set it to NULL" if state.value else ""
 
 
-def _near(first: list[list[float]], again: list[list[float]]) -> bool:
-    """Whether two runs differ by no more than what the new start of a solver explains."""
+def _nearly_equal(first: list[list[float]], again: list[list[float]]) -> bool:
+    """Whether two runs differ by no more than the restart of a solver explains."""
     reference, repeated = np.array(first), np.array(again)
     return reference.shape == repeated.shape and bool(
-        np.all(np.abs(reference - repeated) <= _NEAR * np.abs(reference).max(axis=0))
+        np.all(np.abs(reference - repeated) <= _NEARLY_EQUAL * np.abs(reference).max(axis=0))
     )
 
 
 def _has_states(subject: Subject) -> bool:
-    face = subject.description.coSimulation
-    return bool(face.canGetAndSetFMUstate and face.canSerializeFMUstate)
+    co_simulation = subject.description.coSimulation
+    return bool(co_simulation.canGetAndSetFMUstate and co_simulation.canSerializeFMUstate)
 
 
-def altered_states(subject: Subject) -> Finding:
-    """Whether bytes of a state with one bit changed are refused."""
+def check_altered_states(subject: Subject) -> Finding:
+    """Whether serialized states with one bit changed are refused."""
     if not _has_states(subject):
         return Finding("altered states", "good", "there are none")
     instance = Instance(subject).start()
@@ -181,11 +180,11 @@ def altered_states(subject: Subject) -> Finding:
     return Finding("altered states", "good", "16 of 16 are refused")
 
 
-def refusals(subject: Subject) -> Finding:
-    """A wrong token, a NaN, a call out of order: refused with words."""
-    silent, taken = [], []
+def check_refusals(subject: Subject) -> Finding:
+    """Whether a wrong token, a NaN and calls out of order are refused with a message."""
+    without_message, accepted = [], []
 
-    def expect(what: str, instance: Instance | None, action: object, *, warned: bool = False) -> None:
+    def expect(label: str, instance: Instance | None, action: object, *, warned: bool = False) -> None:
         before = 0 if instance is None else len(instance.messages)
         try:
             action()  # type: ignore[operator]
@@ -193,10 +192,10 @@ def refusals(subject: Subject) -> Finding:
             raise
         except Exception:
             if instance is not None and len(instance.messages) == before:
-                silent.append(what)
+                without_message.append(label)
             return
         if instance is None or not warned or len(instance.messages) == before:
-            taken.append(what)
+            accepted.append(label)
 
     expect("a wrong GUID", None, lambda: Instance(subject, "{wrong}"))
     early = Instance(subject)
@@ -204,34 +203,36 @@ def refusals(subject: Subject) -> Finding:
     if subject.inputs:
         driven = Instance(subject).start()
         expect("NaN for an input", driven, lambda: driven.set_input(subject.inputs[0], math.nan), warned=True)
-        # a port may hold its last value, and says so
+        # an input may keep its last value with a message
     unknown = Instance(subject).start()
-    getter = unknown.slave.getFloat64 if unknown.three else unknown.slave.getReal
+    getter = unknown.slave.getFloat64 if unknown.is_fmi3 else unknown.slave.getReal
     expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))
-    if taken:
-        message = f"accepted without a message: {', '.join(taken)}"
+    if accepted:
+        message = f"accepted without a message: {', '.join(accepted)}"
         return Finding(
             "refusals", "note", f"{message}; FMI does not say what an FMU does {subject.clause('4.2.4', '2.3.1')}"
         )
-    if silent:
-        return Finding("refusals", "note", f"refused without a message: {', '.join(silent)}")
+    if without_message:
+        return Finding("refusals", "note", f"refused without a message: {', '.join(without_message)}")
     return Finding("refusals", "good", "wrong GUID, order, NaN and references are refused, with messages")
 
 
-def other_steps(subject: Subject) -> Finding:
-    """Communication steps of other sizes."""
+def check_other_steps(subject: Subject) -> Finding:
+    """Whether communication steps of other sizes end near the results of the default one."""
     if not subject.description.coSimulation.canHandleVariableCommunicationStepSize:
         return Finding("steps of any size", "note", "only the one step size is allowed")
-    fine = Instance(subject).start().run(subject.steps)
-    instance, now, end = Instance(subject).start(), 0.0, subject.steps * subject.step
+    reference = Instance(subject).start().run(subject.steps)
+    instance, time_reached, end = Instance(subject).start(), 0.0, subject.steps * subject.step
     k = 0
-    while now < end - 1e-9:
-        step = min(subject.step * (0.7, 1.0, 2.5)[k % 3], end - now)
-        if not instance.advance(now, step):
+    while time_reached < end - 1e-9:
+        step = min(subject.step * (0.7, 1.0, 2.5)[k % 3], end - time_reached)
+        if not instance.advance(time_reached, step):
             break
-        now, k = now + step, k + 1
+        time_reached, k = time_reached + step, k + 1
     last = instance.get(subject.outputs)
-    moving = [(a, b, max(c) - min(c)) for a, b, c in zip(last, fine[-1], zip(*fine, strict=True), strict=True)]
+    moving = [
+        (a, b, max(c) - min(c)) for a, b, c in zip(last, reference[-1], zip(*reference, strict=True), strict=True)
+    ]
     near = sum(abs(a - b) <= _SUBSTEP_SHARE * span + 1e-9 for a, b, span in moving)
     message = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
     if not all(math.isfinite(v) for v in last):
@@ -244,30 +245,30 @@ def other_steps(subject: Subject) -> Finding:
     return Finding("steps of any size", "good", message)
 
 
-def many(subject: Subject) -> Finding:
-    """Thirty instances at once, or as many as are made in some seconds."""
-    if subject.single:
+def check_many_instances(subject: Subject) -> Finding:
+    """Whether instances that exist at the same time give equal results: thirty, or those made within some seconds."""
+    if subject.is_single:
         return Finding("many instances", "note", "one per process is allowed")
-    crowd, begin = list[Instance](), time.perf_counter()
-    while len(crowd) < _CROWD and (len(crowd) < 2 or time.perf_counter() - begin < _BUDGET):
-        crowd.append(Instance(subject).start())
-    ends = [instance.run(3)[-1] for instance in crowd]
-    for instance in crowd:
+    instances, begin = list[Instance](), time.perf_counter()
+    while len(instances) < _MOST_INSTANCES and (len(instances) < 2 or time.perf_counter() - begin < _CREATION_TIME):
+        instances.append(Instance(subject).start())
+    ends = [instance.run(3)[-1] for instance in instances]
+    for instance in instances:
         instance.free()
     for end in ends[1:]:
         if differs := first_difference(subject, [ends[0]], [end], 2):
-            message = f"{len(crowd)} at once differ: {differs}; keep all that a run needs in its instance"
+            message = f"{len(instances)} at once differ: {differs}; keep all that a run needs in its instance"
             return Finding("many instances", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("many instances", "good", f"{len(crowd)} at once")
+    return Finding("many instances", "good", f"{len(instances)} at once")
 
 
 BEHAVIOUR_CHECKS = (
-    Check("runs", runs),
-    Check("repeats", repeats),
-    Check("reset", resets),
-    Check("states", states),
-    Check("altered states", altered_states, crash="note", late="note", clause=_ALTERED),
-    Check("refusals", refusals, crash="note", late="note", clause=NOT_ALLOWED),
-    Check("steps of any size", other_steps),
-    Check("many instances", many),
+    Check("runs", check_run),
+    Check("repeats", check_repetition),
+    Check("reset", check_reset),
+    Check("states", check_states),
+    Check("altered states", check_altered_states, crash="note", late="note", clause=_ALTERED),
+    Check("refusals", check_refusals, crash="note", late="note", clause=NOT_ALLOWED),
+    Check("steps of any size", check_other_steps),
+    Check("many instances", check_many_instances),
 )

@@ -31,31 +31,34 @@ if TYPE_CHECKING:
     from hosts.fmu.settings import Settings
 
 _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
-_WIDTH = 22
+_NAME_WIDTH = 22
 _MOST_STEPS = 100_000
-_STEPS = 50
-_THOROUGH = 500
+_DEFAULT_STEPS = 50
+_THOROUGH_STEPS = 500
 _TIME_LIMIT = 20.0  # s for a check
-_OF_CHECK = ("steps", "time_limit", "thorough")
-_OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
-_OF_SOAK = ("drives", "seed", "stop_time", "world", "json")
-_OF_REFERENCE = ("manoeuvre", "bound")
-_OF_FOLDER = ("again", "out")
-_OF_BOTH = ("fidelity", "step", "jobs", "again", "out")
+_CHECK_OPTIONS = ("steps", "time_limit", "thorough")
+_PARAMETER_OPTIONS = ("show_parameters", "save_parameters", "diff")
+_SOAK_OPTIONS = ("drives", "seed", "stop_time", "world", "json")
+_REFERENCE_OPTIONS = ("manoeuvre", "bound")
+_FOLDER_OPTIONS = ("again", "out")
+_SOAK_OR_REFERENCE_OPTIONS = ("fidelity", "step", "jobs", "again", "out")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> int:
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _work(options, parser), is_confined=options.confined)
+    return run_command(lambda: _run(options, parser), is_confined=options.confined)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype")
     parser.add_argument(
-        "--steps", type=_steps, metavar="N", help=f"communication steps per run of a check; default: {_STEPS}"
+        "--steps",
+        type=_step_count,
+        metavar="N",
+        help=f"communication steps per run of a check; default: {_DEFAULT_STEPS}",
     )
     parser.add_argument(
         "--time-limit", type=number, metavar="S", help=f"seconds that a check may take; default: {_TIME_LIMIT:g}"
@@ -64,7 +67,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "--junit", type=Path, metavar="FILE", help="also write the verdict of the check or of --reference there"
     )
     parser.add_argument("--sarif", type=Path, metavar="FILE", help="also write the verdict there, as SARIF 2.1.0")
-    parser.add_argument("--thorough", action="store_true", help=f"runs of {_THOROUGH} steps, up to a minute in all")
+    parser.add_argument(
+        "--thorough", action="store_true", help=f"runs of {_THOROUGH_STEPS} steps, up to a minute in all"
+    )
     add_setting_options(parser)
     add_option(parser, "--confined")
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
@@ -115,37 +120,37 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     return parser
 
 
-def _steps(text: str) -> int:
+def _step_count(text: str) -> int:
     steps = count(text)
     if steps > _MOST_STEPS:
         raise argparse.ArgumentTypeError(f"the number of steps is {text}; it must be from 1 to {_MOST_STEPS}")
     return steps
 
 
-def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     reference = options.reference is not None
     for names, is_present, requirement in (
-        (_OF_SOAK, options.soak, "--soak"),
-        (_OF_REFERENCE, reference, "--reference"),
-        (_OF_BOTH, options.soak or reference, "--soak or --reference"),
+        (_SOAK_OPTIONS, options.soak, "--soak"),
+        (_REFERENCE_OPTIONS, reference, "--reference"),
+        (_SOAK_OR_REFERENCE_OPTIONS, options.soak or reference, "--soak or --reference"),
     ):
         given = given_of(parser, options, names)
         if given and not is_present:
             raise HostError(f"{given[0]} needs {requirement}.")
-    table = given_of(parser, options, _OF_PARAMETERS)
+    table = given_of(parser, options, _PARAMETER_OPTIONS)
     modes = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
     if (options.soak or reference) and len(modes) > 1:
         raise HostError(f"{modes[0]} cannot be combined with {modes[-1]}.")
-    if reference and options.reference.is_file() and (of_folder := given_of(parser, options, _OF_FOLDER)):
+    if reference and options.reference.is_file() and (folder_options := given_of(parser, options, _FOLDER_OPTIONS)):
         raise HostError(
-            f"{of_folder[0]} needs a folder of tables, whose finished comparisons are kept; {options.reference} is a "
-            "single table."
+            f"{folder_options[0]} needs a folder of tables, whose finished comparisons are kept; {options.reference} "
+            "is a single table."
         )
-    if (of_check := given_of(parser, options, _OF_CHECK)) and modes:
-        raise HostError(f"{of_check[0]} cannot be combined with {modes[0]}.")
-    written = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}
-    if written and (table or options.soak):
-        raise HostError(f"--{next(iter(written))} cannot be combined with {modes[0]}.")
+    if (check_options := given_of(parser, options, _CHECK_OPTIONS)) and modes:
+        raise HostError(f"{check_options[0]} cannot be combined with {modes[0]}.")
+    report_files = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}
+    if report_files and (table or options.soak):
+        raise HostError(f"--{next(iter(report_files))} cannot be combined with {modes[0]}.")
     if options.confined and (table or options.soak):
         raise HostError(f"--confined cannot be combined with {modes[0]}.")
     if options.soak:
@@ -153,34 +158,36 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         from hosts.soak.soak import soak
 
         return soak(options, parser.prog)
-    for file in written.values():
+    for file in report_files.values():
         check_writable(file)
     if options.manoeuvre is not None:
-        from hosts.recordings.load_manoeuvre import check_asked
+        from hosts.recordings.load_manoeuvre import check_manoeuvre_option
 
-        check_asked(options.manoeuvre)
+        check_manoeuvre_option(options.manoeuvre)
     fmu = fmu_file(options.fmu)
     if table:
-        from hosts.check.parameters import parameters
+        from hosts.check.parameters import report_parameters
 
-        return parameters(fmu, fmu_options(options), options.save_parameters, options.diff, options.show_parameters)
+        return report_parameters(
+            fmu, fmu_options(options), options.save_parameters, options.diff, options.show_parameters
+        )
     cases: list[Case] = []
     try:
         if reference:
-            return _against(fmu, options, cases)
-        return _outside(fmu, options, cases)
-    except BaseException as error:  # Ctrl-C too: what was looked at until then is no verdict
+            return _compare_with_reference(fmu, options, cases)
+        return _run_checks(fmu, options, cases)
+    except BaseException as error:  # including Ctrl-C: the checks made so far are no verdict
         if not any(case.verdict == "error" for case in cases):
             cases.append(Case(fmu.stem, "ali3 check", "error", str(error) or type(error).__name__))
         raise
     finally:
-        if "junit" in written and cases:
+        if "junit" in report_files and cases:
             write_junit(options.junit, fmu.stem, cases)
-        if "sarif" in written and cases:
+        if "sarif" in report_files and cases:
             write_sarif(options.sarif, fmu, cases)
 
 
-def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
+def _compare_with_reference(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     from hosts.check.reference import OUT, ReferenceOptions, check_references
 
     if len(options.fidelity) > 1:
@@ -191,7 +198,7 @@ def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     return check_references(fmu, options.reference, cases, options.bound, requested, jobs, out, options.again)
 
 
-def _settings(fmu: Path, settings: FmuOptions) -> Settings:
+def _read_settings(fmu: Path, settings: FmuOptions) -> Settings:
     from hosts.fmu.fmu import described
     from hosts.fmu.settings import settings_of
     from hosts.fmu.variables import Variables
@@ -199,53 +206,55 @@ def _settings(fmu: Path, settings: FmuOptions) -> Settings:
     return settings_of(Variables(described(fmu)), settings)
 
 
-def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
-    """The checks in a process of their own; one that a check takes down is replaced for the others."""
+def _run_checks(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
+    """Run the checks in an isolated process; one that has ended is replaced for the next check."""
     from ali3.isolated_processes import Lost
-    from hosts.check.all_checks import CHECKS, Checker, left_out, lost
+    from hosts.check.all_checks import CHECKS, Checker, checks_left_out, finding_of_loss
     from hosts.check.archive import archive_findings
     from hosts.check.instance import Finding
     from hosts.experiment.pool import Pool
     from hosts.fmu.own_process import files_of
 
-    if refused := archive_findings(fmu):
-        for finding in refused:
+    if faults := archive_findings(fmu):
+        for finding in faults:
             print_finding(finding)
             cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
         raise HostError(f"{fmu} is not unpacked: nothing else in it was checked.")
     start: Mapping[str, Value] = {}
     if set_options := fmu_options(options):
-        settings = _settings(fmu, set_options)
+        settings = _read_settings(fmu, set_options)
         start = settings.start
         for name, message in settings.rows():
-            print(f" set  {name:<{_WIDTH}}  {message}", flush=True)
+            print(f" set  {name:<{_NAME_WIDTH}}  {message}", flush=True)
     limit = _TIME_LIMIT if options.time_limit is None else options.time_limit
     if not limit > 0.0:
         raise HostError(f"--time-limit is {limit:g} s; it must be positive.")
-    without: list[str] = []
-    steps = options.steps or (_THOROUGH if options.thorough else _STEPS)
+    skipped: list[str] = []
+    steps = options.steps or (_THOROUGH_STEPS if options.thorough else _DEFAULT_STEPS)
     checker = Checker(fmu.absolute(), steps, start)
     with Pool(checker, Finding, reads=(fmu, *files_of(start)), limit=limit, in_all=True) as process:
         for index, check in enumerate(CHECKS):
-            if check.name in without:
+            if check.name in skipped:
                 cases.append(Case(fmu.stem, check.name, "skipped", "functions of the FMU cannot be called"))
                 continue
             begin = time.perf_counter()
             result = process.run(index)
-            finding = lost(check, result, limit) if isinstance(result, Lost) else result
+            finding = finding_of_loss(check, result, limit) if isinstance(result, Lost) else result
             print_finding(finding)
             cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))
-            without += [other.name for other in left_out(finding)]
+            skipped += [other.name for other in checks_left_out(finding)]
     if process.left:
         message = f"{process.left} that it had started were ended with it"
-        print(f"{_MARKS['note']:>4}  {'processes':<{_WIDTH}}  {message}")
-    if without:
-        print(f"{_MARKS['note']:>4}  {'not done':<{_WIDTH}}  {len(without)} checks, which call functions of the FMU")
+        print(f"{_MARKS['note']:>4}  {'processes':<{_NAME_WIDTH}}  {message}")
+    if skipped:
+        print(
+            f"{_MARKS['note']:>4}  {'not done':<{_NAME_WIDTH}}  {len(skipped)} checks, which call functions of the FMU"
+        )
     bad = sum(case.verdict == "bad" for case in cases)
     print(f"\n{fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
     return 1 if bad else 0
 
 
 def print_finding(finding: Finding) -> None:
-    """One line of the verdict."""
-    print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_WIDTH}}  {shortened(finding.words)}", flush=True)
+    """Print a finding as one line of the verdict."""
+    print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_NAME_WIDTH}}  {shortened(finding.words)}", flush=True)

@@ -8,13 +8,13 @@ import numpy as np
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
-from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_of, inside, size_of
+from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_of, start_and_change, value_in_range
 
-_STATES = 4
-_PART = 1e-4  # of an input's range: the nudge of a difference
-_NEAR = 0.02
-_SMOOTH = 0.01
-_ROUND = 1e-9
+_INSTANTS = 4
+_RELATIVE_CHANGE = 1e-4  # of an input's range, by which it is changed for a difference quotient
+_TOLERANCE = 0.02
+_KINK = 0.01
+_ROUND_OFF = 1e-9
 
 
 def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
@@ -23,13 +23,13 @@ def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
     return outputs, [v.name for v in outputs for _ in range(count_of(v))]
 
 
-def dependencies(subject: Subject) -> Finding:
-    """Outputs that an input changes at a communication point are declared to depend on it there."""
+def check_dependencies(subject: Subject) -> Finding:
+    """Whether outputs that an input changes at a communication point are declared to depend on it."""
     outputs, names = _real_outputs(subject)
     if not (subject.inputs and outputs):
         return Finding("dependencies", "good", "no inputs and outputs to compare")
     clause = subject.clause("2.2.8", "2.4.8")
-    variable_names: dict[int, str] = {}  # the inputs, and by their reference what else they are called
+    variable_names: dict[int, str] = {}  # by value reference; the name of the input where several share it
     for v in sorted(subject.description.modelVariables, key=lambda v: v.causality != "input"):
         variable_names.setdefault(v.valueReference, v.name)
     declared = {
@@ -38,14 +38,14 @@ def dependencies(subject: Subject) -> Finding:
     }
     moved: dict[str, set[str]] = {name: set() for name in declared}
     instance, steps = Instance(subject).start(), 0
-    for _ in range(_STATES):
-        steps += len(instance.run(max(1, subject.steps // (2 * _STATES)), steps))
+    for _ in range(_INSTANTS):
+        steps += len(instance.run(max(1, subject.steps // (2 * _INSTANTS)), steps))
         for v in subject.inputs:
             before = instance.get(outputs)
-            instance.set_input(v, inside(v, 0.37))
+            instance.set_input(v, value_in_range(v, 0.37))
             after = instance.get(outputs)
-            instance.set_input(v, inside(v, 0.0))
-            input_name = variable_names[subject.places[v.name].reference]
+            instance.set_input(v, value_in_range(v, 0.0))
+            input_name = variable_names[subject.scalars[v.name].reference]
             for name, one, other in zip(names, before, after, strict=True):
                 if one == other or (one != one and other != other):
                     continue
@@ -55,50 +55,56 @@ def dependencies(subject: Subject) -> Finding:
                     message = f"{name} goes from {one:g} to {other:g} as {input_name} is set, on which it is said not "
                     message += f"to depend; declare it in ModelStructure {clause}"
                     return Finding("dependencies", "bad", message)
-    nudged = {variable_names[subject.places[v.name].reference] for v in subject.inputs}
+    perturbed = {variable_names[subject.scalars[v.name].reference] for v in subject.inputs}
     inputs = {v.name for v in subject.description.modelVariables if v.causality == "input"}
     listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
     declared_inputs = {name: inputs if listed is None else listed & inputs for name, listed in listed_of.items()}
-    loose = [name for name, known in declared_inputs.items() if known and known <= nudged and not moved.get(name)]
-    if loose:
-        message = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
+    unaffected = [
+        name for name, known in declared_inputs.items() if known and known <= perturbed and not moved.get(name)
+    ]
+    if unaffected:
+        message = (
+            f"{len(unaffected)} outputs, such as {unaffected[0]}, are said to depend on inputs that did not change them"
+        )
         message += ' before the next step; masters may see loops; dependencies="" where that is so'
         return Finding("dependencies", "note", f"{message} {clause}")
     return Finding("dependencies", "good", "outputs change at a communication point as they are said to")
 
 
-def _provides(subject: Subject) -> bool:
-    name = "providesDirectionalDerivatives" if subject.three else "providesDirectionalDerivative"
-    return subject.face is not None and subject.face.get(name) == "true"
+def _provides_derivatives(subject: Subject) -> bool:
+    name = "providesDirectionalDerivatives" if subject.is_fmi3 else "providesDirectionalDerivative"
+    return subject.co_simulation_element is not None and subject.co_simulation_element.get(name) == "true"
 
 
-def _slopes(subject: Subject, instance: Instance, outputs: list[ScalarVariable], input_variable: ScalarVariable) -> Any:
-    place = subject.places[input_variable.name]
-    seed = [float(k == place.item) for k in range(place.size)]
-    count = (sum(map(count_of, outputs)),) if subject.three else ()
+def _derivatives(
+    subject: Subject, instance: Instance, outputs: list[ScalarVariable], input_variable: ScalarVariable
+) -> Any:
+    scalar = subject.scalars[input_variable.name]
+    seed = [float(k == scalar.index) for k in range(scalar.size)]
+    count = (sum(map(count_of, outputs)),) if subject.is_fmi3 else ()
     return np.array(
-        instance.slave.getDirectionalDerivative([v.valueReference for v in outputs], [place.reference], seed, *count)
+        instance.slave.getDirectionalDerivative([v.valueReference for v in outputs], [scalar.reference], seed, *count)
     )
 
 
-def derivatives(subject: Subject) -> Finding:
-    """Directional derivatives of outputs by inputs against differences, at a communication point or over a step."""
+def check_derivatives(subject: Subject) -> Finding:
+    """Directional derivatives against difference quotients, at a communication point or over a step."""
     outputs, names = _real_outputs(subject)
-    face = subject.description.coSimulation
-    if not (_provides(subject) and subject.inputs and outputs):
+    co_simulation = subject.description.coSimulation
+    if not (_provides_derivatives(subject) and subject.inputs and outputs):
         return Finding("derivatives", "good", "no derivatives of outputs by inputs")
-    if not face.canGetAndSetFMUstate:
+    if not co_simulation.canGetAndSetFMUstate:
         return Finding("derivatives", "note", "cannot be compared with differences: states cannot be saved")
-    compared, over_steps, span = 0, 0, _span(subject)
+    compared, over_steps, span = 0, 0, _span_annotation(subject)
     added_along = "" if span is None else span.get("addedAlong", "")
-    for input_variable, instance, time in _states(subject, without=set(added_along.split())):
-        start, change = size_of(input_variable)
-        offset = _PART * change
+    for input_variable, instance, time in _running_instances(subject, without=set(added_along.split())):
+        start, change = start_and_change(input_variable)
+        offset = _RELATIVE_CHANGE * change
         before = instance.state()
         at_point, over_step = [], []
-        for share in (0.0, 1.0, -1.0):
+        for sign in (0.0, 1.0, -1.0):
             instance.restore(before)
-            instance.set_input(input_variable, start + share * offset)
+            instance.set_input(input_variable, start + sign * offset)
             at_point.append(np.array(instance.get(outputs)))
             if not instance.advance(time, subject.step):
                 break
@@ -108,7 +114,7 @@ def derivatives(subject: Subject) -> Finding:
             instance.set_input(input_variable, start)
             instance.advance(time, subject.step)
             try:
-                slopes = _slopes(subject, instance, outputs, input_variable)
+                slopes = _derivatives(subject, instance, outputs, input_variable)
             except Exception as error:
                 instance.free_state(before)
                 return Finding("derivatives", "note", f"none by {input_variable.name}: {error}")
@@ -116,7 +122,7 @@ def derivatives(subject: Subject) -> Finding:
             wrong = np.flatnonzero(~(near[0] | near[1]))
             if len(wrong):
                 k = int(wrong[0])
-                step, point = ((found[1][k] - found[2][k]) / (2.0 * offset) for found in (over_step, at_point))
+                step, point = ((values[1][k] - values[2][k]) / (2.0 * offset) for values in (over_step, at_point))
                 message = f"{names[k]} has the derivative {slopes[k]:g} by {input_variable.name}; differences are "
                 message += f"{point:g} at a communication point and {step:g} over a step; give one of them"
                 return Finding("derivatives", "bad", f"{message} {subject.clause('2.1.9', '2.2.12')}")
@@ -133,33 +139,33 @@ def derivatives(subject: Subject) -> Finding:
     )
 
 
-def _span(subject: Subject) -> ElementTree.Element | None:
-    """The annotation that says what the derivatives are over."""
+def _span_annotation(subject: Subject) -> ElementTree.Element | None:
+    """The annotation that states the time span of the derivatives."""
     return next(subject.root.iter("DirectionalDerivatives"), None)
 
 
-def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariable, Instance, float]]:
-    """Each input with an instance on its way, and the time there."""
+def _running_instances(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariable, Instance, float]]:
+    """Each input with an instance after some steps, and the time reached, s."""
     for input_variable in subject.inputs:
         if input_variable.name in without:
             continue
         instance = Instance(subject).start()
         count = len(instance.run(max(2, subject.steps // 8)))
-        instance.set_input(input_variable, size_of(input_variable)[0])
+        instance.set_input(input_variable, start_and_change(input_variable)[0])
         if instance.advance(count * subject.step, subject.step):
             yield input_variable, instance, (count + 1) * subject.step
         instance.free()
 
 
-def _agrees(slopes: NDArray[np.float64], differences: list[NDArray[np.float64]], part: float) -> NDArray[np.bool_]:
-    """Which slopes are those of differences; also those at a kink, where the two sides differ."""
+def _agrees(slopes: NDArray[np.float64], differences: list[NDArray[np.float64]], offset: float) -> NDArray[np.bool_]:
+    """Which derivatives agree with difference quotients, or lie at a kink, where one-sided quotients differ."""
     middle, plus, minus = differences
-    up, down, central = (plus - middle) / part, (middle - minus) / part, (plus - minus) / (2.0 * part)
-    round_off = _ROUND * (np.abs(middle) + np.max(np.abs(central))) / min(1.0, abs(part))
-    kink = np.abs(up - down) > _SMOOTH * np.maximum(np.abs(up), np.abs(down)) + round_off
-    near = np.abs(slopes - central) <= _NEAR * np.maximum(np.abs(central), np.abs(slopes)) + round_off
+    up, down, central = (plus - middle) / offset, (middle - minus) / offset, (plus - minus) / (2.0 * offset)
+    round_off = _ROUND_OFF * (np.abs(middle) + np.max(np.abs(central))) / min(1.0, abs(offset))
+    kink = np.abs(up - down) > _KINK * np.maximum(np.abs(up), np.abs(down)) + round_off
+    near = np.abs(slopes - central) <= _TOLERANCE * np.maximum(np.abs(central), np.abs(slopes)) + round_off
     agrees: NDArray[np.bool_] = near | kink | ~np.isfinite(central)
     return agrees
 
 
-DEPENDENCY_CHECKS = (Check("dependencies", dependencies), Check("derivatives", derivatives))
+DEPENDENCY_CHECKS = (Check("dependencies", check_dependencies), Check("derivatives", check_derivatives))

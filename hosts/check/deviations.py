@@ -17,11 +17,10 @@ from hosts.driving.result import Result
 
 BOUND = 0.01
 """Largest error of a signal over its size, unless another is given."""
-# Of a signal that hardly moves, the least size: shares of its largest value, whose digits a table cuts, and of its
-# nominal value.
-_OF_VALUE = 1e-3
-_OF_NOMINAL = 1e-4
-_TURNED = "with the other sign"
+# Least size of a nearly constant signal: shares of its largest value, which a table rounds, and of its nominal value.
+_SHARE_OF_VALUE = 1e-3
+_SHARE_OF_NOMINAL = 1e-4
+_OTHER_SIGN = "with the other sign"
 
 
 @dataclass(frozen=True)
@@ -31,14 +30,14 @@ class Deviation:
     name: str
     unit: str
     error: float
-    """The largest, in that unit."""
+    """Largest error, in that unit."""
     at: float
-    """Its time, s."""
+    """Time of the largest error, s."""
     range: float
-    """Of the reference, in that unit."""
+    """Range of the reference, in that unit."""
     size: float
-    """Of the signal: that range, or a thousandth of its largest value, or a ten-thousandth of the nominal value,
-    whichever is largest; of an angle that was off by whole turns at most a turn."""
+    """Size of the signal: the largest of that range, a thousandth of its largest value and a ten-thousandth of the
+    nominal value; at most one turn for an angle compared without whole turns."""
     bound: float
     """Largest share of the size that is allowed."""
 
@@ -49,12 +48,12 @@ class Deviation:
 
     @property
     def good(self) -> bool:
-        """Whether it is within its bound; what is not a number is not."""
+        """Whether it is within its bound; NaN is not."""
         return self.share <= self.bound
 
     @property
-    def words(self) -> tuple[str, str, str, str, str]:
-        """The error, its time, the range, the share of it and the bound."""
+    def texts(self) -> tuple[str, str, str, str, str]:
+        """Error, time, range, share of the range and bound as texts."""
         size = number_in(self.range, self.unit, ".3g") + (
             f", taken as {self.size:.3g}" if self.size != self.range else ""
         )
@@ -70,13 +69,13 @@ class Deviation:
 
     def case(self, reference: str) -> Case:
         """The result as a case of a JUnit file."""
-        error, at, size, share, bound = self.words
+        error, at, size, share, bound = self.texts
         message = f"largest error {error} at {at}, {share} of its range in the table of {size}; the bound is {bound}"
         return Case(reference, self.name, "good" if self.good else "bad", message)
 
 
-def bounded(name: str, bounds: Sequence[tuple[str, float]]) -> float:
-    """The bound of a signal: the last whose pattern fits."""
+def bound_of(name: str, bounds: Sequence[tuple[str, float]]) -> float:
+    """The bound of a signal: that of the last pattern that fits."""
     return next((bound for pattern, bound in reversed(bounds) if fnmatch.fnmatchcase(name, pattern)), BOUND)
 
 
@@ -94,23 +93,23 @@ def deviations(
     nominals : mapping of str to float
         Nominal values of the outputs.
     result : Result
-        With a row at each of the times, up to its end; angles (rad) that differ by whole turns are the same.
+        With a row at each of the times, up to its end; angles (rad) are compared up to whole turns.
     times : ndarray of shape (n,)
-        s, not decreasing; of rows of one time the first counts.
+        s, not decreasing; of rows with equal times the first counts.
     columns : mapping of str to ndarray of shape (n,)
         Outputs by name.
     bounds : sequence of (str, float)
-        Patterns of names with bounds; the last that fits counts.
+        Patterns of names with bounds, of which the last that fits counts.
     """
-    table_rows, rows = places(result, times)
+    table_rows, rows = compared_rows(result, times)
     results = [
-        _deviation(name, result, values[table_rows], rows, nominals[name], bounded(name, bounds))
+        _deviation(name, result, values[table_rows], rows, nominals[name], bound_of(name, bounds))
         for name, values in columns.items()
     ]
     return sorted(results, key=lambda d: (d.good, -d.share / (d.bound or 1.0)))
 
 
-def places(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def compared_rows(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Rows of a reference that are compared, and those of the result at the same times."""
     table_rows = np.flatnonzero(np.diff(times, prepend=-math.inf) > 0.0)
     step = result.time[1] - result.time[0] if len(result.time) > 1 else 1.0
@@ -119,23 +118,23 @@ def places(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64
 
 
 def _deviation(
-    name: str, result: Result, wanted: NDArray[np.float64], rows: NDArray[np.int64], nominal: float, bound: float
+    name: str, result: Result, reference: NDArray[np.float64], rows: NDArray[np.int64], nominal: float, bound: float
 ) -> Deviation:
-    span, unit = float(np.ptp(wanted)), result.units[name]
-    size = max(span, _OF_VALUE * float(np.abs(wanted).max()), _OF_NOMINAL * nominal)
+    span, unit = float(np.ptp(reference)), result.units[name]
+    size = max(span, _SHARE_OF_VALUE * float(np.abs(reference).max()), _SHARE_OF_NOMINAL * nominal)
 
-    def of(gap: NDArray[np.float64], size: float) -> Deviation:
-        error = np.where(np.isnan(gap), math.inf, np.abs(gap))
+    def deviation(difference: NDArray[np.float64], size: float) -> Deviation:
+        error = np.where(np.isnan(difference), math.inf, np.abs(difference))
         worst = int(np.argmax(error))
         return Deviation(name, unit, float(error[worst]), float(result.time[rows[worst]]), span, size, bound)
 
-    gap = result[name][rows] - wanted
-    plain = of(gap, size)
+    difference = result[name][rows] - reference
+    direct = deviation(difference, size)
     if unit != "rad":
-        return plain
-    # Without whole turns an angle is off by a share of one, not of many.
-    turned = of(angle_difference(result[name][rows], wanted), min(size, math.tau))
-    return min(plain, turned, key=lambda d: d.share)
+        return direct
+    # Without whole turns the error of an angle is relative to at most one turn.
+    without_turns = deviation(angle_difference(result[name][rows], reference), min(size, math.tau))
+    return min(direct, without_turns, key=lambda d: d.share)
 
 
 def remedies(
@@ -144,38 +143,45 @@ def remedies(
     columns: Mapping[str, NDArray[np.float64]],
     bad: Sequence[Deviation],
 ) -> list[str]:
-    """What signals beyond their bounds would agree with, in sentences: another unit, sign, time or start.
+    """Sentences on how signals beyond their bounds would agree: in another unit, with another sign, time or start.
 
-    `result`, `times`, `columns`: of `deviations`; `bad`: what it has found.
+    `result`, `times`, `columns`: as of `deviations`; `bad`: its results beyond their bounds.
     """
-    table_rows, rows = places(result, times)
-    wanted = {d.name: columns[d.name][table_rows] for d in bad}
+    table_rows, rows = compared_rows(result, times)
+    references = {d.name: columns[d.name][table_rows] for d in bad}
     lines, remaining = [], list(bad)
 
-    def agrees(d: Deviation, values: NDArray[np.float64], wanted: NDArray[np.float64]) -> bool:
-        return bool(np.abs(values - wanted).max() <= d.bound * d.size)
+    def agrees(d: Deviation, values: NDArray[np.float64], reference: NDArray[np.float64]) -> bool:
+        return bool(np.abs(values - reference).max() <= d.bound * d.size)
 
     for d in bad:
         by_unit = [(1.0 / m.factor, m.words) for m in misread(d.unit)]
         by_factor = [(1.0 / m.factor, "another unit") for m in misread("")]
-        why = [(f, f"{f:.4g} times as large: {message}?") for f, message in (*by_unit, *by_factor)] + [(-1.0, _TURNED)]
-        fits = [w for f, w in why if d.range > 0.0 and agrees(d, f * result[d.name][rows], wanted[d.name])]
+        candidates = [(f, f"{f:.4g} times as large: {message}?") for f, message in (*by_unit, *by_factor)] + [
+            (-1.0, _OTHER_SIGN)
+        ]
+        fits = [
+            text for f, text in candidates if d.range > 0.0 and agrees(d, f * result[d.name][rows], references[d.name])
+        ]
         if fits:
             remaining.remove(d)
             lines.append(f"{d.name}: in agreement where the table has it {fits[0]}")
     spacing = int(np.median(np.diff(rows))) if len(rows) > 1 else 1
-    for late in (spacing, -spacing) if remaining else ():
-        inside = (rows >= late) & (rows - late < len(result.time))
-        if inside.sum() > 2 and all(
-            agrees(d, result[d.name][rows[inside] - late], wanted[d.name][inside]) for d in remaining
+    for shift in (spacing, -spacing) if remaining else ():
+        common = (rows >= shift) & (rows - shift < len(result.time))
+        if common.sum() > 2 and all(
+            agrees(d, result[d.name][rows[common] - shift], references[d.name][common]) for d in remaining
         ):
-            how = "later" if late > 0 else "earlier"
-            by = abs(late) * float(result.time[1] - result.time[0])
+            direction = "later" if shift > 0 else "earlier"
+            delay = abs(shift) * float(result.time[1] - result.time[0])
             return [
                 *lines,
-                f"{some_of(d.name for d in remaining)}: in agreement where the table has it {by:g} s {how}, by one row",
+                f"{some_of(d.name for d in remaining)}: in agreement where the table has it {delay:g} s {direction}, "
+                "by one row",
             ]
-    at_once = [d.name for d in remaining if not agrees(d, result[d.name][rows[:1]], wanted[d.name][:1])]
-    if at_once:
-        lines.append(f"off from the first row on: {some_of(at_once)}; does the FMU start as the reference did? (--set)")
+    off_at_start = [d.name for d in remaining if not agrees(d, result[d.name][rows[:1]], references[d.name][:1])]
+    if off_at_start:
+        lines.append(
+            f"off from the first row on: {some_of(off_at_start)}; does the FMU start as the reference did? (--set)"
+        )
     return lines

@@ -16,8 +16,8 @@ from hosts.check.instance import REAL, Check, Finding, Subject
 FUNCTIONS = "functions"
 
 
-def description(subject: Subject) -> Finding:
-    """FMPy's validation: schema, names, start values, structure."""
+def check_description(subject: Subject) -> Finding:
+    """Whether FMPy finds the description valid: schema, names, start values, structure."""
     problems = validate_fmu(str(subject.path))
     if problems:
         return Finding("model description", "bad", f"{len(problems)} problems, the first: {problems[0]}")
@@ -25,58 +25,58 @@ def description(subject: Subject) -> Finding:
     return Finding("model description", "good", f"FMI {subject.description.fmiVersion}, {count} variables")
 
 
-def binaries(subject: Subject) -> Finding:
-    """Whether there is a binary for this machine."""
+def check_binaries(subject: Subject) -> Finding:
+    """Whether the FMU has a binary for this platform."""
     platforms = supported_platforms(str(subject.path))
     message = ", ".join(platforms) or "none"
     return Finding("binaries", "good" if platform in platforms else "bad", message)
 
 
-def functions(subject: Subject) -> Finding:
+def check_functions(subject: Subject) -> Finding:
     """Whether the library can be loaded and has all functions of the standard, under their names."""
-    face = subject.description.coSimulation.modelIdentifier
+    model = subject.description.coSimulation.modelIdentifier
     library = (
         subject.folder
         / "binaries"
-        / (platform_tuple if subject.three else platform)
-        / f"{face}{sharedLibraryExtension}"
+        / (platform_tuple if subject.is_fmi3 else platform)
+        / f"{model}{sharedLibraryExtension}"
     )
 
-    def lacks(message: str) -> Finding:
+    def bad_finding(message: str) -> Finding:
         return Finding(FUNCTIONS, "bad", message, last=True)
 
     try:
-        loaded = marked("dlopen", ctypes.CDLL)(str(library))
+        loaded_library = marked("dlopen", ctypes.CDLL)(str(library))
     except OSError as error:
-        return lacks(f"the library cannot be loaded: {error}{cause_text(error)}")
-    kind, prefix = (FMU3Slave, "fmi3") if subject.three else (FMU2Slave, "fmi2")
-    names = [name for name in dir(kind) if name.startswith(prefix)]
-    missing = [name for name in names if not hasattr(loaded, name)]
+        return bad_finding(f"the library cannot be loaded: {error}{cause_text(error)}")
+    slave_class, prefix = (FMU3Slave, "fmi3") if subject.is_fmi3 else (FMU2Slave, "fmi2")
+    names = [name for name in dir(slave_class) if name.startswith(prefix)]
+    missing = [name for name in names if not hasattr(loaded_library, name)]
     if not missing:
         return Finding(FUNCTIONS, "good", f"the library has all {len(names)}")
-    if hasattr(loaded, f"{face}_{missing[0]}"):
-        return lacks(
-            f"they begin with the prefix {face}_, which those of sources and static libraries have, not those of a "
+    if hasattr(loaded_library, f"{model}_{missing[0]}"):
+        return bad_finding(
+            f"they begin with the prefix {model}_, which those of sources and static libraries have, not those of a "
             f"shared library {subject.clause('2.1.1', '2.2.2')}",
         )
-    return lacks(f"{len(missing)} of {len(names)} are missing: {some_of(missing)} {subject.clause('2.3', '2.5')}")
+    return bad_finding(f"{len(missing)} of {len(names)} are missing: {some_of(missing)} {subject.clause('2.3', '2.5')}")
 
 
-def execution_tool(subject: Subject) -> Finding:
+def check_execution_tool(subject: Subject) -> Finding:
     """Whether the FMU needs no execution tool."""
     if subject.description.coSimulation.needsExecutionTool:
         return Finding("stands alone", "note", "needs another program on the machine that runs it")
     return Finding("stands alone", "good", "needs no other program")
 
 
-def size(subject: Subject) -> Finding:
-    """The size of the file of the FMU."""
+def check_size(subject: Subject) -> Finding:
+    """The file size of the FMU."""
     return Finding("size", "good", f"{subject.path.stat().st_size / 1e6:.2f} MB")
 
 
-def units(subject: Subject) -> Finding:
-    """Variables without a unit."""
-    bare = [
+def check_units(subject: Subject) -> Finding:
+    """Whether all real inputs, outputs and parameters have a unit."""
+    without_unit = [
         v.name
         for v in subject.description.modelVariables
         if v.type in REAL
@@ -84,13 +84,13 @@ def units(subject: Subject) -> Finding:
         and not v.unit
         and not (v.declaredType is not None and v.declaredType.unit)
     ]
-    if bare:
-        return Finding("units", "note", f"{len(bare)} variables have none, such as {bare[0]}")
+    if without_unit:
+        return Finding("units", "note", f"{len(without_unit)} variables have none, such as {without_unit[0]}")
     return Finding("units", "good", "every real variable has one")
 
 
-def folders(subject: Subject) -> Finding:
-    """Documentation, sources and licence."""
+def check_folders(subject: Subject) -> Finding:
+    """Whether documentation, sources and licence are in the FMU."""
     names = {
         "documentation": subject.folder / "documentation" / "index.html",
         "sources": subject.folder / "sources",
@@ -102,10 +102,14 @@ def folders(subject: Subject) -> Finding:
     return Finding("documentation, sources", "good", "documentation, sources and licence are inside")
 
 
-def source_files(subject: Subject) -> Finding:
-    """Source files that the documents name are there."""
+def check_source_files(subject: Subject) -> Finding:
+    """Whether the source files that the documents name are in the FMU."""
     sources = subject.folder / "sources"
-    file_names = [] if subject.face is None else [e.get("name", "") for e in subject.face.iter("File")]
+    file_names = (
+        []
+        if subject.co_simulation_element is None
+        else [e.get("name", "") for e in subject.co_simulation_element.iter("File")]
+    )
     if (build := sources / "buildDescription.xml").exists():
         file_names += [e.get("name", "") for e in ElementTree.parse(build).getroot().iter("SourceFile")]
     missing = [name for name in file_names if not (sources / name).is_file()]
@@ -118,12 +122,12 @@ def source_files(subject: Subject) -> Finding:
 
 
 DOCUMENT_CHECKS = (
-    Check("model description", description, calls=False),
-    Check("binaries", binaries, calls=False),
-    Check(FUNCTIONS, functions, calls=False),
-    Check("stands alone", execution_tool, calls=False),
-    Check("size", size, calls=False),
-    Check("units", units, calls=False),
-    Check("documentation, sources", folders, calls=False),
-    Check("source files", source_files, calls=False),
+    Check("model description", check_description, calls=False),
+    Check("binaries", check_binaries, calls=False),
+    Check(FUNCTIONS, check_functions, calls=False),
+    Check("stands alone", check_execution_tool, calls=False),
+    Check("size", check_size, calls=False),
+    Check("units", check_units, calls=False),
+    Check("documentation, sources", check_folders, calls=False),
+    Check("source files", check_source_files, calls=False),
 )

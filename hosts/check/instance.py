@@ -1,4 +1,4 @@
-"""Shared by the checks of an FMU: the unpacked FMU, its instances, findings."""
+"""The unpacked FMU under check, its instances, and the findings of checks."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
 from hosts.fmu.description_file import DESCRIPTION, opened, read_description
-from hosts.fmu.scalars import Place
+from hosts.fmu.scalars import Scalar
 from hosts.fmu.variables import check_co_simulation, default_step
 
 
@@ -31,26 +31,26 @@ class Finding:
 
     check: str
     verdict: Literal["good", "note", "bad"]
-    """``note``: what the standard leaves open, with its clause."""
+    """``note``: the standard leaves it open."""
     words: str
     last: bool = False
-    """Whether no check can follow that calls functions of the FMU."""
+    """Whether no function of the FMU can be called after it."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """A check, and what its loss says of the FMU."""
+    """A check, and its verdicts where its process crashes or takes too long."""
 
     name: str
     find: Callable[[Subject], Finding]
     calls: bool = True
     """Whether it calls functions of the FMU."""
     crash: Literal["note", "bad"] = "bad"
-    """If its process ends: a note where the check makes calls that the standard does not allow."""
+    """Verdict if its process crashes: a note where the check makes calls that the standard does not allow."""
     late: Literal["note", "bad"] = "bad"
-    """If it takes too long: a note where the standard allows that."""
+    """Verdict if it takes too long: a note where the standard allows that."""
     clause: str = ""
-    """Of FMI, where one of them is a note."""
+    """Clause of FMI, where `crash` or `late` is a note."""
 
 
 @dataclass
@@ -59,67 +59,67 @@ class Subject:
 
     path: Path
     folder: Path
-    """`path`, `folder`: the file, and where it is unpacked."""
+    """`path`, `folder`: the file, and the folder into which it is unpacked."""
     description: ModelDescription
     by_elements: ModelDescription
     """The description with elements of arrays as variables of their own."""
-    places: Mapping[str, Place]
-    """Where the value of each of these stands."""
+    scalars: Mapping[str, Scalar]
+    """Scalars of these variables, by name."""
     steps: int
     """Communication steps per run."""
     step: float
     """Communication step, s."""
     start: Mapping[str, Value] = field(default_factory=dict)
-    """What is set in each instance before it starts; elements of arrays by their names."""
+    """Start values of each instance; elements of arrays by their names."""
 
-    alive: Instance | None = None
-    """The instance of an FMU that may have one in a process."""
-    files: dict[str, tuple[int, int]] | None = None
-    """What lay around the FMU before its first call in this process, if that was looked at: sizes and times by path."""
+    present_instance: Instance | None = None
+    """The present instance of an FMU that allows one per process."""
+    files_before: dict[str, tuple[int, int]] | None = None
+    """Size and time of change of each file around the FMU before its first call in this process, if recorded."""
 
     @property
-    def three(self) -> bool:
-        """Whether it is FMI 3.0."""
+    def is_fmi3(self) -> bool:
+        """Whether the FMU follows FMI 3.0."""
         return str(self.description.fmiVersion).startswith("3")
 
     @property
-    def single(self) -> bool:
-        """Whether a process may have one instance only."""
+    def is_single(self) -> bool:
+        """Whether the FMU allows only one instance per process."""
         return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
 
-    def clause(self, two: str, three: str) -> str:
-        """The clause that a verdict rests on, of the version of FMI that this is."""
-        return f"(FMI {'3.0' if self.three else '2.0'}, {three if self.three else two})"
+    def clause(self, fmi2: str, fmi3: str) -> str:
+        """The clause of the version of FMI that the FMU follows, as a remark in brackets."""
+        return f"(FMI {'3.0' if self.is_fmi3 else '2.0'}, {fmi3 if self.is_fmi3 else fmi2})"
 
     @cached_property
     def root(self) -> ElementTree.Element:
-        """The description as it is written, with what FMPy passes over."""
+        """The root element of the description, with what FMPy does not read."""
         return ElementTree.parse(self.folder / DESCRIPTION).getroot()
 
     @property
-    def face(self) -> ElementTree.Element | None:
-        """Its element of co-simulation."""
+    def co_simulation_element(self) -> ElementTree.Element | None:
+        """The element ``CoSimulation`` of the description, if it has one."""
         return self.root.find("CoSimulation")
 
     @property
     def outputs(self) -> list[ScalarVariable]:
-        """Outputs that are real or whole numbers, the real ones first."""
+        """Real outputs, then integer ones."""
         results = [v for v in self.description.modelVariables if v.causality == "output"]
         return [v for v in results if v.type in REAL] + [v for v in results if v.type in WHOLE]
 
     @property
     def inputs(self) -> list[ScalarVariable]:
-        """Inputs that are real numbers, those of arrays by their elements."""
+        """Real inputs; arrays by their elements."""
         return [v for v in self.by_elements.modelVariables if v.causality == "input" and v.type == "Real"]
 
 
 class NotInstantiatedError(HostError):
-    """The FMU gives no instance."""
+    """The FMU could not be instantiated."""
 
 
 REAL = ("Real", "Float64")
 WHOLE = ("Integer", "Int32")
-"""Types of variables whose values are looked at."""
+"""`REAL`, `WHOLE`: types of variables whose values are checked."""
 NOT_ALLOWED = "FMI does not allow its calls, and says not what follows: FMI 2.0, 4.2.4, and FMI 3.0, 2.3"
 _DISCARD = 2
 _TERMINATED = 3
@@ -130,8 +130,8 @@ def count_of(variable: ScalarVariable) -> int:
     return math.prod(variable.shape or ())
 
 
-def size_of(v: ScalarVariable) -> tuple[float, float]:
-    """A start value of an input, and a change that stays in its range."""
+def start_and_change(v: ScalarVariable) -> tuple[float, float]:
+    """The start value of an input, and a change from it that stays in its range."""
     start = float(v.start or 0.0)
     low, high = (float(end) if end not in (None, "") else sign * np.inf for end, sign in ((v.min, -1), (v.max, 1)))
     span = high - low if np.isfinite(high - low) and high - low < 1e6 else max(1.0, abs(start))
@@ -142,37 +142,37 @@ def size_of(v: ScalarVariable) -> tuple[float, float]:
     return start, 0.5 * (high - start) or start - low
 
 
-def inside(v: ScalarVariable, share: float) -> float:
-    """A value of an input in its range: its start, and a share of its change."""
-    start, change = size_of(v)
+def value_in_range(v: ScalarVariable, share: float) -> float:
+    """A value in the range of an input: its start plus a share of the change of `start_and_change`."""
+    start, change = start_and_change(v)
     return start + share * change
 
 
 def near_start(v: ScalarVariable) -> float:
-    """A value of a variable beside its start, not above its max."""
+    """A value close to the start of a variable, not above its maximum."""
     start, high = float(v.start or 0.0), float(v.max or math.inf)
     change = 1e-3 * max(1.0, abs(start))
     return start + change if start + change <= high else start - change
 
 
 class Instance(instance.Instance):
-    """One instance of the FMU under check, with the values of all its outputs."""
+    """One instance of the FMU under check, with its messages."""
 
     def __init__(
         self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
     ) -> None:
         self.subject, self.ended = subject, False
         self.messages = list[str]()
-        self.chatter = 0
-        """Messages that are of no problem."""
-        if subject.alive is not None:
-            subject.alive.free()
+        self.ok_messages = 0
+        """Number of messages with the status OK."""
+        if subject.present_instance is not None:
+            subject.present_instance.free()
         try:
             super().__init__(
                 subject.by_elements,
                 subject.folder,
                 name,
-                self._hear,
+                self._collect_message,
                 token,
                 resources,
             )
@@ -181,29 +181,29 @@ class Instance(instance.Instance):
         except Exception as error:
             message = f"it is not instantiated {subject.clause('2.1.5', '2.3.1')}: {one_line(str(error))}"
             raise NotInstantiatedError(message) from None
-        subject.alive = self if subject.single else None
+        subject.present_instance = self if subject.is_single else None
 
-    def _hear(self, status: int, category: str, text: str) -> None:
+    def _collect_message(self, status: int, category: str, text: str) -> None:
         self.messages.append(text)
-        self.chatter += status == 0
+        self.ok_messages += status == 0
 
     def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
-        """Set what is to be set and leave initialisation."""
-        self.initialise({self.subject.places[n]: x for n, x in self.subject.start.items()}, start_time, stop_time)
+        """Set the start values and leave initialisation mode."""
+        self.initialise({self.subject.scalars[n]: x for n, x in self.subject.start.items()}, start_time, stop_time)
         return self
 
     def advance(self, time: float, step: float) -> bool:
-        """A step; whether it was made, and not where the FMU asks to end before, as it may."""
+        """Make a communication step; False if the FMU asks to end before it, as it may. `time`, `step`: s."""
         if self.ended:
             return False
         try:
             answer = self.slave.doStep(time, step)
         except FMICallException as error:
-            if self.three or error.status != _DISCARD or not self._asks_to_end():
+            if self.is_fmi3 or error.status != _DISCARD or not self._asks_to_end():
                 raise
             self.ended = True
             return False
-        self.ended = bool(answer[1]) if self.three else False
+        self.ended = bool(answer[1]) if self.is_fmi3 else False
         return True
 
     def _asks_to_end(self) -> bool:
@@ -218,34 +218,40 @@ class Instance(instance.Instance):
             self.slave.terminate()
 
     def reset(self) -> None:
-        """Back to before `start`."""
+        """Return to the state before `start`."""
         super().reset()
         self.ended = False
 
     def restore_bytes(self, content: bytes) -> None:
-        """Go on from a state of `state_bytes`."""
+        """Continue from a state of `state_bytes`."""
         super().restore_bytes(content)
         self.ended = False
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
-        """Values of real variables, then those of whole ones; arrays flattened."""
+        """Values of the real variables, then of the integer ones; arrays are flattened."""
         real = [v for v in variables if v.type in REAL]
         integers = [v for v in variables if v.type in WHOLE]
         values: list[float] = []
-        for members, two, three in ((real, "getReal", "getFloat64"), (integers, "getInteger", "getInt32")):
+        for members, fmi2_function, fmi3_function in (
+            (real, "getReal", "getFloat64"),
+            (integers, "getInteger", "getInt32"),
+        ):
             references = [v.valueReference for v in members]
-            if references and self.three:
-                values += getattr(self.slave, three)(references, sum(map(count_of, members)))
+            if references and self.is_fmi3:
+                values += getattr(self.slave, fmi3_function)(references, sum(map(count_of, members)))
             elif references:
-                values += getattr(self.slave, two)(references)
+                values += getattr(self.slave, fmi2_function)(references)
         return values
 
     def set_input(self, variable: ScalarVariable, value: float) -> None:
         """Set one of `Subject.inputs`."""
-        self.set({self.subject.places[variable.name]: value})
+        self.set({self.subject.scalars[variable.name]: value})
 
     def run(self, steps: int, begin: int = 0, origin: float = 0.0) -> list[list[float]]:
-        """Outputs after each step, up to the end that the FMU asks for; `origin`: the start time."""
+        """Outputs after each of `steps` steps from number `begin` on, up to an end that the FMU asks for.
+
+        `origin`: start time, s.
+        """
         h = self.subject.step
         rows: list[list[float]] = []
         for k in range(begin, begin + steps):
@@ -255,18 +261,18 @@ class Instance(instance.Instance):
         return rows
 
     def free(self) -> None:
-        """Free the instance; the library stays loaded, as for hosts with several instances."""
-        if self.three:
+        """Free the instance; the library stays loaded, as in hosts with several instances."""
+        if self.is_fmi3:
             self.slave.fmi3FreeInstance(self.slave.component)
         else:
             self.slave.fmi2FreeInstance(self.slave.component)
-        self.subject.alive = None
+        self.subject.present_instance = None
 
 
 def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value]) -> Subject:
-    """Read and unpack an FMU."""
+    """Read and unpack an FMU. `steps`: communication steps per run; `start`: start values of each instance."""
     try:
-        description, variables, places = read_description(path, validate=False)
+        description, variables, scalars = read_description(path, validate=False)
         with opened(path) as archive:
             archive.unpack(folder)
     except OSError as error:
@@ -274,4 +280,4 @@ def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value
     check_co_simulation(path, description)
     by_elements = copy.copy(description)
     by_elements.modelVariables = variables
-    return Subject(path, folder, description, by_elements, places, steps, default_step(description), start)
+    return Subject(path, folder, description, by_elements, scalars, steps, default_step(description), start)

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 
 from ali3.files import atomic_file
 
-_MOST = 10_000  # characters of a text
-_NOT_IN_XML = re.compile(r"[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_LONGEST_TEXT = 10_000  # characters
+_FORBIDDEN = re.compile(r"[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 @dataclass(frozen=True)
@@ -24,13 +24,10 @@ class Case:
     """What the line belongs to: the FMU, or the reference."""
     name: str
     verdict: Literal["good", "note", "bad", "skipped", "error"]
-    """``good``, ``note`` where the standard leaves it open, ``bad``.
-
-    ``skipped`` where there is nothing to look at, or ``error`` where that is not possible.
-    """
+    """``note``: the standard leaves it open; ``skipped``: there is nothing to check; ``error``: the check failed."""
     words: str
     seconds: float = 0.0
-    """How long it took."""
+    """Duration."""
 
 
 def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
@@ -46,8 +43,8 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
     }
     numbers = {name: str(count) for name, count in counts.items()}
     seconds = f"{sum(case.seconds for case in cases):.3f}"
-    top = ElementTree.Element("testsuites", {"name": "ali3 check"})
-    suite_element = ElementTree.SubElement(top, "testsuite", {"name": _text(suite), **numbers, "time": seconds})
+    root = ElementTree.Element("testsuites", {"name": "ali3 check"})
+    suite_element = ElementTree.SubElement(root, "testsuite", {"name": _text(suite), **numbers, "time": seconds})
     for case in cases:
         attributes = {"classname": _text(case.group), "name": _text(case.name), "time": f"{case.seconds:.3f}"}
         element = ElementTree.SubElement(suite_element, "testcase", attributes)
@@ -56,11 +53,11 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
         else:
             kind = "failure" if case.verdict == "bad" else case.verdict
             ElementTree.SubElement(element, kind, {"message": _text(case.words)}).text = _text(case.words)
-    ElementTree.indent(top)
+    ElementTree.indent(root)
     with atomic_file(file) as temporary:
-        ElementTree.ElementTree(top).write(temporary, encoding="utf-8", xml_declaration=True)
+        ElementTree.ElementTree(root).write(temporary, encoding="utf-8", xml_declaration=True)
 
 
 def _text(message: str) -> str:
-    """Without characters that XML does not have, and with an end."""
-    return _NOT_IN_XML.sub("?", message[:_MOST])
+    """A message cut to the longest text, with ? in place of characters that XML does not allow."""
+    return _FORBIDDEN.sub("?", message[:_LONGEST_TEXT])

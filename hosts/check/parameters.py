@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from hosts.fmu.settings import Settings
 
 
-def parameters(fmu: Path, options: FmuOptions, out: Path | None, diff: Path | None, show: bool = False) -> int:
-    """Print the parameters of an FMU of FMI 2.0 or 3.0, or what is other in a set, and write them.
+def report_parameters(fmu: Path, options: FmuOptions, out: Path | None, diff: Path | None, show: bool = False) -> int:
+    """Print the parameters of an FMU of FMI 2.0 or 3.0, or their differences from a set, and write them as a set.
 
-    `options`: values that are set in it first; `diff`: parameter set whose other values alone are printed; `show`:
-    whether the table is printed when a set is written too. Returns the exit code.
+    `options`: values that are set first; `out`: file of the written set; `diff`: parameter set of which only differing
+    values are printed; `show`: whether the table is printed also when a set is written. Returns the exit code.
     """
     if out is not None:
         check_writable(out)
@@ -62,11 +62,11 @@ def _print_table(variables: Variables, settings: Settings) -> None:
     _print_rows(rows)
 
 
-def _differences(variables: Variables, mine: Mapping[str, Value], other: Sequence[Setting]) -> list[tuple[str, str]]:
-    rows, theirs = [], {s.variable.name: s.value for s in other}
+def _differences(variables: Variables, values: Mapping[str, Value], other: Sequence[Setting]) -> list[tuple[str, str]]:
+    rows, other_values = [], {s.variable.name: s.value for s in other}
     for name in variables.names:
         v = variables[name]
-        before, after = mine.get(name, v.start), theirs.get(name, mine.get(name, v.start))
+        before, after = values.get(name, v.start), other_values.get(name, values.get(name, v.start))
         if before != after:
             rows.append((name, f"{v.text(before)} -> {v.with_unit(after)}"))
     return rows

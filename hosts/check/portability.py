@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 from ali3.call_mark import marked
 from hosts.check.instance import NOT_ALLOWED, REAL, Check, Finding, Instance, NotInstantiatedError, Subject
 
-# Names whose last part says that the value is a whole number.
+# Last parts of names of variables that are whole numbers.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
 _LICENCES = ("license.txt", "license.html", "license.spdx")
-_FAR = 1e16
+_FAR_TIME = 1e16
 _INNER_STEPS = 1e9
 _NO_LIMIT = "FMI sets no time for a step: FMI 2.0, 4.2.2, and FMI 3.0, 4.2.1"
 _OK = 0
@@ -21,28 +21,28 @@ _WARNING = 1
 _ERROR = 3
 _SHORT_STEP = 0.5
 _DISCARD = 2
-_TRIES = 40
-_COARSE = 10
-_STRONG = 100.0
+_REFUSABLE_STEPS = 40
+_COARSE_STEP = 10
+_STRONG_INPUT = 100.0
 
 
-def one_spelling(subject: Subject) -> Finding:
-    """Units that are equal under two names."""
-    spelt = [u.name for u in subject.description.unitDefinitions]
-    twice = [name for name, count in Counter(map(_plain, spelt)).items() if count > 1]
-    if twice:
-        names = " and ".join(f"'{name}'" for name in spelt if _plain(name) == twice[0])
+def check_unit_names(subject: Subject) -> Finding:
+    """Whether no unit has two names."""
+    unit_names = [u.name for u in subject.description.unitDefinitions]
+    repeated = [name for name, count in Counter(map(_unit_key, unit_names)).items() if count > 1]
+    if repeated:
+        names = " and ".join(f"'{name}'" for name in unit_names if _unit_key(name) == repeated[0])
         message = f"one unit under two names: {names}; FMI asks for different names only"
         return Finding("unit names", "note", f"{message} {subject.clause('2.2.2', '2.4.3')}")
-    return Finding("unit names", "good", f"{len(spelt)}, each under one name")
+    return Finding("unit names", "good", f"{len(unit_names)}, each under one name")
 
 
-def _plain(unit: str) -> str:
+def _unit_key(unit: str) -> str:
     return unit.replace("·", ".").replace("*", ".").replace(" ", ".").replace("^", "")
 
 
-def whole_numbers(subject: Subject) -> Finding:
-    """Counts and levels that are real numbers."""
+def check_whole_numbers(subject: Subject) -> Finding:
+    """Whether counts and levels are integers."""
     results = [
         v.name for v in subject.description.modelVariables if v.type in REAL and v.name.rpartition(".")[2] in _COUNTS
     ]
@@ -52,8 +52,8 @@ def whole_numbers(subject: Subject) -> Finding:
     return Finding("whole numbers", "good", "counts and levels are integers")
 
 
-def about_the_file(subject: Subject) -> Finding:
-    """Rights, date, descriptions, typical sizes, dependencies of the initial state."""
+def check_metadata(subject: Subject) -> Finding:
+    """Whether the description has rights, date, distinct descriptions, nominal values and initial dependencies."""
     root = subject.root
     missing = [name for name in ("author", "copyright", "license") if not root.get(name)]
     faults = [f"no {', '.join(missing)}"] if missing else []
@@ -83,14 +83,14 @@ def about_the_file(subject: Subject) -> Finding:
     return Finding("about the file", "good", f"rights, date, distinct descriptions, typical sizes; {sentence}")
 
 
-def build_files(subject: Subject) -> Finding:
-    """Whether sources of FMI 3.0 that use the mathematical library say so."""
+def check_build_description(subject: Subject) -> Finding:
+    """Whether the build description of FMI 3.0 names the mathematical library that the sources use."""
     sources = subject.folder / "sources"
     description = sources / "buildDescription.xml"
     uses_mathematics = any(
         "#include <math.h>" in f.read_text(encoding="utf-8", errors="replace") for f in sources.rglob("*.c")
     )
-    if not (subject.three and uses_mathematics):
+    if not (subject.is_fmi3 and uses_mathematics):
         return Finding("build description", "good", "not needed")
     is_named = description.exists() and any(
         e.get("name") == "m" for e in ElementTree.parse(description).getroot().iter("Library")
@@ -101,11 +101,11 @@ def build_files(subject: Subject) -> Finding:
     return Finding("build description", "note", f"{message} {subject.clause('2.3', '2.4.10')}")
 
 
-def time_anywhere(subject: Subject) -> Finding:
-    """FMI 3.0: the variable time beside others, and twice."""
+def check_time(subject: Subject) -> Finding:
+    """Whether the variable time of FMI 3.0 can be read with others and twice in one call."""
     time = [v for v in subject.description.modelVariables if v.causality == "independent"]
     single = [v for v in subject.outputs if v.type == "Float64" and not v.dimensions]
-    if not subject.three or not time:
+    if not subject.is_fmi3 or not time:
         return Finding("time", "good", "no variable of its own")
     instance = Instance(subject).start()
     instance.run(2)
@@ -123,8 +123,8 @@ def time_anywhere(subject: Subject) -> Finding:
     return Finding("time", "bad", message)
 
 
-def quiet_steps(subject: Subject) -> Finding:
-    """A communication step of half the default one is no warning."""
+def check_short_step(subject: Subject) -> Finding:
+    """Whether a communication step of half the default one gives no warning."""
     if not subject.description.coSimulation.canHandleVariableCommunicationStepSize:
         return Finding("quiet steps", "good", "only the one step size is allowed")
     instance = Instance(subject).start()
@@ -138,10 +138,10 @@ def quiet_steps(subject: Subject) -> Finding:
     return Finding("quiet steps", "good", "half the default step is no warning")
 
 
-def careless_calls(subject: Subject) -> Finding:
-    """An empty name, an unknown log category, values too early, a step beyond the end: refused.
+def check_careless_calls(subject: Subject) -> Finding:
+    """Whether an empty name, an unknown log category and reads before initialisation are refused.
 
-    FMI says of the last alone what an FMU has to do; that of FMI 3.0 gives start values before its initialisation.
+    FMI does not require it; an FMU of FMI 3.0 may give start values before its initialisation.
     """
     accepted = []
     try:
@@ -167,8 +167,8 @@ def careless_calls(subject: Subject) -> Finding:
     return Finding("careless calls", "good", "empty names, unknown categories and early reads are refused")
 
 
-def stop_time(subject: Subject) -> Finding:
-    """A step beyond a stop time that was set is an error; few exporters do so, and no host relies on it."""
+def check_stop_time(subject: Subject) -> Finding:
+    """Whether a step beyond a stop time that was set is an error; few exporters do so, and no host relies on it."""
     ended = Instance(subject).start(stop_time=2.0 * subject.step)
     ended.run(1)
     status = _step_status(ended, subject.step, 2.0 * subject.step)
@@ -178,23 +178,23 @@ def stop_time(subject: Subject) -> Finding:
     return Finding("stop time", "good", "a step beyond it is refused")
 
 
-def any_path(subject: Subject) -> Finding:
-    """The folder of the resources may have blanks and letters that are no ASCII."""
+def check_resource_path(subject: Subject) -> Finding:
+    """Whether the path of the resources may have blanks and characters outside ASCII."""
     folder = subject.folder / "of a user, m\u00fcller"
     source = subject.folder / "resources"
     if not folder.exists():
         shutil.copytree(source, folder) if source.is_dir() else folder.mkdir()
     try:
-        Instance(subject, resources=f"{folder}{os.sep}" if subject.three else folder.as_uri())
+        Instance(subject, resources=f"{folder}{os.sep}" if subject.is_fmi3 else folder.as_uri())
     except NotInstantiatedError:
         message = f"it is not instantiated with resources in a folder named '{folder.name}'; decode their location"
         return Finding("resource paths", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("resource paths", "good", "blanks and letters that are no ASCII are taken")
 
 
-def capital_scheme(subject: Subject) -> Finding:
-    """The scheme of a URI may be written in capitals."""
-    if subject.three:
+def check_uri_scheme(subject: Subject) -> Finding:
+    """Whether the scheme of a URI may be written in capitals."""
+    if subject.is_fmi3:
         return Finding("resources", "good", "FMI 3.0 gives a path")
     uri = (subject.folder / "resources").as_uri()
     Instance(subject, resources=uri)
@@ -208,8 +208,8 @@ def capital_scheme(subject: Subject) -> Finding:
     return Finding("resources", "good", "the scheme of their location may be in capitals")
 
 
-def arrays(subject: Subject) -> Finding:
-    """FMI 3.0: variables with dimensions, which some hosts read as zeros without a message."""
+def check_arrays(subject: Subject) -> Finding:
+    """Whether all variables are scalars; some hosts read arrays of FMI 3.0 as zeros without a message."""
     results = [v.name for v in subject.description.modelVariables if getattr(v, "dimensions", None)]
     if results:
         message = f"{len(results)} variables are arrays, such as {results[0]}; some hosts read them as zeros silently"
@@ -217,13 +217,13 @@ def arrays(subject: Subject) -> Finding:
     return Finding("arrays", "good", "every variable is a scalar")
 
 
-def refused_steps(subject: Subject) -> Finding:
-    """A host that asks for a refused step again and again is stopped."""
+def check_refused_steps(subject: Subject) -> Finding:
+    """Whether a step that was refused several times becomes an error, so that a host does not repeat it endlessly."""
     instance = Instance(subject).start()
-    for k in range(_TRIES):
+    for k in range(_REFUSABLE_STEPS):
         for v in subject.inputs:
-            instance.set_input(v, float(v.max if v.max is not None else _STRONG))
-        time, step = k * _COARSE * subject.step, _COARSE * subject.step
+            instance.set_input(v, float(v.max if v.max is not None else _STRONG_INPUT))
+        time, step = k * _COARSE_STEP * subject.step, _COARSE_STEP * subject.step
         statuses = [_step_status(instance, time, step)]
         if statuses[0] != _DISCARD:
             if statuses[0] > _DISCARD:
@@ -237,51 +237,53 @@ def refused_steps(subject: Subject) -> Finding:
     return Finding("refused steps", "good", "none was refused with strong inputs")
 
 
-def far_clock(subject: Subject) -> Finding:
-    """Where the clock cannot follow a step, it is refused."""
+def check_far_time(subject: Subject) -> Finding:
+    """Whether a step that is lost in the round-off of the time is refused."""
     instance = Instance(subject)
     try:
-        instance.start(start_time=_FAR)
+        instance.start(start_time=_FAR_TIME)
     except Exception:
-        return Finding("far from zero", "good", f"a start at {_FAR:g} s is refused")
-    status = _step_status(instance, _FAR, subject.step)
+        return Finding("far from zero", "good", f"a start at {_FAR_TIME:g} s is refused")
+    status = _step_status(instance, _FAR_TIME, subject.step)
     if status < _ERROR:
-        message = f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands; FMI does not speak of it"
+        message = (
+            f"a step of {subject.step:g} s at {_FAR_TIME:g} s is taken, its clock stands; FMI does not speak of it"
+        )
         return Finding("far from zero", "note", f"{message} {subject.clause('4.2.2', '4.2.1')}")
-    return Finding("far from zero", "good", f"a step of {subject.step:g} s at {_FAR:g} s is refused")
+    return Finding("far from zero", "good", f"a step of {subject.step:g} s at {_FAR_TIME:g} s is refused")
 
 
-def long_steps(subject: Subject) -> Finding:
-    """A communication step that would take hours comes back."""
+def check_long_step(subject: Subject) -> Finding:
+    """Whether the FMU answers a communication step that would take hours."""
     length = _INNER_STEPS * 0.999 * subject.step
     status = _step_status(Instance(subject).start(), 0.0, length)
     return Finding("long steps", "good", f"a step of {length:g} s is answered in time, with status {status}")
 
 
 def _step_status(instance: Instance, time: float, step: float) -> int:
-    """Status of a step, a warning too, which FMPy passes over."""
+    """Status of a step; FMPy does not report warnings."""
     slave, begin, length = instance.slave, c_double(time), c_double(step)
-    if not instance.three:
-        two = marked("fmi2DoStep", slave.dll.fmi2DoStep)
-        return int(two(c_void_p(slave.component), begin, length, c_int(1)))
-    three = marked("fmi3DoStep", slave.dll.fmi3DoStep)
+    if not instance.is_fmi3:
+        fmi2_do_step = marked("fmi2DoStep", slave.dll.fmi2DoStep)
+        return int(fmi2_do_step(c_void_p(slave.component), begin, length, c_int(1)))
+    fmi3_do_step = marked("fmi3DoStep", slave.dll.fmi3DoStep)
     pointers = [*(byref(c_bool()) for _ in range(3)), byref(c_double())]
-    return int(three(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
+    return int(fmi3_do_step(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
 
 
 PORTABILITY_CHECKS = (
-    Check("unit names", one_spelling, calls=False),
-    Check("whole numbers", whole_numbers, calls=False),
-    Check("about the file", about_the_file, calls=False),
-    Check("build description", build_files, calls=False),
-    Check("time", time_anywhere),
-    Check("quiet steps", quiet_steps),
-    Check("careless calls", careless_calls, crash="note", late="note", clause=NOT_ALLOWED),
-    Check("stop time", stop_time),
-    Check("resource paths", any_path),
-    Check("resources", capital_scheme, crash="note", clause="capitals of a scheme are of RFC 3986, 3.1"),
-    Check("arrays", arrays, calls=False),
-    Check("refused steps", refused_steps, late="note", clause=_NO_LIMIT),
-    Check("far from zero", far_clock, late="note", clause=_NO_LIMIT),
-    Check("long steps", long_steps, late="note", clause=_NO_LIMIT),
+    Check("unit names", check_unit_names, calls=False),
+    Check("whole numbers", check_whole_numbers, calls=False),
+    Check("about the file", check_metadata, calls=False),
+    Check("build description", check_build_description, calls=False),
+    Check("time", check_time),
+    Check("quiet steps", check_short_step),
+    Check("careless calls", check_careless_calls, crash="note", late="note", clause=NOT_ALLOWED),
+    Check("stop time", check_stop_time),
+    Check("resource paths", check_resource_path),
+    Check("resources", check_uri_scheme, crash="note", clause="capitals of a scheme are of RFC 3986, 3.1"),
+    Check("arrays", check_arrays, calls=False),
+    Check("refused steps", check_refused_steps, late="note", clause=_NO_LIMIT),
+    Check("far from zero", check_far_time, late="note", clause=_NO_LIMIT),
+    Check("long steps", check_long_step, late="note", clause=_NO_LIMIT),
 )

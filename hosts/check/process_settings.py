@@ -12,7 +12,7 @@ from hosts.check.instance import Check, Finding, Instance, Subject
 from hosts.check.process_state import LINUX, files_around
 
 _STATUS = Path("/proc/self/status")
-_GLOBAL = ("2.1", "2.2.1")
+_CLAUSES = ("2.1", "2.2.1")
 
 
 def _float_control() -> tuple[int, int]:
@@ -41,7 +41,7 @@ def _c_locale() -> str:
 
 
 def _environment() -> dict[str, str]:
-    """As C sees it."""
+    """Environment variables as the C library has them."""
     if not LINUX:
         return {}
     results, entries, k = {}, ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ"), 0
@@ -94,14 +94,14 @@ _SETTINGS: dict[str, tuple[Callable[[], object], str]] = {
 }
 
 
-def settings(subject: Subject) -> Finding:
-    """Settings of the process are as they were, after each kind of call."""
-    subject.files = files_around(subject)
+def check_settings(subject: Subject) -> Finding:
+    """Whether settings of the process are unchanged after each kind of call."""
+    subject.files_before = files_around(subject)
     folder = Path.cwd()
-    interrupt = signal.signal(signal.SIGINT, signal.default_int_handler)  # that of a host that can be stopped
+    interrupt = signal.signal(signal.SIGINT, signal.default_int_handler)  # as in a host that Ctrl-C stops
     streams = [os.dup(k) for k in range(3)]
     try:
-        return _settings(subject)
+        return _find_change(subject)
     finally:
         for k, stream in enumerate(streams):
             os.dup2(stream, k)
@@ -110,7 +110,7 @@ def settings(subject: Subject) -> Finding:
         os.chdir(folder)
 
 
-def _settings(subject: Subject) -> Finding:
+def _find_change(subject: Subject) -> Finding:
     before = {name: read() for name, (read, _) in _SETTINGS.items()}
     instance = Instance(subject)
     calls: list[tuple[str, Callable[[], object]]] = [
@@ -125,13 +125,13 @@ def _settings(subject: Subject) -> Finding:
         call()
         for name, (read, remedy) in _SETTINGS.items():
             if (now := read()) != before[name]:
-                message = f"{name} changed from {_short(before[name], now)} by {label}; {remedy}"
-                return Finding("process settings", "bad", f"{message} {subject.clause(*_GLOBAL)}")
+                message = f"{name} changed from {_change_text(before[name], now)} by {label}; {remedy}"
+                return Finding("process settings", "bad", f"{message} {subject.clause(*_CLAUSES)}")
     return Finding("process settings", "good", f"left alone: {', '.join(_SETTINGS)}")
 
 
-def _short(before: object, now: object) -> str:
-    """The differing parts of two values."""
+def _change_text(before: object, now: object) -> str:
+    """The differing parts of two values, as text."""
     if isinstance(before, dict) and isinstance(now, dict):
         name = next(n for n in {**before, **now} if before.get(n) != now.get(n))
         return f"{name} {before.get(name, 'unset')} to {now.get(name, 'unset')}"
@@ -140,5 +140,5 @@ def _short(before: object, now: object) -> str:
     return f"{before} to {now}"
 
 
-SETTING_CHECKS = (Check("process settings", settings),)
-"""Before all others: calls change the process for good."""
+SETTING_CHECKS = (Check("process settings", check_settings),)
+"""To be run before all others: no later check can restore the settings."""

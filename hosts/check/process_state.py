@@ -17,21 +17,21 @@ from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject
 
 _WARM_UP_STEPS = 30
 _MEASURED_STEPS = 120
-_BUDGET = 1.0  # s of measured steps
-_PATIENCE = 10.0  # s for instances
-_LEAK = 8_000  # bytes a step
-_PER_INSTANCE = 30_000  # bytes an instance
+_BUDGET = 1.0  # s, of measured steps
+_PATIENCE = 10.0  # s, for all instances
+_LEAK = 8_000  # bytes per step
+_PER_INSTANCE = 30_000  # bytes per instance
 _INSTANCES = 20
-_REST = 0.3  # s between calls
-_LONGEST_REST = 3.0  # s between calls, at most
-_IDLE = 0.03  # s of processor time between calls
-_SLOW = 10.0  # times its step that a step may take
+_REST = 0.3  # s, between calls
+_LONGEST_REST = 3.0  # s, between calls
+_IDLE = 0.03  # s, largest processor time between calls
+_SLOW = 10.0  # largest wall time over the step
 LINUX = sys.platform == "linux"
 _FORMAT = re.compile(r"%(?!%)[-+ #0-9.*hlLqjzt]*([a-zA-Z])")
 
 
 def _memory() -> int:
-    """Bytes in the heap and in mappings that are resident."""
+    """Resident memory, bytes; 0 where it is not known."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if LINUX else 0
 
 
@@ -48,7 +48,7 @@ def _descriptors() -> int:
     return len(list(Path("/proc/self/fd").iterdir())) if LINUX else 0
 
 
-# memory last: a thread has some too
+# memory last: a thread takes memory too
 _COSTS: dict[str, tuple[Callable[[], int], float, str, str]] = {
     "processes": (_children, 0.5, "processes", "wait for those that it begins"),
     "threads": (_threads, 0.5, "threads", "end the threads of a step"),
@@ -57,20 +57,20 @@ _COSTS: dict[str, tuple[Callable[[], int], float, str, str]] = {
 }
 
 
-def _costs() -> list[int]:
-    """Processes, threads, descriptors and bytes of this process now."""
+def _present_costs() -> list[int]:
+    """Present numbers of child processes, threads, descriptors and bytes of this process."""
     return [read() for read, *_ in _COSTS.values()]
 
 
-def costs_of_steps(subject: Subject) -> Finding:
-    """Memory, threads and descriptors do not grow with steps."""
+def check_costs_of_steps(subject: Subject) -> Finding:
+    """Whether processes, threads, descriptors and memory do not grow with steps."""
     instance, rows = Instance(subject).start(), list[list[int]]()
     begin, steps = time.perf_counter(), 0
     for k in range(_WARM_UP_STEPS + _MEASURED_STEPS):
         if not instance.advance(k * subject.step, subject.step):
             break
         if k >= _WARM_UP_STEPS // 3 and (k - _WARM_UP_STEPS // 3) % 10 == 0:
-            rows.append(_costs())
+            rows.append(_present_costs())
         steps = k + 1
         if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
             break
@@ -80,18 +80,18 @@ def costs_of_steps(subject: Subject) -> Finding:
     return Finding("costs of steps", "good", f"{', '.join(_COSTS)} stay over {steps} steps")
 
 
-def _growth(rows: list[list[int]], of: str) -> str:
-    """What of the costs grows with what was done ten times between the rows, or nothing."""
-    for column, (name, (_, most, unit, remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
+def _growth(rows: list[list[int]], operation: str) -> str:
+    """The first cost that grows per operation, as text; empty if none does. `rows`: costs after each ten operations."""
+    for column, (name, (_, limit, unit, remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
         growth = [(later - earlier) / 10.0 for earlier, later in pairwise(column)]
         rate = sorted(growth)[len(growth) // 2] if growth else 0.0
-        if rate > most:
-            return f"{name} grow by {rate:g} {unit} {of}; {remedy}"
+        if rate > limit:
+            return f"{name} grow by {rate:g} {unit} {operation}; {remedy}"
     return ""
 
 
-def costs_of_states(subject: Subject) -> Finding:
-    """Memory, threads and descriptors do not grow with states that are freed."""
+def check_costs_of_states(subject: Subject) -> Finding:
+    """Whether processes, threads, descriptors and memory do not grow with states that are freed."""
     if not subject.description.coSimulation.canGetAndSetFMUstate:
         return Finding("costs of states", "good", "there are none")
     instance, rows = Instance(subject).start(), list[list[int]]()
@@ -99,7 +99,7 @@ def costs_of_states(subject: Subject) -> Finding:
     begin = time.perf_counter()
     for k in range(100):
         if k % 10 == 0:
-            rows.append(_costs())
+            rows.append(_present_costs())
             if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
                 break
         state = instance.state()
@@ -110,11 +110,11 @@ def costs_of_states(subject: Subject) -> Finding:
     return Finding("costs of states", "good", "states that are freed leave nothing")
 
 
-def costs_of_instances(subject: Subject) -> Finding:
-    """Memory, threads and descriptors do not grow with instances that are freed."""
-    if subject.single:
+def check_costs_of_instances(subject: Subject) -> Finding:
+    """Whether processes, threads, descriptors and memory do not grow with instances that are freed."""
+    if subject.is_single:
         return Finding("costs of instances", "good", "one per process is allowed")
-    marks: list[list[int]] = []
+    rows: list[list[int]] = []
     begin = time.perf_counter()
     for k in range(_INSTANCES):
         if time.perf_counter() - begin > _PATIENCE:
@@ -126,19 +126,19 @@ def costs_of_instances(subject: Subject) -> Finding:
         instance.free()
         if k % 5 == 4:
             del instance
-            gc.collect()  # what Python holds of them
-            marks.append(_costs())
-    for column, (name, (_, most, unit, _r)) in zip(zip(*marks, strict=True), _COSTS.items(), strict=True):
+            gc.collect()  # frees what Python still holds of them
+            rows.append(_present_costs())
+    for column, (name, (_, limit, unit, _remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
         rate = (column[-1] - column[0]) / (_INSTANCES - 5)
-        if rate > max(most, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
+        if rate > max(limit, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
             message = f"{name} grow by {rate:g} {unit} an instance that is freed; release them there"
             verdict: Literal["note", "bad"] = "note" if name == "memory" else "bad"
             return Finding("costs of instances", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("costs of instances", "good", "instances that are freed leave nothing")
 
 
-def time_of_steps(subject: Subject) -> Finding:
-    """A step takes no more than some times its length, and nothing works between calls."""
+def check_time_of_steps(subject: Subject) -> Finding:
+    """Whether a step takes at most some times its length, and no thread is busy between calls."""
     instance = Instance(subject).start()
     times = []
     for k in range(5):
@@ -147,7 +147,9 @@ def time_of_steps(subject: Subject) -> Finding:
             break
         times.append(time.perf_counter() - begin)
     busy, rest, begin = 0.0, 0.0, time.process_time()
-    while rest < _LONGEST_REST and (rest == 0.0 or 0.1 * _IDLE < busy < _IDLE):  # what works may wait for others
+    while rest < _LONGEST_REST and (
+        rest == 0.0 or 0.1 * _IDLE < busy < _IDLE
+    ):  # a busy thread may wait for the processor
         time.sleep(_REST)
         busy, rest = time.process_time() - begin, rest + _REST
     clause = subject.clause("4.2.2", "4.2.1")
@@ -156,16 +158,16 @@ def time_of_steps(subject: Subject) -> Finding:
             f"{busy:.3f} s of processor time are used in {rest:.1f} s between calls; stop threads while no call is made"
         )
         return Finding("time of steps", "note", f"{message} {clause}")
-    middle = sorted(times)[len(times) // 2] if times else 0.0
-    if middle > max(_SLOW * subject.step, 0.05) or middle > 0.09:
-        message = f"a step of {subject.step:g} s takes {middle:.3g} s, {middle / subject.step:.3g} times as long; "
+    median = sorted(times)[len(times) // 2] if times else 0.0
+    if median > max(_SLOW * subject.step, 0.05) or median > 0.09:
+        message = f"a step of {subject.step:g} s takes {median:.3g} s, {median / subject.step:.3g} times as long; "
         return Finding("time of steps", "note", f"{message}FMI sets no time for a step {clause}")
     return Finding("time of steps", "good", "in time")
 
 
 @contextmanager
 def _captured() -> Iterator[list[bytes]]:
-    """A context that collects text written to the two standard streams in a list."""
+    """A context that collects what is written to standard output and standard error in a list."""
     results: list[bytes] = []
     descriptors = [os.dup(k) for k in (1, 2)]
     with tempfile.TemporaryFile() as stream:
@@ -183,7 +185,7 @@ def _captured() -> Iterator[list[bytes]]:
 
 
 def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
-    """Sizes and times of change of files, by path, where those of an FMU could lie and nobody else writes."""
+    """Sizes and times of change, by path, of files in folders to which only the FMU should write."""
     temporary = Path(tempfile.gettempdir())
     own_folders = {temporary} if temporary.name.startswith(("ali3", "tmp")) else set()
     results = {}
@@ -197,9 +199,9 @@ def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
     return results
 
 
-def outside(subject: Subject) -> Finding:
-    """Prints and files of a run."""
-    before = files_around(subject) if subject.files is None else subject.files
+def check_files_and_prints(subject: Subject) -> Finding:
+    """Whether a run prints nothing and writes no files."""
+    before = files_around(subject) if subject.files_before is None else subject.files_before
     with _captured() as printed:
         instance = Instance(subject).start()
         instance.run(min(subject.steps, 10))
@@ -207,12 +209,14 @@ def outside(subject: Subject) -> Finding:
         instance.free()
     after = files_around(subject)
     changed = [name for name in after if after[name] != before.get(name)]
-    gone = [name for name in before if name not in after]
+    removed = [name for name in before if name not in after]
     text = printed[0].decode("utf-8", "replace").strip()
     faults = []
-    if changed or gone:
-        one = (changed or gone)[0]
-        faults.append(f"{len(changed) + len(gone)} files were written, such as {Path(one).name}; keep state in memory")
+    if changed or removed:
+        example = (changed or removed)[0]
+        faults.append(
+            f"{len(changed) + len(removed)} files were written, such as {Path(example).name}; keep state in memory"
+        )
     if text:
         faults.append(f"prints {text.splitlines()[0][:60]!r}; give messages to the host's logger")
     if faults:
@@ -220,32 +224,32 @@ def outside(subject: Subject) -> Finding:
     return Finding("files and prints", "good", "none")
 
 
-def messages(subject: Subject) -> Finding:
-    """Messages are formats that need no arguments that FMI does not give, and are not many."""
+def check_messages(subject: Subject) -> Finding:
+    """Whether messages have no format directives without arguments, have category and text, and are few."""
     instance = Instance(subject)
     with suppress(Exception):
         instance.slave.setDebugLogging(True, [])
     instance.start()
     rows = instance.run(5)
     with suppress(Exception):
-        (instance.slave.getFloat64 if subject.three else instance.slave.getReal)([4_000_000_000])
-    for text in instance.raw:
+        (instance.slave.getFloat64 if subject.is_fmi3 else instance.slave.getReal)([4_000_000_000])
+    for text in instance.raw_messages:
         letters = set(_FORMAT.findall(text))
-        if "n" in letters or (subject.three and letters & set("sn")):
+        if "n" in letters or (subject.is_fmi3 and letters & set("sn")):
             message = (
                 f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
             )
-            verdict: Literal["note", "bad"] = "note" if subject.three else "bad"
+            verdict: Literal["note", "bad"] = "note" if subject.is_fmi3 else "bad"
             return Finding("messages", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
     quiet, message_count, message = Instance(subject).start(), len(instance.messages), ""
     quiet.run(5)
     if message_count > 20 * max(1, len(rows)):
         message = f"{message_count} in {len(rows)} steps; say what repeats once"
-    elif instance.without_text:
-        message = f"{instance.without_text} have no category or text; give both"
-    elif quiet.chatter:
+    elif instance.incomplete_messages:
+        message = f"{instance.incomplete_messages} have no category or text; give both"
+    elif quiet.ok_messages:
         message = (
-            f"logging is off, and {quiet.chatter} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
+            f"logging is off, and {quiet.ok_messages} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
         )
     if message:
         return Finding("messages", "note", f"{message} {subject.clause('2.1.5', '2.3.1')}")
@@ -253,10 +257,10 @@ def messages(subject: Subject) -> Finding:
 
 
 PROCESS_CHECKS = (
-    Check("files and prints", outside),
-    Check("costs of steps", costs_of_steps),
-    Check("costs of instances", costs_of_instances),
-    Check("costs of states", costs_of_states),
-    Check("time of steps", time_of_steps, late="note", clause="FMI sets no time for a step"),
-    Check("messages", messages, crash="note", clause=NOT_ALLOWED),
+    Check("files and prints", check_files_and_prints),
+    Check("costs of steps", check_costs_of_steps),
+    Check("costs of instances", check_costs_of_instances),
+    Check("costs of states", check_costs_of_states),
+    Check("time of steps", check_time_of_steps, late="note", clause="FMI sets no time for a step"),
+    Check("messages", check_messages, crash="note", clause=NOT_ALLOWED),
 )

@@ -21,7 +21,7 @@ _KINDS = {
 
 
 def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
-    """Write the cases as one run, each a result of the rule that its check is.
+    """Write the cases as one run with a rule for each check and a result for each case.
 
     `file`: whole or not at all; its folder is made. Raises `FileError`: the file cannot be written.
     """

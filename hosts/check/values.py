@@ -6,15 +6,15 @@ from typing import Literal
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ScalarVariable
 
-from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject, inside, near_start
+from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject, near_start, value_in_range
 
 _BEGIN = 10.0  # s
-_ROUND = 1e-9  # of a value: round-off of who writes and who reads it
+_ROUND_OFF = 1e-9  # of a value that is written and read back as text
 _VERSION = {"2.0": ("fmi2GetVersion", b"2.0"), "3.0": ("fmi3GetVersion", b"3.0")}
 
 
 def _scalars(subject: Subject, *causalities: str) -> list[ScalarVariable]:
-    """Numbers that are no arrays."""
+    """Real and integer scalars of these causalities."""
     return [
         v
         for v in subject.description.modelVariables
@@ -22,19 +22,19 @@ def _scalars(subject: Subject, *causalities: str) -> list[ScalarVariable]:
     ]
 
 
-def _initialising(subject: Subject) -> Instance:
-    """An instance in initialisation mode, in which nothing was set."""
+def _initialising_instance(subject: Subject) -> Instance:
+    """A new instance in initialisation mode."""
     instance = Instance(subject)
-    if not subject.three:
+    if not subject.is_fmi3:
         instance.slave.setupExperiment(startTime=0.0)
     instance.slave.enterInitializationMode()
     return instance
 
 
-def start_values(subject: Subject) -> Finding:
-    """What is read before anything was set is what the description says."""
+def check_start_values(subject: Subject) -> Finding:
+    """Whether values read before any is set are the start values of the description."""
     started = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
-    instance, rounded = _initialising(subject), ""
+    instance, rounded = _initialising_instance(subject), ""
     for v in started:
         stated, value = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
         if value != stated:
@@ -42,7 +42,7 @@ def start_values(subject: Subject) -> Finding:
                 f"{v.name} reads {value:.17g} before it is set, and its start is {stated:.17g}; give it that value"
             )
             message += f" {subject.clause('2.2.7', '2.4.7')}"
-            if not math.isclose(value, stated, rel_tol=_ROUND):
+            if not math.isclose(value, stated, rel_tol=_ROUND_OFF):
                 return Finding("start values", "bad", message)
             rounded = rounded or message
     if rounded:
@@ -50,43 +50,45 @@ def start_values(subject: Subject) -> Finding:
     return Finding("start values", "good", f"{len(started)} read as they are described")
 
 
-def set_values(subject: Subject) -> Finding:
-    """A real number that was set in initialisation mode is read back."""
-    instance, count = _initialising(subject), 0
+def check_set_values(subject: Subject) -> Finding:
+    """Whether real numbers set in initialisation mode are read back, and inputs keep their values over a step."""
+    instance, count = _initialising_instance(subject), 0
     for v in _scalars(subject, "input", "parameter"):
         if v.type not in REAL or v.variability == "constant":
             continue
         value = near_start(v)
         try:
-            instance.set({subject.places[v.name]: value})
-        except FMICallException:  # it may refuse a value
-            instance = _initialising(subject)
+            instance.set({subject.scalars[v.name]: value})
+        except FMICallException:  # an FMU may refuse a value
+            instance = _initialising_instance(subject)
             continue
-        results, count = instance.get([v])[0], count + 1
-        if results != value:
-            message = f"{v.name} was set to {value:.9g} without a message and reads {results:.9g}; take it or refuse it"
+        read_value, count = instance.get([v])[0], count + 1
+        if read_value != value:
+            message = (
+                f"{v.name} was set to {value:.9g} without a message and reads {read_value:.9g}; take it or refuse it"
+            )
             verdict: Literal["note", "bad"] = "note" if instance.messages else "bad"
             return Finding("set values", verdict, f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
-    return _kept_inputs(subject) or Finding("set values", "good", f"{count} are read back")
+    return _finding_of_changed_input(subject) or Finding("set values", "good", f"{count} are read back")
 
 
-def _kept_inputs(subject: Subject) -> Finding | None:
-    """An input that a step changes."""
+def _finding_of_changed_input(subject: Subject) -> Finding | None:
+    """The finding on an input that a step changes; None if there is none."""
     instance = Instance(subject).start()
     inputs = [v for v in _scalars(subject, "input") if v.type in REAL]
     for k, v in enumerate(inputs):
-        value = inside(v, 0.37)
+        value = value_in_range(v, 0.37)
         instance.set_input(v, value)
         if not instance.advance(k * subject.step, subject.step):
             break
-        if not math.isclose(after := instance.get([v])[0], value, rel_tol=_ROUND):
+        if not math.isclose(after := instance.get([v])[0], value, rel_tol=_ROUND_OFF):
             message = f"{v.name} was set to {value:.9g} and reads {after:.9g} after a step; it stays until it is set"
             return Finding("set values", "bad", f"{message} {subject.clause('4.2.1', '2.2.7.2')}")
     return None
 
 
-def ranges(subject: Subject) -> Finding:
-    """Outputs stay between their min and max, and reading changes nothing."""
+def check_ranges(subject: Subject) -> Finding:
+    """Whether outputs stay between their minimum and maximum."""
     bounded = [v for v in _scalars(subject, "output") if v.min or v.max]
     instance = Instance(subject).start()
     for k in range(subject.steps):
@@ -101,33 +103,33 @@ def ranges(subject: Subject) -> Finding:
     return Finding("ranges", "good", f"{len(bounded)} outputs with a range keep to it")
 
 
-def reads_twice(subject: Subject) -> Finding:
-    """Reading an output again gives the same."""
+def check_repeated_reads(subject: Subject) -> Finding:
+    """Whether values are the same in a second read and in a read with reversed references."""
     instance = Instance(subject).start()
     instance.run(2)
-    once, twice = instance.get(subject.outputs), instance.get(subject.outputs)
-    if any(a != b and a == a for a, b in zip(once, twice, strict=True)):
-        k = next(k for k, (a, b) in enumerate(zip(once, twice, strict=True)) if a != b)
+    first, second = instance.get(subject.outputs), instance.get(subject.outputs)
+    if any(a != b and a == a for a, b in zip(first, second, strict=True)):
+        k = next(k for k, (a, b) in enumerate(zip(first, second, strict=True)) if a != b)
         message = (
-            f"an output reads {once[k]:g} and then {twice[k]:g} with no call in between; a read must change nothing"
+            f"an output reads {first[k]:g} and then {second[k]:g} with no call in between; a read must change nothing"
         )
         return Finding("reads twice", "bad", f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
     single = [v for v in _scalars(subject, "input", "output") if v.type in REAL]
-    forward, back = instance.get(single), instance.get(single[::-1])[::-1]
-    for v, a, b in zip(single, forward, back, strict=True):
+    forward, backward = instance.get(single), instance.get(single[::-1])[::-1]
+    for v, a, b in zip(single, forward, backward, strict=True):
         if a != b and a == a:
             message = f"{v.name} reads {a:.9g}, and {b:.9g} where the references are asked for the other way round"
             return Finding("reads twice", "bad", f"{message}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
     return Finding("reads twice", "good", "the same")
 
 
-def ends(subject: Subject) -> Finding:
-    """A run is ended without an error, and the version is that of the description."""
+def check_termination(subject: Subject) -> Finding:
+    """Whether a run terminates without an error, and the library reports the version of the description."""
     instance = Instance(subject).start()
     instance.run(2)
-    name, version = _VERSION["3.0" if subject.three else "2.0"]
+    name, version = _VERSION["3.0" if subject.is_fmi3 else "2.0"]
     result = getattr(instance.slave, name)()
-    if result != version and not (subject.three and bytes(result).startswith(b"3.")):
+    if result != version and not (subject.is_fmi3 and bytes(result).startswith(b"3.")):
         message = f"{name} answers {bytes(result).decode(errors='replace')}, not {version.decode()}"
         return Finding("end", "bad", f"{message} {subject.clause('2.1.4', '2.2.5')}")
     if not instance.ended:
@@ -139,8 +141,8 @@ def ends(subject: Subject) -> Finding:
     return Finding("end", "good", "terminates; the version is right")
 
 
-def start_time(subject: Subject) -> Finding:
-    """A run that begins at another time than zero."""
+def check_start_time(subject: Subject) -> Finding:
+    """Whether a run can begin at another time than zero."""
     instance, clause = Instance(subject), subject.clause("2.1.6", "2.3.3")
     try:
         instance.start(start_time=_BEGIN)
@@ -157,9 +159,9 @@ def start_time(subject: Subject) -> Finding:
     return Finding("start time", "good", f"{count} steps from {_BEGIN:g} s")
 
 
-def answers_of_steps(subject: Subject) -> Finding:
-    """FMI 3.0: what a step says of itself: its last time, no early return or events that were not allowed."""
-    if not subject.three:
+def check_step_results(subject: Subject) -> Finding:
+    """Whether a step of FMI 3.0 reports its end, and no early return or event that was not allowed."""
+    if not subject.is_fmi3:
         return Finding("answers of steps", "good", "of FMI 3.0 alone")
     instance = Instance(subject).start()
     for k in range(4):
@@ -179,11 +181,11 @@ def answers_of_steps(subject: Subject) -> Finding:
 
 
 VALUE_CHECKS = (
-    Check("start values", start_values),
-    Check("set values", set_values),
-    Check("ranges", ranges),
-    Check("reads twice", reads_twice),
-    Check("start time", start_time),
-    Check("answers of steps", answers_of_steps),
-    Check("end", ends),
+    Check("start values", check_start_values),
+    Check("set values", check_set_values),
+    Check("ranges", check_ranges),
+    Check("reads twice", check_repeated_reads),
+    Check("start time", check_start_time),
+    Check("answers of steps", check_step_results),
+    Check("end", check_termination),
 )

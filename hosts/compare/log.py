@@ -21,7 +21,7 @@ from hosts.compare.log_file import RawLog
 from hosts.compare.log_times import FEWEST_SAMPLES, TIMES, log_times, name_hint, time_column
 from hosts.compare.repeated_samples import rows_of_a_value
 from hosts.compare.spikes import spike_text, spikes
-from hosts.driving.missed_inputs import counted
+from hosts.driving.missed_inputs import count_text
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.named_fmu import NamedFmu
@@ -75,7 +75,7 @@ def log_for(
             fmu, signal if ours in inputs else _without_repeated_values(fmu, signal, column_notes), column_notes
         )
     if jumps := {n: s.jumps for n, s in signals.items() if len(s.jumps)}:
-        counts = counted(jumps, np.concatenate([*jumps.values()]))
+        counts = count_text(jumps, np.concatenate([*jumps.values()]))
         notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {counts}.")
     for name, signal in signals.items():
         if len(signal.time) < FEWEST_SAMPLES:

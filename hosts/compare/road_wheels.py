@@ -41,7 +41,7 @@ def steering_at_angle(fmu: FmuSource, start: Mapping[str, Value], angle: Signal)
     compliant column or frame turns its wheels under load by less than `angle`, as the car does.
     """
     steering = np.linspace(-1.0, 1.0, _POINTS)
-    angles = fmu.done_apart(_wheel_angles, (dict(start), steering), NDArray[np.float64], start)
+    angles = fmu.run_isolated(_wheel_angles, (dict(start), steering), NDArray[np.float64], start)
     increments = np.diff(angles)
     if not (increments > 0.0).all():
         raise HostError(f"{fmu.path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")

@@ -116,7 +116,7 @@ def reference_point(fmu: FmuSource, start: Mapping[str, Value]) -> tuple[float, 
 
     `start`: start values; those of pose and speed are not used. Zero where the FMU does not provide the position.
     """
-    return fmu.done_apart(_reference_point, dict(start), tuple[float, float], start)
+    return fmu.run_isolated(_reference_point, dict(start), tuple[float, float], start)
 
 
 def _reference_point(task: tuple[FmuSource, dict[str, Value]], tell: Callable[[float], None]) -> tuple[float, float]:

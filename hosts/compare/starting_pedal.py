@@ -21,7 +21,7 @@ def starting_pedals(fmu: FmuSource, segments: Sequence[Segment], step: float) ->
     `step`: communication step, s. A positive pedal is that of the throttle, a negative one that of the brake; 1 or -1
     where the measured speed is not reached.
     """
-    pedals = fmu.done_apart(_solve_pedals, (list(segments), step), list[float | None], {})
+    pedals = fmu.run_isolated(_solve_pedals, (list(segments), step), list[float | None], {})
     return [s if pedal is None else _with_pedal(s, pedal) for s, pedal in zip(segments, pedals, strict=True)]
 
 

@@ -1,4 +1,4 @@
-"""The co-simulation loop: inputs in, a communication step, outputs out."""
+"""The co-simulation loop of one FMU: set inputs, make a communication step, read outputs."""
 
 import math
 import time as clock
@@ -22,11 +22,11 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.driving.steady_throttle import with_change_of_speed, with_throttle
 from hosts.fmu.fmu import StepRefusedError
 
-_BETWEEN = 0.1  # s between two words on the progress
+_PROGRESS_PERIOD = 0.1  # s
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-    """Sets inputs, and those of the parameters that have changed: setting one may be costly."""
+    """A function that sets inputs, and only those parameters that have changed, because setting one may be costly."""
     tunable = set(fmu.tunable)
     inputs = [k for k, n in enumerate(names) if n not in tunable]
     set_inputs = fmu.setter([names[k] for k in inputs])
@@ -43,18 +43,18 @@ def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float
     return set_values
 
 
-def _line_follower(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-    """Sets slopes of inputs for the next step; nothing where all are zero, which they are after each step."""
+def _slope_setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+    """A function that sets slopes of inputs for the next step, unless all are zero, as they are after each step."""
     set_slopes = fmu.slope_setter(names)
 
-    def follow(slopes: Sequence[float]) -> None:
+    def set_nonzero_slopes(slopes: Sequence[float]) -> None:
         if any(slopes):
             set_slopes(slopes)
 
-    return follow
+    return set_nonzero_slopes
 
 
-def _not_finite(time: float, acts: Mapping[str, float], observation: Mapping[str, float]) -> str:
+def _not_finite_text(time: float, acts: Mapping[str, float], observation: Mapping[str, float]) -> str:
     act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
     sense = next((f": the output {n} of the FMU is {x}" for n, x in observation.items() if not math.isfinite(x)), "")
     return f"At {time:.4g} s the driver asks for {act}{sense}."
@@ -74,11 +74,11 @@ def run(
     until: Callable[[float, Mapping[str, float]], bool] | None = None,
     every: int = 1,
     last: bool = False,
-    kept: Path | None = None,
+    file: Path | None = None,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
-    If the manoeuvre asks for a throttle, it is found first, in the same instance, which is reset after that.
+    If the manoeuvre requires a steady throttle, it is found first in the same instance, which is then reset.
 
     Real inputs of its table are linear between its rows where the FMU follows input derivatives. Parameters, whole
     numbers, inputs that a driver acts on and all inputs of other FMUs are held over each step.
@@ -88,77 +88,76 @@ def run(
     fmu : SimulatedFmu
         Not yet initialised.
     manoeuvre : Manoeuvre
-        Its table, start values and stop time.
+        With its table, start values and stop time.
     step : float
         Communication step, s.
     driver : Pilot, optional
-        Overrules the inputs it acts on, which are those of its first act.
+        Replaces the inputs of its first act in the table.
     progress : callable
-        Called with the number of finished steps ten times a second, unless steps are longer.
+        Called with the number of finished steps, at most ten times a second.
     until : callable, optional
-        Of the time and the outputs; the run ends with the first step after which it is true.
+        Function of the time and the outputs; the run ends with the first step after which it is true.
     every : int
-        Steps from one recorded row to the next. In the others those outputs are read that the driver uses.
+        Steps from one recorded row to the next; after other steps only outputs that the driver uses are read.
     last : bool
-        Whether the last step of a run that is not refused has a row in any case, which then comes sooner than the
-        others. (What an FMU that has refused a step answers need not be that of a time.)
-    kept : Path, optional
-        See `RecordedRows`.
+        Whether the last step always has a row, unless the FMU has refused it.
+    file : Path, optional
+        File of the rows, see `RecordedRows`.
 
     Returns
     -------
     Result
-        Up to the first refused step. Its derived columns have the rates of both sides, unless `kept` has the rows.
+        Up to the first refused step. Rates among its derived columns are central differences, unless `file` is given.
     """
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
     if manoeuvre.find_throttle:
         manoeuvre = with_throttle(run, fmu, manoeuvre, step)
-        return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last, kept))
+        return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last, file))
     inputs, outputs = columns_of(fmu, manoeuvre)
-    whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
+    integers = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
     observation = Observation(fmu, outputs)
 
-    start = {**manoeuvre.start, **manoeuvre.initial(whole)}
+    start = {**manoeuvre.start, **manoeuvre.initial(integers)}
     fmu.initialise(start)
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
     acts = driver.act(0.0, observation) if driver is not None else {}
     refuse_missing([n for n in acts if n not in inputs], fmu.path.name)
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
-    fixed = {*whole, *acts, *manoeuvre.held, *fmu.tunable}
-    straight = [n for n in manoeuvre.inputs if n not in fixed] if fmu.follows_slopes else []
-    set_inputs, follow = _setter(fmu, used), _line_follower(fmu, straight)
+    held = {*integers, *acts, *manoeuvre.held, *fmu.tunable}
+    linear = [n for n in manoeuvre.inputs if n not in held] if fmu.follows_slopes else []
+    set_inputs, set_slopes = _setter(fmu, used), _slope_setter(fmu, linear)
     steps = max(1, round(manoeuvre.stop_time / step))
-    end = missed_end(manoeuvre.stop_time, steps, step) if until is None else None
+    missed_end_note = missed_end(manoeuvre.stop_time, steps, step) if until is None else None
     rows = RecordedRows(
         observation,
-        _at_start(fmu, inputs, start),
+        _start_inputs(fmu, inputs, start),
         [inputs.index(n) for n in used],
-        [inputs.index(n) for n in straight],
-        [float(np.abs(manoeuvre.inputs[n]).max()) for n in straight],
+        [inputs.index(n) for n in linear],
+        [float(np.abs(manoeuvre.inputs[n]).max()) for n in linear],
         every,
         steps,
-        kept,
+        file,
     )
-    begin = due = clock.perf_counter()
+    begin = next_progress = clock.perf_counter()
     for k in range(steps):
         t = k * step
-        input_values = manoeuvre.at(t, whole)
+        input_values = manoeuvre.at(t, integers)
         if driver is not None:
             acts = acts if k == 0 else driver.act(t, observation)
             if not all(map(math.isfinite, acts.values())):
-                raise FailedFmuError(_not_finite(t, acts, observation))
+                raise FailedFmuError(_not_finite_text(t, acts, observation))
             input_values |= acts
         values = [input_values[n] for n in used]
         if used:
             set_inputs(values)
         rows.begin(values)
-        if straight:
-            next_values = manoeuvre.at(t + step, whole, before=True)
-            changes = [next_values[n] - input_values[n] for n in straight]
-            rows.move([next_values[n] for n in straight], changes)
-            follow([change / step for change in changes])
+        if linear:
+            next_values = manoeuvre.at(t + step, integers, before=True)
+            changes = [next_values[n] - input_values[n] for n in linear]
+            rows.move([next_values[n] for n in linear], changes)
+            set_slopes([change / step for change in changes])
         try:
             fmu.step(manoeuvre.state_time + t, step)
         except StepRefusedError:
@@ -166,14 +165,14 @@ def run(
             break
         observation.stepped()
         rows.end()
-        if (now := clock.perf_counter()) >= due:
-            due = now + _BETWEEN
+        if (now := clock.perf_counter()) >= next_progress:
+            next_progress = now + _PROGRESS_PERIOD
             progress(rows.done)
             alive()
         if until is not None and until(rows.done * step, observation):
             break
     wall = clock.perf_counter() - begin
-    lost = missed_inputs(manoeuvre, step, straight, whole, acts)
+    missed_inputs_note = missed_inputs(manoeuvre, step, linear, integers, acts)
     progress(rows.done)
     recorded, table = rows.close(last)
     names = inputs + outputs
@@ -186,19 +185,23 @@ def run(
         simulated=rows.done * step,
         failed_steps=int(rows.refused),
         messages=list(fmu.messages),
-        held=[n for n in inputs if n not in straight],
-        late=[n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
+        held=[n for n in inputs if n not in linear],
+        late=[
+            n for n in used if n not in {*linear, *integers, *fmu.tunable} and (n in acts or n not in manoeuvre.held)
+        ],
         jumps=rows.jumps,
         lost=[n for k, n in enumerate(inputs) if k in rows.lost],
-        missed=[change for change in (manoeuvre.late_begin(acts), lost, end) if change is not None],
+        missed=[
+            change for change in (manoeuvre.late_begin(acts), missed_inputs_note, missed_end_note) if change is not None
+        ],
         start=dict(manoeuvre.start),
     )
-    if kept is None:
+    if file is None:
         derive_columns(result, fmu, every > 1)
     return result
 
 
-def _at_start(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> list[float]:
+def _start_inputs(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> list[float]:
     """Values of inputs after the initialisation with start values."""
     values: list[float] = fmu.start_values(inputs).tolist()
     for k, name in enumerate(inputs):

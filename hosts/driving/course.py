@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 
 from ali3.iso_3888 import Gate
 
-# How far the path's curves reach into the lanes, m: it widens the bends and uses little of the room beside the car.
+# Length by which curves of the path extend into the lanes, m: bends are wider, at little cost in lateral space.
 EASE = 5.0
 ROWS = 1.0
-"""How far rows may be apart that show whether lanes were kept, m; in bends of 20 m what is between is 6 mm aside."""
+"""Largest distance of rows that show whether lanes were kept, m; in a bend of 20 m a chord of it is off by 6 mm."""
 
 
 @dataclass(frozen=True)
 class Course:
-    """Gates in the order they are passed."""
+    """A course of gates in the order in which they are passed."""
 
     name: str
     gates: tuple[Gate, ...]
@@ -42,17 +42,17 @@ class Course:
 
     @cached_property
     def _changes(self) -> list[tuple[float, float, float]]:
-        """Where each quintic begins, its length and how far it goes to the left, m."""
+        """Begin, length and lateral offset (positive to the left) of each quintic, m."""
         return [
             (before.x_end - EASE, after.x_start - before.x_end + 2.0 * EASE, after.centre - before.centre)
             for before, after in pairwise(self.gates)
         ]
 
     def not_driven(self, x: NDArray[np.float64], length: float) -> str:
-        """What of the lanes a vehicle has not driven, as a sentence without its end; empty: it has driven all.
+        """The first lane that a vehicle has not driven, as a sentence without a full stop; empty if it has driven all.
 
-        `x`: centre of the vehicle, m, shape (n,); `length`: m. It begins before the first lane, comes to each, and is
-        wholly behind the last one at its end, with rows that show what was in between.
+        `x`: centre of the vehicle, m, shape (n,); `length`: of the vehicle, m. It must begin before the first lane,
+        reach each lane, and end behind the last one, with rows close enough in between.
         """
         if not len(x):
             return "no lane was driven"
@@ -73,19 +73,18 @@ class Course:
     def corners_outside(
         self, x: NDArray[np.float64], y: NDArray[np.float64], yaw: NDArray[np.float64], length: float, width: float
     ) -> float:
-        """How far a rectangle driven along a path leaves the gates at most.
+        """The largest distance of a rectangle driven along a path outside of the gates, m; negative: a margin inside.
 
-        `x`, `y`, `yaw`: centre of the rectangle and heading, m and rad, shape (n,); `length`, `width`: in m. Result: in
-        m; zero or less: it stays inside, by that margin.
+        `x`, `y`, `yaw`: centre of the rectangle and heading, m and rad, shape (n,); `length`, `width`: m.
         """
-        worst = -np.inf
-        for a in (-0.5 * length, 0.5 * length):
-            for b in (-0.5 * width, 0.5 * width):
-                cx = x + a * np.cos(yaw) - b * np.sin(yaw)
-                cy = y + a * np.sin(yaw) + b * np.cos(yaw)
+        largest = -np.inf
+        for along in (-0.5 * length, 0.5 * length):
+            for across in (-0.5 * width, 0.5 * width):
+                cx = x + along * np.cos(yaw) - across * np.sin(yaw)
+                cy = y + along * np.sin(yaw) + across * np.cos(yaw)
                 for gate in self.gates:
                     inside = (cx >= gate.x_start) & (cx <= gate.x_end)
                     if inside.any():
-                        out = np.maximum(cy[inside] - gate.y_left, gate.y_right - cy[inside])
-                        worst = max(worst, float(out.max()))
-        return worst
+                        excess = np.maximum(cy[inside] - gate.y_left, gate.y_right - cy[inside])
+                        largest = max(largest, float(excess.max()))
+        return largest

@@ -18,7 +18,7 @@ from viewer.looks import LOOKS
 Array = NDArray[np.float64]
 
 _WIDTH = 0.15  # m, of lines
-# sections of a circle, at least and at most; between these limits one a metre
+# limits of the number of sections of a circle; between them one per metre
 _FEWEST = 72
 _MOST = 3600
 
@@ -26,8 +26,8 @@ _MOST = 3600
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
     """A scene with the cones of a course that a driver follows, on its roads.
 
-    `scene`: roads with the values that were set; `course`: in earth axes. Returns the scene with cones in its scenery;
-    where the height of its road is not known they stand in `missing` instead.
+    `scene`: with settings applied to its roads; `course`: in earth axes. Returns the scene with cones in its scenery,
+    or with an entry in `missing` if the height of its road is not known.
     """
     return with_marks(
         scene, [lanes([astuple(gate) for gate in course.gates], (0.0, 0.0, 0.0))], f"cones of {course.name}"
@@ -35,25 +35,25 @@ def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
 
 
 def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> dict[str, Any]:
-    """A scene with marks on its roads; `name` is that of `missing` where they cannot be put there."""
-    scenery = things_of(marks)
-    flat = np.array([p for thing in scenery for p in thing.get("points", [thing.get("at")])], float).reshape(-1, 2)
+    """A scene with marks on its roads. `name`: of the entry in `missing`, if heights are unknown."""
+    scenery = scenery_of(marks)
+    flat = np.array([p for entry in scenery for p in entry.get("points", [entry.get("at")])], float).reshape(-1, 2)
     points = np.column_stack([flat, _heights(scene.get("roads", []), *flat.T)])
     if not np.all(np.isfinite(points)):
-        why = "they are put onto level roads, planes, kerbs and within grids of heights and terrains only"
-        return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}
-    remaining = iter(points.tolist())
+        reason = "they are put onto level roads, planes, kerbs and within grids of heights and terrains only"
+        return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": reason}]}
+    positions = iter(points.tolist())
     scenery = [
-        thing | ({"at": next(remaining)} if "at" in thing else {"points": [next(remaining) for _ in thing["points"]]})
-        for thing in scenery
+        entry | ({"at": next(positions)} if "at" in entry else {"points": [next(positions) for _ in entry["points"]]})
+        for entry in scenery
     ]
     return dict(scene) | ({"scenery": [*scene.get("scenery", []), *scenery]} if scenery else {})
 
 
-def things_of(marks: Sequence[Mark]) -> list[Mark]:
-    """Cones and lines, of which scenes are made, for marks.
+def scenery_of(marks: Sequence[Mark]) -> list[Mark]:
+    """The cones and lines of a scenery that draw marks.
 
-    Raises `ValueError`, `KeyError`, `TypeError` or `OverflowError`: they are no marks.
+    Raises `ValueError`, `KeyError`, `TypeError` or `OverflowError`: the marks are not valid.
     """
     scenery = []
     for mark in marks:
@@ -77,7 +77,7 @@ def things_of(marks: Sequence[Mark]) -> list[Mark]:
 
 
 def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
-    """Heights of the roads at n places, m; NaN where that takes more than a formula."""
+    """Heights of the roads at n points, m; NaN on roads that are not supported."""
     values = np.zeros(len(x))
     for road in roads:
         if road["kind"] == "flat":
@@ -101,14 +101,16 @@ def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
 
 
 def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array, border: float) -> Array:
-    """Linear between four points of the grid, m; beyond it that of its edge, from `border`, m, on NaN."""
+    """Bilinear heights of a grid, m; beyond it those of its edge, and NaN farther than `border`, m."""
     nx, ny = road["shape"]
     i, j = ((value - start) / step for value, start, step in zip((x, y), road["origin"], road["spacing"], strict=True))
-    cells = np.clip(i, 0, nx - 1), np.clip(j, 0, ny - 1)
-    beyond = np.maximum(*(np.abs(k - at) * step for k, at, step in zip((i, j), cells, road["spacing"], strict=True)))
-    i, j = cells
+    inside = np.clip(i, 0, nx - 1), np.clip(j, 0, ny - 1)
+    distance = np.maximum(
+        *(np.abs(k - limit) * step for k, limit, step in zip((i, j), inside, road["spacing"], strict=True))
+    )
+    i, j = inside
     heights = decoded(road["heights"], "f").reshape(nx, ny)
     a, b = np.minimum(i.astype(int), nx - 2), np.minimum(j.astype(int), ny - 2)
     u, v = i - a, j - b
     lower, upper = (heights[k, b] * (1.0 - v) + heights[k, b + 1] * v for k in (a, a + 1))
-    return np.where(beyond <= border, lower * (1.0 - u) + upper * u, math.nan)
+    return np.where(distance <= border, lower * (1.0 - u) + upper * u, math.nan)

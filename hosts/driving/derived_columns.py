@@ -1,4 +1,4 @@
-"""Columns of a run that are computed from others: once more at its end, when the next row of each is known."""
+"""Derived columns of a run, recomputed at its end with central differences."""
 
 import numpy as np
 
@@ -7,9 +7,9 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 
 
 def derive_columns(result: Result, fmu: SimulatedFmu, thinned: bool = False) -> None:
-    """Compute the derived columns of a run again, from the inputs that ended each step; its values change.
+    """Recompute the derived columns of a run in place, from the inputs at the end of each step.
 
-    `thinned`: whether steps are left out; then rates of the run are better, and only those that are NaN are written.
+    `thinned`: whether rows of steps are left out; then rates of the run are more accurate, and only NaN are replaced.
     """
     if not any(name in result.names for name in fmu.derived):
         return

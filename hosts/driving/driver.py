@@ -23,15 +23,15 @@ CONSTANTS = {
     "vehicle_length": "vehicle.length",
     "vehicle_width": "vehicle.width",
 }
-"""Numbers of the car that a driver needs: setting and the constant of the FMU that has it."""
+"""Settings of a driver that are constants of the FMU, and the names of these."""
 
 
 def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> Driver:
     """Driver from the ``[driver]`` section of a manoeuvre and the constants of the FMU.
 
     `settings`: ``course`` and the fields of `DriverSettings`; they take precedence over the constants of the FMU;
-    `constants`: constants of the FMU by name; see `CONSTANTS`. Raises `HostError` if a setting is not known, no number,
-    or missing both there and in the FMU.
+    `constants`: constants of the FMU by name; see `CONSTANTS`. Raises `HostError` if a setting is unknown, not a
+    number, or missing both there and in the FMU.
     """
     numbers = {name: constants[constant] for name, constant in CONSTANTS.items() if constant in constants}
     setting_names = {f.name for f in fields(DriverSettings)}
@@ -66,31 +66,30 @@ def with_settings(
 ) -> Manoeuvre:
     """The manoeuvre with settings of its driver in place of its own.
 
-    `settings`: by name; the car starts at another `speed` where `names`, those of the FMU's variables, have a parameter
-    for it, and a slower one has more time, whole
-    seconds, so that it comes as far; `stop_time`: that was asked for, s, and stays.
-    Raises `HostError` if there is no driver.
+    `settings`: by name; `speed` is also that at the start, if it is a parameter among `names`, the variables of the
+    FMU, and a lower one extends the stop time, in whole seconds, for the same distance; `stop_time`: requested, s,
+    which is not extended. Raises `HostError` if the manoeuvre has no driver.
     """
     if settings and not manoeuvre.driver:
         raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
     driver = {**manoeuvre.driver, **{name: repr(value) for name, value in settings.items()}}
-    start, speed, longest = dict(manoeuvre.start), settings.get("speed", 0.0), manoeuvre.stop_time
+    start, speed, duration = dict(manoeuvre.start), settings.get("speed", 0.0), manoeuvre.stop_time
     if speed > 0.0:
         if INITIAL_SPEED in names:
             start[INITIAL_SPEED] = speed
-        before = manoeuvre.start.get(INITIAL_SPEED)
-        if stop_time is None and isinstance(before, (int, float)):
-            longest = max(longest, math.ceil(longest * before / speed))
-    return replace(manoeuvre, driver=driver, start=start, stop_time=longest)
+        table_speed = manoeuvre.start.get(INITIAL_SPEED)
+        if stop_time is None and isinstance(table_speed, (int, float)):
+            duration = max(duration, math.ceil(duration * table_speed / speed))
+    return replace(manoeuvre, driver=driver, start=start, stop_time=duration)
 
 
-def check_drivable(inputs: Collection[str], outputs: Collection[str], whose: str) -> None:
-    """Raises `HostError`: a driver has nothing to act with, or to sense. `whose`: how messages call the FMU."""
-    refuse_missing([n for n in ACTS if n not in inputs] + [n for n in OBSERVED if n not in outputs], whose)
+def check_drivable(inputs: Collection[str], outputs: Collection[str], subject: str) -> None:
+    """Raises `HostError` if a driver lacks inputs or outputs of the FMU. `subject`: the FMU, for messages."""
+    refuse_missing([n for n in ACTS if n not in inputs] + [n for n in OBSERVED if n not in outputs], subject)
 
 
 def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
-    """The driver of a manoeuvre, who knows what the FMU reports of its car; None where inputs are given over time.
+    """The driver of a manoeuvre with the constants of the FMU; None if the manoeuvre has no driver.
 
     Raises `HostError` if the FMU is not a car for a driver, or a setting is wrong or missing.
     """

@@ -50,7 +50,7 @@ class Manoeuvre:
         return self.at(0.0, held)
 
     def late_begin(self, acts: Collection[str] = ()) -> tuple[str, str] | None:
-        """The note on a table that begins after 0 s, or None. `acts`: inputs that a driver controls."""
+        """A note, subject and text, on a table that begins after 0 s, or None. `acts`: inputs of a driver."""
         first_row = [f"{name} at {values[0]:g}" for name, values in self.inputs.items() if name not in acts]
         if not first_row or self.time[0] <= ON_TIME:
             return None
@@ -59,8 +59,8 @@ class Manoeuvre:
     def at(self, t: float, held: Collection[str] = (), before: bool = False) -> dict[str, float]:
         """Inputs at time `t`, s; outside the table those of its first or last row.
 
-        `held`: more inputs that are constant from row to row, such as integers; `before`: whether values at a jump are
-        those before it.
+        `held`: further inputs that are constant from row to row, such as integers; `before`: whether values at a jump
+        are those before it.
         """
         held = {*held, *self.held}
         # Times are sums with rounding errors, which must not hide a jump.
@@ -72,7 +72,7 @@ class Manoeuvre:
         t0, t1 = self.time[k - 1], self.time[k]
         s = min(max(t - t0, 0.0) / (t1 - t0), 1.0)
         return {
-            name: float(v[k - 1]) if name in held else _between(float(v[k - 1]), float(v[k]), float(s))
+            name: float(v[k - 1]) if name in held else _interpolate(float(v[k - 1]), float(v[k]), float(s))
             for name, v in self.inputs.items()
         }
 
@@ -88,9 +88,9 @@ class Manoeuvre:
         return np.asarray((1.0 - fraction) * values[lower] + fraction * values[upper])
 
 
-def _between(one: float, other: float, part: float) -> float:
-    value = one + part * (other - one)
-    return value if math.isfinite(value) else (1.0 - part) * one + part * other  # the difference may overflow
+def _interpolate(start: float, end: float, fraction: float) -> float:
+    value = start + fraction * (end - start)
+    return value if math.isfinite(value) else (1.0 - fraction) * start + fraction * end  # the difference may overflow
 
 
 def digest(manoeuvre: Manoeuvre) -> str:
@@ -110,6 +110,6 @@ def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:
     """The manoeuvre with one name for each start value: of a key ``a | b`` the first name among `names`, else ``a``."""
     start = {}
     for key, value in manoeuvre.start.items():
-        choice = [name.strip() for name in key.split("|")]
-        start[next((name for name in choice if name in names), choice[0])] = value
+        candidates = [name.strip() for name in key.split("|")]
+        start[next((name for name in candidates if name in names), candidates[0])] = value
     return replace(manoeuvre, start=start)

@@ -23,13 +23,13 @@ from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 from hosts.driving.state_file import read_state
 
 SUFFIXES = (".toml", ".csv")
-"""Of files that hold manoeuvres."""
+"""Suffixes of files of manoeuvres."""
 
 
 def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     """Read a manoeuvre by name or path.
 
-    `manoeuvre`: name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has
+    `manoeuvre`: name of a manoeuvre of the package, or a file in TOML or CSV; see `read_table`. A TOML file has
     ``stop_time`` in s, ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time``
     and each input, ``held``, a list of those that keep a value up to the next time, ``find_throttle``, true
     where the throttle is the one that holds the speed of the start, and a ``[state]`` of the FMU to begin with:
@@ -54,9 +54,9 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
 
 
 def check_manoeuvre(manoeuvre: str) -> None:
-    """Refuse a word that is neither a file nor the name of a manoeuvre, before anything is made for it.
+    """Raise `HostError` with similar names if a text is neither a file nor the name of a manoeuvre.
 
-    `manoeuvre`: as `read_manoeuvre` takes it. Raises `HostError`: with near names, or all.
+    `manoeuvre`: see `read_manoeuvre`.
     """
     if Path(manoeuvre).suffix in SUFFIXES or manoeuvre in (names := manoeuvre_names()):
         return
@@ -64,16 +64,16 @@ def check_manoeuvre(manoeuvre: str) -> None:
     raise HostError(f"There is no manoeuvre '{manoeuvre}'{near}")
 
 
-class _Typed(BaseModel):
+class _StrictModel(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class _State(_Typed):
+class _State(_StrictModel):
     file: str = Field(title="the name of a file beside it")
     time: FiniteFloat = Field(title="a number, s")
 
 
-class _ManoeuvreFile(_Typed):
+class _ManoeuvreFile(_StrictModel):
     stop_time: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s")
     held: list[str] = Field(default=[], title="a list of names of [inputs]")
     find_throttle: bool = Field(default=False, title="true or false")
@@ -85,7 +85,7 @@ class _ManoeuvreFile(_Typed):
     state: _State | None = Field(default=None, title="a table with the name of a file, and a time")
 
     @model_validator(mode="after")
-    def _fits(self) -> _ManoeuvreFile:
+    def _check_columns(self) -> _ManoeuvreFile:
         if self.inputs and ("time" not in self.inputs or len(self.inputs) < 2):
             raise ValueError(f"[inputs] has {', '.join(self.inputs)}; it must have time and inputs")
         time = self.inputs.get("time", [])
@@ -103,9 +103,9 @@ class _ManoeuvreFile(_Typed):
 
 
 def _read_toml(path: Path) -> Manoeuvre:
-    # ``initial.speed = 1`` is a table ``initial`` for TOML
+    # TOML reads ``initial.speed = 1`` as a table ``initial``
     content = {
-        key: dict(_whole(value)) if isinstance(value, dict) else value
+        key: dict(_flattened(value)) if isinstance(value, dict) else value
         for key, value in read_toml(path, HostError, largest=LARGEST_TEXT).items()
     }
     try:
@@ -115,17 +115,17 @@ def _read_toml(path: Path) -> Manoeuvre:
     inputs = {name: np.array(column, dtype=np.float64) for name, column in file.inputs.items()}
     time = inputs.pop("time", np.zeros(0))
     stop_time = file.stop_time or (float(time[-1]) if len(time) else math.nan)
-    message = {name: value if isinstance(value, str) else text_of(value) for name, value in file.driver.items()}
+    driver = {name: value if isinstance(value, str) else text_of(value) for name, value in file.driver.items()}
     state: tuple[bytes | None, float] = None, 0.0
     if file.state is not None:
         state = read_state(path.parent, file.state.file, str(path)), file.state.time
     held = frozenset(file.held)
-    return Manoeuvre(path.stem, time, inputs, stop_time, file.start, message, *state, held, file.find_throttle)
+    return Manoeuvre(path.stem, time, inputs, stop_time, file.start, driver, *state, held, file.find_throttle)
 
 
-def _whole(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+def _flattened(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     for key, value in table.items():
         if isinstance(value, dict):
-            yield from ((f"{key}.{rest}", inner) for rest, inner in _whole(value))
+            yield from ((f"{key}.{rest}", inner) for rest, inner in _flattened(value))
         else:
             yield key, value

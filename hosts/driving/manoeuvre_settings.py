@@ -12,39 +12,39 @@ from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import START_OF, Settings
 
 
-def set_in(
+def apply_settings(
     fmu: Fmu,
     manoeuvre: Manoeuvre,
     fmu_options: FmuOptions,
     fidelity: float | None = None,
-    theirs: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict,
+    to_fmu: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict,
 ) -> tuple[Manoeuvre, Settings]:
-    """The manoeuvre with all that the user sets, and what to say of it.
+    """The manoeuvre with the settings of the user, and these settings.
 
     Parameters
     ----------
     fmu : Fmu
         Not yet initialised.
     manoeuvre : Manoeuvre
-        Its start values come first.
+        Its start values are replaced by those of the user.
     fidelity : float, optional
         Of the option ``--fidelity``.
-    theirs : callable
-        Gives values of the manoeuvre by the names and in the units of the FMU, in which the start values are returned.
+    to_fmu : callable
+        Converts values of the manoeuvre to the names and units of the FMU, which those of the result have.
 
     Raises
     ------
     HostError
-        A name, value, kind or unit is wrong.
+        A name, value, type or unit is wrong.
     """
     settings = Settings(fmu.table)
-    settings.add_numbers(theirs(manoeuvre.start), f"{START_OF}{manoeuvre.name}")
-    settings.add_wishes(fmu_options, fidelity)
-    settings.overwritten(theirs(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
+    settings.add_numbers(to_fmu(manoeuvre.start), f"{START_OF}{manoeuvre.name}")
+    settings.add_options(fmu_options, fidelity)
+    settings.discard_overwritten(to_fmu(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
     if manoeuvre.find_throttle:
-        result = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"
-        settings.overwritten(theirs({THROTTLE: 0.0}), result)
+        reason = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"
+        settings.discard_overwritten(to_fmu({THROTTLE: 0.0}), reason)
     if manoeuvre.driver:
-        acts = theirs(dict.fromkeys(ACTS, 0.0))
-        settings.overwritten(acts, f"the driver of the manoeuvre {manoeuvre.name} acts on it")
+        acts = to_fmu(dict.fromkeys(ACTS, 0.0))
+        settings.discard_overwritten(acts, f"the driver of the manoeuvre {manoeuvre.name} acts on it")
     return replace(manoeuvre, start=settings.start), settings

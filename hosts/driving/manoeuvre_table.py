@@ -16,15 +16,14 @@ from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.run_record import record_of, rows_before_jumps
 from hosts.driving.state_file import read_state
 
-# s: later times, as double numbers, may be farther apart than `ON_TIME`.
-_LATEST = ON_TIME * 2.0**52
-# What a page says of a table whose oldest rows it has forgotten.
-_CUT = re.compile("the first .* s are not in this table")
+_LATEST = ON_TIME * 2.0**52  # s; later times are farther apart than `ON_TIME` as double numbers
+# The remark of a page on a table without its oldest rows.
+_CUT_REMARK = re.compile("the first .* s are not in this table")
 
 
 _KEYS = ("start", "state", "step", "outputs from", "held")
-LIKE = 0.75
-"""Share of its characters that a remark has in common with a key that it is taken for."""
+SIMILARITY = 0.75
+"""Similarity from which a remark counts as a misspelt key."""
 
 
 def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeuvre:
@@ -65,7 +64,7 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
         key, _, content = comment.lstrip("# ").partition(":")
         where = f"{path}, line {number}"
         if key.strip() == "start":
-            _assign(start_values, content.split(","), where)
+            _add_start_values(start_values, content.split(","), where)
         elif key.strip() == "state":
             name, at, instant = content.rpartition(" at ")
             if not at:
@@ -75,13 +74,13 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
             step = number_of(content, f"{where}, communication step")
             if not step > 0.0:
                 raise HostError(f"{where}: the communication step is {step:g} s; it must be positive.")
-        elif _CUT.fullmatch(key.strip()):
+        elif _CUT_REMARK.fullmatch(key.strip()):
             raise HostError(f"{where}: {key.strip()}, so that the run cannot be repeated; record a shorter one.")
         elif key.strip() == "outputs from":
             recorded = content.strip()
         elif key.strip() == "held":
             held = {name.strip() for name in content.split(",")}
-        elif content and (meant := near_names(key.strip(), _KEYS, 1, LIKE)):
+        elif content and (meant := near_names(key.strip(), _KEYS, 1, SIMILARITY)):
             raise HostError(
                 f"{where}: {brief(key.strip() + ':')} is not a key of a table; did you mean '{meant[0]}:'? In a remark "
                 "leave the colon out."
@@ -112,7 +111,7 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
 
 
 def check_begin(first: float, last: float, path: Path) -> None:
-    """Refuse a table with times, s, before 0 or so large, as those since 1970, that rows cannot be told apart."""
+    """Refuse a table with times, s, before 0 or too large for distinct rows, as those since 1970."""
     if first < 0.0:
         raise HostError(f"{path} begins at {first:.15g} s; a run begins at 0: add {-first:.15g} s to all its times.")
     if last > _LATEST:
@@ -122,8 +121,8 @@ def check_begin(first: float, last: float, path: Path) -> None:
         )
 
 
-def _assign(start_values: dict[str, Value], parts: Iterable[str], where: str) -> None:
-    for assignment in parts:
+def _add_start_values(start_values: dict[str, Value], assignments: Iterable[str], where: str) -> None:
+    for assignment in assignments:
         name, equals, value = assignment.partition("=")
         if not equals:
             raise HostError(f"{where}: {brief(assignment.strip())} is not of the form name=value.")
@@ -133,7 +132,7 @@ def _assign(start_values: dict[str, Value], parts: Iterable[str], where: str) ->
 
 
 def number_of(text: str, where: str) -> float:
-    """The number of a text; `HostError` with the place where there is none."""
+    """The number of a text. Raises `HostError`; `where`: the place in the file, for messages."""
     try:
         return parse_number(text)
     except ValueError as error:
@@ -141,7 +140,7 @@ def number_of(text: str, where: str) -> float:
 
 
 def value_of(text: str, where: str) -> Value:
-    """The value of a text, see `parse_value`; `HostError` with the place where there is none."""
+    """The value of a text, see `parse_value`. Raises `HostError`; `where`: the place in the file, for messages."""
     try:
         return parse_value(text)
     except ValueError as error:

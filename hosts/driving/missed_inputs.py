@@ -8,78 +8,80 @@ from numpy.typing import NDArray
 
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 
-_LARGEST = 0.01  # of the range of a column, by which the FMU may get it otherwise than the table has it
-_MOST_PARTS = 100  # of a communication step that are tried as a shorter one
+_LARGEST = 0.01  # of the range of a column, largest difference without a note
+_MOST_PARTS = 100  # of a communication step, for a shorter one
 _SAME_END = 1e-3  # of a step
 
 
 def missed_inputs(
-    manoeuvre: Manoeuvre, step: float, straight: Collection[str], whole: Collection[str], acts: Collection[str] = ()
+    manoeuvre: Manoeuvre, step: float, linear: Collection[str], integers: Collection[str], acts: Collection[str] = ()
 ) -> tuple[str, str] | None:
-    """What and how much of its table a run cannot have inside its steps, and the remedy; None up to 1 % of a range.
+    """A note on changes of a table that steps do not resolve, with a remedy; None up to 1 % of a range.
 
     Parameters
     ----------
     step : float
         Communication step, s.
-    straight : collection of str
-        Inputs that go straight over each step; the others are held.
-    whole : collection of str
-        Inputs that are whole numbers: of these, and of those that the table holds, every change is a jump.
+    linear : collection of str
+        Inputs that are linear over each step; the others are held.
+    integers : collection of str
+        Integer inputs: every change of these, and of those that the table holds, is a jump.
     acts : collection of str
-        Inputs that a driver overrules.
+        Inputs that a driver controls.
     """
     ranges = {name: float(np.ptp(values)) for name, values in manoeuvre.inputs.items() if name not in acts}
-    held = {*whole, *manoeuvre.held}
+    held = {*integers, *manoeuvre.held}
 
     def departures(h: float) -> dict[str, tuple[NDArray[np.intp], NDArray[np.float64]]]:
-        """Rows by column at which steps of h s give the FMU more than 1 % else than the table, and by how much."""
+        """By column, rows at which inputs in steps of h s differ by more than 1 % from the table, and by how much."""
         rows = np.flatnonzero((manoeuvre.time > 0.0) & (manoeuvre.time < manoeuvre.stop_time))
         rows = rows[rows > 0]
         rows = rows[np.abs(manoeuvre.time[rows] - h * np.round(manoeuvre.time[rows] / h)) > ON_TIME]
-        results = {}
+        is_present = {}
         for name, span in ((name, span) for name, span in ranges.items() if span > 0.0):
-            off = _off(manoeuvre, name, rows, h, name in straight, name in held)
-            if (off > _LARGEST * span).any():
-                results[name] = rows[off > _LARGEST * span], off[off > _LARGEST * span]
-        return results
+            differences = _differences(manoeuvre, name, rows, h, name in linear, name in held)
+            if (differences > _LARGEST * span).any():
+                is_present[name] = rows[differences > _LARGEST * span], differences[differences > _LARGEST * span]
+        return is_present
 
     missed = departures(step)
     if not missed:
         return None
     times = np.concatenate([manoeuvre.time[rows] for rows, _ in missed.values()])
-    jumped = np.concatenate([_jumps(manoeuvre, name, rows, name in held) for name, (rows, _) in missed.items()])
-    kinds = [kind for kind, results in (("corners", not jumped.all()), ("jumps", jumped.any())) if results]
+    jumped = np.concatenate([_at_jumps(manoeuvre, name, rows, name in held) for name, (rows, _) in missed.items()])
+    kinds = [kind for kind, is_present in (("corners", not jumped.all()), ("jumps", jumped.any())) if is_present]
     worst = max(missed, key=lambda name: float(missed[name][1].max()) / ranges[name])
-    rows, off = missed[worst]
-    k = int(off.argmax())
-    amount = f"{worst} is off by up to {off[k]:.3g}, {100.0 * off[k] / ranges[worst]:.3g} % of its range"
+    rows, differences = missed[worst]
+    k = int(differences.argmax())
+    amount = (
+        f"{worst} is off by up to {differences[k]:.3g}, {100.0 * differences[k] / ranges[worst]:.3g} % of its range"
+    )
     fits = next((h for h in (step / np.arange(2, _MOST_PARTS + 1)).tolist() if not departures(h)), None)
     remedy = (
         f"take times that are multiples of {step:g} s" if fits is None else f"--step {fits:.9g} has it to within 1 %"
     )
-    came = "becomes a line over its step" if missed.keys() & set(straight) else "comes with the next step"
+    effect = "becomes a line over its step" if missed.keys() & set(linear) else "comes with the next step"
     return (
         f"{' and '.join(kinds)} inside a communication step",
-        f"{counted(missed, times)}: each {came} of {1e3 * step:g} ms, and {amount}, at "
+        f"{count_text(missed, times)}: each {effect} of {1e3 * step:g} ms, and {amount}, at "
         f"{manoeuvre.time[rows[k]]:.9g} s; {remedy}",
     )
 
 
-def _off(
-    manoeuvre: Manoeuvre, name: str, rows: NDArray[np.intp], h: float, straight: bool, held: bool
+def _differences(
+    manoeuvre: Manoeuvre, name: str, rows: NDArray[np.intp], h: float, linear: bool, held: bool
 ) -> NDArray[np.float64]:
-    """How far rows of a table are from what the FMU gets at their times, in the unit of the column."""
+    """Differences between rows of a table and the inputs of the FMU at their times, in the unit of the column."""
     time, values = manoeuvre.time[rows], manoeuvre.inputs[name][rows]
     begin = h * np.floor(time / h)
     begin_values = manoeuvre.column(name, begin, held)
-    if straight:
+    if linear:
         end_values = manoeuvre.column(name, begin + h, held, before=True)
         return np.asarray(np.abs(values - begin_values - (time - begin) / h * (end_values - begin_values)))
     return np.where(values == manoeuvre.inputs[name][rows - 1], 0.0, np.abs(values - begin_values))
 
 
-def _jumps(manoeuvre: Manoeuvre, name: str, rows: NDArray[np.intp], held: bool) -> NDArray[np.bool_]:
+def _at_jumps(manoeuvre: Manoeuvre, name: str, rows: NDArray[np.intp], held: bool) -> NDArray[np.bool_]:
     """Which rows are on one side of a jump: every change of a held input, two values at one time of the others."""
     time, values = manoeuvre.time, manoeuvre.inputs[name]
     jumps = (np.diff(values) != 0.0) & (held | (np.diff(time) == 0.0))
@@ -87,7 +89,7 @@ def _jumps(manoeuvre: Manoeuvre, name: str, rows: NDArray[np.intp], held: bool) 
 
 
 def missed_end(stop_time: float, steps: int, step: float) -> tuple[str, str] | None:
-    """Where a run of whole steps ends otherwise than it should, and the remedy."""
+    """A note, subject and text, on a run whose whole steps do not end at the stop time, or None."""
     if abs(steps * step - stop_time) <= _SAME_END * step:
         return None
     fits = stop_time / math.ceil(stop_time / step)
@@ -95,6 +97,6 @@ def missed_end(stop_time: float, steps: int, step: float) -> tuple[str, str] | N
     return "end of the run", f"{ended}; --step {fits:.9g} ends there"
 
 
-def counted(names: Iterable[str], times: NDArray[np.float64]) -> str:
-    """How many corners or jumps there are, of what, and when the first is."""
+def count_text(names: Iterable[str], times: NDArray[np.float64]) -> str:
+    """The number of corners or jumps, their inputs and the time of the first, as text."""
     return f"{len(np.unique(times))} of {', '.join(names)}, the first at {times.min():.9g} s"

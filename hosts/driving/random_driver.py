@@ -1,7 +1,7 @@
-"""A driver at random: steps and sines of every control, sudden turns, and full speed at ramps.
+"""A random driver: steps and sines of every control, sudden turns, and full speed towards ramps.
 
-The same seed gives the same drive: the numbers come from Python's `random.Random`, whose `random()` is the same on all
-platforms, and from what the car senses.
+A seed determines the drive: inputs depend on numbers of `random.Random`, which are the same on all platforms, and on
+outputs of the car.
 """
 
 import math
@@ -13,22 +13,22 @@ from hosts.common.numbers import Value
 from hosts.driving.pilots.pilot import OBSERVED
 
 TOP_SPEED = 40.0
-"""m/s, above which the throttle is let go and the brake is touched."""
+"""Speed above which the throttle is released and the brake applied, m/s."""
 
 
 _STEERING = "steering_wheel_angle_demand"
-_LOCK = 9.0  # rad, beyond which no car of ours turns its steering wheel
+_LOCK = 9.0  # rad, steering wheel angle at full lock
 
 
 @dataclass(frozen=True)
 class Target:
-    """An object that is driven at deliberately, such as a ramp."""
+    """A target, such as a ramp."""
 
     x: float
     y: float
     """`x`, `y`: m."""
     yaw: float
-    """Direction in which it is to be met, rad."""
+    """Direction in which to drive over it, rad."""
 
 
 class RandomDriver:
@@ -37,10 +37,10 @@ class RandomDriver:
     Parameters
     ----------
     inputs : collection of str
-        Names of the FMU's inputs. Of `steering` (or a demand in rad), `throttle`, `brake`, `hand_brake` and `selector`
-        those that are there are moved.
+        Inputs of the FMU, of which `steering` (or a demand in rad), `throttle`, `brake`, `hand_brake` and `selector`
+        are used.
     targets : sequence of Target
-        What is driven at from time to time.
+        Targets of some of the actions.
     """
 
     def __init__(self, seed: int, inputs: Collection[str], targets: Sequence[Target] = ()) -> None:
@@ -49,10 +49,10 @@ class RandomDriver:
         self._targets = list(targets)
         self._until = 0.0
         self._begin = 0.0
-        self._deed: Callable[[float, Mapping[str, float]], dict[str, float]] = self._roll
+        self._action: Callable[[float, Mapping[str, float]], dict[str, float]] = self._roll
         self._numbers: list[float] = []
         self._target = Target(0.0, 0.0, 0.0)
-        self._deeds = [
+        self._actions = [
             self._step,
             self._sine,
             self._flick,
@@ -64,7 +64,7 @@ class RandomDriver:
         ]
 
     def restart(self, time: float) -> None:
-        """Say that the car starts again at `time`, so that the next deed begins there."""
+        """Begin the next action at a new start of the car. `time`: s."""
         self._until = time
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
@@ -76,7 +76,7 @@ class RandomDriver:
         if time >= self._until:
             self._choose(time, observation)
         inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "hand_brake": 0.0, "selector": 1.0}
-        inputs |= self._deed(time - self._begin, observation)
+        inputs |= self._action(time - self._begin, observation)
         if observation.get("speed", 0.0) > TOP_SPEED:
             inputs |= {"throttle": 0.0, "brake": max(inputs["brake"], 0.1)}
         if "steering" not in self._inputs and _STEERING in self._inputs:
@@ -84,17 +84,17 @@ class RandomDriver:
         return {name: value for name, value in inputs.items() if name in self._inputs}
 
     def _choose(self, time: float, observation: Mapping[str, float]) -> None:
-        """The next deed, its numbers and how long it lasts."""
+        """Draw the next action, its numbers and its duration."""
         draw = self._random.random
         self._begin = time
         self._numbers = [draw() for _ in range(6)]
-        aims = self._targets and set(OBSERVED) <= set(observation) and draw() < 0.4
-        if aims:
+        drives_at_target = self._targets and set(OBSERVED) <= set(observation) and draw() < 0.4
+        if drives_at_target:
             self._target = self._targets[int(draw() * len(self._targets))]
-            self._deed = self._aim
+            self._action = self._aim
             self._until = time + 5.0 + 15.0 * draw()
             return
-        self._deed = self._deeds[int(draw() * len(self._deeds))]
+        self._action = self._actions[int(draw() * len(self._actions))]
         self._until = time + 0.3 + 3.7 * draw() ** 2
 
     def _roll(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
@@ -114,13 +114,13 @@ class RandomDriver:
         return {"steering": a * math.sin(phase), "throttle": max(c * push, 0.0), "brake": max(-c * push, 0.0)}
 
     def _flick(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
-        """Turn the wheel from lock to lock at once."""
+        """Steering from lock to lock."""
         a, b, c = self._numbers[:3]
         side = 1.0 if a < 0.5 else -1.0
         return {"steering": side if t < 0.2 + 0.8 * b else -side, "throttle": c}
 
     def _slam(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
-        """Full brake, straight or not."""
+        """Full braking, straight or in a turn."""
         a, b = self._numbers[:2]
         return {"steering": (2.0 * a - 1.0) if b < 0.5 else 0.0, "brake": 1.0}
 
@@ -131,7 +131,7 @@ class RandomDriver:
         return {"steering": 1.0 if a < 0.5 else -1.0, "hand_brake": float(pulled), "throttle": float(not pulled)}
 
     def _shift(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
-        """Selector to reverse, neutral, drive, whatever the car does."""
+        """Selector to reverse, neutral or drive at any speed."""
         a, b, c, d = self._numbers[:4]
         first, then = int(3.0 * a) - 1, int(3.0 * b) - 1
         return {"selector": float(first if t < 1.0 else then), "throttle": c, "steering": d - 0.5}
@@ -146,15 +146,15 @@ class RandomDriver:
         return {"throttle": 1.0, "steering": 0.2 * (self._numbers[0] - 0.5)}
 
     def _aim(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
-        """Full throttle along the line through the target; from where that cannot be met, first to a point before."""
+        """Full throttle along the line through the target, after a detour if it cannot be met directly."""
         x, y, yaw, speed = (observation[name] for name in OBSERVED)
-        ahead = math.cos(self._target.yaw), math.sin(self._target.yaw)
-        along = (x - self._target.x) * ahead[0] + (y - self._target.y) * ahead[1]
-        across = (y - self._target.y) * ahead[0] - (x - self._target.x) * ahead[1]
-        straight = abs(across) < 3.0 and abs(_wrapped(yaw - self._target.yaw)) < 0.5
-        point = along + 6.0 + 0.3 * speed if straight or along < -10.0 - abs(across) else -30.0
-        goal = self._target.x + point * ahead[0], self._target.y + point * ahead[1]
-        turn = _wrapped(math.atan2(goal[1] - y, goal[0] - x) - yaw)
+        direction = math.cos(self._target.yaw), math.sin(self._target.yaw)
+        along = (x - self._target.x) * direction[0] + (y - self._target.y) * direction[1]
+        across = (y - self._target.y) * direction[0] - (x - self._target.x) * direction[1]
+        is_aligned = abs(across) < 3.0 and abs(_wrapped(yaw - self._target.yaw)) < 0.5
+        point = along + 6.0 + 0.3 * speed if is_aligned or along < -10.0 - abs(across) else -30.0
+        aim_point = self._target.x + point * direction[0], self._target.y + point * direction[1]
+        turn = _wrapped(math.atan2(aim_point[1] - y, aim_point[0] - x) - yaw)
         slow = abs(turn) > 0.6 and speed > 12.0
         return {
             "steering": min(max(2.0 * turn / (1.0 + 0.05 * speed), -1.0), 1.0),
@@ -163,14 +163,14 @@ class RandomDriver:
         }
 
 
-def wild_start(seed: int, targets: Sequence[Target] = ()) -> dict[str, Value]:
-    """Start values of a car for a wild drive: mostly fast before a target, often in the air, sometimes far away.
+def random_start(seed: int, targets: Sequence[Target] = ()) -> dict[str, Value]:
+    """Random start values of a car: mostly fast before a target, often in the air, sometimes far away.
 
     `targets`: half of the starts are 30 to 60 m before one of them, in its direction. Result: `initial.x`, `.y`, `.z`,
     `.yaw` and `.speed`: up to 1 m high, up to 40 m/s, and one in four up to 100 km from the origin along each axis.
     """
-    chance = random.Random(f"start {seed}")
-    draw = chance.random
+    generator = random.Random(f"start {seed}")
+    draw = generator.random
     speed = TOP_SPEED * draw()
     height = draw() if draw() < 0.5 else 0.0
     if targets and draw() < 0.5:

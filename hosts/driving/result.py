@@ -32,20 +32,20 @@ class Result:
     failed_steps: int
     """Number of communication steps that the FMU refused: 0 or 1, because the run ends there."""
     messages: list[str]
-    """What the FMU logged at warning or above."""
+    """Messages of the FMU at warning or above."""
     held: list[str] = field(default_factory=list)
     """Inputs that were constant over each step; the others were linear in time."""
     late: list[str] = field(default_factory=list)
     """Inputs of `held` that the manoeuvre changes within steps: the FMU takes no input derivatives, or a driver
     controls them."""
     jumps: dict[int, list[float]] = field(default_factory=dict)
-    """Inputs before a jump at the time of a row, by its number, where the rows do not show them."""
+    """By row number, the inputs before a jump at its time, if the rows alone do not show it."""
     starts: list[int] = field(default_factory=lambda: [0])
-    """First row of each run, where several runs stand one after the other."""
+    """First row of each of several runs in sequence."""
     lost: list[str] = field(default_factory=list)
-    """Inputs that are not linear between rows, where rows are farther apart than steps."""
+    """Inputs that are not linear between rows of several steps."""
     missed: list[tuple[str, str]] = field(default_factory=list)
-    """What the run did not do of the manoeuvre: see `Manoeuvre.late_begin`, `missed_inputs` and `missed_end`."""
+    """Notes on parts of the manoeuvre that the run could not follow, see `missed_inputs` and others."""
     notes: list[tuple[str, str]] = field(default_factory=list)
     """Other remarks on the manoeuvre: subject and text."""
     start: Mapping[str, Value] = field(default_factory=dict)
@@ -62,8 +62,8 @@ class Result:
 
     @property
     def refusal(self) -> str:
-        """When and why the FMU refused a step, or how its process ended, as the end of a sentence; empty where
-        it made all steps.
+        """The refused step with its reason, or the end of the process, as part of a sentence; empty if all steps were
+        made.
         """
         if self.ended or not self.failed_steps:
             return self.ended[:1].lower() + self.ended[1:].rstrip(".")
@@ -71,7 +71,7 @@ class Result:
         return f"the FMU refused the step at {self.simulated:.5g} s{reason}"
 
     def not_finite(self) -> str:
-        """The first value that is not a number, in a sentence; empty where all are."""
+        """A sentence on the first value that is not finite; empty if there is none."""
         wrong = ~np.isfinite(self.values)
         if not wrong.any():
             return ""

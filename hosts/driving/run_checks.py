@@ -11,12 +11,11 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.input_ranges import beyond_range
 from hosts.fmu.variables import default_step
 
-# Bytes a run may record: more would fill the memory before the disk.
-_LARGEST_RECORD = 4e9
+_LARGEST_RECORD = 4e9  # bytes
 
 
 def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
-    """The step of a run: the one that was asked for, else that of the FMU. `step`: in s.
+    """The communication step of a run, s: the requested `step`, else that of the manoeuvre or of the FMU.
 
     Raises `HostError` if it or the stop time is not positive, or if it is longer than the manoeuvre or so short that
     the record would not fit into the memory.
@@ -42,17 +41,17 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
     return step
 
 
-def steps_of(interval: float, step: float, what: str) -> int:
+def steps_of(interval: float, step: float, subject: str) -> int:
     """Number of communication steps in an interval.
 
-    `interval`, `step`: in s; `what`: how messages call the interval. Raises `HostError`: it is not a whole multiple of
+    `interval`, `step`: s; `subject`: the interval, for messages. Raises `HostError`: it is not a whole multiple of
     the step.
     """
     steps = round(interval / step) if math.isfinite(interval) else 0
     if steps < 1 or abs(steps * step - interval) > 1e-6 * interval:
         near = step * max(1, steps)
         raise HostError(
-            f"{what} is {interval:g} s, which is not a multiple of the step of {step:g} s; take {near:g} s."
+            f"{subject} is {interval:g} s, which is not a multiple of the step of {step:g} s; take {near:g} s."
         )
     return steps
 

@@ -14,9 +14,8 @@ from hosts.driving.state_file import read_state
 
 @dataclass(frozen=True)
 class RunRecord:
-    """What the record says: first output, start values, held inputs, by rows the time and the inputs before a jump, the
-    state that the run began with and its time, the step and the interval of rows in s, and the inputs of which the rows
-    do not tell all.
+    """A record: first output, start values, held inputs, by row the time and inputs before a jump, initial state and
+    its time, communication step and interval of rows, s, and inputs that are not linear between rows.
     """
 
     outputs_from: str = ""
@@ -32,9 +31,9 @@ class RunRecord:
 def rows_before_jumps(
     record: RunRecord, path: Path, times: Sequence[float], inputs: int
 ) -> list[tuple[int, list[float]]]:
-    """Rows that a table lacks, the last first: the row before which each stands, and its inputs.
+    """Rows before jumps that a table lacks, the last first: number of the following row, and inputs.
 
-    Raises `HostError`: the table beside the record is not the one that was written with it.
+    Raises `HostError`: the record does not belong to the table.
     """
     results = []
     for k, (t, *before) in sorted(record.jumps.items(), reverse=True):
@@ -48,12 +47,12 @@ def rows_before_jumps(
 
 
 def record_of(path: Path) -> RunRecord:
-    """The record beside a table; one that says nothing where there is none."""
+    """The record beside a table; an empty one if there is none."""
     file = path.with_suffix(".json")
     try:
         record = read_json(file, HostError, finite=False) if is_file(file) else None
     except HostError:
-        return RunRecord()  # of another kind: what is in the table then says what it is
+        return RunRecord()  # another JSON file, not a record
     if not isinstance(record, dict) or "outputs_from" not in record:
         return RunRecord()
     try:
@@ -68,7 +67,7 @@ def record_of(path: Path) -> RunRecord:
         if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
             raise ValueError
         saved = (None, 0.0) if state is None else (read_state(path.parent, state["file"], str(file)), state["time"])
-        begun = saved[0], float(saved[1])
-        return RunRecord(first, start, set(held), jumps, begun, float(step), interval, tuple(lost))
+        state_and_time = saved[0], float(saved[1])
+        return RunRecord(first, start, set(held), jumps, state_and_time, float(step), interval, tuple(lost))
     except (AttributeError, KeyError, TypeError, ValueError):
         raise HostError(f"{file} is not a whole record of the run whose result is {path.name}; run it again.") from None

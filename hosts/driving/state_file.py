@@ -9,16 +9,16 @@ from hosts.common.errors import HostError
 
 
 def read_state(folder: Path, name: str, where: str) -> bytes:
-    """The saved state of an FMU. `name`: below the folder; `where`: the place that names it, for messages.
+    """Read the saved state of an FMU. `name`: below the folder; `where`: of the name, for messages.
 
-    Raises `HostError`: it lies elsewhere, or cannot be read.
+    Raises `HostError`: the file is outside of the folder, or cannot be read.
     """
     file = NamedFiles(folder, LARGEST_STATE, HostError).file(name, folder, f"{where}: the state")
     return read_bytes(file, LARGEST_STATE, HostError, f"{where}: the state {file}")
 
 
 def write_state(state: bytes, file: Path) -> Path:
-    """Write a saved state beside a file; its place."""
+    """Write a saved state beside a file; the path of the state."""
     beside = file.with_suffix(".state")
     with atomic_file(beside) as temporary:
         temporary.write_bytes(state)

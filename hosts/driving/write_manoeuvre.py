@@ -32,44 +32,44 @@ def write_manoeuvre(manoeuvre: Manoeuvre, file: Path, comment: str = "") -> None
         lines.append("find_throttle = true")
     columns = {"time": manoeuvre.time, **manoeuvre.inputs} if manoeuvre.inputs else {}
     tables: dict[str, Mapping[str, Any]] = {
-        "start": {name: _toml(value) for name, value in manoeuvre.start.items()},
-        "driver": {name: _setting(text) for name, text in manoeuvre.driver.items()},
+        "start": {name: _toml_value(value) for name, value in manoeuvre.start.items()},
+        "driver": {name: _toml_setting(text) for name, text in manoeuvre.driver.items()},
         "state": {},
-        "inputs": {name: _list(values) for name, values in columns.items()},
+        "inputs": {name: _toml_list(values) for name, values in columns.items()},
     }
     if manoeuvre.state is not None:
         beside = write_state(manoeuvre.state, file)
-        tables["state"] = {"file": _toml(beside.name), "time": repr(manoeuvre.state_time)}
+        tables["state"] = {"file": _toml_value(beside.name), "time": repr(manoeuvre.state_time)}
     for title, table in tables.items():
         if table:
-            lines += ["", f"[{title}]", *(f"{_key(name)} = {text}" for name, text in table.items())]
+            lines += ["", f"[{title}]", *(f"{_toml_key(name)} = {text}" for name, text in table.items())]
     write_text(file, "\n".join(lines) + "\n")
 
 
-def _key(name: str) -> str:
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name, re.ASCII) else _toml(name)
+def _toml_key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name, re.ASCII) else _toml_value(name)
 
 
-def _toml(value: Value) -> str:
+def _toml_value(value: Value) -> str:
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else text_of(value)
 
 
-def _short(value: float) -> str:
-    """The number in few digits where that is the same; TOML has no whole number -0."""
+def _number_text(value: float) -> str:
+    """The number in few digits if that is exact; TOML has no integer -0."""
     short = f"{value:g}"
     return short if float(short) == value and short != "-0" else repr(value)
 
 
-def _setting(text: str) -> str:
-    """Of the driver: a number where it is one."""
+def _toml_setting(text: str) -> str:
+    """A setting of a driver, as a number if it is one."""
     try:
         return repr(parse_number(text))
     except ValueError:
-        return _toml(text)
+        return _toml_value(text)
 
 
-def _list(values: NDArray[np.float64]) -> str:
-    text = ", ".join(map(_short, values.tolist()))
+def _toml_list(values: NDArray[np.float64]) -> str:
+    text = ", ".join(map(_number_text, values.tolist()))
     return f"[{text}]" if len(text) < _WIDTH else f"[\n{textwrap.indent(textwrap.fill(text, _WIDTH), '  ')},\n]"
 
 

@@ -1,4 +1,4 @@
-"""Builds FMUs when they are needed, by ``ali3 build`` in a process of its own, and caches them."""
+"""Builds FMUs on demand, by ``ali3 build`` in a separate process, and caches them."""
 
 import hashlib
 import os
@@ -18,76 +18,76 @@ from hosts.common.errors import HostError
 from hosts.fmu.car import CAR_FILE
 
 _SUFFIXES = (".py", ".c", ".h", ".toml", ".csv", ".npz", ".json", ".road", ".xml", ".txt")
-_KEPT = 10
-_IN_USE = 86400.0  # s since an FMU was asked for, in which a command may still open it
-_LARGEST = 500_000_000  # bytes of a car's folder
+_MOST_FMUS = 10
+_IN_USE = 86400.0  # s, in which a command may still open an FMU
+_LARGEST_FOLDER = 500_000_000  # bytes of a car's folder
 
 
 def fmu_of_car(car: str, tell: Callable[[str], None], ports: str | None = None) -> Path:
-    """The FMU of a car for this machine; built once for each content of its files and each version of the program.
+    """The FMU of a car for this platform, built once for each content of its files and each version of the program.
 
     Parameters
     ----------
     car : str
         A car of the package by its name, a folder with a file ``car.toml``, or such a file.
     tell : callable
-        Takes sentences.
+        Called with messages.
     ports : str, optional
-        As ``ali3 build --ports`` takes them.
+        See ``ali3 build --ports``.
 
     Raises
     ------
     HostError
-        It cannot be built; with the words of the build.
+        It cannot be built; with the message of the build.
     """
     options = () if ports is None else ("--ports", ports)
     name = car_digest(car) if ports is None else f"{car_digest(car)}-{ports.replace(',', '_')}"
-    return _kept_fmu(f"the car {car}", name, ("--car", car, *options), tell)
+    return _cached_fmu(f"the car {car}", name, ("--car", car, *options), tell)
 
 
 def fmu_of_scene(scene: str, tell: Callable[[str], None]) -> Path:
-    """The FMU of a scene of the package, as `fmu_of_car` gives that of a car."""
-    return _kept_fmu(f"the scene {scene}", f"{scene}-{program_version()}", ("--scene", scene), tell)
+    """The FMU of a scene of the package; see `fmu_of_car`."""
+    return _cached_fmu(f"the scene {scene}", f"{scene}-{program_version()}", ("--scene", scene), tell)
 
 
-def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[str], None]) -> Path:
-    room = cache_folder("cars")
-    folder = room / name
-    with locked(room):
-        result = sorted(folder.glob("*.fmu"))
-        if result:
+def _cached_fmu(subject: str, name: str, options: tuple[str, ...], tell: Callable[[str], None]) -> Path:
+    cache = cache_folder("cars")
+    folder = cache / name
+    with locked(cache):
+        files = sorted(folder.glob("*.fmu"))
+        if files:
             os.utime(folder)
-            return result[0]
-    tell(f"{what[0].upper()}{what[1:]} is built for this machine, which takes half a minute ...")
+            return files[0]
+    tell(f"{subject[0].upper()}{subject[1:]} is built for this machine, which takes half a minute ...")
     try:
         with atomic_folder(folder) as temporary:
-            build_fmu(what, options, temporary)
+            build_fmu(subject, options, temporary)
             if not list(temporary.glob("*.fmu")):
-                raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")
+                raise HostError(f"The FMU of {subject} cannot be built: the build left no FMU.")
     except KeyboardInterrupt:
-        tell(f"The build of {what} was stopped and nothing was run; the same command begins again.")
+        tell(f"The build of {subject} was stopped and nothing was run; the same command begins again.")
         raise
-    with locked(room):
-        forget_oldest(room, _KEPT, _IN_USE)
+    with locked(cache):
+        forget_oldest(cache, _MOST_FMUS, _IN_USE)
     return sorted(folder.glob("*.fmu"))[0]
 
 
-def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
-    """Build a native FMU, for this machine unless the options name other platforms.
+def build_fmu(subject: str, options: tuple[str, ...], folder: Path) -> None:
+    """Build a native FMU, for this platform unless the options name others.
 
-    `options`: of the command, that say what is built. Raises `HostError` with the words of the build.
+    `subject`: subject of messages; `options`: of ``ali3 build``. Raises `HostError` with the message of the build.
     """
     try:
         run_ali3("build", "--kind", "native", "--platforms", "this", *options, "--out", str(folder))
     except HostError as error:
-        raise HostError(f"The FMU of {what} cannot be built: {error}") from None
+        raise HostError(f"The FMU of {subject} cannot be built: {error}") from None
 
 
 def car_digest(car: str) -> str:
-    """A name that changes with the files of a car and with the program that builds it.
+    """A digest of the files of a car and of the program that builds it.
 
-    `car`: a folder with a file ``car.toml``, or such a file: all files of its folder count, and those it names
-    elsewhere. Else a name, which the program knows.
+    `car`: a folder with a file ``car.toml``, or such a file, of which all files of the folder and those it names
+    elsewhere count; else the name of a car of the package.
     """
     digest = hashlib.sha256(program_version().encode())
     path = Path(car)
@@ -97,7 +97,7 @@ def car_digest(car: str) -> str:
         return digest.hexdigest()[:32]
     files = {f for f in file.parent.rglob("*") if is_file(f)} | set(_named_files(file))
     size = sum(f.stat().st_size for f in files)
-    if size > _LARGEST:
+    if size > _LARGEST_FOLDER:
         raise HostError(
             f"The folder {file.parent} of the car has {1e-6 * size:.0f} MB of files; give the car a folder of its own."
         )
@@ -105,7 +105,7 @@ def car_digest(car: str) -> str:
     for source in sorted(files):
         try:
             digest.update(
-                os.path.relpath(source, file.parent).encode() + b"\n" + read_bytes(source, _LARGEST, HostError)
+                os.path.relpath(source, file.parent).encode() + b"\n" + read_bytes(source, _LARGEST_FOLDER, HostError)
             )
         except OSError as error:
             raise HostError(f"{source} cannot be read: {reason(error)}.") from None
@@ -113,11 +113,11 @@ def car_digest(car: str) -> str:
 
 
 def _named_files(file: Path) -> Iterator[Path]:
-    """Files whose names stand in a car file."""
+    """Files that a car file names."""
     try:
         content = read_toml(file)
     except FileError:
-        return  # the build says what is wrong
+        return  # the build reports the fault
     for text in _texts(content):
         try:
             path = file.parent / text
@@ -139,7 +139,7 @@ def _texts(content: Any) -> Iterator[str]:
 
 
 def program_version() -> str:
-    """A name that changes with the program that builds: with the packages of all commands but those of hosts."""
+    """A digest of the program that builds: of the packages of all commands except those of hosts."""
     packages = {command.module.partition(".")[0] for command in COMMANDS} - {"hosts"}
     root = Path(ali3.__file__).parents[1]
     digest = hashlib.sha256()

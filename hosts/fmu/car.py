@@ -7,10 +7,10 @@ from ali3.reading import is_file, is_folder
 CAR_FILE = "car.toml"
 
 
-def is_car(car: Path) -> bool:
-    """Whether a car is meant: a folder with a car file, a TOML file, or a name that is none of a file here."""
-    if is_folder(car):
-        return is_file(car / CAR_FILE)
-    if is_file(car):
-        return car.suffix.lower() == ".toml"
-    return car.name.isidentifier() and str(car) == car.name
+def is_car(path: Path) -> bool:
+    """Whether a path names a car: a folder with a car file, a TOML file, or a plain name that is no file."""
+    if is_folder(path):
+        return is_file(path / CAR_FILE)
+    if is_file(path):
+        return path.suffix.lower() == ".toml"
+    return path.name.isidentifier() and str(path) == path.name

@@ -15,19 +15,19 @@ from ali3.processes import command_name
 from ali3.reading import DEEPEST, is_file, no_file
 from ali3.xml_memory import is_lack_of_memory
 from hosts.common.errors import HostError
-from hosts.fmu.scalars import ELEMENTS, Place, element_names, scalars
+from hosts.fmu.scalars import ELEMENTS, Scalar, element_names, scalar_variables
 
 DESCRIPTION = "modelDescription.xml"
 LARGEST_DESCRIPTION = 100_000_000
-"""Limit of its size, bytes."""
+"""Largest size of the description, bytes."""
 MOST_VARIABLES = 200_000
-"""Limit of the number of variables, elements of arrays counted."""
+"""Largest number of scalar variables."""
 _MOST_ELEMENTS = 20 * MOST_VARIABLES
 _DEPTH_OF_VARIABLES = 3
 
 
 def opened(path: Path) -> Archive:
-    """Open an FMU as an archive. Raises `HostError`: there is none, or it has a fault of `ali3.archives`."""
+    """Open an FMU as an archive. Raises `HostError`: the file does not exist, or has a fault of `ali3.archives`."""
     if not is_file(path):
         hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
         raise HostError(no_file(path, hint))
@@ -36,40 +36,39 @@ def opened(path: Path) -> Archive:
 
 def read_description(
     path: Path, validate: bool = True
-) -> tuple[ModelDescription, list[ScalarVariable], dict[str, Place]]:
+) -> tuple[ModelDescription, list[ScalarVariable], dict[str, Scalar]]:
     """Read the description of an FMU of any version that FMPy reads.
 
-    `validate`: whether it must follow its schema. Raises `HostError`: it is not an FMU that can be read, or is beyond a
-    limit.
+    `validate`: whether it must follow its schema. Raises `HostError`: the FMU cannot be read, or exceeds a limit.
 
     Returns
     -------
     description : ModelDescription
     variables : list of ScalarVariable
         Scalar variables; each element of an array is one.
-    places : dict of str to Place
-        Variable and index of each element of an array, by name.
+    addresses : dict of str to Scalar
+        Variable and index of each scalar, by name.
     """
     with opened(path) as archive:
         content = archive.read(DESCRIPTION, LARGEST_DESCRIPTION)
         elements = archive.read(ELEMENTS, LARGEST_DESCRIPTION) if ELEMENTS in archive else b""
-    bounds = _Bounds(path)
-    bounds.check(content)
+    limit_check = _LimitCheck(path)
+    limit_check.check(content)
     try:
         description = read_model_description(str(path), validate=validate)
         for v in description.modelVariables:  # FMPy does not read this attribute
-            v.intermediateUpdate = str(v.valueReference) in bounds.asked
+            v.intermediateUpdate = str(v.valueReference) in limit_check.intermediate_inputs
         count = sum(math.prod(v.shape or ()) for v in description.modelVariables)
         if count > raised(MOST_VARIABLES):
             raise HostError(_too_many(path, count))
-        return description, *scalars(description, element_names(elements.decode()))
+        return description, *scalar_variables(description, element_names(elements.decode()))
     except (ImportError, MemoryError, HostError):
         raise
     except Exception as error:  # FMPy does not document what a malformed description raises
         if is_lack_of_memory(error):
             raise MemoryError from None
-        words = " ".join(str(error).split()) or type(error).__name__
-        raise HostError(f"{path} is not an FMU that can be read: {one_line(words)}") from None
+        message = " ".join(str(error).split()) or type(error).__name__
+        raise HostError(f"{path} is not an FMU that can be read: {one_line(message)}") from None
 
 
 def _too_many(path: Path, count: int) -> str:
@@ -77,12 +76,12 @@ def _too_many(path: Path, count: int) -> str:
     return f"{path} has {count} variables, the elements of arrays counted; it must have {limit}."
 
 
-class _Bounds:
-    """Counts the elements of a description without storing them, and refuses one beyond a limit."""
+class _LimitCheck:
+    """Counts the elements of a description without storing them, and refuses a description beyond a limit."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self.asked: set[str] = set()
+        self.intermediate_inputs: set[str] = set()
         """Value references of variables with ``intermediateUpdate``."""
         self._depth = self._elements = self._variables = 0
         self._most_variables, self._most_elements = raised(MOST_VARIABLES), raised(_MOST_ELEMENTS)
@@ -92,7 +91,7 @@ class _Bounds:
         self._parser.StartDoctypeDeclHandler = self._doctype
 
     def check(self, content: bytes) -> None:
-        """Raises `HostError`: it is not XML, or too deep, or has too many elements."""
+        """Raises `HostError`: the content is not XML, is nested too deep, or has too many elements."""
         try:
             self._parser.Parse(content, True)
         except expat.ExpatError as error:
@@ -107,7 +106,7 @@ class _Bounds:
         self._elements += 1
         self._variables += "valueReference" in attributes and self._depth == _DEPTH_OF_VARIABLES
         if attributes.get("intermediateUpdate") in ("true", "1"):
-            self.asked.add(attributes.get("valueReference", ""))
+            self.intermediate_inputs.add(attributes.get("valueReference", ""))
         if self._depth > DEEPEST:
             self._refuse(f"has elements nested more than {DEEPEST} deep")
         if self._variables > self._most_variables:

@@ -9,15 +9,15 @@ from hosts.fmu.variables import Variable, Variables
 
 
 def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
-    """What `modelDescription.xml` says, as the page reads it."""
+    """The content of `modelDescription.xml` as JSON, as pages read it."""
     experiment = description.defaultExperiment
-    results = {name: getattr(experiment, name, None) for name in ("startTime", "stopTime", "stepSize")}
+    settings = {name: getattr(experiment, name, None) for name in ("startTime", "stopTime", "stepSize")}
     references = {v.name: int(v.valueReference) for v in description.modelVariables}
     return {
         "modelName": description.modelName,
         "guid": description.guid,
         "description": description.description or "",
-        **{key: float(value) for key, value in results.items() if value is not None},
+        **{key: float(value) for key, value in settings.items() if value is not None},
         "variables": [_variable(variables[name], references[name]) for name in variables.names],
     }
 

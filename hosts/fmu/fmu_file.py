@@ -1,4 +1,4 @@
-"""Finds the FMU of a command: a given file, or that of a car, which is built when needed and cached."""
+"""Finds the FMU of a command: a file, or the cached FMU of a car, built on demand."""
 
 import time
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from hosts.fmu.car import is_car
 
 DIST = Path("dist", "PrototypeCar.fmu")
 CAR = "prototype"
-"""What is taken where nothing is named: `DIST` if it is there, else this car."""
+"""`DIST`, `CAR`: the FMU of a command without one: this file if it exists, else the FMU of this car."""
 
 
 @dataclass(frozen=True)
@@ -20,14 +20,14 @@ class FoundFmu:
 
     path: Path
     built: float = 0.0
-    """Seconds that its build took; 0: it was there."""
+    """Time of its build, s; 0: it existed."""
 
 
 def find_fmu(fmu_or_car: Path | None, tell: Callable[[str], None]) -> FoundFmu:
-    """The FMU that a command takes.
+    """The FMU of a command.
 
-    `fmu_or_car`: of the command line: an FMU; or a car by its name, its folder or its file; `tell`: takes the messages
-    of the build of a car. Raises `HostError`: the car cannot be built; with the message of the build.
+    `fmu_or_car`: an FMU, or a car by its name, folder or file; `tell`: called with the messages of the build of a
+    car. Raises `HostError`: the car cannot be built; with the message of the build.
     """
     if fmu_or_car is None and DIST.is_file():
         return FoundFmu(DIST)
@@ -36,16 +36,16 @@ def find_fmu(fmu_or_car: Path | None, tell: Callable[[str], None]) -> FoundFmu:
     if fmu_or_car is not None:
         check_car(fmu_or_car)
     begin = time.monotonic()
-    built: list[str] = []
+    messages: list[str] = []
 
-    def said(line: str) -> None:
-        built.append(line)
+    def collect(line: str) -> None:
+        messages.append(line)
         tell(line)
 
-    path = fmu_of_car(CAR if fmu_or_car is None else str(fmu_or_car), said)
-    return FoundFmu(path, time.monotonic() - begin if built else 0.0)
+    path = fmu_of_car(CAR if fmu_or_car is None else str(fmu_or_car), collect)
+    return FoundFmu(path, time.monotonic() - begin if messages else 0.0)
 
 
 def fmu_file(fmu_or_car: Path | None) -> Path:
-    """`find_fmu` for a command that prints what is said."""
+    """The path of the FMU of a command; messages of its build are printed. See `find_fmu`."""
     return find_fmu(fmu_or_car, lambda line: print(line, flush=True)).path

@@ -13,34 +13,34 @@ from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.alias_option import aliases_of
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.named_fmu import NamedFmu, seen_through
+from hosts.fmu.named_fmu import NamedFmu, under_our_names
 from hosts.fmu.named_row import NamedRow
 from hosts.fmu.own_process import files_of, in_own_process
 from hosts.fmu.variables import Variables
 
-_Made = TypeVar("_Made")
+_Result = TypeVar("_Result")
 
 
-class _Opened(Protocol):
+class _OpenFmu(Protocol):
     path: Path
 
 
 @dataclass(frozen=True)
 class FmuSource:
-    """Where an FMU is, and what its variables are called: all that others know of names of other programs."""
+    """The path of an FMU and the aliases of its variables; other rooms see only our names."""
 
     path: Path
     """Absolute."""
     names: Aliases = field(default_factory=Aliases)
-    """Ours for its variables."""
+    """Aliases of its variables."""
 
     @classmethod
     def named(cls, path: Path, variables: Variables, file: str | Path | None) -> FmuSource:
-        """That of an FMU whose variables an alias file names; see `aliases_of`."""
+        """The source of an FMU with the aliases of a file; see `aliases_of`."""
         return cls(path.absolute(), aliases_of(file, variables))
 
     @classmethod
-    def of(cls, fmu: _Opened) -> FmuSource:
+    def of(cls, fmu: _OpenFmu) -> FmuSource:
         """The source of an open FMU."""
         return cls(fmu.path.absolute(), fmu.aliases if isinstance(fmu, NamedFmu) else Aliases())
 
@@ -50,7 +50,7 @@ class FmuSource:
 
     @property
     def digest(self) -> str:
-        """A hash of the names."""
+        """A hash of the aliases."""
         return hashlib.sha256(repr(self.names).encode()).hexdigest()
 
     @property
@@ -65,64 +65,68 @@ class FmuSource:
 
     @property
     def count(self) -> int:
-        """Number of variables with a name of ours."""
+        """Number of aliases and derived variables."""
         return len(self.names.aliases) + len(self.names.derived)
 
     def called(self, theirs: Sequence[str]) -> tuple[str, ...]:
-        """Our names of variables; those without an alias keep theirs."""
+        """Our names of variables; a variable without an alias keeps its name."""
         return self.names.names(theirs)
 
     def outputs(self, theirs: Sequence[str]) -> tuple[str, ...]:
-        """The same of outputs, with those that are derived."""
+        """Our names of outputs, then those of derived variables."""
         return (*self.called(theirs), *(d.ours for d in self.names.derived))
 
     def row(self, theirs: Sequence[str]) -> NamedRow:
-        """What makes rows under our names from values of these variables."""
+        """The conversion of rows of these variables to our names and units."""
         return NamedRow(self.names, theirs)
 
     def theirs(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Start values under our names as the FMU has them."""
+        """Start values, converted from our names and units to those of the FMU."""
         return self.names.values(values)
 
     def ours(self, values: Mapping[str, Value]) -> dict[str, Value]:
-        """Start values of the FMU under our names, in our units."""
+        """Start values, converted from the names and units of the FMU to ours."""
         return self.names.own_values(values)
 
     def inputs(self, values: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-        """Values and rates under our names as the FMU has them."""
+        """Values and rates of inputs, converted from our names and units to those of the FMU."""
         return self.names.inputs(values)
 
     def why_missing(self, name: str) -> str:
-        """Why the FMU does not have one of our names, in a sentence; empty where nothing is known."""
+        """A sentence on why the FMU lacks one of our names; empty if the reason is not known."""
         return self.names.why_missing(name)
 
     def around(self, fmu: Fmu) -> NamedFmu:
-        """The FMU, which is open, under our names, whether it has other ones or not."""
+        """An open FMU under our names, as a `NamedFmu` also without aliases."""
         return NamedFmu(fmu, self.names)
 
     def seen(self, fmu: Fmu) -> Fmu | NamedFmu:
-        """The same; itself where it has no other names."""
-        return seen_through(fmu, self.names)
+        """An open FMU under our names; itself without aliases."""
+        return under_our_names(fmu, self.names)
 
     @contextmanager
     def opened(self) -> Iterator[Fmu | NamedFmu]:
-        """The FMU under our names. Raises `HostError`: it cannot be loaded."""
+        """A context with the opened FMU under our names. Raises `HostError`: it cannot be read."""
         with Fmu(self.path) as fmu:
             yield self.seen(fmu)
 
-    def done_apart(
-        self, work: Callable[[Any, Callable[[float], None]], _Made], task: object, kind: Any, start: Mapping[str, Value]
-    ) -> _Made:
-        """What a function makes of (this source, task) in a process of its own, which the FMU may take down.
+    def run_isolated(
+        self,
+        work: Callable[[Any, Callable[[float], None]], _Result],
+        task: object,
+        kind: Any,
+        start: Mapping[str, Value],
+    ) -> _Result:
+        """The result of a function of (this source, task) in an isolated process, which the FMU may crash.
 
-        `kind`: of what it makes; `start`: start values, whose files the process may read.
+        `kind`: type of the result; `start`: start values, whose files the process may read.
         """
-        result: _Made = in_own_process(work, (self, task), kind, [self.path, *files_of(start)])
+        result: _Result = in_own_process(work, (self, task), kind, [self.path, *files_of(start)])
         return result
 
 
 class LoadedFmu:
-    """An FMU under our names; it is loaded by the first drive, so that it passes to another process before."""
+    """An FMU under our names that is loaded by its first use, so that it can be passed to another process before."""
 
     def __init__(self, source: FmuSource) -> None:
         self._source = source
@@ -135,7 +139,7 @@ class LoadedFmu:
             fmu.close()
 
     def fresh(self) -> Fmu | NamedFmu:
-        """An instance that is as new: loaded, or reset where there is one."""
+        """The FMU ready to be initialised: loaded at first, later reset."""
         if self._fmu is None:
             self._fmu = Fmu(self._source.path)
         else:

@@ -27,10 +27,10 @@ def scene_of(
 ) -> dict[str, Any] | None:
     """The scene of an FMU.
 
-    `settings`: what was set in it: a road of a file is drawn from the file that its parameter names, that of a world
-    with the scenery that its record beside the file has; `world`: the world that the road of a file was of; where its
-    record is gone, `missing` says so. Result: None if the FMU has no scene, as those of other programs. Raises
-    `HostError`: it is no FMU that can be read, or its scene is not of the format.
+    `settings`: parameters that were set: a road file is drawn from the file that its parameter names, with the scenery
+    of the world whose record lies beside it; `world`: the world of the road file, named in `missing` where its record
+    does not exist. Returns None if the FMU has no scene, as FMUs of other programs. Raises `HostError`: the FMU cannot
+    be read, or its scene has another format.
     """
     try:
         with opened(path) as fmu:
@@ -45,29 +45,32 @@ def scene_of(
 
 
 def _roads(
-    scene: Mapping[str, Any], fmu: Archive, settings: Mapping[str, Value], expected: str | None
+    scene: Mapping[str, Any], fmu: Archive, settings: Mapping[str, Value], world_name: str | None
 ) -> tuple[list[Any], list[dict[str, str]], list[Any]]:
-    """Roads with those of files read and with the values that were set; what cannot be drawn, and why; scenery."""
+    """Roads with files read and settings applied; entries of `missing`; scenery."""
     roads, missing, scenery = list[Any](), list[dict[str, str]](), list[Any]()
     for road in scene.get("roads", []):
         variables = road.get("variables") or {}
         road_file = str(settings.get(variables.get("file", road.get("variable", "")), ""))
         name = road_file or str(road.get("path", "") if road["kind"] == "file" else "")
         if not name and road["kind"] != "file":
-            roads.append(_set(road, settings))
+            roads.append(_with_settings(road, settings))
         elif name:
             try:
                 file = Path(name.removeprefix("file://"))
                 world = world_beside(file)
-                road_parts = [_part(name, fmu)] if world is None else world["roads"]
+                road_parts = [_scene_part(name, fmu)] if world is None else world["roads"]
                 if "friction_factor" in variables:
-                    retained = {"variables": {"friction_factor": variables["friction_factor"]}}
-                    road_parts = [_set({"friction_factor": 1.0} | part | retained, settings) for part in road_parts]
+                    friction_variable = {"variables": {"friction_factor": variables["friction_factor"]}}
+                    road_parts = [
+                        _with_settings({"friction_factor": 1.0} | part | friction_variable, settings)
+                        for part in road_parts
+                    ]
                 roads += road_parts
                 if world is None:
-                    if road_file and expected:
-                        why = f"{file.with_suffix('.json')} is not there; {_made_by(file)}"
-                        missing.append({"name": f"The scenery of {expected}", "why": why})
+                    if road_file and world_name:
+                        why = f"{file.with_suffix('.json')} is not there; {_command_text(file)}"
+                        missing.append({"name": f"The scenery of {world_name}", "why": why})
                 else:
                     scenery += world["scenery"]
             except HostError as error:
@@ -75,8 +78,8 @@ def _roads(
     return roads, missing, scenery
 
 
-def _set(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:
-    """A road as slick as the parameters have it, with its kerb where they do: the higher side stays where it is."""
+def _with_settings(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:
+    """A road with the friction and the kerb of the settings; the higher side of the kerb keeps its height."""
     variables = road.get("variables") or {}
     frictions = {
         key: settings[variables[key]] for key in ("friction", "friction_factor") if variables.get(key) in settings
@@ -90,21 +93,21 @@ def _set(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:
         first, last = road["heights"][0], road["heights"][-1]
         high = max(first, last)
         low = high - float(settings[variables["kerb_height"]])
-        # Where both sides were level, the kerb is one to drive down, as it is by default.
+        # Sides at equal height become a kerb that goes down along the road, as by default.
         entry["heights"] = [low, high] if first < last else [high, low]
     return entry
 
 
-def _part(name: str, fmu: Archive) -> dict[str, Any]:
-    """A road file as a part of a scene."""
+def _scene_part(name: str, fmu: Archive) -> dict[str, Any]:
+    """The part of a scene for a road file. `name`: path, or name in the FMU."""
     with temporary_folder() as folder:
-        inside = next((n for n in (name, f"{_ROADS}/{name}") if n in fmu), None)
+        packed_name = next((n for n in (name, f"{_ROADS}/{name}") if n in fmu), None)
         file = Path(name.removeprefix("file://"))
-        if inside is not None:
-            file = Path(folder, Path(inside).name)
-            file.write_bytes(fmu.read(inside))
+        if packed_name is not None:
+            file = Path(folder, Path(packed_name).name)
+            file.write_bytes(fmu.read(packed_name))
         elif not is_file(file):
-            remedy = f"; {_made_by(file)}" if file.is_absolute() else ""
+            remedy = f"; {_command_text(file)}" if file.is_absolute() else ""
             raise HostError(f"its file is not there{remedy}")
         out = Path(folder, "part.json")
         run_ali3("road", str(file), "--part", str(out))
@@ -112,7 +115,7 @@ def _part(name: str, fmu: Archive) -> dict[str, Any]:
         return part
 
 
-def _made_by(road: Path) -> str:
-    """How the world of a road file is made again."""
+def _command_text(road: Path) -> str:
+    """A sentence with the command that makes the world of a road file again."""
     line = f"{command_name('road')} --world {quote(road.stem)} --out {quote(str(road.parent))}"
     return f"that of a world is made again by: {line}"

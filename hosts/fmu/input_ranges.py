@@ -1,4 +1,4 @@
-"""Values over time of an input, against the range that the FMU declares for it."""
+"""Checks values of an input over time against the range that the FMU declares."""
 
 import math
 
@@ -10,30 +10,30 @@ from ali3.units import misread, typeset
 from hosts.fmu.variables import Variable
 
 ROUNDING = 1e-6  # of the range
-LEAST = 0.02  # of the range that values in another unit reach
-CLIPPED = 1.2  # times the range: a factor or an offset more than another unit
+LEAST = 0.02  # of the range, which values in another unit must reach
+CLIPPED = 1.2  # times the range, up to which a factor or an offset is assumed in place of another unit
 
 
 def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "row") -> str:
-    """A sentence on values beyond the range; empty where all are within, up to rounding.
+    """A sentence on values beyond the range; empty if all are within it, up to rounding.
 
-    `values`: in the unit of the variable, shape (n,); `where`: how messages call the number of one of them, from 1.
+    `values`: in the unit of the variable, shape (n,); `where`: noun of messages for their numbers, from 1.
     """
     low, high = variable.low, variable.high
     span = high - low if math.isfinite(high - low) else _limit(variable)
-    off = np.maximum(low - values, values - high)
-    worst = int(np.argmax(off))
-    if not off[worst] > ROUNDING * span:
+    excess = np.maximum(low - values, values - high)
+    worst = int(np.argmax(excess))
+    if not excess[worst] > ROUNDING * span:
         return ""
-    count, first = int((off > ROUNDING * span).sum()), int(np.argmax(off > ROUNDING * span))
+    count, first = int((excess > ROUNDING * span).sum()), int(np.argmax(excess > ROUNDING * span))
     unit = unit_text(typeset(variable.unit))
-    times = f"from {where} {first + 1} on {count} of {len(values)} are beyond"
-    reached = f"reaches {values[worst]:.6g}{unit} in {where} {worst + 1} ({times})"
+    count_text = f"from {where} {first + 1} on {count} of {len(values)} are beyond"
+    reached = f"reaches {values[worst]:.6g}{unit} in {where} {worst + 1} ({count_text})"
     return f"{reached}; the range of the FMU's input is {variable.range}{_hint(variable, values)}"
 
 
 def _limit(variable: Variable) -> float:
-    """The end of the range that is farther from 0; 0 where both are open."""
+    """The largest finite magnitude of the ends of the range; 0 if both are infinite."""
     return max((abs(end) for end in (variable.low, variable.high) if math.isfinite(end)), default=0.0)
 
 
@@ -43,13 +43,13 @@ def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
     largest = float(np.max(np.abs(values)))
     if largest <= CLIPPED * limit:
         return "; it may be clipped by a factor or an offset."
-    mistakes = misread(variable.unit or "1")
-    results = [
+    candidates = misread(variable.unit or "1")
+    units = [
         typeset(m.unit)
-        for m in mistakes
-        if m.taken == mistakes[0].taken  # the unit of the input: values in that are no mistake
+        for m in candidates
+        if m.taken == candidates[0].taken  # only units of the quantity of the input itself
         and low <= m.factor * float(values.min())
         and m.factor * float(values.max()) <= high
         and m.factor * largest >= LEAST * limit
     ]
-    return f"; it looks like {' or '.join(results)}." if results else "; is its unit right?"
+    return f"; it looks like {' or '.join(units)}." if units else "; is its unit right?"

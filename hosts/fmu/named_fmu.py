@@ -19,15 +19,15 @@ from hosts.fmu.variables import Variable
 
 
 class NamedFmu(NamedScalars):
-    """An `Fmu` seen through aliases; with none of them it is the FMU as it is, to the last bit.
+    """An `Fmu` under aliases; without aliases all values are those of the FMU to the last bit.
 
-    `fmu`: its variables that have no alias keep their names and units.
+    `fmu`: variables without an alias keep their names and units.
 
     Attributes
     ----------
     variables : dict of str to ScalarVariable
-        By our names, in the order of the model description; the unit of those whose number changes is ours. Derived
-        ones follow as outputs.
+        By our names, in the order of the model description; converted variables have our units. Derived variables
+        follow as outputs.
     table : dict of str to Variable
         The same with ranges and start values in our units.
     """
@@ -40,39 +40,41 @@ class NamedFmu(NamedScalars):
         self.path: Path = fmu.path
         self.description = fmu.description
         self.messages = fmu.messages
-        self.variables = {ours: _renamed(fmu.variables[a.theirs], a) for ours, a in self._alias.items()}
+        self.variables = {ours: _renamed_variable(fmu.variables[a.theirs], a) for ours, a in self._alias.items()}
         self.table = {
-            a.ours: _scaled(fmu.table[a.theirs], a) for a in self._alias.values() if a.theirs in fmu.table.names
+            a.ours: _scaled_variable(fmu.table[a.theirs], a)
+            for a in self._alias.values()
+            if a.theirs in fmu.table.names
         }
         self._inputs, self._outputs = self.names("input"), self.names("output")
         self._derivation = Derivation(aliases.derived, (*self._inputs, *self._outputs))
-        self.variables |= {name: _derived(name) for name in self._derivation.names}
-        self._held = dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True))
+        self.variables |= {name: _derived_variable(name) for name in self._derivation.names}
+        self._input_values = dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True))
         self._slopes: dict[str, float] = {}
         self._time = 0.0
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """See `Fmu.initialise`; `start` is in our names and units."""
         self._fmu.initialise(self.aliases.values(start), start_time)
-        self._hold({name: float(x) for name, x in start.items() if name in self._held})
+        self._store_inputs({name: float(x) for name, x in start.items() if name in self._input_values})
         self._time = start_time
 
     def reset(self) -> None:
         """See `Fmu.reset`."""
         self._fmu.reset()
-        self._hold(dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True)))
+        self._store_inputs(dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True)))
         self._slopes = {}
 
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        chosen = self._chosen(names)
-        set_theirs = self._fmu.setter([a.theirs for a in chosen])
-        if all(map(_is_plain, chosen)) and not self._derivation.names:
+        aliases = self._aliases_of(names)
+        set_theirs = self._fmu.setter([a.theirs for a in aliases])
+        if all(map(_is_identity, aliases)) and not self._derivation.names:
             return set_theirs
-        scales = [(a.factor, a.offset) for a in chosen]
+        scales = [(a.factor, a.offset) for a in aliases]
 
         def set_values(values: Sequence[float]) -> None:
             set_theirs([f * x + o for (f, o), x in zip(scales, values, strict=True)])
-            self._hold(dict(zip(names, values, strict=True)))
+            self._store_inputs(dict(zip(names, values, strict=True)))
 
         return set_values
 
@@ -82,9 +84,9 @@ class NamedFmu(NamedScalars):
 
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """See `Fmu.slope_setter`; in our units."""
-        chosen = self._chosen(names)
-        set_theirs = self._fmu.slope_setter([a.theirs for a in chosen])
-        factors = [a.factor for a in chosen]
+        aliases = self._aliases_of(names)
+        set_theirs = self._fmu.slope_setter([a.theirs for a in aliases])
+        factors = [a.factor for a in aliases]
 
         def set_slopes(slopes: Sequence[float]) -> None:
             set_theirs([f * x for f, x in zip(factors, slopes, strict=True)])
@@ -96,11 +98,11 @@ class NamedFmu(NamedScalars):
         """See `Fmu.reader`; rates among derived variables are those of the last steps."""
         if any(name in self._derivation.names for name in names):
             return self._reader_of_derived(names)
-        chosen = self._chosen(names)
-        read_theirs = self._fmu.reader([a.theirs for a in chosen])
-        if all(map(_is_plain, chosen)):
+        aliases = self._aliases_of(names)
+        read_theirs = self._fmu.reader([a.theirs for a in aliases])
+        if all(map(_is_identity, aliases)):
             return read_theirs
-        factors, offsets = np.array([(a.factor, a.offset) for a in chosen]).T
+        factors, offsets = np.array([(a.factor, a.offset) for a in aliases]).T
 
         def read_values(into: NDArray[np.float64]) -> None:
             read_theirs(into)
@@ -111,24 +113,24 @@ class NamedFmu(NamedScalars):
 
     def _reader_of_derived(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
         read_outputs = self.reader(self._outputs)
-        present = (*self._inputs, *self._outputs, *self._derivation.names)
-        order = [present.index(n) for n in names]
-        inputs = len(self._inputs)
-        row = np.empty(inputs + len(self._outputs))
+        columns = (*self._inputs, *self._outputs, *self._derivation.names)
+        order = [columns.index(n) for n in names]
+        input_count = len(self._inputs)
+        row = np.empty(input_count + len(self._outputs))
 
         def read_values(into: NDArray[np.float64]) -> None:
-            row[:inputs] = list(self._held.values())
-            read_outputs(row[inputs:])
-            into[:] = np.concatenate([row, self._derivation.live(self._time, row)])[order]
+            row[:input_count] = list(self._input_values.values())
+            read_outputs(row[input_count:])
+            into[:] = np.concatenate([row, self._derivation.update(self._time, row)])[order]
 
         return read_values
 
-    def _hold(self, values: Mapping[str, float]) -> None:
-        self._held |= {name: x for name, x in values.items() if name in self._held}
+    def _store_inputs(self, values: Mapping[str, float]) -> None:
+        self._input_values |= {name: x for name, x in values.items() if name in self._input_values}
 
     def step(self, time: float, step: float) -> None:
         self._fmu.step(time, step)
-        self._hold({name: self._held[name] + slope * step for name, slope in self._slopes.items()})
+        self._store_inputs({name: self._input_values[name] + slope * step for name, slope in self._slopes.items()})
         self._slopes = {}
         self._time = time + step
 
@@ -137,12 +139,12 @@ class NamedFmu(NamedScalars):
 
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
         """See `Fmu.start_values`; in our units."""
-        chosen = self._chosen(names)
-        values = self._fmu.start_values([a.theirs for a in chosen])
-        return np.array([(x - a.offset) / a.factor for a, x in zip(chosen, values, strict=True)])
+        aliases = self._aliases_of(names)
+        values = self._fmu.start_values([a.theirs for a in aliases])
+        return np.array([(x - a.offset) / a.factor for a, x in zip(aliases, values, strict=True)])
 
     def constants(self) -> dict[str, float]:
-        """See `Fmu.constants`; with those of the aliases, which win."""
+        """See `Fmu.constants`; those of the alias file take precedence."""
         unconverted = {self.aliases.names([n])[0]: x for n, x in self._fmu.constants().items()}
         converted = {n: (x - self._alias[n].offset) / self._alias[n].factor for n, x in unconverted.items()}
         return {**converted, **self.aliases.constants}
@@ -154,50 +156,50 @@ class NamedFmu(NamedScalars):
     def derive(
         self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64]
     ) -> Mapping[str, NDArray[np.float64]]:
-        """Derived columns of a whole run, in which rates know the next row. `values`: shape (n, len(names))."""
-        present = [k for k, name in enumerate(names) if name not in self.derived]
-        derivation = Derivation(self.aliases.derived, [names[k] for k in present])
-        return dict(zip(derivation.names, derivation.record(time, values[:, present]).T, strict=True))
+        """Derived columns of a whole run, with rates as central differences. `values`: shape (n, len(names))."""
+        given_columns = [k for k, name in enumerate(names) if name not in self.derived]
+        derivation = Derivation(self.aliases.derived, [names[k] for k in given_columns])
+        return dict(zip(derivation.names, derivation.record(time, values[:, given_columns]).T, strict=True))
 
     def why_missing(self, name: str) -> str:
-        """Why there is no variable of one of our names, in a sentence; empty where nothing is known."""
+        """A sentence on why the FMU lacks one of our names; empty if the reason is not known."""
         return self.aliases.why_missing(name)
 
-    def _chosen(self, names: Iterable[str]) -> list[Alias]:
+    def _aliases_of(self, names: Iterable[str]) -> list[Alias]:
         return [self._alias[n] for n in names]
 
 
-def _derived(name: str) -> ScalarVariable:
+def _derived_variable(name: str) -> ScalarVariable:
     variable = ScalarVariable(name=name, valueReference=None)
     variable.type, variable.causality, variable.variability = "Real", "output", "continuous"
     variable.unit, variable.description = unit_of(name), "derived from other variables"
     return variable
 
 
-def _is_plain(alias: Alias) -> bool:
+def _is_identity(alias: Alias) -> bool:
     return (alias.factor, alias.offset) == (1.0, 0.0)
 
 
-def _renamed(variable: ScalarVariable, alias: Alias) -> ScalarVariable:
-    if alias.ours == alias.theirs and _is_plain(alias):
+def _renamed_variable(variable: ScalarVariable, alias: Alias) -> ScalarVariable:
+    if alias.ours == alias.theirs and _is_identity(alias):
         return variable
     renamed = copy.copy(variable)
     renamed.name = alias.ours
-    if not variable.unit or not _is_plain(alias):
+    if not variable.unit or not _is_identity(alias):
         renamed.unit = unit_of(alias.ours)
     return renamed
 
 
-def _scaled(variable: Variable, alias: Alias) -> Variable:
-    if alias.ours == alias.theirs and _is_plain(alias):
+def _scaled_variable(variable: Variable, alias: Alias) -> Variable:
+    if alias.ours == alias.theirs and _is_identity(alias):
         return variable
     low, high = sorted((x - alias.offset) / alias.factor for x in (variable.low, variable.high))
     start = variable.start
-    if not _is_plain(alias) and isinstance(start, (int, float)) and not isinstance(start, bool):
+    if not _is_identity(alias) and isinstance(start, (int, float)) and not isinstance(start, bool):
         start = (start - alias.offset) / alias.factor
     return replace(variable, name=alias.ours, low=low, high=high, start=start)
 
 
-def seen_through(fmu: Fmu, aliases: Aliases) -> Fmu | NamedFmu:
-    """The FMU under our names; itself where there are none."""
+def under_our_names(fmu: Fmu, aliases: Aliases) -> Fmu | NamedFmu:
+    """The FMU under our names; itself without aliases."""
     return NamedFmu(fmu, aliases) if aliases.aliases or aliases.derived or aliases.constants else fmu

@@ -1,4 +1,4 @@
-"""Rows of values that an FMU in another process gives, under our names and in our units."""
+"""Converts rows of values of an FMU in another process to our names and units."""
 
 from collections.abc import Sequence
 
@@ -10,16 +10,16 @@ from hosts.fmu.aliases.derivation import Derivation
 
 
 class NamedRow:
-    """Makes rows of ours from those of an FMU while it is driven.
+    """The conversion of rows of values of an FMU while it is driven.
 
-    `theirs`: names of its n values.
+    `theirs`: names of its n values in the FMU.
 
     Attributes
     ----------
     names : tuple of str
-        Ours; those that are derived follow.
+        Our names of the m values; derived variables follow.
     changed : frozenset of str
-        Those whose number is another than that of the FMU.
+        Names whose values differ from those of the FMU.
     """
 
     def __init__(self, aliases: Aliases, theirs: Sequence[str]) -> None:
@@ -28,10 +28,10 @@ class NamedRow:
         self.names = (*ours, *self._derivation.names)
         self._factors, self._offsets = aliases.scales(theirs)
         scaled = (self._factors != 1.0) | (self._offsets != 0.0)
-        self._plain = not scaled.any()
+        self._is_identity = not scaled.any()
         self.changed = frozenset(np.array(ours)[scaled].tolist()) | {*self._derivation.names}
 
     def of(self, time: float, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A row, of shape (m,); the same array where nothing changes. `time`: s; `values`: shape (n,)."""
-        ours = values if self._plain else (values - self._offsets) / self._factors
-        return np.append(ours, self._derivation.live(time, ours)) if self._derivation.names else ours
+        """The converted row, shape (m,); the same array without a conversion. `time`: s; `values`: shape (n,)."""
+        ours = values if self._is_identity else (values - self._offsets) / self._factors
+        return np.append(ours, self._derivation.update(time, ours)) if self._derivation.names else ours

@@ -1,4 +1,4 @@
-"""Runs work with an FMU in a process of its own, so that a crash of its library is only an error."""
+"""Runs a task with an FMU in an isolated process, so that a crash of its library is only an error."""
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import closing
@@ -12,19 +12,19 @@ from hosts.common.numbers import Value
 from hosts.common.road import report_starts
 
 PATIENCE = 300.0
-"""s that a step, a start or an end of an FMU may take."""
+"""Longest time of a step, a start or an end of an FMU, s."""
 
 T = TypeVar("T")
 R = TypeVar("R")
 
 
 def files_of(values: Mapping[str, Value]) -> list[Path]:
-    """Files that values of an FMU may name."""
+    """Files that values of variables of an FMU may name."""
     return [Path(value) for value in values.values() if isinstance(value, str) and Path(value).suffix]
 
 
 def files_of_drives(fmu: Path, starts: Iterable[Mapping[str, Value]]) -> list[Path]:
-    """Files that drives of an FMU read; a start outside its road is reported now, before any of them begins."""
+    """Files that drives of an FMU read; starts outside of the road are reported."""
     drive_starts = list(starts)
     report_starts(drive_starts)
     return [fmu, *(file for start in drive_starts for file in files_of(start))]
@@ -37,9 +37,9 @@ def in_own_process(
     reads: Iterable[Path],
     tell: Callable[[float], None] = lambda done: None,
 ) -> R:
-    """Do one task. `work`, `answer`, `reads`: see `Isolated`; `tell`: takes the numbers that it reports.
+    """The result of one task. `work`, `answer`, `reads`: see `Isolated`; `tell`: called with its progress.
 
-    Raises `HostError`: the work has raised an error that a command shows; `FailedFmuError`: the process has ended.
+    Raises `HostError`: the work has raised a `UserError`; `FailedFmuError`: the process has ended.
     """
     process: Isolated[T, R] = Isolated(work, answer, reads=reads)
     with closing(process):

@@ -12,17 +12,17 @@ from hosts.fmu.variables import Variable, Variables, kind_text
 
 
 def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
-    """Values of an SSV file.
+    """Settings of an SSV file, in the units of the FMU.
 
-    Raises `HostError`: a name, value, kind or unit is wrong. Raises `ParameterSetError`: it is not a parameter set.
+    Raises `HostError`: a name, value, type or unit is wrong. Raises `ParameterSetError`: it is not a parameter set.
     """
     parameters = read_parameter_set(file)
-    return [_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]
+    return [_setting_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]
 
 
-def _of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, source: str) -> Setting:
+def _setting_of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, source: str) -> Setting:
     variable = variables.settable(entry.name, source)
-    value = _taken(variable, entry.kind, entry.value, source)
+    value = _value_of_entry(variable, entry.kind, entry.value, source)
     own_unit = entry.unit == variable.unit and entry.unit not in parameters.units
     if entry.unit is None or variable.kind != "Real" or own_unit:
         return Setting(variable, variable.check(value, source), source)
@@ -39,8 +39,8 @@ def _of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, sour
     )
 
 
-def _taken(variable: Variable, kind: str, text: str, source: str) -> Value:
-    """The value of an entry, whose kind must fit the variable; a real one is not yet checked."""
+def _value_of_entry(variable: Variable, kind: str, text: str, source: str) -> Value:
+    """The value of an entry, whose type must fit the variable; the range of a real value is not checked."""
     fits = {"Real": ("Real", "Integer"), "Integer": ("Integer", "Real"), "Enumeration": ("Enumeration", "Integer")}
     if kind not in fits.get(variable.kind, (variable.kind,)):
         raise HostError(f"{source}: '{variable.name}' is given as {kind}; in the FMU it is {kind_text(variable.kind)}.")
@@ -60,13 +60,13 @@ def _converted(variable: Variable, value: float, name: str, unit: UnitDefinition
         )
     if fmu_unit.exponents != unit.exponents:
         raise HostError(
-            f"{source}: '{variable.name}' is given in {name} ({_base(unit)}); its unit is {variable.unit} "
-            f"({_base(fmu_unit)})."
+            f"{source}: '{variable.name}' is given in {name} ({_base_unit_text(unit)}); its unit is {variable.unit} "
+            f"({_base_unit_text(fmu_unit)})."
         )
     return unit.convert(value, fmu_unit)
 
 
-def _base(unit: UnitDefinition) -> str:
-    """A unit in base units, for messages."""
+def _base_unit_text(unit: UnitDefinition) -> str:
+    """The text of a unit in base units, for messages."""
     text = ".".join(f"{base}{'' if power == 1 else power}" for base, power in unit.exponents.items()) or "1"
     return text if unit.factor == 1.0 else f"{unit.factor:g} {text}"

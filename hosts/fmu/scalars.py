@@ -12,38 +12,38 @@ from numpy.typing import NDArray
 from ali3.unit_definition import KINDS
 
 ELEMENTS = "extra/org.ali3.elements/elements.txt"
-"""File of an FMU with a line for each array: its name and those of its elements, with blanks between them."""
+"""File of an FMU with a line for each array: its name and those of its elements, separated by blanks."""
 
 TEXTS = ("String", "Binary")
 """Types whose start values are elements of XML."""
 
 
 @dataclass(frozen=True)
-class Place:
-    """Position of the value of a scalar in an FMU."""
+class Scalar:
+    """The address of a scalar in an FMU: its variable, and its index there."""
 
     reference: int
     type: str
     """Of FMI, such as ``Real`` or ``Float64``."""
-    item: int = 0
+    index: int = 0
     size: int = 1
-    """`item`, `size`: place in the values of the variable, and how many values it has."""
+    """`index`, `size`: index among the values of the variable, and their number."""
 
 
 class NamedScalars:
-    """What has scalars by name."""
+    """An object with scalar variables by name."""
 
     variables: dict[str, ScalarVariable]
 
     @property
     def derived(self) -> tuple[str, ...]:
-        """Names of those that are computed from others."""
+        """Names of the variables that are computed from others."""
         return ()
 
     def derive(
         self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64]
     ) -> Mapping[str, NDArray[np.float64]]:
-        """Columns of these of a whole run, by name."""
+        """Columns of the derived variables of a whole run, by name."""
         return {}
 
     def names(self, causality: str) -> list[str]:
@@ -66,32 +66,34 @@ def element_names(text: str) -> dict[str, list[str]]:
     return {names[0]: names[1:] for line in text.splitlines() if (names := line.split())}
 
 
-def scalars(
+def scalar_variables(
     description: ModelDescription, names: Mapping[str, Sequence[str]]
-) -> tuple[list[ScalarVariable], dict[str, Place]]:
-    """All variables of a description, arrays in their elements, and the place of each scalar.
+) -> tuple[list[ScalarVariable], dict[str, Scalar]]:
+    """The scalar variables of a description, elements of arrays included, and the address of each.
 
-    `names`: of elements, see `element_names`; the others are called ``position[1]``, ``matrix[1,2]``.
+    `names`: of elements, see `element_names`; others are called ``position[1]``, ``matrix[1,2]``.
 
     Returns
     -------
     variables : list of ScalarVariable
-        An array has as many as its dimensions say at the start; structural parameters cannot be set.
-    places : dict of str to Place
+        An array has the number of elements of its start dimensions; structural parameters cannot be set.
+    addresses : dict of str to Scalar
     """
     variables: list[ScalarVariable] = []
-    places: dict[str, Place] = {}
+    addresses: dict[str, Scalar] = {}
     for v in description.modelVariables:
         shape = v.shape or ()
-        counted = [v.name + f"[{','.join(map(str, k))}]" for k in itertools.product(*(range(1, n + 1) for n in shape))]
-        called = names.get(v.name, []) if shape else [v.name]
-        texts = v.type in TEXTS  # of theirs FMPy knows the first start value only, which may hold blanks
-        starts = (v.start or "").split() if shape and not texts else [v.start]  # one value is that of all elements
-        for item, name in enumerate(called if len(called) == (len(counted) or 1) else counted):
+        indexed_names = [
+            v.name + f"[{','.join(map(str, k))}]" for k in itertools.product(*(range(1, n + 1) for n in shape))
+        ]
+        given_names = names.get(v.name, []) if shape else [v.name]
+        texts = v.type in TEXTS  # FMPy reads only their first start value, which may contain blanks
+        starts = (v.start or "").split() if shape and not texts else [v.start]  # a single value is that of all elements
+        for index, name in enumerate(given_names if len(given_names) == (len(indexed_names) or 1) else indexed_names):
             element = copy.copy(v)
             element.name, element.type = name, KINDS.get(v.type, v.type)
             element.dimensions, element.shape = [], ()
-            element.start = None if (texts and item) or not starts else starts[item if len(starts) > 1 else 0]
+            element.start = None if (texts and index) or not starts else starts[index if len(starts) > 1 else 0]
             variables.append(element)
-            places[name] = Place(v.valueReference, v.type, item, len(counted) or 1)
-    return variables, places
+            addresses[name] = Scalar(v.valueReference, v.type, index, len(indexed_names) or 1)
+    return variables, addresses

@@ -1,4 +1,4 @@
-"""A scene from a file: an FMU, or the scene itself."""
+"""Reads a scene from an FMU or from a scene file."""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -9,26 +9,26 @@ from hosts.fmu.variables import Variable
 
 @dataclass(frozen=True)
 class Setting:
-    """A value that is set."""
+    """The value of a variable that a user sets."""
 
     variable: Variable
     value: Value
     """In the variable's unit."""
     source: str
-    """Where it comes from, for a person."""
-    given: str = ""
-    """Value and unit as they were given, where the unit is another; else empty."""
+    """Source of the value, for messages."""
+    original: str = ""
+    """Original value and unit, if converted; else empty."""
 
     @property
     def changes(self) -> bool:
-        """Whether it is another value than that of the FMU."""
+        """Whether the value differs from that of the FMU."""
         return self.value != self.variable.start
 
     def words(self) -> str:
-        """Old and new value with their unit."""
+        """Old value, new value with its unit, and source, as text."""
         v = self.variable
-        original = f"{self.given} in " if self.given else ""
-        return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({original}{self.source})"
+        conversion = f"{self.original} in " if self.original else ""
+        return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({conversion}{self.source})"
 
     def record(self) -> dict[str, Any]:
         """The setting as JSON."""

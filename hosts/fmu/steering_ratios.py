@@ -1,4 +1,4 @@
-"""Parameters of a car's FMU that change how far its steering wheel turns to full lock, and constants beside them."""
+"""Constants of the steering of a car whose ratio a parameter changes."""
 
 import math
 from collections.abc import Mapping
@@ -7,14 +7,14 @@ from hosts.common.numbers import Value
 from hosts.fmu.variables import Variables
 
 RATIOS = {"steering.rack_per_turn": -1.0, "steering.ratio": 1.0}
-"""By name the power with which the angle at full lock goes: travel of the rack per turn, ratio of a steering box."""
+"""Parameters with the power of them to which the steering wheel angle at full lock is proportional."""
 _BY_RATIO = ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio")
 
 
 def steering_as_set(constants: Mapping[str, float], table: Variables, start: Mapping[str, Value]) -> dict[str, float]:
-    """Constants of the steering where another ratio is set: full lock is a place of the rack or the arm.
+    """Constants of the steering with the ratio that is set; the rack or arm keeps its position at full lock.
 
-    `constants`: of the FMU, which keeps those of the car file. Result: empty where the ratio is that of the car file.
+    `constants`: of the FMU, which are those of the car file. Result: empty if the ratio is that of the car file.
     """
     scale = 1.0
     for name, power in RATIOS.items():
@@ -24,7 +24,7 @@ def steering_as_set(constants: Mapping[str, float], table: Variables, start: Map
 
 
 def steering_rows(table: Variables, start: Mapping[str, Value]) -> list[tuple[str, str]]:
-    """What a summary says of these constants: the FMU does not know that they have changed."""
+    """Rows of a summary for changed constants, which the FMU does not update."""
     of_file = {n: float(table[n].start or math.nan) for n in _BY_RATIO if n in table.names}
     return [
         (name, f"constant {of_file[name]:.6g} of the FMU is that of the car file; as set it is {value:.6g}")

@@ -1,4 +1,4 @@
-"""Variables of an FMU as a person sets them: kind, unit, range and start value, for FMI 2.0 and 3.0."""
+"""Variables of an FMU of FMI 2.0 or 3.0 with type, unit, range and start value."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from ali3.units import number_with_unit, typeset
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 
-_STEP = 0.01  # s
-_WORDS = {"true": True, "1": True, "false": False, "0": False}
+_DEFAULT_STEP = 0.01  # s
+_BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 _ROLES = {
     "output": "an output",
     "local": "a local variable",
@@ -40,20 +40,20 @@ class Variable:
     kind: str
     """``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration``, or another type of FMI."""
     unit: str
-    """"1" where there is none."""
+    """"1" without a unit."""
     start: Value | None
     low: float
     high: float
-    """`low`, `high`: range, infinite where open."""
+    """`low`, `high`: ends of the range, infinite where open."""
     definition: UnitDefinition | None
-    """Of the unit, where the FMU has one."""
+    """Definition of the unit, if the FMU has one."""
     displays: dict[str, tuple[float, float]]
     """Factor and offset of display units: displayed = factor * value + offset."""
     items: dict[str, int]
-    """Of an enumeration."""
+    """Values of an enumeration by name."""
 
     def text(self, value: Value | None) -> str:
-        """A value for a person."""
+        """A value as text for messages."""
         if value is None:
             return "not set"
         if isinstance(value, bool):
@@ -61,7 +61,7 @@ class Variable:
         return repr(value) if isinstance(value, str) else f"{value:.10g}"
 
     def with_unit(self, value: Value | None) -> str:
-        """A value with its unit."""
+        """A value with its unit as text."""
         unit = typeset(self.unit) if self.kind == "Real" else ""
         return f"{self.text(value)} {unit}".rstrip()
 
@@ -72,24 +72,24 @@ class Variable:
 
     @property
     def range(self) -> str:
-        """The range in words; empty where it is open."""
+        """The range as text; empty if both ends are open."""
         if self.items:
             return ", ".join(f"{number} {name}" for name, number in self.items.items())
         return range_text(self.low, self.high, typeset(self.unit) or "1" if self.kind == "Real" else "1")
 
     def read(self, text: str, source: str, with_unit: bool = False) -> Value:
-        """The value that a person has written, checked.
+        """The checked value of a text.
 
-        `source`: how messages call where it stands; `with_unit`: whether a unit may stand behind it, as on the command
-        line: files have numbers alone. Raises `HostError`: it is no value of this variable.
+        `source`: of the text, for messages; `with_unit`: whether a unit may follow the number, as on the command line
+        but not in files. Raises `HostError`: it is not a value of this variable.
         """
         if self.kind == "String":
             return text
         word = text.strip()
         if self.kind == "Boolean":
-            if word.lower() not in _WORDS:
+            if word.lower() not in _BOOLEANS:
                 raise HostError(f"{source}: '{self.name}' is {word!r}; it must be true or false.")
-            return _WORDS[word.lower()]
+            return _BOOLEANS[word.lower()]
         if word in self.items:
             return self.items[word]
         try:
@@ -99,9 +99,9 @@ class Variable:
             raise HostError(f"{source}: '{self.name}': {error}.") from None
 
     def check(self, value: Value, source: str) -> Value:
-        """The value as its kind has it, if it may be set.
+        """The value, converted to the type of the variable.
 
-        Raises `HostError`: it is of another kind or out of the range.
+        Raises `HostError`: it has another type or is out of the range.
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
@@ -123,9 +123,9 @@ class Variable:
         return int(value)
 
     def from_display(self, value: float, unit: str, source: str) -> float:
-        """A value in a display unit of the FMU, in the variable's unit.
+        """A value converted from a display unit of the FMU to the unit of the variable.
 
-        Raises `HostError`: the FMU has no such display unit for it.
+        Raises `HostError`: the variable has no such display unit.
         """
         if unit not in self.displays:
             raise HostError(
@@ -153,9 +153,9 @@ class Variables:
         return [v for v in self._variables.values() if v.causality == "parameter"]
 
     def settable(self, name: str, source: str) -> Variable:
-        """A variable that may be set before the start. `source`: how messages call where it is asked for.
+        """A variable that may be set before the start. `source`: of the name, for messages.
 
-        Raises `HostError`: there is no such variable, or it may not be set.
+        Raises `HostError`: the variable does not exist, or may not be set.
         """
         variable = self._variables.get(name)
         if variable is None and (elements := [n for n in self.names if n.startswith(f"{name}[")]):
@@ -174,9 +174,12 @@ class Variables:
         return variable
 
     def _near(self, name: str) -> str:
-        can = [n for n, v in self._variables.items() if v.may_be_set]
-        few, many = f"it has: {', '.join(can) or 'none'}", f"{command_name('check')} FMU --show-parameters lists them"
-        return did_you_mean(name, can, few if len(can) <= 2 * MOST else many)
+        settable = [n for n, v in self._variables.items() if v.may_be_set]
+        names_hint, command_hint = (
+            f"it has: {', '.join(settable) or 'none'}",
+            f"{command_name('check')} FMU --show-parameters lists them",
+        )
+        return did_you_mean(name, settable, names_hint if len(settable) <= 2 * MOST else command_hint)
 
 
 def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:
@@ -231,14 +234,14 @@ def check_co_simulation(path: Path, description: ModelDescription) -> None:
 
 
 def default_step(description: ModelDescription) -> float:
-    """The communication step that an FMU asks for, s; else 0.01, or a multiple of its own fixed step."""
-    experiment, face = description.defaultExperiment, description.coSimulation
+    """The default communication step of an FMU, s; without one 0.01, or a near multiple of its fixed step."""
+    experiment, co_simulation = description.defaultExperiment, description.coSimulation
     if experiment is not None and experiment.stepSize:
         return float(experiment.stepSize)
-    fixed_step = float(face.fixedInternalStepSize or 0.0) if face is not None else 0.0
-    return fixed_step * max(1, round(_STEP / fixed_step)) if 0.0 < fixed_step < math.inf else _STEP
+    fixed_step = float(co_simulation.fixedInternalStepSize or 0.0) if co_simulation is not None else 0.0
+    return fixed_step * max(1, round(_DEFAULT_STEP / fixed_step)) if 0.0 < fixed_step < math.inf else _DEFAULT_STEP
 
 
 def kind_text(kind: str) -> str:
-    """A kind with its article."""
+    """A type with its indefinite article."""
     return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"

@@ -15,10 +15,10 @@ from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 
 @dataclass(frozen=True)
 class LastDrive:
-    """What led to the end of a recording: the drive since the last start, without what was rewound."""
+    """The drive since the last start of a recording, without rewound parts."""
 
     start: dict[str, Value]
-    """Values that were set before it."""
+    """Values set before the start."""
     time: NDArray[np.float64]
     """Shape (n + 1,): of the FMU, s: of the start and after each step."""
     count: NDArray[np.int64]
@@ -28,7 +28,7 @@ class LastDrive:
     """Shape (n + 1, number of inputs): at the start, then of each step; one more row where the recording ends with a
     step that was refused."""
     whole: bool
-    """Whether it begins with a start, and not with a saved state."""
+    """Whether it begins with a start, not with a saved state."""
 
 
 @dataclass(frozen=True)
@@ -43,41 +43,41 @@ class _Row:
 
 def last_drive(drive: RecordedDrive) -> LastDrive:
     """The drive that led to the end of a recording. Raises `HostError`: there is no step in it."""
-    path = _path(drive)
-    begin = max((k for k, row in enumerate(path) if row.start is not None), default=0)
-    path = path[begin : begin + 1] + [row for row in path[begin + 1 :] if row.is_step]
-    refused = _refused(drive)
-    if len(path) + bool(refused) < 2:
+    rows = _rows_without_rewound(drive)
+    begin = max((k for k, row in enumerate(rows) if row.start is not None), default=0)
+    rows = rows[begin : begin + 1] + [row for row in rows[begin + 1 :] if row.is_step]
+    refused_inputs = _refused_inputs(drive)
+    if len(rows) + bool(refused_inputs) < 2:
         raise HostError(f"{drive.folder} has no step since its last start.")
     return LastDrive(
-        path[0].start or {},
-        np.array([row.time for row in path]),
-        np.array([row.count for row in path]),
-        np.array([row.epoch for row in path]),
-        np.array([row.inputs for row in path] + ([refused] if refused else [])),
-        path[0].epoch != drive.first_epoch or drive.start_state is None,
+        rows[0].start or {},
+        np.array([row.time for row in rows]),
+        np.array([row.count for row in rows]),
+        np.array([row.epoch for row in rows]),
+        np.array([row.inputs for row in rows] + ([refused_inputs] if refused_inputs else [])),
+        rows[0].epoch != drive.first_epoch or drive.start_state is None,
     )
 
 
-def _path(drive: RecordedDrive) -> list[_Row]:
-    """Rows that led to the end: what a rewind took back is left out."""
-    path: list[_Row] = []
+def _rows_without_rewound(drive: RecordedDrive) -> list[_Row]:
+    """Rows up to the end, without rewound ones."""
+    results: list[_Row] = []
     epoch_before: int | None = None
     for rows in drive.unbroken():
         inputs = rows.values[:, : len(drive.inputs)].tolist()
         for time, count, epoch, values in zip(*(column.tolist() for column in rows[:3]), inputs, strict=True):
             if epoch == epoch_before:
-                path.append(_Row(time, count, epoch, values, True))
+                results.append(_Row(time, count, epoch, values, True))
                 continue
             epoch_before = epoch
             start, back_to = drive.beginning(epoch)
             if start is None:
-                while path and back_to is not None and not back_to.fits(path[-1].count, path[-1].epoch):
-                    path.pop()
-                if not path:
+                while results and back_to is not None and not back_to.fits(results[-1].count, results[-1].epoch):
+                    results.pop()
+                if not results:
                     raise HostError(f"{drive.folder}: the row to which epoch {epoch} goes back is not there.")
-            path.append(_Row(time, count, epoch, values, False, start))
-    return path
+            results.append(_Row(time, count, epoch, values, False, start))
+    return results
 
 
 def recorded_manoeuvre(folder: Path) -> Manoeuvre:
@@ -91,10 +91,10 @@ def recorded_manoeuvre(folder: Path) -> Manoeuvre:
 
 
 def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, state: bytes | None) -> Manoeuvre:
-    """Steps from one row to another; the first line of the table has the inputs that are held at its start."""
+    """The steps between two rows as a manoeuvre, whose first row has the inputs at its start."""
     inputs = last.inputs[[*range(first, stop + 1), stop]]
     time = drive.step * np.array([0, *range(stop - first + 1)], dtype=np.float64)
-    rows = _kept(inputs)
+    rows = _changing_rows(inputs)
     columns = {name: inputs[rows, k] for k, name in enumerate(drive.inputs)}
     start = {name: value for name, value in last.start.items() if name not in columns}
     begin = 0.0 if state is None else float(last.time[first])
@@ -112,14 +112,14 @@ def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, s
     )
 
 
-def _refused(drive: RecordedDrive) -> list[float]:
-    """Inputs of a step that was refused at the end."""
+def _refused_inputs(drive: RecordedDrive) -> list[float]:
+    """Inputs of a refused step at the end, or an empty list."""
     last = drive.events[-1] if drive.events else {}
     return list(last["inputs"]) if last.get("kind") == REFUSED and "inputs" in last else []
 
 
-def _kept(table: NDArray[np.float64]) -> list[int]:
-    """Rows of a table that are needed where a row between two that are like it is left out; the first two are."""
-    same = np.all(table[1:] == table[:-1], axis=1)
-    dull = [k for k in range(2, len(table) - 1) if same[k - 1] and same[k]]
-    return sorted(set(range(len(table))) - set(dull))
+def _changing_rows(table: NDArray[np.float64]) -> list[int]:
+    """Indices of the rows without those equal to both neighbours; the first two are always included."""
+    equal = np.all(table[1:] == table[:-1], axis=1)
+    redundant = [k for k in range(2, len(table) - 1) if equal[k - 1] and equal[k]]
+    return sorted(set(range(len(table))) - set(redundant))

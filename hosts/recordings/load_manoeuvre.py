@@ -10,7 +10,7 @@ from hosts.recordings.last_drive import recorded_manoeuvre
 
 
 def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
-    """Read a manoeuvre by name or path; a folder that holds a recording of the simulator is its last drive.
+    """Read a manoeuvre by name or path; of the folder of a recording the last drive.
 
     `manoeuvre`: see `hosts.driving.manoeuvre_file.read_manoeuvre`; `stop_time`: in place of its own, s. Raises
     `HostError` with the line and the reason.
@@ -21,7 +21,7 @@ def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     return recorded if stop_time is None else replace(recorded, stop_time=stop_time)
 
 
-def check_asked(manoeuvre: str | None) -> None:
-    """Refuse what is no manoeuvre before an FMU is built for it. `manoeuvre`: as of `load_manoeuvre`, if any."""
+def check_manoeuvre_option(manoeuvre: str | None) -> None:
+    """Raise `HostError` if there is no such manoeuvre, before an FMU is built. `manoeuvre`: see `load_manoeuvre`."""
     if manoeuvre is not None and not is_recording(Path(manoeuvre)):
         check_manoeuvre(manoeuvre)

@@ -14,10 +14,10 @@ from hosts.recordings.last_drive import LastDrive, last_drive, manoeuvre_of
 from hosts.recordings.recorded_drive import RecordedDrive
 from hosts.recordings.replay import Repeater, fmu_of, reads_of
 
-_BETWEEN = 1000  # rows between two words on the progress
+_PROGRESS_ROWS = 1000
 
 
-def to_manoeuvre(
+def export_manoeuvre(
     drive: RecordedDrive,
     out: Path,
     begin: float | None = None,
@@ -30,19 +30,19 @@ def to_manoeuvre(
     Parameters
     ----------
     out : Path
-        CSV file. A part that does not begin with the start needs the state there, which is found by repeating the
-        recording in the FMU and is written beside it, with the suffix ``.state``.
+        CSV file. For a part that does not begin with the start, the state at its begin is computed by repeating the
+        recording in the FMU, and written beside the file with the suffix ``.state``.
     begin, end : float, optional
         Times of the FMU, s.
     fmu : Path, optional
-        That finds the state; by default the one that was recorded.
+        For this computation; by default the one that was recorded.
     progress : callable
-        Hears the number of rows that are repeated for the state.
+        Called with the number of repeated rows.
 
     Raises
     ------
     HostError
-        There is no step between these times, or the FMU cannot give the state.
+        There is no step between these times, or the FMU cannot compute the state.
     """
     if out.suffix != ".csv":
         raise HostError(f"{out} would be a manoeuvre; give it the suffix .csv.")
@@ -65,18 +65,18 @@ def to_manoeuvre(
 def _state_at(
     drive: RecordedDrive, last: LastDrive, row: int, fmu: Path | None, progress: Callable[[int], None]
 ) -> bytes:
-    """The state after a row of the last drive, found in a process of its own."""
+    """The state after a row of the last drive, computed in an isolated process."""
     path = fmu_of(drive, fmu)
     task = replace(drive, folder=drive.folder.absolute()), last, row, path
-    return in_own_process(_found, task, bytes, reads_of(drive, path), lambda rows: progress(int(rows)))
+    return in_own_process(_compute_state, task, bytes, reads_of(drive, path), lambda rows: progress(int(rows)))
 
 
-def _found(task: tuple[RecordedDrive, LastDrive, int, Path], progress: Callable[[int], None]) -> bytes:
+def _compute_state(task: tuple[RecordedDrive, LastDrive, int, Path], progress: Callable[[int], None]) -> bytes:
     drive, last, row, fmu = task
     with Repeater(drive, fmu) as repeater:
         try:
-            for k in repeater.along(last, row):
-                if k % _BETWEEN == 0:
+            for k in repeater.go_to(last, row):
+                if k % _PROGRESS_ROWS == 0:
                     progress(k + 1)
         except StepRefusedError as error:
             raise HostError(f"{drive.folder} cannot be repeated up to there: {error}") from None

@@ -8,7 +8,7 @@ from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 
 def manoeuvre_of(fmu: SimulatedFmu, manoeuvre: str | None, stop_time: float | None) -> Manoeuvre:
-    """The manoeuvre that an FMU is run through.
+    """The manoeuvre of a run.
 
     `manoeuvre`: see `hosts.recordings.load_manoeuvre.load_manoeuvre`; without it inputs keep their start values;
     `stop_time`: in s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.

@@ -7,7 +7,7 @@ from ali3.scene.scene_columns import all_columns
 from hosts.driving.run_checks import steps_of
 from hosts.fmu.geometry import scene_of
 
-# about the time between two recorded values of an output; at least a step
+# approximate times between recorded values of an output, at least a step
 DRAWN = 0.025  # s, of outputs that are drawn
 OTHERS = 0.1  # s
 
@@ -15,10 +15,10 @@ OTHERS = 0.1  # s
 def recorded_columns(
     fmu: Path, inputs: Sequence[str], outputs: Sequence[str], step: float, interval: float | None = None
 ) -> dict[str, int]:
-    """Columns of a recording, and how many steps lie between two of their values.
+    """Columns of a recording, with the number of steps between their values.
 
-    Inputs are recorded at every step, so that a drive can be repeated; outputs that the scene of the FMU draws, also
-    the amplitudes of flexible parts, about every 25 ms, others at every fourth of these rows.
+    Inputs are recorded at every step, so that a drive can be repeated; drawn outputs, including amplitudes of flexible
+    parts, about every 25 ms; others at every fourth of these rows.
 
     `step`: communication step, s; `interval`: of all outputs, s, a whole multiple of the step. Raises `HostError`: the
     interval is not a whole multiple of the step.
@@ -28,6 +28,6 @@ def recorded_columns(
         return intervals | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
     scene = scene_of(fmu)
     drawn_outputs = set(all_columns(scene)) if scene else set()
-    often = max(1, round(DRAWN / step))
-    seldom = often * max(1, round(OTHERS / (often * step)))
-    return intervals | {name: often if name in drawn_outputs else seldom for name in outputs}
+    drawn_steps = max(1, round(DRAWN / step))
+    other_steps = drawn_steps * max(1, round(OTHERS / (drawn_steps * step)))
+    return intervals | {name: drawn_steps if name in drawn_outputs else other_steps for name in outputs}

@@ -16,21 +16,21 @@ from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, STATES, VERSION
 from hosts.recordings.tables import TABLE, Rows, blocks_of, joined, recorded
 
-_NEAR = 1e-3  # share: what rounding leaves of a difference of times
+_NEAR = 1e-3  # relative round-off of a difference of times
 _KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": dict, "columns": list, "units": dict}
 
 
 @dataclass(frozen=True)
 class RowKey:
-    """Names a row of a recording."""
+    """The key of a row of a recording."""
 
     count: int
     """Steps computed so far."""
     epoch: int | None
-    """None: the last row of this count before; a count stands twice where an epoch begins."""
+    """None: the last earlier row of this count; two rows have the same count at the begin of an epoch."""
 
     def fits(self, count: int, epoch: int) -> bool:
-        """Whether it names the row of this count and epoch."""
+        """Whether it is the key of the row of this count and epoch."""
         return count == self.count and self.epoch in (None, epoch)
 
 
@@ -41,15 +41,15 @@ def _back_to(event: dict[str, Any]) -> RowKey:
 
 @dataclass(frozen=True)
 class RecordedDrive:
-    """A recording of a drive, as read from its folder."""
+    """A recording of a drive, read from its folder."""
 
     folder: Path
     meta: dict[str, Any]
     """Its `recording.json`."""
     events: list[dict[str, Any]]
-    """In their order."""
+    """Events in order of time."""
     notes: list[str] = field(default_factory=list)
-    """Sentences on what the reader should know."""
+    """Messages for the user."""
 
     @property
     def names(self) -> list[str]:
@@ -68,7 +68,7 @@ class RecordedDrive:
 
     @property
     def every(self) -> list[int]:
-        """Of each column, how many steps lie between two of its values."""
+        """Number of steps between recorded values of each column."""
         return list(self.meta["every"])
 
     def recorded(self, rows: Rows, epoch_before: int | None = None) -> NDArray[np.bool_]:
@@ -91,12 +91,12 @@ class RecordedDrive:
 
     @property
     def start_state(self) -> bytes | None:
-        """The state of the FMU at the first row; None: that is a start."""
+        """The state of the FMU at the first row; None if it is a start."""
         file = self.folder / STATE
         return read_bytes(file, LARGEST_STATE, HostError) if file.is_file() else None
 
     def blocks(self) -> Iterator[Rows]:
-        """All rows, some thousands at a time; their counts never fall, and their times are those of the step."""
+        """All rows, in blocks of some thousands, with checked counts, times and inputs."""
         last, file = (0.0, -1, -1), next(self.folder.glob(f"{TABLE}.*"), self.folder)
         for rows in blocks_of(self.folder, self.names):
             times, counts, epochs = (np.r_[a, b] for a, b in zip(last, rows[:3], strict=True))
@@ -119,7 +119,7 @@ class RecordedDrive:
             yield rows
 
     def unbroken(self) -> Iterator[Rows]:
-        """All rows; `HostError` where one is missing, since what comes after cannot be repeated."""
+        """All rows, in blocks. Raises `HostError` if one is missing, because later rows cannot be repeated."""
         before = -1, -1
         for rows in self.blocks():
             epochs, counts = np.r_[before[0], rows.epoch], np.r_[before[1], rows.steps]
@@ -133,21 +133,21 @@ class RecordedDrive:
             before = int(epochs[-1]), int(counts[-1])
             yield rows
 
-    def shown(self, every: int = 1) -> Iterator[Rows]:
-        """Rows with outputs, some thousands at a time; of those between the beginnings of epochs every so many."""
+    def rows_with_outputs(self, every: int = 1) -> Iterator[Rows]:
+        """Rows with outputs, in blocks: the first of each epoch, and one of `every` others."""
         outputs = self.every[len(self.inputs) :]
         due = every * min(outputs, default=1)
         epoch = -1
         for rows in self.blocks():
-            yield rows.chosen(recorded(rows.steps, np.diff(rows.epoch, prepend=epoch) != 0, [due])[:, 0])
+            yield rows.selected(recorded(rows.steps, np.diff(rows.epoch, prepend=epoch) != 0, [due])[:, 0])
             epoch = int(rows.epoch[-1])
 
     def rows(self, every: int = 1) -> Rows:
-        """The rows of `shown` together."""
-        return joined(list(self.shown(every)), len(self.names))
+        """The rows of `rows_with_outputs`, joined."""
+        return joined(list(self.rows_with_outputs(every)), len(self.names))
 
     def beginning(self, epoch: int) -> tuple[dict[str, Value] | None, RowKey | None]:
-        """Start values of an epoch, or the row it goes back to; `HostError` where its event is not there."""
+        """Start values of an epoch, or the row to which it goes back. Raises `HostError` if its event is missing."""
         results = self.restart(epoch), self.back_to(epoch)
         if results == (None, None):
             raise HostError(f"{self.folder}: epoch {epoch} begins with neither a start nor a state that was recorded.")
@@ -157,12 +157,12 @@ class RecordedDrive:
         """Start values of the FMU if it starts again with this epoch, else None."""
         if epoch == self.first_epoch:
             return dict(self.meta["start"])
-        event = self._of(epoch, RESTARTS)
+        event = self._event_of_epoch(epoch, RESTARTS)
         return None if event is None else dict(event.get("start", self.meta["start"]))
 
     def back_to(self, epoch: int) -> RowKey | None:
-        """The row whose state was restored where this epoch begins with a rewind, else None."""
-        event = self._of(epoch, (REWIND,))
+        """The row whose state was restored if this epoch begins with a rewind, else None."""
+        event = self._event_of_epoch(epoch, (REWIND,))
         return None if event is None else _back_to(event)
 
     @property
@@ -176,14 +176,14 @@ class RecordedDrive:
         first = next(iter(self.blocks()), None)
         return 0 if first is None else int(first.epoch[0])
 
-    def _of(self, epoch: int, kinds: tuple[str, ...]) -> dict[str, Any] | None:
+    def _event_of_epoch(self, epoch: int, kinds: tuple[str, ...]) -> dict[str, Any] | None:
         return next((e for e in self.events if e.get("epoch") == epoch and e.get("kind") in kinds), None)
 
 
 def read_recording(folder: Path) -> RecordedDrive:
-    """Read a recording; its rows are read when they are asked for. `folder`: or its file `recording.json`.
+    """Read a recording; rows are read on demand. `folder`: or its file `recording.json`.
 
-    Raises `HostError`: it is not a recording; one sentence with the file and the reason.
+    Raises `HostError`: it is not a recording; with the file and the reason.
     """
     folder = folder.parent if folder.name == DESCRIPTION else folder
     file = folder / DESCRIPTION
@@ -211,14 +211,14 @@ def read_recording(folder: Path) -> RecordedDrive:
 
 
 def _events(file: Path) -> list[dict[str, Any]]:
-    """Lines of events; a last one that is cut off is left out."""
+    """Events of a file, without an incomplete last line."""
     if not file.exists():
         return []
     lines = read_bytes(file, LARGEST_JSON, HostError).split(b"\n")[:-1]
     events = [json_of(line, HostError, f"{file}, line {k},", finite=False) for k, line in enumerate(lines, start=1)]
     for k, event in enumerate(events, start=1):
-        result = event if isinstance(event, dict) else {}
-        message = isinstance(result.get("kind"), str) and isinstance(result.get("text"), str)
-        if not message or not isinstance(result.get("time"), (int, float)):
+        fields = event if isinstance(event, dict) else {}
+        has_texts = isinstance(fields.get("kind"), str) and isinstance(fields.get("text"), str)
+        if not has_texts or not isinstance(fields.get("time"), (int, float)):
             raise HostError(f"{file}, line {k} is not an event: it needs a kind, a time and a text.")
     return events

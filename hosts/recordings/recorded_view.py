@@ -1,4 +1,4 @@
-"""A recording of a drive as it is shown moving."""
+"""A recording of a drive as an animation."""
 
 from pathlib import Path
 
@@ -12,16 +12,16 @@ from hosts.fmu.fmu import described
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.recorded_drive import read_recording
 
-_MOST_VALUES = 8_000_000  # that are read: 64 MB
+_MOST_VALUES = 8_000_000  # 64 MB
 
 
 def other_build(fmu: Path, name: str) -> str:
-    """The sentence that an FMU is not what made a result."""
+    """The message that a result is of another FMU."""
     return f"{fmu} is another FMU than that of {name}, or was built again since; what is drawn is its own."
 
 
 def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tuple[Recording, list[str]]:
-    """A recording for the viewer, in the time of the driver: what was rewound is shown too.
+    """A recording for the viewer, over the time of the driver, including rewound parts.
 
     `geometry`: FMU or scene that is drawn in place of the FMU that was recorded. Raises `HostError`: it cannot be read,
     or the FMU is not there any more.
@@ -34,10 +34,10 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     """
     drive = read_recording(folder)
     notes = list(drive.notes)
-    count = sum(len(rows) for rows in drive.shown())
+    count = sum(len(rows) for rows in drive.rows_with_outputs())
     if not count:
         raise HostError(f"{folder} contains no rows yet.")
-    stride = 1  # doubled, so that rows with the seldom outputs stay among those that are read
+    stride = 1  # doubled, so that rows with all outputs are among those that are read
     while count * len(drive.names) > stride * _MOST_VALUES:
         stride *= 2
     rows = drive.rows(stride)
@@ -56,7 +56,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
         notes.append(other_build(source, name))
     if scene is None:
         notes.append(f"{source} does not say what there is to draw; signals can be plotted.")
-    # As the driver had it: it goes on where the car was reset or rewound.
+    # The time of the driver increases also at resets and rewinds.
     time, whole = drive.step * np.asarray(rows.steps, dtype=np.float64), set(drive.meta.get("whole", ()))
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
     recording = Recording(scene, time, columns, drive.meta["units"], name, rows.epoch)
@@ -72,7 +72,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
 def _filled(
     time: NDArray[np.float64], epoch: NDArray[np.int64], values: NDArray[np.float64], held: bool
 ) -> NDArray[np.float64]:
-    """A column that goes straight between its recorded values, or is held, within each epoch."""
+    """A column that is interpolated linearly between its recorded values, or held, within each epoch."""
     finite = np.isfinite(values)
     if finite.all() or not finite.any():
         return values

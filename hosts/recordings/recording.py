@@ -26,12 +26,12 @@ from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, 
 from hosts.recordings.tables import Rows, recorded
 from hosts.recordings.written_tables import CsvTable, ParquetTable, Table
 
-_MOST_ROWS = 2000  # in memory before they are written
-_MOST_WAIT = 2.0  # s of the clock before they are written
+_MOST_ROWS = 2000  # in memory
+_LONGEST_WAIT = 2.0  # s of wall time between writes
 
 
 def check_folder(folder: Path) -> None:
-    """Make the folder of a recording; `HostError` or `FileError` where it holds one, or cannot be written."""
+    """Make the folder of a recording. Raises `HostError` or `FileError` if it has a recording or cannot be written."""
     check_new(folder)
     check_writable(make_folder(folder) / DESCRIPTION)
 
@@ -93,19 +93,19 @@ def recording_meta(
 def _version(package: str) -> str:
     try:
         return version(package)
-    except PackageNotFoundError:  # a clone that is not installed
+    except PackageNotFoundError:  # not installed
         return "unknown"
 
 
 class Recorder(Closable):
-    """Writes a recording; one thread uses it.
+    """Writes a recording, for use by one thread.
 
-    What was recorded reaches the disk every two seconds, so that this much is lost where the program is killed.
+    Rows are written every two seconds, so that at most these are lost if the program is killed.
 
     Parameters
     ----------
     folder : Path
-        It is made; there must be no recording in it.
+        Created if necessary; it must not contain a recording.
     names : sequence of str
         Inputs, then outputs.
     meta : mapping
@@ -113,7 +113,7 @@ class Recorder(Closable):
     table : {"parquet", "csv"}, optional
         By default Parquet where pyarrow is installed.
     every : mapping of str to int, optional
-        Of each name, how many steps lie between two of its values; by default one.
+        Number of steps between values of each name; by default one.
 
     Attributes
     ----------
@@ -157,10 +157,10 @@ class Recorder(Closable):
         }
         self._table: Table = (CsvTable if table == "csv" else ParquetTable)(folder, names, units)
         self._events = (folder / EVENTS).open("x", encoding="utf-8")
-        self._held: list[tuple[float, int, int, ArrayLike]] = []
-        self._written, self._told, self._wrote = 0, 0, clock.monotonic()
+        self._rows_in_memory: list[tuple[float, int, int, ArrayLike]] = []
+        self._row_count, self._event_count, self._last_write = 0, 0, clock.monotonic()
         self._closed = False
-        self._describe()
+        self._write_description()
 
     def row(self, count: int, time: float, epoch: int, values: ArrayLike) -> None:
         """Record a step, or the start of an epoch.
@@ -172,44 +172,43 @@ class Recorder(Closable):
         time : float
             Of the FMU, s.
         epoch : int
-            Its first row is that of a start, reset, rewind or upright, and no step.
+            Its first row is that of a start, reset, rewind or upright, without a step.
         values : array of shape (len(names),)
-            Inputs of the step that ends there, outputs after it, also those that are not due. It is kept, and must not
-            change.
+            Inputs of the step that ends there, and all outputs after it. The array is stored and must not change.
         """
-        self._held.append((time, count, epoch, values))
-        if len(self._held) >= _MOST_ROWS or clock.monotonic() - self._wrote > _MOST_WAIT:
+        self._rows_in_memory.append((time, count, epoch, values))
+        if len(self._rows_in_memory) >= _MOST_ROWS or clock.monotonic() - self._last_write > _LONGEST_WAIT:
             self.flush()
 
     def event(self, time: float, kind: str, text: str, *, epoch: int, **details: Any) -> None:
         """Record an event.
 
-        `time`: of the FMU, s; `epoch`: the one that begins with it, or that it is in; `details`: what repeats it:
-        `start` of `RESTARTS`, all values that were set before the new start; `back_to` and `back_to_epoch` of a rewind,
+        `time`: of the FMU, s; `epoch`: that begins with it, or in which it is; `details`: data to repeat it: `start` of
+        `RESTARTS`, all values set before the new start; `back_to` and `back_to_epoch` of a rewind,
         the row whose state was restored; `inputs` of a step that was refused.
         """
         record = {"time": time, "kind": kind, "text": text, "epoch": epoch, **details}
-        self._events.write(json.dumps(record, ensure_ascii=False, default=_plain) + "\n")
+        self._events.write(json.dumps(record, ensure_ascii=False, default=_json_value) + "\n")
         self._events.flush()
-        self._told += 1
+        self._event_count += 1
 
     def state(self, content: bytes, count: int | None = None, epoch: int = 0) -> None:
         """Record a state.
 
         `content`: of `Fmu.state_bytes`; `count`, `epoch`: of the row after which it was saved; without `count` it is
-        what the first row begins with in place of a start.
+        that of the first row.
         """
         file = self.folder / STATE if count is None else self.folder / STATES / f"{epoch}-{count}.state"
         with atomic_file(file) as temporary:
             temporary.write_bytes(content)
 
     def flush(self) -> None:
-        """Write what is held to the disk."""
-        self._wrote = clock.monotonic()
-        if not self._held:
+        """Write the rows in memory."""
+        self._last_write = clock.monotonic()
+        if not self._rows_in_memory:
             return
-        time, count, epoch, values = zip(*self._held, strict=True)
-        self._held = []
+        time, count, epoch, values = zip(*self._rows_in_memory, strict=True)
+        self._rows_in_memory = []
         steps, epochs = np.array(count, np.int64), np.array(epoch, np.int64)
         table = np.array(values, float)
         begins = epochs != np.r_[-1 if self._epoch is None else self._epoch, epochs[:-1]]
@@ -217,25 +216,27 @@ class Recorder(Closable):
         self._epoch = int(epochs[-1])
         rows = Rows(np.array(time, float), steps, epochs, table)
         self._table.write(rows)
-        self._written += len(rows)
+        self._row_count += len(rows)
 
     def close(self, progress: Callable[[float], object] = lambda share: None) -> None:
-        """Write the rest and finish the files; `progress` hears the share of them that is done."""
+        """Write the remaining rows and finish the files. `progress`: called with the finished share."""
         if self._closed:
             return
         self._closed = True
         self.flush()
         self._events.close()
         self._table.close(progress)
-        self._describe()
+        self._write_description()
 
-    def _describe(self) -> None:
-        meta = self._meta | {"closed": self._closed, "rows": self._written, "events": self._told}
-        write_text(self.folder / DESCRIPTION, json.dumps(meta, indent=1, ensure_ascii=False, default=_plain) + "\n")
+    def _write_description(self) -> None:
+        meta = self._meta | {"closed": self._closed, "rows": self._row_count, "events": self._event_count}
+        write_text(
+            self.folder / DESCRIPTION, json.dumps(meta, indent=1, ensure_ascii=False, default=_json_value) + "\n"
+        )
 
 
-def _plain(value: Any) -> Any:
-    """NumPy's numbers as JSON has them."""
+def _json_value(value: Any) -> Any:
+    """Values of NumPy as those of JSON."""
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
     raise TypeError(f"{value!r} cannot be written into a recording")

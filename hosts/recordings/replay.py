@@ -1,4 +1,4 @@
-"""Repeats a recording through the FMU and compares every bit of its outputs."""
+"""Repeats a recording in the FMU and compares every bit of its outputs."""
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -29,7 +29,7 @@ class Difference:
     time: float
     """Of the FMU, s."""
     name: str
-    """Of the output; ``step``: it was refused, or one that was refused was not."""
+    """Name of the output; ``step``: only the recorded or only the repeated step was refused."""
     recorded: float
     repeated: float
 
@@ -41,23 +41,23 @@ class Difference:
 
 
 @dataclass
-class Replayed:
+class ReplayResult:
     """The result of a replay."""
 
     rows: int = 0
-    """That were compared."""
+    """Number of compared rows."""
     different: int = 0
-    """Rows with another bit."""
+    """Number of rows with a difference."""
     first: list[Difference] = field(default_factory=list)
-    """The first of them, one for each output."""
+    """First difference of each output."""
     notes: list[str] = field(default_factory=list)
-    """Sentences, such as that it is another build of the FMU."""
+    """Messages, such as on another build of the FMU."""
 
 
 def fmu_of(drive: RecordedDrive, fmu: Path | None) -> Path:
     """The FMU that repeats a recording, by default the one that was recorded, absolute.
 
-    Raises `HostError`: that one is not there.
+    Raises `HostError`: the recorded one does not exist.
     """
     path = fmu or Path(drive.meta["fmu"])
     if fmu is None and not is_file(path):
@@ -66,7 +66,7 @@ def fmu_of(drive: RecordedDrive, fmu: Path | None) -> Path:
 
 
 def reads_of(drive: RecordedDrive, fmu: Path) -> list[Path]:
-    """Files that a process reads which repeats a recording in an FMU."""
+    """Files that a process reads to repeat a recording in an FMU."""
     starts = [drive.meta["start"], *(event["start"] for event in drive.events if isinstance(event.get("start"), dict))]
     return [drive.folder, *files_of_drives(fmu, starts)]
 
@@ -74,19 +74,19 @@ def reads_of(drive: RecordedDrive, fmu: Path) -> list[Path]:
 class Repeater(Closable):
     """An FMU that follows a recording row by row; its library is loaded here.
 
-    `fmu`: by default the one that was recorded. Raises `HostError`: the FMU is not there, lacks a variable, or cannot
-    restore states and the recording has one.
+    `fmu`: by default the one that was recorded. Raises `HostError`: the FMU does not exist, lacks a
+    variable, or cannot restore a state of the recording.
     """
 
     def __init__(self, drive: RecordedDrive, fmu: Path | None = None) -> None:
         self.drive, path = drive, fmu_of(drive, fmu)
         self.notes = list(drive.notes)
-        self._kept = set(drive.rewound_to)
+        self._rewind_keys = set(drive.rewound_to)
         self._states: dict[RowKey, State] = {}
         self._started = False
         self.fmu = Fmu(path)
         try:
-            self._check(path)
+            self._check_fmu(path)
             self._set, self._get = self.fmu.setter(drive.inputs), self.fmu.getter(drive.names[len(drive.inputs) :])
         except BaseException:
             self.fmu.close()
@@ -94,32 +94,34 @@ class Repeater(Closable):
         self._time, self._epoch = 0.0, -1
 
     def close(self) -> None:
-        """Free kept states and the instance."""
+        """Free states and the instance."""
         for state in self._states.values():
             self.fmu.free(state)
         self.fmu.close()
 
     def follow(self, rows: Rows) -> Iterator[list[float]]:
-        """Repeat rows, which follow those before; give the outputs after each."""
+        """Repeat the next rows; yields the outputs after each."""
         inputs = len(self.drive.inputs)
         for time, count, epoch, values in zip(*(column.tolist() for column in rows), strict=True):
             if epoch != self._epoch:
-                self._begin(epoch, time)
+                self._begin_epoch(epoch, time)
             else:
                 self._set(values[:inputs])
                 self.fmu.step(self._time, self.drive.step)
             self._time, self._epoch = time, epoch
-            for key in self._kept:
+            for key in self._rewind_keys:
                 if key.fits(count, epoch):
-                    self._keep(key)
+                    self._save_state(key)
             yield self._get()
 
-    def along(self, last: LastDrive, stop: int) -> Iterator[int]:
-        """Go to a row of the last drive, from the last saved state before it; give the number of each row passed."""
+    def go_to(self, last: LastDrive, stop: int) -> Iterator[int]:
+        """Go to a row of the last drive from the last saved state before it; yields the number of each repeated row."""
         drive = self.drive
         self.fmu.initialise(last.start, float(last.time[0]))
         keys = list(zip(last.count.tolist(), last.epoch.tolist(), strict=True))
-        saved = drive.saved if self.fmu.description.guid == drive.meta["guid"] else set()  # states are of one build
+        saved = (
+            drive.saved if self.fmu.description.guid == drive.meta["guid"] else set()
+        )  # states are valid for one build
         begin = next((k for k in range(stop, 0, -1) if keys[k] in saved), 0)
         state = drive.state_after(*keys[begin]) if begin else None if last.whole else drive.start_state
         if state is not None:
@@ -138,7 +140,7 @@ class Repeater(Closable):
             return True
         return False
 
-    def _begin(self, epoch: int, time: float) -> None:
+    def _begin_epoch(self, epoch: int, time: float) -> None:
         """Start the FMU or restore its state, as this epoch began."""
         first = self._epoch == -1
         start, back_to = self.drive.beginning(epoch)
@@ -158,13 +160,13 @@ class Repeater(Closable):
         if state is not None:
             self.fmu.restore_bytes(state)
 
-    def _keep(self, key: RowKey) -> None:
+    def _save_state(self, key: RowKey) -> None:
         before = self._states.pop(key, None)
         if before is not None:
             self.fmu.free(before)
         self._states[key] = self.fmu.state()
 
-    def _check(self, path: Path) -> None:
+    def _check_fmu(self, path: Path) -> None:
         variables = self.fmu.variables
         missing = [name for name in self.drive.names if name not in variables]
         if missing:
@@ -178,20 +180,20 @@ class Repeater(Closable):
 
 def replay(
     drive: RecordedDrive, fmu: Path | None = None, progress: Callable[[int], None] = lambda rows: None
-) -> Replayed:
-    """Repeat a recording in a process of its own, and compare all outputs bit for bit.
+) -> ReplayResult:
+    """Repeat a recording in an isolated process, and compare all outputs bit for bit.
 
-    `fmu`: by default the one that was recorded; `progress`: hears the number of rows that are done. Raises `HostError`:
-    the FMU cannot repeat it at all, see `Repeater`; `FailedFmuError`: the process has ended.
+    `fmu`: by default the one that was recorded; `progress`: called with the number of finished rows. Raises
+    `HostError`: the FMU cannot repeat it, see `Repeater`; `FailedFmuError`: the process has ended.
     """
     path = fmu_of(drive, fmu)
     task = replace(drive, folder=drive.folder.absolute()), path
-    return in_own_process(_replayed, task, Replayed, reads_of(drive, path), lambda rows: progress(int(rows)))
+    return in_own_process(_compare_rows, task, ReplayResult, reads_of(drive, path), lambda rows: progress(int(rows)))
 
 
-def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None]) -> Replayed:
+def _compare_rows(task: tuple[RecordedDrive, Path], progress: Callable[[int], None]) -> ReplayResult:
     drive, fmu = task
-    replayed = Replayed()
+    replayed = ReplayResult()
     outputs = drive.names[len(drive.inputs) :]
     visited: set[str] = set()
     count, time = 0, 0.0
@@ -213,19 +215,21 @@ def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None])
                     return replayed
                 count, time = int(rows.steps[k]), float(rows.time[k])
                 replayed.rows += 1
-                columns = _other_bits(np.where(is_recorded[k], recorded[k], repeated), repeated)
+                columns = _different_columns(np.where(is_recorded[k], recorded[k], repeated), repeated)
                 replayed.different += bool(len(columns))
                 for j in columns:
                     if outputs[j] not in visited:
                         visited.add(outputs[j])
                         replayed.first.append(Difference(count, time, outputs[j], recorded[k, j], repeated[j]))
             progress(replayed.rows)
-        _last_refusal(drive, repeater, replayed, count, time)
+        _compare_last_refusal(drive, repeater, replayed, count, time)
     return replayed
 
 
-def _last_refusal(drive: RecordedDrive, repeater: Repeater, replayed: Replayed, count: int, time: float) -> None:
-    """A recording that ends with a step that was refused: it must be refused again."""
+def _compare_last_refusal(
+    drive: RecordedDrive, repeater: Repeater, replayed: ReplayResult, count: int, time: float
+) -> None:
+    """Check that a refused step at the end of a recording is refused again."""
     last = drive.events[-1] if drive.events else {}
     if last.get("kind") == REFUSED and "inputs" in last and replayed.rows:
         with suppress(HostError):
@@ -234,7 +238,7 @@ def _last_refusal(drive: RecordedDrive, repeater: Repeater, replayed: Replayed, 
                 replayed.different += 1
 
 
-def _other_bits(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[int]:
-    """Places where two rows of doubles differ in a bit; all NaN are alike."""
+def _different_columns(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[int]:
+    """Indices at which two rows of doubles differ in a bit; all NaN are equal."""
     differs = (a.view(np.int64) != b.view(np.int64)) & ~(np.isnan(a) & np.isnan(b))
     return [int(k) for k in np.flatnonzero(differs)]

@@ -1,4 +1,4 @@
-"""Rows of a recording, read from its table; `hosts.recordings.written_tables` says how one grows."""
+"""Reads rows of a recording from its table; see `hosts.recordings.written_tables` for writing."""
 
 from __future__ import annotations
 
@@ -28,28 +28,27 @@ class Rows(NamedTuple):
     """Rows of a recording, in the order in which they were recorded."""
 
     time: NDArray[np.float64]
-    """Shape (n,): time of the FMU, s; it falls where the car was reset or rewound."""
+    """Shape (n,): time of the FMU, s; it decreases at resets and rewinds."""
     steps: NDArray[np.int64]
-    """Shape (n,): steps computed so far, whole; the column ``count``."""
+    """Shape (n,): steps computed so far; the column ``count``."""
     epoch: NDArray[np.int64]
-    """Shape (n,): whole; one more at every reset, rewind, upright."""
+    """Shape (n,): number of resets, rewinds and uprights so far."""
     values: NDArray[np.float64]
-    """Shape (n, m): inputs of the step that ends there, then outputs after it; what was not recorded is not a
-    number."""
+    """Shape (n, m): inputs of the step that ends there, then outputs after it; NaN where not recorded."""
 
     def __len__(self) -> int:
         return len(self.time)
 
-    def chosen(self, which: Any) -> Rows:
+    def selected(self, selection: Any) -> Rows:
         """Some of the rows, by an index or a mask."""
-        return Rows(*(column[which] for column in self))
+        return Rows(*(column[selection] for column in self))
 
 
 def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[np.bool_]:
     """Which values of rows are recorded.
 
-    `steps`: steps computed up to each row, shape (n,); `begins`: whether an epoch begins with the row, shape (n,); all
-    its values are recorded then; `every`: of each column, every so many steps a value is recorded, shape (m,). Returns
+    `steps`: steps computed up to each row, shape (n,); `begins`: whether an epoch begins with the row, of which all
+    values are recorded, shape (n,); `every`: steps between recorded values of each column, shape (m,). Returns
     an array of shape (n, m).
     """
     due = np.asarray(steps)[:, np.newaxis] % np.asarray(every) == 0
@@ -58,7 +57,7 @@ def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[n
 
 
 def joined(blocks: Sequence[Rows], columns: int) -> Rows:
-    """One block of several; an empty one of so many columns if there are none."""
+    """One block of several. `columns`: number of columns of an empty one."""
     if not blocks:
         none = np.zeros(0, dtype=np.int64)
         return Rows(np.zeros(0), none, none, np.zeros((0, columns)))
@@ -75,8 +74,8 @@ def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
     elif (folder / PARTS).is_dir():
         read = 0
         for part in sorted((folder / PARTS).glob("*.parquet")):
-            if parquet_file.is_file() and not part.is_file():  # joined meanwhile
-                yield from _after(parquet_blocks(parquet_file, names), read)
+            if parquet_file.is_file() and not part.is_file():  # the parts have been joined
+                yield from _rows_after(parquet_blocks(parquet_file, names), read)
                 return
             for rows in parquet_blocks(part, names):
                 read += len(rows)
@@ -85,12 +84,12 @@ def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
         raise HostError(f"{folder} has neither {parquet_file.name} nor {csv_file.name}, the table of a recording.")
 
 
-def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
-    """All but so many first rows."""
+def _rows_after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
+    """Rows of blocks without the first `count`."""
     for rows in blocks:
         to_skip = max(0, count - len(rows))
         if count < len(rows):
-            yield rows.chosen(slice(count, None))
+            yield rows.selected(slice(count, None))
         count = to_skip
 
 
@@ -127,12 +126,12 @@ def _csv_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
     keys = len(KEYS)
     full = (row._replace(cells=row.cells[:keys] + [cell or "nan" for cell in row.cells[keys:]]) for row in rows)
     while block := [table.numbers(row, finite=False) for row in islice(full, _BLOCK)]:
-        if not (np.abs([line[:keys] for line in block]) < 2.0**53).all():  # that are whole numbers for sure
+        if not (np.abs([line[:keys] for line in block]) < 2.0**53).all():  # beyond this doubles skip integers
             raise HostError(f"{file}: a time, count or epoch is not a number that a recording has.")
-        yield _of_lines(block)
+        yield _rows_of_lines(block)
 
 
-def _of_lines(lines: list[list[float]]) -> Rows:
+def _rows_of_lines(lines: list[list[float]]) -> Rows:
     table = np.array(lines)
     count, epoch = table[:, 1].astype(np.int64), table[:, 2].astype(np.int64)
     return Rows(np.ascontiguousarray(table[:, 0]), count, epoch, np.ascontiguousarray(table[:, 3:]))

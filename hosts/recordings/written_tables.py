@@ -21,14 +21,14 @@ class Table(Protocol):
     """A table that grows."""
 
     def write(self, rows: Rows) -> None:
-        """Add rows, which are then safe from the end of the program."""
+        """Add rows, which then persist if the program is killed."""
 
     def close(self, progress: Callable[[float], object]) -> None:
-        """Finish the table; `progress` hears the share that is done."""
+        """Finish the table. `progress`: called with the finished share."""
 
 
 class ParquetTable:
-    """A table in Parquet, of doubles but for `KEYS`. `units`: they stand in the file as metadata of the columns."""
+    """A Parquet table of doubles and `KEYS`. `units`: stored as metadata of the columns."""
 
     suffix = ".parquet"
 
@@ -39,7 +39,7 @@ class ParquetTable:
         keys = [pa.field(name, kind) for name, kind in zip(KEYS, kinds, strict=True)]
         values = [pa.field(name, pa.float64(), metadata={"unit": units.get(name, "1")}) for name in names]
         self._schema = pa.schema(keys + values)
-        # Doubles of a motion nearly repeat in their upper bytes, counts in their steps.
+        # Doubles of a motion have similar upper bytes, counts equal differences.
         self._encoding = dict.fromkeys(["time", *names], "BYTE_STREAM_SPLIT")
         self._encoding |= dict.fromkeys(KEYS[1:], "DELTA_BINARY_PACKED")
         self._folder, self._parts = folder, make_folder(folder / PARTS)
@@ -48,11 +48,11 @@ class ParquetTable:
     def write(self, rows: Rows) -> None:
         self._count += 1
         with atomic_file(self._parts / f"{self._count:06d}{self.suffix}") as temporary:
-            self._write([rows], temporary, write_statistics=False, store_schema=False)  # of a part the larger half
+            self._write([rows], temporary, write_statistics=False, store_schema=False)  # they would be most of a part
 
     def close(self, progress: Callable[[float], object]) -> None:
         def blocks() -> Iterator[Rows]:
-            """The rows of several parts at a time: groups of rows that are read at once should not be small."""
+            """Rows of several parts at a time, for large row groups."""
             group: list[Rows] = []
             for k, file in enumerate(sorted(self._parts.glob(f"*{self.suffix}")), start=1):
                 group += parquet_blocks(file, self._schema.names[len(KEYS) :])
@@ -67,12 +67,12 @@ class ParquetTable:
             self._write(blocks(), temporary)
         shutil.rmtree(self._parts, ignore_errors=True)
 
-    def _write(self, blocks: Iterator[Rows] | Sequence[Rows], file: Path, **more: bool) -> None:
+    def _write(self, blocks: Iterator[Rows] | Sequence[Rows], file: Path, **options: bool) -> None:
         import pyarrow as pa
         import pyarrow.parquet as pq
 
-        how = {"compression": "zstd", "use_dictionary": False, "column_encoding": self._encoding}
-        with pq.ParquetWriter(file, self._schema, **how, **more) as writer:
+        compression = {"compression": "zstd", "use_dictionary": False, "column_encoding": self._encoding}
+        with pq.ParquetWriter(file, self._schema, **compression, **options) as writer:
             for rows in blocks:
                 columns = [rows.time, rows.steps, rows.epoch, *np.ascontiguousarray(rows.values.T)]
                 arrays = [pa.array(c, from_pandas=True) for c in columns]  # not a number: not recorded

@@ -77,18 +77,18 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from hosts.driving.manoeuvre import with_names_of
-    from hosts.driving.manoeuvre_settings import set_in
+    from hosts.driving.manoeuvre_settings import apply_settings
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
     from hosts.driving.runs_with_progress import run_with_bar
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
-    from hosts.recordings.load_manoeuvre import check_asked
+    from hosts.recordings.load_manoeuvre import check_manoeuvre_option
     from hosts.recordings.manoeuvre_option import manoeuvre_of
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, pace, summary
 
-    check_asked(options.manoeuvre)
+    check_manoeuvre_option(options.manoeuvre)
     path, driver_settings = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
         renamed: RenamedRun | None = None
@@ -109,7 +109,7 @@ def _run(options: argparse.Namespace) -> int:
             from hosts.driving.driver import driver_of
 
             driver = driver_of(fmu, manoeuvre)
-        set_all = partial(set_in, opened) if renamed is None else renamed.set_in
+        set_all = partial(apply_settings, opened) if renamed is None else renamed.apply_settings
         set_options = fmu_options(options)
         if options.road is not None:
             from hosts.common.road import options_with_road

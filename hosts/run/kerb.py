@@ -19,7 +19,7 @@ from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_settings import set_in
+from hosts.driving.manoeuvre_settings import apply_settings
 from hosts.driving.run_checks import communication_step
 from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.built_fmu import fmu_of_scene
@@ -58,7 +58,7 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
                 f"{path} has no {missing[0]}; build the scene of this test: {command_name('build')} --scene {SCENE}"
             )
         table, picture, record = result_paths(out, "kerb_test")
-        manoeuvre, settings = set_in(fmu, manoeuvre, options, fidelity)
+        manoeuvre, settings = apply_settings(fmu, manoeuvre, options, fidelity)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, step))
     if result["stress.computed"][0] != 1.0:
         raise HostError(f"{path} does not compute the moments (stress.computed is 0); build it with all fidelities.")

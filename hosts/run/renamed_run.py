@@ -5,7 +5,7 @@ from pathlib import Path
 
 from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_settings import set_in
+from hosts.driving.manoeuvre_settings import apply_settings
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_source import FmuSource
@@ -24,9 +24,9 @@ class RenamedRun:
         self.fmu: SimulatedFmu = self._source.seen(fmu)
         self.names = self._source.of_record
 
-    def set_in(
+    def apply_settings(
         self, manoeuvre: Manoeuvre, fmu_options: FmuOptions, fidelity: float | None = None
     ) -> tuple[Manoeuvre, Settings]:
-        """See `hosts.driving.manoeuvre_settings.set_in`; options and settings are in the FMU's names and units."""
-        fmu_manoeuvre, settings = set_in(self._own, manoeuvre, fmu_options, fidelity, self._source.theirs)
+        """See `hosts.driving.manoeuvre_settings.apply_settings`; settings have names and units of the FMU."""
+        fmu_manoeuvre, settings = apply_settings(self._own, manoeuvre, fmu_options, fidelity, self._source.theirs)
         return replace(fmu_manoeuvre, start=self._source.ours(fmu_manoeuvre.start)), settings

@@ -1,4 +1,4 @@
-"""Access control of the server: clients with the token, and pages that it has served."""
+"""Access control of the server: a token in the address, and the origin of requests."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ class AccessControl:
     """The token and origins that a request is checked against."""
 
     address: str
-    """That the server listens on."""
+    """Address on which the server listens."""
     token: str
-    """Other users of this machine reach its ports too."""
+    """Secret part of the address, because other users of this machine reach its ports too."""
 
     @classmethod
     def of(cls, address: str) -> AccessControl:
-        """The guard of an address, with a new token."""
+        """The access control of an address, with a new token."""
         return cls(address, secrets.token_urlsafe(24))
 
     @property
@@ -32,14 +32,13 @@ class AccessControl:
         return _is_local(self.address)
 
     def refusal(self, path: str, headers: Mapping[str, str]) -> str:
-        """Why a request is refused, one sentence; empty where it is not.
+        """A sentence on why a request is refused; empty if it is accepted.
 
-        `path`: with its query; `headers`: ``Host`` and, of browsers, ``Origin``; where one stands several times it must
-        be left out before.
+        `path`: with its query; `headers`: ``Host`` and, from browsers, ``Origin``, each at most once.
         """
         host = headers.get("Host", "")
-        if not self._is_ours(host):
-            # a name of a foreign page may be made to lead here (DNS rebinding); then it stands in Host
+        if not self._is_own_host(host):
+            # DNS rebinding: a foreign name that resolves to this server is then in Host
             return f"A request must name this server by its own address, not {host[:80]!r}."
         origin = headers.get("Origin")
         if origin is not None and origin.lower() != f"http://{host.lower()}":
@@ -49,7 +48,7 @@ class AccessControl:
             return "This server is guarded; open the address with the token that it printed when it was started."
         return ""
 
-    def _is_ours(self, host: str) -> bool:
+    def _is_own_host(self, host: str) -> bool:
         try:
             name = urlsplit(f"//{host}").hostname or ""
         except ValueError:

@@ -1,4 +1,4 @@
-"""A car whose variables have our names."""
+"""A car of the simulator under our names."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -10,18 +10,18 @@ from hosts.simulator.step_times import StepTimes
 
 
 class AliasedCar:
-    """A `Car` seen through aliases; with none of them it is the car as it is.
+    """A `Car` under aliases; without aliases all values are those of the car.
 
     Attributes
     ----------
     names, inputs : tuple of str
-        Ours, where there are aliases; after those of the car, `names` has the derived ones.
+        Our names; in `names` those of derived variables follow.
     units : dict of str to str
-        Of the names; "" where a factor or an offset changes the number.
+        Of the names; "" for converted values.
     constants : dict of str to float
-        Of the FMU, and those of the aliases.
+        Constants of the FMU and of the alias file.
     step : float
-        s.
+        Communication step, s.
     """
 
     def __init__(self, car: Car, source: FmuSource) -> None:

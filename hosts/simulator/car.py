@@ -1,4 +1,4 @@
-"""The car as the main process sees it: sends inputs and commands to its process and reads its state without waiting."""
+"""The car in the main process: sends inputs and commands to its process and reads its state without waiting."""
 
 import math
 import threading
@@ -25,17 +25,17 @@ from hosts.simulator.step_times import StepTimes
 __all__ = ["Car", "CarSettings", "CarState", "Event", "StepTimes"]
 
 SLOWEST = 0.05
-"""Least speed of slow motion, simulated over wall seconds."""
+"""Least speed of slow motion, simulated over wall time."""
 _ROW_SECONDS = 8.0
 _LEAST_ROWS = 2000
 _MOST_ROW_BYTES = 1 << 24
 
 
 class Car(Closable):
-    """An FMU that runs in a process of its own; it begins paused, at time 0.
+    """An FMU that runs in its own process; it begins paused, at time 0.
 
     `names`: numeric inputs, then numeric outputs; `units`: by name; `step`: communication step, s. Raises `HostError`:
-    the FMU cannot be started. Every method raises it when the process has ended by itself.
+    the FMU cannot be started. Every method raises it after the process has ended unexpectedly.
     """
 
     def __init__(self, settings: CarSettings) -> None:
@@ -54,9 +54,9 @@ class Car(Closable):
         self.constants = constants_of(variables)
         self.constants |= steering_as_set(self.constants, table, start)
         self._table, self._ranges = table, [(table[n].low, table[n].high) for n in self.inputs]
-        self._places = {n: k for k, n in enumerate(self.inputs)}
-        self._lock, self._wishes = threading.Lock(), 0
-        self._wants = np.zeros(3 * len(self.inputs))
+        self._input_indices = {n: k for k, n in enumerate(self.inputs)}
+        self._lock, self._request_count = threading.Lock(), 0
+        self._requests = np.zeros(3 * len(self.inputs))
         self._closed = False
         rows = max(_LEAST_ROWS, round(_ROW_SECONDS / settings.step)) if settings.record is not None else 1
         rows = min(rows, max(1, _MOST_ROW_BYTES // (8 * (len(ROW) + len(self.names)))))
@@ -64,12 +64,12 @@ class Car(Closable):
         self._shared = SharedValues(sizes)
         self._shared.flags[RECORDING] = settings.record is not None
         self._process: Process | None = None
-        self._mail: ProcessMessages | None = None
+        self._messages: ProcessMessages | None = None
         try:
-            how = (settings.step, settings.paced, settings.priority)
+            timing = (settings.step, settings.paced, settings.priority)
             fmu = settings.fmu.absolute()
-            self._process = Process(Order(fmu, start, *how, sizes, self._shared.name))
-            self._mail = ProcessMessages(self._shared, self._recorder(start))
+            self._process = Process(Order(fmu, start, *timing, sizes, self._shared.name))
+            self._messages = ProcessMessages(self._shared, self._recorder(start))
         except BaseException:
             self.close()
             raise
@@ -85,25 +85,25 @@ class Car(Closable):
 
     @property
     def ended(self) -> HostError | None:
-        """Why the process ended by itself; None: it did not."""
+        """The reason why the process ended unexpectedly; None if it did not."""
         return self._process.ended if self._process is not None else None
 
-    def _alive(self) -> None:
+    def _check_alive(self) -> None:
         if self.ended is not None:
             raise self.ended
         if self._closed:
             raise HostError("The car is closed.")
 
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
-        """Ask for values of inputs.
+        """Request values of inputs.
 
         `values`: by input, its value, which is limited to the range of the model description, and its largest change
-        per second of simulated time; infinite: at once, as integers always change. Raises `HostError`: there is no such
-        input or a number cannot be used; then no input changes.
+        per second of simulated time; integers always change at once, as with an infinite rate. Raises `HostError`: an
+        input does not exist or a number cannot be used; then no input changes.
         """
         checked = []
         for name, (value, rate) in values.items():
-            index = self._places.get(name)
+            index = self._input_indices.get(name)
             if index is None:
                 raise HostError(f"The FMU has no input '{name}'; it has: {', '.join(self.inputs) or 'none'}.")
             if not math.isfinite(value):
@@ -113,19 +113,19 @@ class Car(Closable):
             low, high = self._ranges[index]
             checked.append((index, min(max(value, low), high), rate))
         with self._lock:
-            self._alive()
+            self._check_alive()
             for index, value, rate in checked:
-                self._wishes += 1
-                self._wants[3 * index : 3 * index + 3] = value, rate, self._wishes
-            self._shared.wants.begin()[:] = self._wants
+                self._request_count += 1
+                self._requests[3 * index : 3 * index + 3] = value, rate, self._request_count
+            self._shared.wants.begin()[:] = self._requests
             self._shared.wants.finish()
 
     def command(self, name: str, value: float = 0.0) -> None:
         """Give a command to the car.
 
         `name`: ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
-        simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``. Raises
-        `HostError`: there is no such command, or its value cannot be used.
+        simulated over wall time), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``. Raises
+        `HostError`: the command does not exist, or its value cannot be used.
         """
         commands = COMMANDS[:-1]
         if name not in commands:
@@ -144,33 +144,33 @@ class Car(Closable):
     def restart(self, changes: Mapping[str, Value]) -> None:
         """Start again at time 0 with other start values, which later resets keep.
 
-        `changes`: parameters and start values that replace present ones. Raises `HostError`: there is no such parameter
-        or input, or it cannot have this value.
+        `changes`: parameters and start values that replace present ones. Raises `HostError`: a parameter or input does
+        not exist, or cannot have this value.
         """
         checked = {n: self._table.settable(n, "start values").check(v, "start values") for n, v in changes.items()}
         with self._lock:
             self._send("restart", 0.0, checked)
 
     def _send(self, name: str, value: float, start: Mapping[str, Value] | None = None) -> None:
-        self._alive()
+        self._check_alive()
         commands = self._shared.commands
         if not commands.has_room():
             raise HostError(f"The car has not yet carried out earlier commands; '{name}' was left out.")
         if start is not None and self._process is not None:
             self._process.send(start)
-        commands.slot()[:] = COMMANDS.index(name), value, self._wishes
+        commands.slot()[:] = COMMANDS.index(name), value, self._request_count
         commands.finish()
 
     def latest(self) -> CarState:
-        """The newest state of the car, at once: neither side waits for the other."""
+        """The newest state of the car, without waiting for its process."""
         with self._lock:
-            self._alive()
+            self._check_alive()
             v = self._shared.moments.read()
         return CarState.of(v)
 
     def events(self) -> list[Event]:
         """Events since the last call."""
-        events = self._mail.events() if self._mail is not None else []
+        events = self._messages.events() if self._messages is not None else []
         if not events and self.ended is not None:
             raise self.ended
         return events
@@ -183,7 +183,7 @@ class Car(Closable):
         return self._last_times
 
     def close(self, progress: Callable[[float], object] = lambda share: None) -> None:
-        """End the process, within 2 s whatever it does. `progress`: called with the finished share of a recording."""
+        """End the process within 2 s. `progress`: called with the finished share of a recording."""
         self.step_times()
         with self._lock:
             if self._closed:
@@ -193,7 +193,7 @@ class Car(Closable):
         try:
             if self._process is not None:
                 self._process.close()
-            if self._mail is not None:
-                self._mail.close(progress)
-        finally:  # also where Ctrl-C cuts the end of a recording short
+            if self._messages is not None:
+                self._messages.close(progress)
+        finally:  # also if Ctrl-C interrupts the end of a recording
             self._shared.close()

@@ -18,20 +18,20 @@ class CarSettings:
     """Settings of the start of a car."""
 
     fmu: Path
-    """Of FMI 2.0, co-simulation."""
+    """For co-simulation."""
     start: Mapping[str, Value]
     """Parameters and start values."""
     step: float = 0.002
     """Communication step, s."""
     paced: bool = True
-    """False: as fast as it goes."""
+    """Whether steps are made in real time, else as fast as possible."""
     record: Path | None = None
     interval: float | None = None
-    """Between recorded outputs, s; by default see `hosts.recordings.recorded_columns`."""
+    """Between recorded outputs, s; default: see `hosts.recordings.recorded_columns`."""
     priority: bool = True
-    """Whether to ask for real-time priority; what was got is an event."""
+    """Whether to request real-time priority; an event reports the result."""
     world: str | None = None
-    """What a recording calls the world."""
+    """Name of the world in a recording."""
     seed: int | None = None
 
 
@@ -40,35 +40,35 @@ class CarState:
     """The car after a step."""
 
     count: int
-    """Steps computed; it never falls."""
+    """Steps computed so far, also before a rewind or reset."""
     time: float
-    """Simulated time, s; it falls at a rewind or reset."""
+    """Simulated time, s; it decreases at a rewind or reset."""
     epoch: int
-    """One more at every jump: nothing may be interpolated across it."""
+    """Number of rewinds and new starts so far; values must not be interpolated across them."""
     running: bool
     refused: bool
     behind: bool
-    """`running`, `refused`, `behind`: not paused; the FMU refused the last step; the car is late, or was within the
-    last second."""
+    """`running`, `refused`, `behind`: not paused; the FMU refused the last step; the car is late or was late within
+    the last second."""
     speed: float
-    """Simulated over wall seconds that are asked for."""
+    """Requested ratio of simulated to wall time."""
     wall: float
-    """When this was written, by `time.perf_counter`, which all processes of a machine share, s."""
+    """Time of writing, by `time.perf_counter`, which all processes of a machine share, s."""
     cost: float
     worst: float
     lateness: float
-    """`cost`, `worst`, `lateness`: work of the last step, largest of about the last second, and begin of the last step
-    after its time, s."""
+    """`cost`, `worst`, `lateness`: wall time of the last step, the largest of about the last second, and delay of the
+    begin of the last step, s."""
     missed: int
     """Deadlines missed so far."""
     saved: float
     """Simulated time that can be rewound, s."""
     values: NDArray[np.float64]
-    """Shape (n,): one for each of `Car.names`, in the units of the model description."""
+    """Values of `Car.names`, shape (n,), in the units of the model description."""
 
     @staticmethod
     def of(record: NDArray[np.float64]) -> CarState:
-        """From the shared memory."""
+        """The state of a record of the shared memory."""
         numbers = dict(zip(MOMENT, record.tolist(), strict=False))
         integers = {name: int(numbers[name]) for name in ("count", "epoch", "missed")}
         flags = {name: bool(numbers[name]) for name in ("running", "refused", "behind")}
@@ -77,7 +77,7 @@ class CarState:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that is to be said."""
+    """An event of a drive with a message for the user."""
 
     time: float
     """Simulated time, s."""

@@ -11,26 +11,25 @@ import time
 import weakref
 from typing import Protocol
 
-# Beyond this a sleep wakes too late; what is left is waited for in a loop, s.
-_SPIN = 0.0005
+_SPIN = 0.0005  # s before the end of a sleep that are waited in a loop, because a sleep may end too late
 _CLOCK_MONOTONIC = 1
 _TIMER_ABSTIME = 1
 _PR_SET_TIMERSLACK = 29
 _SLACK = 1
-_WAITS = "/proc/thread-self/schedstat"  # ran, waited, turns; of the thread that opens it
+_SCHEDULER_STATISTICS = "/proc/thread-self/schedstat"  # run time, wait time and time slices of the thread that opens it
 
 
 class Clock(Protocol):
-    """What the pacing needs; tests give it a time of their own."""
+    """The interface of the clock of the pacing."""
 
     def now(self) -> float:
         """Time, s."""
 
     def sleep_until(self, until: float) -> None:
-        """Return at this time or as soon after it as the system wakes this thread; at once if it has passed."""
+        """Return at this time, or as soon after it as the system wakes this thread."""
 
     def spent(self) -> tuple[float, float] | None:
-        """Time in which this thread has run, and in which it was ready while others ran, s; None: not told."""
+        """Run time of this thread, and time in which it was ready while others ran, s; None if not known."""
 
 
 class _TimeSpec(ctypes.Structure):
@@ -38,9 +37,9 @@ class _TimeSpec(ctypes.Structure):
 
 
 class LinuxClock:
-    """Sleeps of `clock_nanosleep` to an absolute time, without the 50 us by which the system may delay timers.
+    """A clock with `clock_nanosleep` to an absolute time, without the 50 us by which Linux may delay timers.
 
-    It belongs to the thread that makes it.
+    It is for the thread that creates it.
     """
 
     def __init__(self) -> None:
@@ -49,14 +48,14 @@ class LinuxClock:
         self._sleep.argtypes = (ctypes.c_int, ctypes.c_int, ctypes.POINTER(_TimeSpec), ctypes.c_void_p)
         self._time = _TimeSpec()
         self._pointer = ctypes.pointer(self._time)
-        # A default of 50 us belongs to threads without real-time priority; where it stays, the sleep is only coarser.
+        # Threads without real-time priority have a timer slack of 50 us by default.
         library.prctl(_PR_SET_TIMERSLACK, ctypes.c_ulong(_SLACK), 0, 0, 0)
         try:
-            self._waits = os.open(_WAITS, os.O_RDONLY)
+            self._statistics = os.open(_SCHEDULER_STATISTICS, os.O_RDONLY)
         except OSError:  # a kernel without CONFIG_SCHED_INFO
-            self._waits = -1
+            self._statistics = -1
         else:
-            weakref.finalize(self, os.close, self._waits)
+            weakref.finalize(self, os.close, self._statistics)
 
     def now(self) -> float:
         return time.perf_counter()
@@ -67,14 +66,14 @@ class LinuxClock:
         self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, self._pointer, None)
 
     def spent(self) -> tuple[float, float] | None:
-        if self._waits < 0:
+        if self._statistics < 0:
             return None
-        # The file's own time of running is as old as the last tick.
-        return time.thread_time(), 1e-9 * int(os.pread(self._waits, 96, 0).split()[1])
+        # The run time in the file is only updated at ticks.
+        return time.thread_time(), 1e-9 * int(os.pread(self._statistics, 96, 0).split()[1])
 
 
 class SleepingClock:
-    """Sleeps of Python, and a loop for the last fraction of a millisecond."""
+    """A clock with sleeps of Python, and a loop for the last fraction of a millisecond."""
 
     def now(self) -> float:
         return time.perf_counter()

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from hosts.simulator.preparation import DriveRequest, Prepared
     from hosts.simulator.run_report import RunReport
 
-_LOCAL = "127.0.0.1"
-_LONGEST = 1e6
+_LOCAL_ADDRESS = "127.0.0.1"
+_LONGEST_RUN = 1e6
 _TITLE = "ALi3: take the wheel"
 _BAR = "{desc}: {percentage:3.0f} % |{bar}| {elapsed}<{remaining}"
-_OF_RECORDINGS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu", "confined")
+_RECORDING_OPTIONS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu", "confined")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -> int:
@@ -33,15 +33,15 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
     parser = _parser(prog)
     options = parser.parse_args(arguments)
     return run_command(
-        lambda: _simulate(options, begin) if options.recording is None else _recorded(parser, options),
+        lambda: _simulate(options, begin) if options.recording is None else _use_recording(parser, options),
         is_confined=options.confined,
     )
 
 
-def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
+def _use_recording(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     from hosts.recordings.recording_actions import replay_recording, save_manoeuvre, show_recording
 
-    misplaced = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
+    misplaced = given_of(parser, options, [name for name in vars(options) if name not in _RECORDING_OPTIONS])
     if misplaced:
         raise HostError(f"{misplaced[0]} is for driving; with --recording nothing is driven, so leave it out.")
     if options.replay and options.save_manoeuvre is not None:
@@ -76,39 +76,41 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     page.add_argument("--port", type=int, metavar="N", help="port of the server; default: the first free from 8765 on")
     page.add_argument(
         "--listen",
-        default=_LOCAL,
+        default=_LOCAL_ADDRESS,
         metavar="ADDRESS",
         help="address that the server listens on; default: 127.0.0.1, which only this machine reaches",
     )
     add_option(page, "--no-open")
     page.add_argument("--no-devices", action="store_true", help="do not read wheels and gamepads of this machine")
-    alone = parser.add_argument_group("without a page")
-    alone.add_argument("--headless", action="store_true", help="no page; the run ends by itself")
-    add_option(alone, "--stop-time", "that of the manoeuvre")
-    add_option(alone, "--manoeuvre")
-    add_option(alone, "--seed")
-    recorded = parser.add_argument_group("recordings")
-    recorded.add_argument("--recording", type=Path, metavar="DIR", help="a recording: print its content")
-    recorded.add_argument("--replay", action="store_true", help="repeat the recording in the FMU and compare every bit")
-    recorded.add_argument(
+    headless = parser.add_argument_group("without a page")
+    headless.add_argument("--headless", action="store_true", help="no page; the run ends by itself")
+    add_option(headless, "--stop-time", "that of the manoeuvre")
+    add_option(headless, "--manoeuvre")
+    add_option(headless, "--seed")
+    recordings = parser.add_argument_group("recordings")
+    recordings.add_argument("--recording", type=Path, metavar="DIR", help="a recording: print its content")
+    recordings.add_argument(
+        "--replay", action="store_true", help="repeat the recording in the FMU and compare every bit"
+    )
+    recordings.add_argument(
         "--save-manoeuvre", type=Path, metavar="FILE.csv", help="write its last drive as a manoeuvre for ali3 run"
     )
-    add_option(recorded, "--from", dest="begin")
-    add_option(recorded, "--to", dest="end")
+    add_option(recordings, "--from", dest="begin")
+    add_option(recordings, "--to", dest="end")
     return parser
 
 
 def _simulate(options: argparse.Namespace, begin: float) -> int:
     from ali3.files import check_writable
 
-    _check(options)
+    _check_options(options)
     if options.json is not None:
         check_writable(options.json)
-    return _alone(options, begin) if options.headless else _with_pages(options, begin)
+    return _drive_headless(options, begin) if options.headless else _drive_with_pages(options, begin)
 
 
-def _check(options: argparse.Namespace) -> None:
-    """Options that do not go together, and packages that are missing."""
+def _check_options(options: argparse.Namespace) -> None:
+    """Refuse options that cannot be combined, and missing packages."""
     for package in ("fmpy",) if options.headless else ("fmpy", "websockets"):
         if importlib.util.find_spec(package) is None:
             from ali3.extras import missing_package
@@ -116,33 +118,33 @@ def _check(options: argparse.Namespace) -> None:
             raise HostError(missing_package(package))
     if not 0.0 < options.step <= 1.0:
         raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
-    recorded = {"--replay": options.replay or None, "--save-manoeuvre": options.save_manoeuvre}
-    recorded |= {"--from": options.begin, "--to": options.end}
-    if misplaced := [name for name, value in recorded.items() if value is not None]:
+    recording_options = {"--replay": options.replay or None, "--save-manoeuvre": options.save_manoeuvre}
+    recording_options |= {"--from": options.begin, "--to": options.end}
+    if misplaced := [name for name, value in recording_options.items() if value is not None]:
         raise HostError(f"{misplaced[0]} is for a recording; --recording names its folder.")
     if options.interval is not None and options.record is None:
         raise HostError("--interval is for what --record writes; name a folder for the recording.")
-    alone = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
-    if not options.headless and (misplaced := [name for name, value in alone.items() if value is not None]):
+    headless_options = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
+    if not options.headless and (misplaced := [name for name, value in headless_options.items() if value is not None]):
         raise HostError(
             f"{misplaced[0]} is for a run without a page; add --headless, or leave it out and end with Ctrl-C."
         )
     if options.headless and options.stop_time is None and options.manoeuvre is None:
         raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
-    if options.stop_time is not None and not 0.0 < options.stop_time <= _LONGEST:
-        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_LONGEST:g}.")
+    if options.stop_time is not None and not 0.0 < options.stop_time <= _LONGEST_RUN:
+        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_LONGEST_RUN:g}.")
     if options.manoeuvre is not None and options.seed is not None:
         raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
 
 
-def _asked(options: argparse.Namespace) -> DriveRequest:
+def _drive_request(options: argparse.Namespace) -> DriveRequest:
     from hosts.simulator.preparation import DriveRequest
 
     names = ("fmu", "world", "place", "fidelity", "aliases", "record")
     return DriveRequest(**{name: getattr(options, name) for name in names}, fmu_options=fmu_options(options))
 
 
-def _started(options: argparse.Namespace, prepared: Prepared) -> Car:
+def _start_car(options: argparse.Namespace, prepared: Prepared) -> Car:
     from hosts.simulator.car import Car, CarSettings
 
     return Car(
@@ -159,8 +161,8 @@ def _started(options: argparse.Namespace, prepared: Prepared) -> Car:
 
 
 @contextmanager
-def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Iterator[None]:
-    """At the end the car is closed, and what is then still to be said of its recording and the report are shown."""
+def _reported_end(car: Car, options: argparse.Namespace, report: RunReport) -> Iterator[None]:
+    """A context at whose end the car is closed, its last events are shown and the report is written."""
     from ali3.bars import bar
 
     try:
@@ -172,14 +174,14 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
             with bar(total=1.0, desc="recording", bar_format=_BAR) as progress_bar:
                 car.close(lambda share: progress_bar.update(share - progress_bar.n))
         finally:
-            with suppress(HostError):  # a car that has ended by itself has been told of
+            with suppress(HostError):  # the end of the car has been reported
                 for event in car.events():
                     report.event(event.kind, event.text)
             report.finish(car.step_times(), options.json)
 
 
-def _alone(options: argparse.Namespace, begin: float) -> int:
-    """Without a page; the run ends by itself."""
+def _drive_headless(options: argparse.Namespace, begin: float) -> int:
+    """Drive without a page, up to the stop time."""
     from hosts.simulator.aliased_car import AliasedCar
     from hosts.simulator.headless_driving import headless_driver, manoeuvre_of, run_headless, with_start_of
     from hosts.simulator.preparation import prepare
@@ -187,14 +189,14 @@ def _alone(options: argparse.Namespace, begin: float) -> int:
 
     report = RunReport(begin)
     manoeuvre = manoeuvre_of(options.manoeuvre, report.tell)
-    prepared = prepare(with_start_of(_asked(options), manoeuvre), report.tell)
+    prepared = prepare(with_start_of(_drive_request(options), manoeuvre), report.tell)
     report.prepared(prepared, options.step)
     seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0
-    with _started(options, prepared) as started:
+    with _start_car(options, prepared) as started:
         car = AliasedCar(started, prepared.source)
         driver = headless_driver(car, manoeuvre, options.seed)
         report.ready()
-        with _reported(started, options, report):
+        with _reported_end(started, options, report):
             try:
                 good = run_headless(car, driver, seconds, report.event)
             except KeyboardInterrupt:
@@ -203,13 +205,13 @@ def _alone(options: argparse.Namespace, begin: float) -> int:
     return GOOD if good and report.whole else NOT_GOOD
 
 
-def _with_pages(options: argparse.Namespace, begin: float) -> int:
-    """Until Ctrl-C."""
+def _drive_with_pages(options: argparse.Namespace, begin: float) -> int:
+    """Drive with pages until Ctrl-C."""
     from concurrent.futures import ThreadPoolExecutor
 
     from hosts.simulator.access_control import AccessControl
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.page_session import Opened, drive_with_pages
+    from hosts.simulator.page_session import PageServer, drive_with_pages
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
     from hosts.simulator.server_needs import Content
@@ -218,15 +220,17 @@ def _with_pages(options: argparse.Namespace, begin: float) -> int:
 
     report = RunReport(begin)
     with listening_socket(options.listen, options.port) as listening, ThreadPoolExecutor(1) as pool:
-        page = pool.submit(simulator_html, _TITLE)  # a clone may have to build its script
-        prepared = prepare(_asked(options), report.tell)
+        page = pool.submit(simulator_html, _TITLE)  # in a clone the script may have to be built
+        prepared = prepare(_drive_request(options), report.tell)
         report.prepared(prepared, options.step)
-        with _started(options, prepared) as started:
+        with _start_car(options, prepared) as started:
             car = AliasedCar(started, prepared.source)
             record = "" if options.record is None else str(options.record)
             hello = prepared.hello(car.constants, car.names, car.step, record)
             content = Content(page.result(), prepared.world.content, hello, prepared.places())
-            opened = Opened(listening, AccessControl.of(options.listen), not options.no_open, not options.no_devices)
-            with _reported(started, options, report):
-                drive_with_pages(car, content, opened, report)
+            page_server = PageServer(
+                listening, AccessControl.of(options.listen), not options.no_open, not options.no_devices
+            )
+            with _reported_end(started, options, report):
+                drive_with_pages(car, content, page_server, report)
     return GOOD if report.whole else NOT_GOOD

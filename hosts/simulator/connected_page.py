@@ -9,19 +9,19 @@ from websockets.asyncio.server import ServerConnection
 from hosts.common.errors import HostError
 
 IN_FLIGHT = 2
-"""Frames that a page has not acknowledged; it gets no further one before it has."""
+"""Largest number of frames that a page has not acknowledged."""
 MOST_TEXTS = 200
 MESSAGES_PER_SECOND = 400.0
 BURST = 800.0
 MOST_MALFORMED = 20
 STALLED = 2.0
-"""A page that has frames and says nothing for so long, s, has its inputs let go."""
+"""Time without a message from a page with frames, s, after which its inputs are released."""
 
 
 class ConnectedPage:
-    """What the server keeps of a page.
+    """The state of a connected page.
 
-    `number`: from 1, for names of its sources; `now`: seconds of a clock that never goes back.
+    `number`: from 1, for names of its sources; `now`: a monotonic clock, s.
     """
 
     def __init__(self, number: int, connection: ServerConnection, now: Callable[[], float] = time.monotonic) -> None:
@@ -30,54 +30,60 @@ class ConnectedPage:
         self.sources: set[str] = set()
         self.watches_devices = False
         self.stalled = False
-        self.watched = False  # has had a frame
-        self.texts: deque[str] = deque(maxlen=MOST_TEXTS)  # of a page that stalls the oldest are lost
+        self.watched = False  # has acknowledged a frame
+        self.texts: deque[str] = deque(maxlen=MOST_TEXTS)  # when full, the oldest is dropped
         self._now = now
-        self._unseen: deque[tuple[float, float]] = deque()
-        self._heard = now()
-        self._may_say = BURST
+        self._unacknowledged: deque[tuple[float, float]] = deque()
+        self._last_message = now()
+        self._message_allowance = BURST
         self._malformed = 0
 
     def source(self, kind: str) -> str:
-        """The name of one of its sources of inputs, which it has from now on."""
+        """Add a source of inputs of the page; its name."""
         name = f"page {self.number} {kind}"
         self.sources.add(name)
         return name
 
     def heard(self) -> None:
-        """It has said something. Raises `HostError`: it says too much."""
+        """Note a received message. Raises `HostError`: the page sends too many."""
         now = self._now()
-        self._may_say = min(BURST, self._may_say + (now - self._heard) * MESSAGES_PER_SECOND) - 1.0
-        self._heard = now
+        self._message_allowance = (
+            min(BURST, self._message_allowance + (now - self._last_message) * MESSAGES_PER_SECOND) - 1.0
+        )
+        self._last_message = now
         self.stalled = False
-        if self._may_say < 0.0:
+        if self._message_allowance < 0.0:
             raise HostError(f"A page may send {MESSAGES_PER_SECOND:g} messages a second; this one sent more.")
 
     def malformed(self) -> None:
-        """It has said something wrong. Raises `HostError`: too often."""
+        """Note a malformed message. Raises `HostError`: the page has sent too many."""
         self._malformed += 1
         if self._malformed > MOST_MALFORMED:
             raise HostError(f"More than {MOST_MALFORMED} messages of this page were wrong.")
 
     def sent(self, count: float) -> None:
-        """A frame of this count is on its way."""
-        self._unseen.append((count, self._now()))
+        """Note that the frame of this count was sent."""
+        self._unacknowledged.append((count, self._now()))
 
     def saw(self, count: float) -> None:
-        """It has the frames up to this count."""
+        """Note that the page acknowledges frames up to this count."""
         self.watched = True
-        while self._unseen and self._unseen[0][0] <= count:
-            self._unseen.popleft()
+        while self._unacknowledged and self._unacknowledged[0][0] <= count:
+            self._unacknowledged.popleft()
 
     @property
     def takes_more(self) -> bool:
         """Whether another frame may be sent."""
-        return len(self._unseen) < IN_FLIGHT
+        return len(self._unacknowledged) < IN_FLIGHT
 
     def stalls(self) -> bool:
-        """Whether it stalls since now: it has frames, and neither acknowledges them nor says anything else."""
+        """Whether the page begins to stall: it has frames, and neither acknowledges them nor sends other messages."""
         now = self._now()
-        still = bool(self._unseen) and now - self._unseen[0][1] > STALLED and now - self._heard > STALLED
-        begins = still and not self.stalled
-        self.stalled = self.stalled or still
+        is_stalled = (
+            bool(self._unacknowledged)
+            and now - self._unacknowledged[0][1] > STALLED
+            and now - self._last_message > STALLED
+        )
+        begins = is_stalled and not self.stalled
+        self.stalled = self.stalled or is_stalled
         return begins

@@ -1,4 +1,4 @@
-"""An FMU that is driven step by step, started again, set upright and rewound; it knows no clock."""
+"""An FMU that is driven step by step, started again, set upright and rewound, without a clock."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -17,7 +17,7 @@ from hosts.simulator.saved_states import Mark, SavedStates
 _POSE = ("chassis.x", "chassis.y", "chassis.yaw")
 _INITIAL = ("initial.x", "initial.y", "initial.yaw")
 _SPEED = "initial.speed"
-_MOVING = ("initial.lateral_speed", "initial.yaw_rate", "initial.settling")
+_INITIAL_MOTION = ("initial.lateral_speed", "initial.yaw_rate", "initial.settling")
 _AT_REST = (*_INITIAL, _SPEED)
 
 
@@ -28,11 +28,11 @@ class Notice:
     kind: str
     text: str
     details: dict[str, Any] = field(default_factory=dict)
-    """What a recording needs to repeat it."""
+    """Data with which a recording can repeat it."""
 
 
 class DrivenFmu:
-    """An instance of an FMU with its time, its inputs and its past.
+    """An instance of an FMU with its time, its inputs and its saved states.
 
     `start`: parameters and start values; `step`: communication step, s.
 
@@ -43,9 +43,9 @@ class DrivenFmu:
     values : ndarray of shape (len(names),)
         Inputs of the last step and outputs after it.
     count : int
-        Steps that were made; repeating them in a rewind does not count.
+        Steps made so far, without those repeated in a rewind.
     epoch : int
-        One more with every jump.
+        Number of rewinds and new starts.
 
     Raises
     ------
@@ -56,35 +56,35 @@ class DrivenFmu:
     def __init__(self, path: Path, start: Mapping[str, Value], step: float) -> None:
         self._fmu, self._step, self._start = Fmu(path), step, dict(start)
         self._closed = False
-        self._past: SavedStates | None = None
+        self._saved_states: SavedStates | None = None
         try:
             inputs, outputs = self._fmu.names("input"), self._fmu.names("output")
             self.names = (*inputs, *outputs)
             self.values = np.zeros(len(self.names))
-            self._split = len(inputs)
+            self._input_count = len(inputs)
             self._set, self._get = self._fmu.setter(inputs), self._fmu.reader(outputs)
-            self.inputs = Inputs(self._held(inputs), [self._fmu.variables[n].type == "Integer" for n in inputs])
-            can = bool(getattr(self._fmu.description.coSimulation, "canGetAndSetFMUstate", False))
-            if can:
-                self._past = SavedStates(self._fmu, len(inputs), step)
-            self._poses = all(n in self.names for n in _POSE) and all(n in self._fmu.variables for n in _AT_REST)
+            self.inputs = Inputs(self._start_inputs(inputs), [self._fmu.variables[n].type == "Integer" for n in inputs])
+            has_states = bool(getattr(self._fmu.description.coSimulation, "canGetAndSetFMUstate", False))
+            if has_states:
+                self._saved_states = SavedStates(self._fmu, len(inputs), step)
+            self._has_pose = all(n in self.names for n in _POSE) and all(n in self._fmu.variables for n in _AT_REST)
             self._offset = (0.0, 0.0, 0.0)
             self.count = self.epoch = self._steps = 0
             self._begin = 0.0
             self._refused_inputs = self.inputs.values.copy()
             self._fmu.initialise(self._start)
-            self._started()
-            self._note_offset(self._start)
+            self._after_start()
+            self._store_offset(self._start)
         except BaseException:
             self.close()
             raise
 
     def close(self) -> None:
-        """Free the FMU; more than once does nothing."""
+        """Free the FMU, once."""
         if not self._closed:
             self._closed = True
-            if self._past is not None:
-                self._past.clear()
+            if self._saved_states is not None:
+                self._saved_states.clear()
             self._fmu.close()
 
     @property
@@ -95,7 +95,7 @@ class DrivenFmu:
     @property
     def saved(self) -> float:
         """Simulated time that can be rewound, s."""
-        return self._past.seconds if self._past is not None else 0.0
+        return self._saved_states.seconds if self._saved_states is not None else 0.0
 
     @property
     def start(self) -> dict[str, Value]:
@@ -103,13 +103,13 @@ class DrivenFmu:
         return dict(self._start)
 
     def messages(self) -> list[str]:
-        """What the FMU logged at warning or above since the last call."""
+        """Messages of the FMU at warning or above since the last call."""
         messages = list(self._fmu.messages)
         self._fmu.messages.clear()
         return messages
 
     def advance(self) -> None:
-        """Make a step; `StepRefusedError` with the FMU's sentence, and then all is as before it."""
+        """Make a step. Raises `StepRefusedError` with the message of the FMU; then nothing has changed."""
         before = self.inputs.values.copy()
         self.inputs.advance(self._step)
         try:
@@ -119,11 +119,11 @@ class DrivenFmu:
             self.inputs.values[:] = before
             raise
         self.count += 1
-        if self._past is not None:
-            self._past.add(self.inputs.values, self._mark())
+        if self._saved_states is not None:
+            self._saved_states.add(self.inputs.values, self._mark())
 
     def state_bytes(self) -> bytes:
-        """The state after the last step, for a file; empty where the FMU cannot write it."""
+        """The state after the last step as bytes; empty if the FMU cannot serialize it."""
         try:
             return self._fmu.state_bytes()
         except HostError:
@@ -145,34 +145,34 @@ class DrivenFmu:
         self._read()
 
     def _read(self) -> None:
-        self.values[: self._split] = self.inputs.values
-        self._get(self.values[self._split :])
+        self.values[: self._input_count] = self.inputs.values
+        self._get(self.values[self._input_count :])
 
     def _mark(self) -> Mark:
         return Mark(self.count, self.epoch, self._begin, self._steps)
 
-    def _held(self, names: Sequence[str]) -> list[float]:
+    def _start_inputs(self, names: Sequence[str]) -> list[float]:
         """Start values of inputs."""
         defaults = self._fmu.start_values(names)
         return [float(self._start.get(n, x)) for n, x in zip(names, defaults, strict=True)]
 
-    def _started(self) -> None:
+    def _after_start(self) -> None:
         self._read()
-        if self._past is not None:
-            self._past.begin(self.inputs.values, self._mark())
+        if self._saved_states is not None:
+            self._saved_states.begin(self.inputs.values, self._mark())
 
-    def _note_offset(self, start: Mapping[str, Value]) -> None:
-        """Where the point that the FMU reports lies from the origin that it places, in axes of the car."""
-        if self._poses:
+    def _store_offset(self, start: Mapping[str, Value]) -> None:
+        """Store the position of the reported point relative to the placed origin, in axes of the car."""
+        if self._has_pose:
             defaults = self._fmu.start_values(_INITIAL)
             x, y, yaw = (float(start.get(n, v)) for n, v in zip(_INITIAL, defaults, strict=True))
             present = [float(self.values[self.names.index(n)]) for n in _POSE]
             dx, dy, cos, sin = present[0] - x, present[1] - y, math.cos(yaw), math.sin(yaw)
             self._offset = (dx * cos + dy * sin, dy * cos - dx * sin, present[2] - yaw)
 
-    def _new_start(self, start: Mapping[str, Value], begin: float, request: float) -> None:
-        """A new start of the FMU; if it is refused, the FMU is where it was."""
-        before = self._fmu.state() if self._past is not None else None
+    def _start_again(self, start: Mapping[str, Value], begin: float, request: float) -> None:
+        """Start the FMU again; if it refuses, it keeps its state."""
+        before = self._fmu.state() if self._saved_states is not None else None
         try:
             self._fmu.reset()
             self._fmu.initialise(start, begin)
@@ -194,25 +194,25 @@ class DrivenFmu:
         self.inputs.restart(request)
 
     def reset(self, request: float) -> Notice:
-        """Start again at time 0 as at first; wants up to the number `request` are forgotten."""
-        self._new_start(self._start, 0.0, request)
-        self._started()
+        """Start again at time 0 with the first start values; requests up to the number `request` are dropped."""
+        self._start_again(self._start, 0.0, request)
+        self._after_start()
         return Notice("reset", "The car starts again.", {"start": self.start})
 
     def restart(self, changes: Mapping[str, Value], request: float) -> Notice:
-        """Start again at time 0 with other start values, which stay for later resets; `HostError` if refused."""
+        """Start again at time 0 with other start values, kept for later resets; `HostError` if they are refused."""
         changed = self._start | dict(changes)
-        self._new_start(changed, 0.0, request)
+        self._start_again(changed, 0.0, request)
         self._start = changed
-        self.inputs.set_start(self._held(self.names[: self._split]))
+        self.inputs.set_start(self._start_inputs(self.names[: self._input_count]))
         self.inputs.restart(request)
-        self._started()
-        self._note_offset(changed)
-        return Notice("reset", f"The car starts again with {_words(changes)}.", {"start": self.start})
+        self._after_start()
+        self._store_offset(changed)
+        return Notice("reset", f"The car starts again with {_changes_text(changes)}.", {"start": self.start})
 
     def upright(self, request: float) -> Notice:
-        """Start again where the car is, with its heading, at rest; time goes on."""
-        if not self._poses:
+        """Start again at the present position and heading, at rest, without changing the time."""
+        if not self._has_pose:
             missing = [n for n in _POSE if n not in self.names] + [n for n in _AT_REST if n not in self._fmu.variables]
             raise HostError(
                 f"The car cannot be set upright: {self._fmu.path.name} has no {missing[0]}; a reset starts it again."
@@ -220,7 +220,7 @@ class DrivenFmu:
         x, y, yaw = (float(self.values[self.names.index(n)]) for n in _POSE)
         dx, dy, turn = self._offset
         heading = yaw - turn
-        # The FMU places the origin of its drawing; what it tells is a point of the chassis.
+        # Start values place the origin of the drawing; outputs are of a point of the chassis.
         initial = (
             x - dx * math.cos(heading) + dy * math.sin(heading),
             y - dx * math.sin(heading) - dy * math.cos(heading),
@@ -229,21 +229,21 @@ class DrivenFmu:
         if not all(map(math.isfinite, initial)):
             raise HostError("The car cannot be set upright: its place is not a finite number; a reset starts it again.")
         start = self._start | dict(zip(_INITIAL, initial, strict=True)) | {_SPEED: 0.0}
-        start |= {name: 0.0 for name in _MOVING if name in start}
-        self._new_start(start, self.time, request)
-        self._started()
+        start |= {name: 0.0 for name in _INITIAL_MOTION if name in start}
+        self._start_again(start, self.time, request)
+        self._after_start()
         return Notice("upright", f"The car was set on its wheels at x = {x:.2f} m, y = {y:.2f} m.", {"start": start})
 
     def rewind(self, seconds: float) -> Notice:
-        """Go back by so much simulated time, or as far as there are saved states."""
-        if self._past is None:
+        """Go back by a simulated time, s, or to the oldest saved state."""
+        if self._saved_states is None:
             raise HostError(f"{self._fmu.path.name} cannot go back: it does not save its state (canGetAndSetFMUstate).")
         requested = round(seconds / self._step)
-        steps = min(requested, self._past.steps)
+        steps = min(requested, self._saved_states.steps)
         if not steps:
             raise HostError("There is nothing to go back to: no step was made since the oldest state that is kept.")
         self.epoch += 1
-        mark, input_values, rows = self._past.back(steps)
+        mark, input_values, rows = self._saved_states.back(steps)
         self._begin, self._steps = mark.begin, mark.steps
         for row in rows:
             self.inputs.values[:] = row
@@ -255,5 +255,5 @@ class DrivenFmu:
         return Notice("rewind", text, {"back_to": mark.count, "back_to_epoch": mark.epoch})
 
 
-def _words(changes: Mapping[str, Value]) -> str:
+def _changes_text(changes: Mapping[str, Value]) -> str:
     return ", ".join(f"{n} = {v:g}" if isinstance(v, float) else f"{n} = {v}" for n, v in changes.items())

@@ -1,4 +1,4 @@
-"""Driving without a page: inputs are held, or come from a manoeuvre or from a driver at random."""
+"""Driving without a page: inputs are constant, or those of a manoeuvre or a random driver."""
 
 import math
 import time
@@ -18,7 +18,7 @@ from hosts.simulator.preparation import DriveRequest
 
 _PERIOD = 0.005
 _BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"
-_STILL = 10.0  # s: a car that computes no step for so long is given up
+_PATIENCE = 10.0  # s without a step, after which the run is aborted
 
 
 class HeadlessDriver(Protocol):
@@ -28,17 +28,17 @@ class HeadlessDriver(Protocol):
         """Values of inputs at a time, s."""
 
 
-class Held:
-    """Inputs stay as the FMU starts with them."""
+class ConstantInputs:
+    """A driver that leaves all inputs at their start values."""
 
     def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
         return {}
 
 
-class OfManoeuvre:
-    """Inputs of a manoeuvre: of its table, and of its driver where it has one.
+class ManoeuvreDriver:
+    """A driver with the inputs of a manoeuvre: of its table and of its driver, if it has one.
 
-    Raises `HostError`: the car has not what it needs.
+    Raises `HostError`: the car lacks a variable, or the manoeuvre needs a run before.
     """
 
     def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:
@@ -64,70 +64,70 @@ class OfManoeuvre:
 
 
 def manoeuvre_of(name: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:
-    """The manoeuvre that ``--manoeuvre`` names, if it was given; see `load_manoeuvre`."""
+    """The manoeuvre of ``--manoeuvre``, if given; `tell`: called with a note. See `load_manoeuvre`."""
     manoeuvre = None if name is None else load_manoeuvre(name)
     if manoeuvre is not None and (late := manoeuvre.late_begin(ACTS if manoeuvre.driver else ())):
         tell(": ".join(late))
     return manoeuvre
 
 
-def with_start_of(asked: DriveRequest, manoeuvre: Manoeuvre | None) -> DriveRequest:
-    """What is asked for, with the start values of a manoeuvre, if there is one."""
+def with_start_of(request: DriveRequest, manoeuvre: Manoeuvre | None) -> DriveRequest:
+    """A request with the start values of a manoeuvre, if there is one."""
     if manoeuvre is None:
-        return asked
-    return replace(asked, manoeuvre=manoeuvre.name, start=lambda names: with_names_of(manoeuvre, names).start)
+        return request
+    return replace(request, manoeuvre=manoeuvre.name, start=lambda names: with_names_of(manoeuvre, names).start)
 
 
-def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | None) -> HeadlessDriver:
-    """Who moves the inputs of a car. `wild`: seed of a driver at random."""
+def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, seed: int | None) -> HeadlessDriver:
+    """The driver of a car. `seed`: of a random driver, without a manoeuvre."""
     if manoeuvre is not None:
-        return OfManoeuvre(manoeuvre, car)
-    return Held() if wild is None else RandomDriver(wild, car.inputs)
+        return ManoeuvreDriver(manoeuvre, car)
+    return ConstantInputs() if seed is None else RandomDriver(seed, car.inputs)
 
 
 def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: Callable[[str, str], None]) -> bool:
-    """Drive for a simulated time; False where a step was refused.
+    """Drive for a simulated time; False if a step was refused.
 
     Parameters
     ----------
     car : AliasedCar
         Paused.
     seconds : float
-        Simulated time.
+        Simulated time, s.
     tell : callable
-        Takes kind and text of what there is to be said.
+        Called with kind and text of each event.
 
     Raises
     ------
     HostError
-        The car computes no steps any more.
+        The car has stopped computing steps.
     """
     columns = [(name, car.names.index(name)) for name in OBSERVED if name in car.names]
     _act(car, driver, columns)
     car.command("step", max(1, round(seconds / car.step)))
-    last, since = -1, time.monotonic()
+    last_count, since = -1, time.monotonic()
     try:
         with bar(total=seconds, bar_format=_BAR) as progress:
             while True:
-                moment = car.latest()
+                state = car.latest()
                 for event in car.events():
                     progress.clear()
                     tell(event.kind, event.text)
-                progress.update(min(moment.time, seconds) - progress.n)
-                if moment.refused or moment.time >= seconds - 0.5 * car.step:
-                    return not moment.refused
+                progress.update(min(state.time, seconds) - progress.n)
+                if state.refused or state.time >= seconds - 0.5 * car.step:
+                    return not state.refused
                 now = time.monotonic()
-                if moment.count != last:
-                    last, since = moment.count, now
-                elif now - since > _STILL:
-                    raise HostError(f"The car has computed no step for {_STILL:g} s; the run is aborted.")
+                if state.count != last_count:
+                    last_count, since = state.count, now
+                elif now - since > _PATIENCE:
+                    raise HostError(f"The car has computed no step for {_PATIENCE:g} s; the run is aborted.")
                 _act(car, driver, columns)
                 time.sleep(_PERIOD)
     finally:
         car.command("pause")
 
 
-def _act(car: AliasedCar, driver: HeadlessDriver, places: Sequence[tuple[str, int]]) -> None:
-    moment = car.latest()
-    if inputs := driver.act(moment.time, {name: float(moment.values[k]) for name, k in places}):
+def _act(car: AliasedCar, driver: HeadlessDriver, columns: Sequence[tuple[str, int]]) -> None:
+    state = car.latest()
+    if inputs := driver.act(state.time, {name: float(state.values[k]) for name, k in columns}):
         car.want({name: (value, math.inf) for name, value in inputs.items()})

@@ -1,14 +1,14 @@
-"""Arbitrates between the sources of each input: pages and devices request values, and one of them moves the input."""
+"""Arbitrates between pages and devices that request values of the same input."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from threading import Lock
 
 Wanted = Mapping[str, tuple[float, float]]
-"""Inputs with the value that is wanted and the largest change per simulated second."""
+"""By input, the requested value and its largest change per second of simulated time."""
 
 MOVED = 0.02
-"""A source that moves an input by more than this has the word there; less is noise of an axis."""
+"""Change of a request with which a source takes over an input; smaller changes are noise of an axis."""
 LET_GO = {
     "steering": 3.0,
     "throttle": 5.0,
@@ -17,8 +17,10 @@ LET_GO = {
     "steering_wheel_angle_demand": 12.0,
     "steering_torque": 60.0,
 }
-"""Inputs that go to zero when nobody holds them, and their rates per second, which are those of a key that is let go.
-Others, such as the selector, stay."""
+"""Inputs that return to zero without a source, with their rates per second, as after the release of a key.
+
+Others, such as the selector, keep their values.
+"""
 
 
 @dataclass
@@ -27,16 +29,15 @@ class _Input:
 
     owner: str = ""
     sent: float | None = None
-    seen: dict[str, float] = field(default_factory=dict)
+    requests: dict[str, float] = field(default_factory=dict)
 
 
 class InputArbiter:
     """Arbitrates between pages and devices at the inputs of the car.
 
-    For each input the source that moved last, by more than `MOVED`, moves it. May be called from several threads.
+    Each input follows the source whose request last changed by more than `MOVED`. Several threads may call it.
 
-    `car_want`: takes inputs as of `Wanted`; those that nobody wants stay as they are; `inputs`: of the car; requests
-    for others are ignored.
+    `car_want`: called with `Wanted`; `inputs`: of the car; requests for others are ignored.
     """
 
     def __init__(self, car_want: Callable[[Wanted], None], inputs: Collection[str]) -> None:
@@ -45,10 +46,10 @@ class InputArbiter:
         self._lock = Lock()
 
     def want(self, source: str, values: Wanted) -> None:
-        """A source says what it wants; it may say so as often as it likes.
+        """Take the requests of a source, at any rate.
 
-        `source`: such as ``page 1 keys`` or ``device Wheel``; `values`: value, and largest change per simulated second;
-        infinite: at once.
+        `source`: such as ``page 1 keys`` or ``device Wheel``; `values`: value, and largest change per second of
+        simulated time, infinite for a change at once.
         """
         with self._lock:
             passed = {}
@@ -57,12 +58,12 @@ class InputArbiter:
                 if state is None:
                     continue
                 default = 0.0 if name in LET_GO else state.sent
-                before = state.seen.get(source, default)
+                before = state.requests.get(source, default)
                 if before is None or abs(value - before) > MOVED:
                     state.owner = source
-                    state.seen[source] = value
+                    state.requests[source] = value
                 else:
-                    state.seen.setdefault(source, value)
+                    state.requests.setdefault(source, value)
                 if state.owner == source:
                     state.sent = value
                     passed[name] = (value, rate)
@@ -70,23 +71,22 @@ class InputArbiter:
                 self._want(passed)
 
     def gone(self, source: str) -> list[str]:
-        """A source is no longer there: what it held is let go.
+        """Remove a source and release its inputs.
 
-        Returns inputs that it held away from zero and that go back; another source takes them when it says again what
-        it wants.
+        Returns inputs that return from other values to zero; another source takes them over with its next request.
         """
         with self._lock:
-            free = {}
+            released = {}
             for name, state in self._inputs.items():
-                state.seen.pop(source, None)
+                state.requests.pop(source, None)
                 if state.owner != source:
                     continue
                 state.owner = ""
                 if name in LET_GO:
                     if state.sent:
-                        free[name] = (0.0, LET_GO[name])
+                        released[name] = (0.0, LET_GO[name])
                     state.sent = 0.0
-                state.seen.clear()
-            if free:
-                self._want(free)
-            return list(free)
+                state.requests.clear()
+            if released:
+                self._want(released)
+            return list(released)

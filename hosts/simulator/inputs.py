@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 
 class Inputs:
-    """Values of the inputs, and where they are going.
+    """Values of the inputs and their targets.
 
-    `start`: values at every new start; `whole`: which can only have whole numbers: these change at once. `values`: of
-    the step that comes or was made, shape (n,).
+    `start`: values at every new start, n; `whole`: whether each is an integer, which changes at once. `values`: of the
+    last or next step, shape (n,).
     """
 
     def __init__(self, start: Sequence[float], whole: Sequence[bool]) -> None:
@@ -24,7 +24,7 @@ class Inputs:
         """Set the requested values of inputs.
 
         `wants`: for each input its value, largest change per second (infinite: at once) and the number of the request,
-        shape (3 n,); requests from before the last `restart` do not count.
+        shape (3 n,); requests before the last `restart` are ignored.
         """
         for k in range(len(self._rates)):
             value, rate, request = wants[3 * k : 3 * k + 3].tolist()
@@ -33,17 +33,17 @@ class Inputs:
                 self._rates[k] = float("inf") if self._whole[k] else rate
 
     def restart(self, request: float) -> None:
-        """Back to the start values; requests up to this number are forgotten."""
+        """Return to the start values; requests up to this number are ignored."""
         self.values[:] = self._start
         self._targets, self._rates = self._start.tolist(), [0.0] * len(self._rates)
         self._oldest_request = request
 
     def set_start(self, start: Sequence[float]) -> None:
-        """Other values at every new start from now on."""
+        """Replace the start values."""
         self._start[:] = start
 
     def advance(self, step: float) -> None:
-        """Move the values on by one step of this length, s."""
+        """Move the values towards their targets by one step, s."""
         values = self.values
         for k, (target, rate) in enumerate(zip(self._targets, self._rates, strict=True)):
             value = float(values[k])

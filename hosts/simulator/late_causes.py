@@ -1,33 +1,32 @@
 """Causes of late steps: a long step, other programs on the processor, or a stalled processor.
 
-A virtual machine's host takes processors away from it ("steal"); no priority within the machine prevents that. Linux
-tells what a thread ran, with interrupts and what a host takes untold, and how long it was ready while others ran.
+The host of a virtual machine may withdraw processors ("steal"), which no priority within the machine prevents. Linux
+reports the run time of a thread, including interrupts and unreported steal, and its wait time while others ran.
 """
 
 from hosts.simulator.clock import Clock
 
 CAUSES = ("ran", "others", "stolen")
-"""The step ran; programs ran while it was ready; the processor stood still or woke the thread late."""
+"""``ran``: the step itself; ``others``: other programs while it was ready; ``stolen``: a stalled processor."""
 
 
 class LateCauses:
-    """Tells which cause took the longest. `clock`: its `spent` is what the system reports of the calling thread."""
+    """Determines the cause with the longest time. `clock`: of the calling thread."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
         self.restart()
 
     def restart(self) -> None:
-        """Start counting again: earlier work of the thread belongs to no step."""
+        """Start counting again, so that earlier work of the thread belongs to no step."""
         self._before, self._cause = self._clock.spent(), ""
 
     def of_step(self, elapsed: float, period: float, late: bool) -> str:
         """Take a step into account.
 
-        `elapsed`: from its scheduled begin, or from the end of the step before where that was later, to its end, s;
-        `period`: what it had been given, s; `late`: whether it missed its deadline. Returns one of `CAUSES`; empty
-        where it was not late or the system does not report it. A step that is late only because the one before was has
-        the cause of that one.
+        `elapsed`: from its scheduled begin, or a later end of the step before, to its end, s; `period`: its scheduled
+        length, s; `late`: whether it missed its deadline. Returns one of `CAUSES`, or an empty text if the step was not
+        late or the cause is not known. A step that is late only because of the one before has the same cause.
         """
         spent = self._clock.spent()
         if spent is None or self._before is None:

@@ -1,4 +1,4 @@
-"""Notices about steps: messages of the FMU and steps that reached a limit of iterations, limited in rate."""
+"""Notices about steps: messages of the FMU and steps at the limit of iterations, at most one per second."""
 
 from collections.abc import Sequence
 
@@ -10,19 +10,19 @@ from hosts.simulator.driven_fmu import DrivenFmu, Notice
 from hosts.simulator.step_times import TimesRecord
 
 NOT_FINITE = "not finite"
-"""Kind of what is said of a value that is not a number."""
-_EVERY = 1.0
-_WORTH = 1e-4
-"""Of a residual that is left nothing is said up to here, m."""
-_LIMIT = "solver.step_iterations"
+"""Kind of the notice of a value that is not finite."""
+_PERIOD = 1.0
+_LEAST_RESIDUAL = 1e-4
+"""Residual up to which there is no notice, m."""
+_ITERATION_LIMIT = "solver.step_iterations"
 _COUNT = "solver.capped_steps"
 _RESIDUAL = "solver.capped_residual"
 
 
 class Notices:
-    """Collects them over a second of wall time.
+    """Collects notices over a second of wall time.
 
-    `times`: where steps that were cut short are counted, also those of which nothing is said.
+    `times`: counts all steps at the limit of iterations, also those without a notice.
     """
 
     def __init__(self, names: Sequence[str], clock: Clock, times: TimesRecord) -> None:
@@ -35,37 +35,37 @@ class Notices:
         self._zeros: NDArray[np.float64] | None = np.zeros(len(names))
 
     def jumped(self, car: DrivenFmu) -> None:
-        """The count of the FMU is another now."""
+        """Take the present count of the FMU after a rewind or new start."""
         if self._capped >= 0:
             self._before = float(car.values[self._capped])
 
     def of_step(self, car: DrivenFmu) -> list[Notice]:
-        """What is to be said after this step; that a value is not a number, once."""
-        if self._zeros is not None and np.dot(car.values, self._zeros) != 0.0:  # NaN, of an infinite one too
+        """Notices after a step; the one of a value that is not finite comes once."""
+        if self._zeros is not None and np.dot(car.values, self._zeros) != 0.0:  # NaN, also from infinite values
             self._zeros = None
             index = int(np.flatnonzero(~np.isfinite(car.values))[0])
             return [Notice(NOT_FINITE, f"The output '{car.names[index]}' is {car.values[index]} at {car.time:.9g} s.")]
         if self._capped >= 0:
             self._count(car)
         for message in car.messages():
-            # The FMU's own words on its limit, however little was left, are in the count.
-            if self._capped < 0 or _LIMIT not in message:
+            # Messages on the limit of iterations are in the count.
+            if self._capped < 0 or _ITERATION_LIMIT not in message:
                 self._messages, self._message = self._messages + 1, message
-        worth = self._steps and (self._residual < 0 or self._largest > _WORTH)
-        if not (worth or self._messages) or self._clock.now() < self._next:
+        is_reported = self._steps and (self._residual < 0 or self._largest > _LEAST_RESIDUAL)
+        if not (is_reported or self._messages) or self._clock.now() < self._next:
             return []
-        self._next = self._clock.now() + _EVERY
-        messages = []
-        if worth:
+        self._next = self._clock.now() + _PERIOD
+        notices = []
+        if is_reported:
             residual = f"; it left up to {1e3 * self._largest:.3g} mm" if self._residual >= 0 else ""
-            stopped = _number(self._steps, "inner step")
-            messages.append(Notice("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
+            stopped = _count_text(self._steps, "inner step")
+            notices.append(Notice("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
             self._steps, self._largest = 0.0, 0.0
         if self._messages:
-            suffix = f" (and {_number(self._messages - 1, 'message')} before it)" if self._messages > 1 else ""
-            messages.append(Notice("told", f"{self._message}{suffix}"))
+            suffix = f" (and {_count_text(self._messages - 1, 'message')} before it)" if self._messages > 1 else ""
+            notices.append(Notice("told", f"{self._message}{suffix}"))
             self._messages = 0
-        return messages
+        return notices
 
     def _count(self, car: DrivenFmu) -> None:
         count = float(car.values[self._capped])
@@ -77,5 +77,5 @@ class Notices:
         self._before = count
 
 
-def _number(count: float, what: str) -> str:
-    return f"{count:g} {what}{'' if count == 1 else 's'}"
+def _count_text(count: float, noun: str) -> str:
+    return f"{count:g} {noun}{'' if count == 1 else 's'}"

@@ -27,26 +27,26 @@ if TYPE_CHECKING:
     from hosts.simulator.server_needs import ShownDevices
 
 _TORQUE = "steering_wheel_torque"
-_OLD = 0.1
-_EVERYWHERE = ("0.0.0.0", "::")
+_OUTDATED = 0.1
+_ANY_ADDRESS = ("0.0.0.0", "::")
 
 
 @dataclass(frozen=True)
-class Opened:
-    """A listening socket for pages, and what starts with it."""
+class PageServer:
+    """A listening socket for pages, with options."""
 
     listening: socket.socket
     access: AccessControl
     browser: bool
-    """Whether to open one."""
+    """Whether to open a browser."""
     devices: bool
-    """Whether wheels and gamepads of this machine drive."""
+    """Whether to read wheels and gamepads of this machine."""
 
     @property
     def address(self) -> str:
         """The address that a browser opens."""
         host, port = self.listening.getsockname()[:2]
-        if host in _EVERYWHERE:
+        if host in _ANY_ADDRESS:
             host = socket.gethostname()
         name = f"[{host}]" if ":" in host else host
         return f"http://{name}:{port}/?token={self.access.token}"
@@ -55,74 +55,74 @@ class Opened:
 def drive_with_pages(
     car: AliasedCar,
     content: Content,
-    opened: Opened,
+    page_server: PageServer,
     report: RunReport,
 ) -> None:
-    """Serve pages until Ctrl-C. `car`: paused; it runs from the first frame of the first page on.
+    """Serve pages until Ctrl-C. `car`: paused; the first frame of the first page starts it.
 
     Raises `HostError`: the car has ended.
     """
     arbiter = InputArbiter(car.want, car.inputs)
-    server = Server(car, arbiter, content, opened.access, report.event)
+    server = Server(car, arbiter, content, page_server.access, report.event)
 
-    def told_ready() -> None:
+    def report_ready() -> None:
         report.ready()
-        report.tell(f"Drive at {opened.address}")
-        if not opened.access.is_local:
+        report.tell(f"Drive at {page_server.address}")
+        if not page_server.access.is_local:
             report.tell("Whoever has this address can drive; its traffic is not encrypted.")
-        if opened.browser and not open_secretly(opened.address, folder):
+        if page_server.browser and not open_secretly(page_server.address, folder):
             report.tell("No browser could be opened from here; open the address in one, on this machine.")
         report.tell("Ctrl-C ends with the report.")
 
-    def seen() -> None:
+    def start() -> None:
         report.first_frame()
         car.command("run")
 
     async def work() -> None:
         stop = asyncio.Event()
         with _interrupted_by_signals(asyncio.get_running_loop(), stop):
-            await server.run(opened.listening, stop, told_ready, seen)
+            await server.run(page_server.listening, stop, report_ready, start)
 
     with ExitStack() as stack:
         folder = stack.enter_context(temporary_folder())
-        if opened.devices:
+        if page_server.devices:
             _add_devices(stack, server, arbiter, car)
         asyncio.run(work())
 
 
 def _add_devices(stack: ExitStack, server: Server, arbiter: InputArbiter, car: AliasedCar) -> None:
-    """Wheels and gamepads, where their packages are installed."""
+    """Add wheels and gamepads, if their packages are installed."""
     try:
         from hosts.simulator.devices import Devices, configuration_folder
     except ModuleNotFoundError as error:
         server.say(f"Wheels and gamepads of this machine are not read. {missing_module(error)}")
         return
-    torque = _torque(car) if _TORQUE in car.names else None
+    torque = _torque_reader(car) if _TORQUE in car.names else None
     devices: ShownDevices = stack.enter_context(
         Devices(arbiter, car.inputs, car.constants, server.say, configuration_folder(), torque)
     )
     server.devices = devices
 
 
-def _torque(car: AliasedCar) -> Callable[[], float | None]:
-    """The torque at the steering wheel while the car runs."""
+def _torque_reader(car: AliasedCar) -> Callable[[], float | None]:
+    """A function that returns the torque at the steering wheel, N m; None while the car does not run."""
     index = car.names.index(_TORQUE)
 
     def torque() -> float | None:
         try:
-            moment = car.latest()
+            state = car.latest()
         except HostError:
             return None
-        if not moment.running or moment.refused or time.perf_counter() - moment.wall > _OLD:
+        if not state.running or state.refused or time.perf_counter() - state.wall > _OUTDATED:
             return None
-        return float(moment.values[index])
+        return float(state.values[index])
 
     return torque
 
 
 @contextmanager
 def _interrupted_by_signals(loop: asyncio.AbstractEventLoop, stop: asyncio.Event) -> Iterator[None]:
-    """The first Ctrl-C, or a signal to end, sets `stop`; a second one interrupts."""
+    """A context in which the first Ctrl-C or termination signal sets `stop`, and a second one interrupts."""
 
     def end(number: signal.Signals, before: Any) -> None:
         if number.name != "SIGHUP":

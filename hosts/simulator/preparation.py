@@ -1,4 +1,4 @@
-"""Everything before the first step: the FMU, what is set in it, its world and its drawing."""
+"""Prepares a drive: the FMU, its settings, its world and its drawing."""
 
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -26,7 +26,7 @@ from hosts.simulator.drivability import not_drivable
 
 ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS = 6
-"""Of an inner step of about 2 ms; what it leaves open is measured in docs/fmu.md."""
+"""Limit for an inner step of about 2 ms; its residual is measured in docs/fmu.md."""
 _EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {}, "shapes": []}
 
 
@@ -44,9 +44,9 @@ class DriveRequest:
     aliases: Path | None
     record: Path | None
     manoeuvre: str = ""
-    """Its name; empty: none is driven."""
+    """Name of a manoeuvre, or empty."""
     start: Callable[[Collection[str]], Mapping[str, Value]] = lambda names: {}
-    """Start values of the manoeuvre, which come first, for the names of the variables that there are."""
+    """Start values of the manoeuvre for the variables of the FMU; other settings replace them."""
 
 
 @dataclass(frozen=True)
@@ -58,18 +58,18 @@ class Prepared:
     variables: Variables
     source: FmuSource
     settings: Settings
-    """What is set in it, the road and the place among it."""
+    """Settings of the FMU, including the road and the place."""
     world: World
     scene: dict[str, Any] | None
-    """The drawing of the FMU without roads; None: it has none."""
+    """The drawing of the FMU without roads, if it has one."""
 
     def hello(
         self, constants: Mapping[str, float], columns: tuple[str, ...], step: float, record: str
     ) -> dict[str, Any]:
         """The first message to a page, under our names."""
         record_of_fmu = description_record(self.description, self.variables)
-        ours = self.source.called([v["name"] for v in record_of_fmu["variables"]])
-        for variable, name in zip(record_of_fmu["variables"], ours, strict=True):
+        names = self.source.called([v["name"] for v in record_of_fmu["variables"]])
+        for variable, name in zip(record_of_fmu["variables"], names, strict=True):
             variable["name"] = name
         return {
             "description": record_of_fmu,
@@ -82,37 +82,39 @@ class Prepared:
         }
 
     def places(self) -> dict[str, dict[str, Value]]:
-        """Start values by name of those places where this FMU can be put."""
+        """Start values by name of the places of the world, if the FMU has these parameters."""
         names = set(self.source.called(self.variables.names))
         return {n: values for n, values in self.world.places().items() if set(values) <= names}
 
 
-def prepare(asked: DriveRequest, tell: Callable[[str], None]) -> Prepared:
-    """Find, check and read everything. `tell`: takes sentences.
+def prepare(request: DriveRequest, tell: Callable[[str], None]) -> Prepared:
+    """Find, check and read what a drive needs. `tell`: called with messages.
 
-    Raises `HostError`: something is wrong or cannot be used; one sentence with what would be right.
+    Raises `HostError`: something is wrong or cannot be used; with a remedy.
     """
-    if asked.record is not None:
-        check_folder(asked.record)
-    if asked.world is not None:
-        check_world(asked.world)
+    if request.record is not None:
+        check_folder(request.record)
+    if request.world is not None:
+        check_world(request.world)
     with ThreadPoolExecutor() as pool:
-        ahead = None if asked.fmu is not None else pool.submit(_wanted_world, asked, tell)  # both may take a while
-        fmu = find_fmu(asked.fmu, tell)
+        world_task = (
+            None if request.fmu is not None else pool.submit(_requested_world, request, tell)
+        )  # in parallel with finding the FMU
+        fmu = find_fmu(request.fmu, tell)
         description = described(fmu.path)
         check_co_simulation(fmu.path, description)
         variables = Variables(description)
-        source = FmuSource.named(fmu.path, variables, asked.aliases)
-        drawing = pool.submit(scene_of, fmu.path)
-        _check_road(asked, fmu.path, ROAD in source.called(variables.names))
+        source = FmuSource.named(fmu.path, variables, request.aliases)
+        scene_task = pool.submit(scene_of, fmu.path)
+        _check_road(request, fmu.path, ROAD in source.called(variables.names))
         if ROAD not in source.called(variables.names):
             world = None
         else:
-            world = _wanted_world(asked, tell) if ahead is None else ahead.result()
-        scene = drawing.result()
+            world = _requested_world(request, tell) if world_task is None else world_task.result()
+        scene = scene_task.result()
     if world is None:
         world = no_world([] if scene is None else scene["roads"])
-    settings = _settings(asked, source, variables, world)
+    settings = _settings(request, source, variables, world)
     inputs = source.called(_names(variables, "input"))
     outputs = source.outputs(_names(variables, "output"))
     message = not_drivable(fmu.path, inputs, outputs, scene is not None)
@@ -129,24 +131,24 @@ def _names(variables: Variables, causality: str) -> list[str]:
     return [name for name in variables.names if variables[name].causality == causality]
 
 
-def _check_road(asked: DriveRequest, path: Path, reads: bool) -> None:
-    """Refuse a world where another road was given, or where none can be put under the FMU."""
-    if asked.world is None:
+def _check_road(request: DriveRequest, path: Path, has_road_file: bool) -> None:
+    """Refuse a world if another road is given, or if the FMU has no road file."""
+    if request.world is None:
         return
-    if ROAD in dict(asked.fmu_options.values):
+    if ROAD in dict(request.fmu_options.values):
         raise HostError(f"The road is given by --world and by --set {ROAD}; give it once.")
-    if not reads:
+    if not has_road_file:
         raise HostError(
-            f"{path} has no parameter '{ROAD}', so that the world {asked.world} cannot be put under it; without "
+            f"{path} has no parameter '{ROAD}', so that the world {request.world} cannot be put under it; without "
             "--world it is driven on its own ground."
         )
 
 
-def _wanted_world(asked: DriveRequest, tell: Callable[[str], None]) -> World | None:
-    """The world that was asked for, by default the proving ground; None where the user sets a road."""
-    if asked.world is not None:
-        return make_world(asked.world, tell)
-    if ROAD in dict(asked.fmu_options.values):
+def _requested_world(request: DriveRequest, tell: Callable[[str], None]) -> World | None:
+    """The requested world, by default the proving ground; None if the user sets a road."""
+    if request.world is not None:
+        return make_world(request.world, tell)
+    if ROAD in dict(request.fmu_options.values):
         return None
     try:
         return make_world(DEFAULT_WORLD, tell)
@@ -155,14 +157,14 @@ def _wanted_world(asked: DriveRequest, tell: Callable[[str], None]) -> World | N
         return None
 
 
-def _settings(asked: DriveRequest, source: FmuSource, variables: Variables, world: World) -> Settings:
-    """What is set: the world, the place, the manoeuvre, then what the user says."""
+def _settings(request: DriveRequest, source: FmuSource, variables: Variables, world: World) -> Settings:
+    """Settings of the world, the place and the manoeuvre, then those of the user."""
     start: dict[str, Value] = {} if world.road is None else {ROAD: str(world.road)}
     places = world.places()
-    if asked.place is not None and asked.place not in places:
-        near = did_you_mean(asked.place, places, f"it has: {', '.join(places) or 'none'}")
-        raise HostError(f"The world {world.name or 'of this FMU'} has no place '{asked.place}'{near}")
-    place = asked.place if asked.place is not None else next(iter(places), None)
+    if request.place is not None and request.place not in places:
+        near = did_you_mean(request.place, places, f"it has: {', '.join(places) or 'none'}")
+        raise HostError(f"The world {world.name or 'of this FMU'} has no place '{request.place}'{near}")
+    place = request.place if request.place is not None else next(iter(places), None)
     if place is not None:
         start |= places[place]
     start = {name: value for name, value in source.theirs(start).items() if name in variables.names}
@@ -170,6 +172,6 @@ def _settings(asked: DriveRequest, source: FmuSource, variables: Variables, worl
     if ITERATIONS in variables.names:
         settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")
     settings.add_numbers(start, f"the world {world.name}")
-    settings.add_numbers(asked.start(variables.names), f"{START_OF}{asked.manoeuvre}")
-    settings.add_wishes(asked.fmu_options, asked.fidelity)
+    settings.add_numbers(request.start(variables.names), f"{START_OF}{request.manoeuvre}")
+    settings.add_options(request.fmu_options, request.fidelity)
     return settings

@@ -1,12 +1,12 @@
-"""Real-time priority of the process that calls, where the system allows it."""
+"""Requests real-time priority for the calling process."""
 
 import ctypes
 import os
 import sys
 
-# Above the threads of the kernel's own work at 50 it would delay interrupts.
+# Above 50, the priority of threads of the kernel, it would delay interrupts.
 _FIFO_PRIORITY = 40
-_NICE = -15
+_NICE_VALUE = -15
 _MCL_CURRENT = 1
 _MCL_FUTURE = 2
 _MCL_ONFAULT = 4
@@ -14,8 +14,8 @@ _HIGH_PRIORITY_CLASS = 0x80
 _THREAD_PRIORITY_TIME_CRITICAL = 15
 
 
-def ask_for_priority() -> str:
-    """Ask the system to run this thread before others, and to keep its memory; a sentence says what was got."""
+def request_priority() -> str:
+    """Request priority for this thread and lock its memory; sentences on what the system has granted."""
     if sys.platform == "win32":
         kernel = ctypes.WinDLL("kernel32", use_last_error=True)
         kernel.GetCurrentProcess.restype = kernel.GetCurrentThread.restype = ctypes.c_void_p
@@ -24,11 +24,13 @@ def ask_for_priority() -> str:
         if process and thread:
             return "Real-time priority: class high, thread time critical."
         return "Windows allowed no priority above the usual, so that steps may come late."
-    message = _fifo() or _nice() or "This system allowed no priority above the usual, so that steps may come late."
-    return f"{message} {_keep_memory()}".strip()
+    message = (
+        _set_fifo() or _set_nice() or "This system allowed no priority above the usual, so that steps may come late."
+    )
+    return f"{message} {_lock_memory()}".strip()
 
 
-def _fifo() -> str:
+def _set_fifo() -> str:
     if sys.platform != "linux":
         return ""
     try:
@@ -38,18 +40,18 @@ def _fifo() -> str:
     return f"Real-time priority: SCHED_FIFO {_FIFO_PRIORITY}."
 
 
-def _nice() -> str:
+def _set_nice() -> str:
     if sys.platform == "win32":
         return ""
     try:
-        os.setpriority(os.PRIO_PROCESS, 0, _NICE)
+        os.setpriority(os.PRIO_PROCESS, 0, _NICE_VALUE)
     except OSError:
         return ""
-    return f"No real-time priority was allowed; nice {_NICE} instead."
+    return f"No real-time priority was allowed; nice {_NICE_VALUE} instead."
 
 
-def _keep_memory() -> str:
-    """Locks what is touched, so that nothing of it is swapped out; only where no limit could refuse memory later."""
+def _lock_memory() -> str:
+    """Lock the used memory against swapping, unless a limit could refuse memory later; a sentence, or empty."""
     if sys.platform != "linux":
         return ""
     import resource

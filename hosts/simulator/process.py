@@ -1,4 +1,4 @@
-"""Starts the car's process, notes its end and ends it."""
+"""Starts, watches and ends the process of the car."""
 
 import queue
 import threading
@@ -18,23 +18,23 @@ _PATIENCE = (1.4, 0.4)
 
 
 class Process:
-    """A process that drives an FMU, seen from the main process.
+    """The process that drives an FMU, as an object of the main process.
 
-    `ended`: why it has ended unasked; None while it lives. Raises `HostError`: the FMU cannot be started;
-    `FailedFmuError`: it has taken the process down; nothing is then left of it.
+    `ended`: the reason why it has ended unexpectedly, else None. Raises `HostError`: the FMU cannot be started;
+    `FailedFmuError`: the FMU has crashed the process.
     """
 
     def __init__(self, order: Order) -> None:
         self.ended: HostError | None = None
-        self._asked = self._started = False
-        self._said: queue.SimpleQueue[HostError | None] = queue.SimpleQueue()
+        self._stop_requested = self._started = False
+        self._outcome: queue.SimpleQueue[HostError | None] = queue.SimpleQueue()
         self._process: Isolated[Order, None] = Isolated(
             run_car, None, str, files_of_drives(order.fmu, [order.start]), shared_files(order.memory)
         )
-        self._life = threading.Thread(target=self._live, args=(order,), name="car watch", daemon=True)
-        self._life.start()
+        self._watcher = threading.Thread(target=self._watch, args=(order,), name="car watch", daemon=True)
+        self._watcher.start()
         try:
-            error = self._said.get(timeout=_START_SECONDS)
+            error = self._outcome.get(timeout=_START_SECONDS)
         except queue.Empty:
             error = FailedFmuError(f"{order.fmu} was not started within {_START_SECONDS:g} s.")
         except BaseException:
@@ -58,27 +58,27 @@ class Process:
         self._process.send(dict(start))
 
     def close(self) -> None:
-        """End it and what watches it, within about 2 s whatever it does; it must have been asked to before."""
-        self._asked = True
-        self._life.join(_PATIENCE[0])
+        """End the process and its watching thread within about 2 s; the stop flag must have been set."""
+        self._stop_requested = True
+        self._watcher.join(_PATIENCE[0])
         self._process.close()
-        self._life.join(_PATIENCE[1])
+        self._watcher.join(_PATIENCE[1])
 
-    def _begun(self, word: str) -> None:
+    def _report_start(self, word: str) -> None:
         self._started = True
-        self._said.put(None)
+        self._outcome.put(None)
 
-    def _live(self, order: Order) -> None:
-        """The life of the process; it says once that the FMU has started, and nothing more."""
+    def _watch(self, order: Order) -> None:
+        """Run the process to its end, in the watching thread."""
         error: HostError
         try:
-            end = self._process.do(order, self._begun)
+            end = self._process.do(order, self._report_start)
         except UserError as fault:
             error = HostError(str(fault))
         else:
             how = end.how if isinstance(end, Lost) else "has ended"
             message = f"The car's process {how}; start the simulator again."
             error = FailedFmuError(message if self._started else f"{order.fmu} could not be started. {message}")
-        if not self._asked:
+        if not self._stop_requested:
             self.ended = error
-        self._said.put(error)
+        self._outcome.put(error)

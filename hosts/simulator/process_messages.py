@@ -1,4 +1,4 @@
-"""Passes messages and records of the car's process to the main process."""
+"""Collects events of the process of the car, and passes its rows to a recording."""
 
 import json
 import threading
@@ -13,9 +13,9 @@ from hosts.simulator.car_events import Event
 from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, ROW, STATE_HEAD, SharedValues
 
 _PERIOD = 0.03
-_MOST_EVENTS = 10_000  # that nobody asked for
+_MOST_EVENTS = 10_000  # until the next call of `events`
 RECORDING_CUT = "recording"
-"""Kind of the event that a recording lacks its end."""
+"""Kind of the event of an incomplete recording."""
 _REMEDY = "What was written so far can be opened; make room, or record into another folder."
 
 
@@ -31,18 +31,18 @@ class Records(Protocol):
 
 
 class ProcessMessages:
-    """Collects events, and hands rows and events to a recording in a thread of its own."""
+    """Collects events, and passes rows and events to a recording in a thread."""
 
     def __init__(self, shared: SharedValues, recorder: Records | None) -> None:
         self._shared, self._recorder = shared, recorder
         self._lock, self._end = threading.Lock(), threading.Event()
         self._events: deque[Event] = deque(maxlen=_MOST_EVENTS)
-        self._to_record: list[dict[str, Any]] = []
+        self._events_to_record: list[dict[str, Any]] = []
         self._lost = {LOST_ROWS: 0, LOST_MESSAGES: 0}
         self._thread: threading.Thread | None = None
         if recorder is not None:
-            self._say(*recorder.told)
-            self._thread = threading.Thread(target=self._write_on, name="recording", daemon=True)
+            self._add_events(*recorder.told)
+            self._thread = threading.Thread(target=self._write_until_end, name="recording", daemon=True)
             self._thread.start()
 
     def events(self) -> list[Event]:
@@ -55,23 +55,23 @@ class ProcessMessages:
         return events
 
     def close(self, progress: Callable[[float], object]) -> None:
-        """Bring what still waits, once the process writes no more, and finish the recording.
+        """Collect the remaining messages after the end of the process, and finish the recording.
 
-        `progress`: hears the share of its table that is done.
+        `progress`: called with the finished share of its table.
         """
         with self._lock:
             self._collect()
             self._end.set()
         if self._thread is not None and self._recorder is not None:
             self._thread.join()
-            complete = self._write()
+            complete = self._write_once()
             try:
                 self._recorder.close(progress)
             except (OSError, UserError) as error:
                 if complete:
-                    self._say(f"The recording could not be finished: {error} {_REMEDY}", kind=RECORDING_CUT)
+                    self._add_events(f"The recording could not be finished: {error} {_REMEDY}", kind=RECORDING_CUT)
 
-    def _say(self, *texts: str, kind: str = "told", time: float = 0.0) -> None:
+    def _add_events(self, *texts: str, kind: str = "told", time: float = 0.0) -> None:
         self._events.extend(Event(time, kind, text) for text in texts)
 
     def _collect(self) -> None:
@@ -79,27 +79,27 @@ class ProcessMessages:
             record = json.loads(message)
             self._events.append(Event(record["time"], record["kind"], record["text"]))
             if self._recorder is not None:
-                self._to_record.append(record)
+                self._events_to_record.append(record)
         for flag, subject in ((LOST_ROWS, "rows of the recording"), (LOST_MESSAGES, "messages")):
             lost = int(self._shared.flags[flag])
             if lost > self._lost[flag]:
                 self._lost[flag] = lost
                 text = f"{lost} {subject} were lost so far: the computer did not take them in time."
-                self._say(text, kind="overflow", time=float(self._shared.moments.read()[1]))
+                self._add_events(text, kind="overflow", time=float(self._shared.moments.read()[1]))
 
-    def _write_on(self) -> None:
-        while not self._end.wait(_PERIOD) and self._write():
+    def _write_until_end(self) -> None:
+        while not self._end.wait(_PERIOD) and self._write_once():
             pass
 
-    def _write(self) -> bool:
-        """Whether the recording goes on; an error ends it, and the car drives on."""
+    def _write_once(self) -> bool:
+        """Write rows, states and events; False if there is no recording or an error has ended it."""
         recorder, shared = self._recorder, self._shared
         if recorder is None or not shared.flags[RECORDING]:
             return False
         with self._lock:
             if not self._end.is_set():
                 self._collect()
-            records, self._to_record = self._to_record, []
+            records, self._events_to_record = self._events_to_record, []
         head = len(ROW)
         try:
             for row in shared.rows.take():
@@ -111,6 +111,6 @@ class ProcessMessages:
         except (OSError, UserError) as error:
             shared.flags[RECORDING] = 0
             with self._lock:
-                self._say(f"The recording ends here: {error} {_REMEDY}", kind=RECORDING_CUT)
+                self._add_events(f"The recording ends here: {error} {_REMEDY}", kind=RECORDING_CUT)
             return False
         return True

@@ -24,37 +24,37 @@ RUNNING = 1
 REFUSED = 2
 BEHIND = 4
 LARGEST_MESSAGE = 4096
-"""Bytes of a message of a page."""
+"""Largest size of a message of a page, bytes."""
 SOURCES = ("keys", "gamepad", "touch")
 COMMANDS = ("run", "pause", "step", "speed", "reset", "rewind", "upright")
 DEVICE_MESSAGES = ("assign", "assign by moving", "calibrate", "reset mapping", "device settings", "test force")
-"""Types of messages that go to the devices as they are."""
+"""Types of messages that are passed on to the devices."""
 _MOST_INPUTS = 64
-_LARGEST = 1e9
+_LARGEST_NUMBER = 1e9
 
 
-def frame(moment: CarState, step: float) -> bytes:
-    """A moment as a page reads it: a header of 96 bytes and the values as float64, little endian.
+def frame(state: CarState, step: float) -> bytes:
+    """The binary frame of a state: a header of 96 bytes and the values as float64, little endian.
 
     `step`: communication step, s.
     """
-    flags = RUNNING * moment.running + REFUSED * moment.refused + BEHIND * moment.behind
-    values = np.asarray(moment.values, "<f8")
+    flags = RUNNING * state.running + REFUSED * state.refused + BEHIND * state.behind
+    values = np.asarray(state.values, "<f8")
     header = HEADER.pack(
         MAGIC,
-        moment.epoch & 0xFFFFFFFF,
+        state.epoch & 0xFFFFFFFF,
         flags,
         len(values),
-        moment.count,
-        moment.time,
-        moment.speed,
-        moment.wall,
-        moment.cost,
-        moment.worst,
-        moment.lateness,
-        moment.missed,
-        step / moment.speed,
-        moment.saved,
+        state.count,
+        state.time,
+        state.speed,
+        state.wall,
+        state.cost,
+        state.worst,
+        state.lateness,
+        state.missed,
+        step / state.speed,
+        state.saved,
     )
     return header + values.tobytes()
 
@@ -91,19 +91,19 @@ class Place:
 
 @dataclass(frozen=True)
 class Report:
-    """The page asks for the step times."""
+    """The page requests the step times."""
 
 
 @dataclass(frozen=True)
 class WatchDevices:
-    """The page shows devices, or does no longer."""
+    """The page begins or ends to show devices."""
 
     on: bool
 
 
 @dataclass(frozen=True)
 class ForDevices:
-    """A request to devices, which check its content."""
+    """A request to the devices, which check its content."""
 
     content: dict[str, Any]
 
@@ -112,23 +112,23 @@ Message = Want | Order | Seen | Place | Report | WatchDevices | ForDevices
 
 
 def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
-    """A message of a page, checked. Raises `HostError`: it is no such message; with the reason."""
+    """The checked message of a page. Raises `HostError` with the reason if it is not valid."""
     if not isinstance(data, str):
         raise HostError("A message is text; this one is binary.")
     try:
-        result = json_of(data.encode("utf-8", "surrogatepass"), HostError, "A message")
+        message = json_of(data.encode("utf-8", "surrogatepass"), HostError, "A message")
     except HostError:
         raise HostError("A message is a JSON object; this one cannot be read.") from None
-    if not isinstance(result, dict):
+    if not isinstance(message, dict):
         raise HostError("A message is a JSON object; this one is none.")
-    kind = result.get("type")
+    kind = message.get("type")
     reader = _READERS.get(kind) if isinstance(kind, str) else None
     if reader is None:
         raise HostError(f"A message has the type {_short(kind)}; known are {', '.join(_READERS)}.")
-    return reader(result, inputs)
+    return reader(message, inputs)
 
 
-def _want(message: dict[str, Any], inputs: Collection[str]) -> Want:
+def _read_want(message: dict[str, Any], inputs: Collection[str]) -> Want:
     source, values = message.get("source"), message.get("values")
     if source not in SOURCES:
         raise HostError(f"The source of a request is {_short(source)}; it must be {', '.join(SOURCES)}.")
@@ -148,55 +148,55 @@ def _want(message: dict[str, Any], inputs: Collection[str]) -> Want:
     return Want(str(source), results)
 
 
-def _order(message: dict[str, Any], inputs: Collection[str]) -> Order:
+def _read_order(message: dict[str, Any], inputs: Collection[str]) -> Order:
     name = message.get("name")
     if name not in COMMANDS:
         raise HostError(f"There is no command {_short(name)}; known are {', '.join(COMMANDS)}.")
     return Order(str(name), _number(message.get("value", 0.0), f"The value of {name}"))
 
 
-def _seen(message: dict[str, Any], inputs: Collection[str]) -> Seen:
+def _read_seen(message: dict[str, Any], inputs: Collection[str]) -> Seen:
     return Seen(_number(message.get("count"), "The count of a frame that was seen", 2.0**53))
 
 
-def _place(message: dict[str, Any], inputs: Collection[str]) -> Place:
+def _read_place(message: dict[str, Any], inputs: Collection[str]) -> Place:
     return Place(_text(message.get("name"), "The name of a place"))
 
 
-def _report(message: dict[str, Any], inputs: Collection[str]) -> Report:
+def _read_report(message: dict[str, Any], inputs: Collection[str]) -> Report:
     return Report()
 
 
-def _watch(message: dict[str, Any], inputs: Collection[str]) -> WatchDevices:
+def _read_watch(message: dict[str, Any], inputs: Collection[str]) -> WatchDevices:
     on = message.get("on")
     if not isinstance(on, bool):
         raise HostError(f"'on' is {_short(on)}; it must be true or false.")
     return WatchDevices(on)
 
 
-def _for_devices(message: dict[str, Any], inputs: Collection[str]) -> ForDevices:
+def _read_for_devices(message: dict[str, Any], inputs: Collection[str]) -> ForDevices:
     return ForDevices(message)
 
 
 _READERS: dict[str, Callable[[dict[str, Any], Collection[str]], Message]] = {
-    "want": _want,
-    "command": _order,
-    "seen": _seen,
-    "place": _place,
-    "report": _report,
-    "watch devices": _watch,
-} | dict.fromkeys(DEVICE_MESSAGES, _for_devices)
+    "want": _read_want,
+    "command": _read_order,
+    "seen": _read_seen,
+    "place": _read_place,
+    "report": _read_report,
+    "watch devices": _read_watch,
+} | dict.fromkeys(DEVICE_MESSAGES, _read_for_devices)
 
 
-def _number(value: Any, what: str, largest: float = _LARGEST) -> float:
+def _number(value: Any, subject: str, largest: float = _LARGEST_NUMBER) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= largest:
-        raise HostError(f"{what} is {_short(value)}; it must be a number of at most {largest:g}.")
+        raise HostError(f"{subject} is {_short(value)}; it must be a number of at most {largest:g}.")
     return float(value)
 
 
-def _text(value: Any, what: str) -> str:
+def _text(value: Any, subject: str) -> str:
     if not isinstance(value, str):
-        raise HostError(f"{what} is {_short(value)}; it must be a text.")
+        raise HostError(f"{subject} is {_short(value)}; it must be a text.")
     return value
 
 

@@ -1,4 +1,4 @@
-"""Pacing by absolute deadlines: when the next step begins, how late it is, and how lateness is made up."""
+"""Pacing by absolute deadlines: begin and lateness of steps, and recovery from lateness."""
 
 from collections import deque
 
@@ -7,32 +7,32 @@ from hosts.simulator.late_causes import LateCauses
 from hosts.simulator.step_times import TimesRecord
 
 MOST_LATE = 0.25
-"""A car that is later than this, s, is not hurried on: its schedule is moved to now, and the lost time is reported."""
+"""Lateness, s, above which the schedule is moved to now and the lost time is reported."""
 _LATE = 0.05
-_AGAIN = 1.0
-_SAID_EVERY = 5.0
+_RECOVERY = 1.0
+_REPORT_PERIOD = 5.0
 _WINDOW = 1.0
-_CHUNK = 0.02
+_LONGEST_SLEEP = 0.02
 _PAUSE = 0.001
 
 
 class RealTimeClock:
     """The schedule of the steps.
 
-    Each step has a time at which it begins and a deadline, at which the next begins. A step that ends too late does not
-    move the schedule: the next ones follow without a pause until it is caught up. Later than `MOST_LATE`, the schedule
-    is moved to now; the deadlines in between count as missed and the time as lost.
+    Each step has a scheduled begin and a deadline, at which the next one begins. After a late step the next ones follow
+    without a pause until the schedule is met. Above `MOST_LATE` the schedule is moved to now, and the deadlines in
+    between count as missed and the time as lost.
 
-    `step`: communication step, s; `paced`: without, a step begins as soon as the one before is done, and none is late.
-    `speed`: simulated over wall seconds that are asked for; `lateness`, `cost`: of the last step, s; `behind`: whether
-    the car is late now or was within the last second.
+    `step`: communication step, s; `paced`: if not, a step begins at the end of the one before, and none is late.
+    `speed`: requested ratio of simulated to wall time; `lateness`, `cost`: of the last step, s; `behind`: whether the
+    car is late or was late within the last second.
     """
 
     def __init__(self, clock: Clock, step: float, times: TimesRecord, paced: bool = True) -> None:
         self._clock, self._step, self._times, self._paced = clock, step, times, paced
         self.speed = 1.0
         self.lateness = self.cost = 0.0
-        self._words, self._causes = _Behind(), LateCauses(clock)
+        self._watch, self._causes = _LagWatch(), LateCauses(clock)
         self._began = clock.now()
         self.restart()
 
@@ -43,22 +43,22 @@ class RealTimeClock:
 
     @property
     def behind(self) -> bool:
-        return self._words.behind
+        return self._watch.behind
 
     def restart(self) -> None:
         """The next step begins now."""
         self._due = self._ended = self._clock.now()
-        self._words.restart(self._due)
+        self._watch.restart(self._due)
         self._causes.restart()
 
     def wait(self) -> bool:
-        """Sleep until the next step begins, at most for a short while; whether it is time."""
+        """Sleep towards the begin of the next step, for at most 20 ms; whether it is reached."""
         now = self._clock.now()
         if not self._paced:
             self._began = now
             return True
         if self._due > now:
-            self._clock.sleep_until(min(self._due, now + _CHUNK))
+            self._clock.sleep_until(min(self._due, now + _LONGEST_SLEEP))
             now = self._clock.now()
         if self._due > now:
             return False
@@ -66,9 +66,9 @@ class RealTimeClock:
         return True
 
     def done(self) -> str:
-        """The step has been made: count it, and set when the next begins.
+        """Count a step that was made, and schedule the next.
 
-        Returns what is to be said of a car that does not keep up; mostly empty.
+        Returns a message if the car begins or ends to be behind, else an empty text.
         """
         now, times, period = self._clock.now(), self._times, self.period
         self.cost = now - self._began
@@ -85,7 +85,7 @@ class RealTimeClock:
         if late > 0.0:
             missed = 1
         if late > MOST_LATE:
-            # Others of the same priority get a turn too: a step that always takes too long never sleeps.
+            # A pause for threads of the same priority, because steps that are always late never sleep.
             self._due, lost = now + _PAUSE, late + _PAUSE
             missed += int(late / period)
             times.add("skipped", 1.0)
@@ -94,47 +94,53 @@ class RealTimeClock:
             times.add("missed", missed)
             if cause:
                 times.add(cause, missed)
-        return self._words.step(now, period, late, missed, lost)
+        return self._watch.step(now, period, late, missed, lost)
 
 
-class _Behind:
-    """Whether the car keeps up, and the sentences when that changes or lasts."""
+class _LagWatch:
+    """Watches whether the car keeps up, with a message on changes and every 5 s while it is behind."""
 
     behind = False
-    _told_of = False  # from the first late step until it has kept up for a while
+    _is_reported = False  # whether the car was late and has not yet kept up for a while
 
     def restart(self, now: float) -> None:
         self.behind, self._scheduled = False, 0.0
-        self._from = (now, 0.0)  # of the factor that is said
-        self._past: deque[tuple[float, float]] = deque([self._from])
+        self._reference = (now, 0.0)  # wall and scheduled time at the last message
+        self._history: deque[tuple[float, float]] = deque([self._reference])
 
     def step(self, now: float, period: float, late: float, missed: int, lost: float) -> str:
-        """Take a step into account; what is to be said, mostly nothing."""
+        """Take a step into account; a message, or empty."""
         self._scheduled += period
-        if now - self._past[-1][0] >= 0.1 * _WINDOW:
-            self._past.append((now, self._scheduled))
-            while len(self._past) > 2 and self._past[1][0] < now - _WINDOW:
-                self._past.popleft()
+        if now - self._history[-1][0] >= 0.1 * _WINDOW:
+            self._history.append((now, self._scheduled))
+            while len(self._history) > 2 and self._history[1][0] < now - _WINDOW:
+                self._history.popleft()
         if late > _LATE:
-            if not self._told_of:
-                self._told_of, self._since, self._missed, self._lost, self._said = True, now, 0, 0.0, now - _SAID_EVERY
-                self._from = self._past[0]
-            self.behind, self._last = True, now
-        if not self._told_of:
+            if not self._is_reported:
+                self._is_reported, self._since, self._missed, self._lost, self._last_report = (
+                    True,
+                    now,
+                    0,
+                    0.0,
+                    now - _REPORT_PERIOD,
+                )
+                self._reference = self._history[0]
+            self.behind, self._latest = True, now
+        if not self._is_reported:
             return ""
         self._missed += missed
         self._lost += lost
-        self.behind = self.behind and now - self._last <= _AGAIN
-        if now - self._said < _SAID_EVERY:
+        self.behind = self.behind and now - self._latest <= _RECOVERY
+        if now - self._last_report < _REPORT_PERIOD:
             return ""
-        (begin, scheduled), self._from = self._from, (now, self._scheduled)
-        self._said = now
+        (begin, scheduled), self._reference = self._reference, (now, self._scheduled)
+        self._last_report = now
         if not self.behind:
-            self._told_of = False
-            return f"The car keeps up again; it was behind within {self._last - self._since:.2f} s, {self._sum()}."
+            self._is_reported = False
+            return f"The car keeps up again; it was behind within {self._latest - self._since:.2f} s, {self._losses()}."
         reached = f"{(self._scheduled - scheduled) / max(now - begin, period):.2f} of the speed asked for"
-        return f"The car is behind by {max(late, 0.0):.2f} s: it reaches {reached}; {self._sum()}."
+        return f"The car is behind by {max(late, 0.0):.2f} s: it reaches {reached}; {self._losses()}."
 
-    def _sum(self) -> str:
+    def _losses(self) -> str:
         plural = "" if self._missed == 1 else "s"
         return f"{self._missed} deadline{plural} missed, {self._lost:.2f} s of wall time left out"

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from hosts.simulator.preparation import Prepared
     from hosts.simulator.step_times import StepTimes
 
-_KEPT_EVENTS = 1000
+_MOST_EVENTS = 1000
 
 
 class RunReport:
-    """Sentences for the terminal, and figures of the run.
+    """Messages for the terminal, and figures of the run for a file.
 
     `begin`: when the command was started, by `time.monotonic`.
     """
@@ -33,7 +33,7 @@ class RunReport:
 
     @property
     def whole(self) -> bool:
-        """Whether all values were numbers, and the recording that was asked for, if any, has its end and all rows."""
+        """Whether all values were finite and the recording, if any, is complete."""
         return not (self._kinds[RECORDING_CUT] or self._kinds["overflow"] or self._kinds[NOT_FINITE])
 
     def tell(self, text: str) -> None:
@@ -41,19 +41,19 @@ class RunReport:
         print(text, flush=True)
 
     def event(self, kind: str, text: str) -> None:
-        """Show and keep something that happened to the car."""
+        """Show and store an event of the car."""
         self._kinds[kind] += 1
-        if len(self._events) < _KEPT_EVENTS:
+        if len(self._events) < _MOST_EVENTS:
             self._events.append({"kind": kind, "text": text})
         self.tell(text)
 
-    def passed(self, what: str) -> float:
-        """Note that something is done; seconds since the start of the command."""
-        self._marks[what] = time.monotonic() - self._begin
-        return self._marks[what]
+    def passed(self, stage: str) -> float:
+        """Store the time at which a stage is done; this time since the start of the command, s."""
+        self._marks[stage] = time.monotonic() - self._begin
+        return self._marks[stage]
 
     def prepared(self, prepared: Prepared, step: float) -> None:
-        """Take over what is driven."""
+        """Store and show what is driven."""
         self.passed("prepared")
         self._figures |= {
             "fmu": str(prepared.fmu.path),
@@ -69,13 +69,13 @@ class RunReport:
         self.tell(f"Inputs are held over each step of {1e3 * step:g} ms: they act {500.0 * step:g} ms late on average.")
 
     def ready(self) -> None:
-        """Say how long it took until a page could come, or a run without one began."""
+        """Show the time until the server or the headless run was ready."""
         seconds, built = self.passed("ready"), self._figures["built"]
-        how = f"cold: the FMU was built in {built:.1f} s of it" if built else "warm: the FMU was there"
-        self.tell(f"Ready {seconds:.2f} s after the start of the command ({how}).")
+        build_text = f"cold: the FMU was built in {built:.1f} s of it" if built else "warm: the FMU was there"
+        self.tell(f"Ready {seconds:.2f} s after the start of the command ({build_text}).")
 
     def first_frame(self) -> None:
-        """Say when the first page had its first frame."""
+        """Show the time of the first frame of the first page."""
         self.tell(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
 
     def finish(self, times: StepTimes, file: Path | None) -> None:

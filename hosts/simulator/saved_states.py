@@ -11,10 +11,9 @@ from hosts.fmu.instance import State
 
 SECONDS = 30.0
 EVERY = 0.5
-# New starts save a state each; more than these shorten what can be rewound in place of filling the memory.
+# Each new start saves a state; more states shorten the time that can be rewound.
 _MOST_STATES = 200
-# Of the inputs; steps so short, or inputs so many, that they would take more shorten it too.
-_MOST_BYTES = 1 << 26
+_MOST_BYTES = 1 << 26  # of the inputs; with many inputs or short steps it shortens that time too
 
 
 class SavesStates(Protocol):
@@ -27,20 +26,20 @@ class SavesStates(Protocol):
 
 @dataclass(frozen=True)
 class Mark:
-    """A step of the past, by its row and its number of steps since the start."""
+    """A past step, with the start of the FMU before it."""
 
     count: int
     epoch: int
-    """`count`, `epoch`: of its row."""
+    """`count`, `epoch`: of the row of the step."""
     begin: float
-    """Time at which the FMU was started, s."""
+    """Start time of the FMU, s."""
     steps: int
-    """Since that start."""
+    """Steps since that start."""
 
 
 @dataclass(frozen=True)
 class _Saved:
-    place: int
+    step_number: int
     state: State
     mark: Mark
 
@@ -60,68 +59,68 @@ class SavedStates:
         self._inputs = np.empty((capacity, inputs))
         self._marks: NDArray[np.int64] = np.empty((capacity, 2), np.int64)
         self._saved: deque[_Saved] = deque()
-        self._place = 0
+        self._step_number = 0
 
     @property
     def bytes(self) -> int:
-        """Memory of the inputs."""
+        """Memory of the inputs, bytes."""
         return self._inputs.nbytes + self._marks.nbytes
 
     @property
     def seconds(self) -> float:
-        """Simulated time that can be gone back."""
+        """Simulated time that can be rewound, s."""
         return self._step * self.steps
 
     @property
     def steps(self) -> int:
-        """Steps that can be gone back."""
-        return self._place - self._saved[0].place if self._saved else 0
+        """Number of steps that can be rewound."""
+        return self._step_number - self._saved[0].step_number if self._saved else 0
 
     def begin(self, inputs: NDArray[np.float64], mark: Mark) -> None:
         """Save the state of a new start, with the inputs held there."""
-        self._note(inputs, mark)
+        self._store(inputs, mark)
         self._save(mark)
 
     def add(self, inputs: NDArray[np.float64], mark: Mark) -> None:
-        """Note a step that was made with these inputs; its state is saved where it is due."""
-        self._note(inputs, mark)
-        if self._place - self._saved[-1].place >= self._every:
+        """Store the inputs of a step that was made, and its state if one is due."""
+        self._store(inputs, mark)
+        if self._step_number - self._saved[-1].step_number >= self._every:
             self._save(mark)
 
-    def _note(self, inputs: NDArray[np.float64], mark: Mark) -> None:
-        self._place += 1
-        k = self._place % len(self._inputs)
+    def _store(self, inputs: NDArray[np.float64], mark: Mark) -> None:
+        self._step_number += 1
+        k = self._step_number % len(self._inputs)
         self._inputs[k] = inputs
         self._marks[k] = mark.count, mark.epoch
 
     def _save(self, mark: Mark) -> None:
-        self._saved.append(_Saved(self._place, self._fmu.state(), mark))
+        self._saved.append(_Saved(self._step_number, self._fmu.state(), mark))
         while len(self._saved) > 1 and (
-            self._saved[1].place <= self._place - self._length or len(self._saved) > _MOST_STATES
+            self._saved[1].step_number <= self._step_number - self._length or len(self._saved) > _MOST_STATES
         ):
             self._fmu.free(self._saved.popleft().state)
 
     def back(self, steps: int) -> tuple[Mark, NDArray[np.float64], NDArray[np.float64]]:
         """Restore the last saved state that is not after the step that lies `steps` back.
 
-        `steps`: not more than `steps`.
+        `steps`: at most the property `steps`.
 
         Returns
         -------
         Mark
-            The step whose state was restored, with the count and epoch of the step that was asked for.
+            The step whose state was restored, with count and epoch of the requested step.
         ndarray of shape (inputs,)
-            Those held at the step that was asked for.
+            Inputs at the requested step.
         ndarray of shape (k, inputs)
-            Those of the steps to repeat.
+            Inputs of the steps to repeat.
         """
-        target = self._place - steps
-        while self._saved[-1].place > target:
+        target = self._step_number - steps
+        while self._saved[-1].step_number > target:
             self._fmu.free(self._saved.pop().state)
         saved = self._saved[-1]
         self._fmu.restore(saved.state)
-        self._place = target
-        k = np.arange(saved.place + 1, target + 1) % len(self._inputs)
+        self._step_number = target
+        k = np.arange(saved.step_number + 1, target + 1) % len(self._inputs)
         row = target % len(self._inputs)
         count, epoch = self._marks[row].tolist()
         return Mark(count, epoch, saved.mark.begin, saved.mark.steps), self._inputs[row].copy(), self._inputs[k]

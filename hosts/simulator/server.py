@@ -1,6 +1,6 @@
 """The server between car and pages: frames of numbers to them, requests and commands from them.
 
-It shares memory with the car's process; neither waits for the other.
+It shares memory with the process of the car; neither waits for the other.
 """
 
 import asyncio
@@ -27,22 +27,21 @@ from hosts.simulator.server_needs import Content, ShownDevices
 from hosts.simulator.web import BACKLOG, MOST_PAGES, Web
 
 FRAME_PERIOD = 1 / 120
-"""Frames of a page are at least so far apart, s."""
+"""Shortest time between frames of a page, s."""
 NEW_START_PERIOD = 0.25
-"""Commands that put the car elsewhere are taken at most so often, s."""
+"""Shortest time between commands that move the car, s."""
 _NEW_STARTS = ("reset", "rewind", "upright")
 _PUMP_PERIOD = 0.05
 _POLICY_VIOLATION = 1008
 _CAR_ENDED = 1011  # of RFC 6455: the server cannot go on
-_ANSWER_TIMEOUT = 120  # s, for a world over a slow line
+_ANSWER_TIMEOUT = 120  # s, for a world over a slow connection
 _LONGEST_REASON = 120  # a close frame takes 123 bytes
 
 
 class Server:
     """Serves pages.
 
-    `tell`: takes kind and text of what happens, for the terminal. `devices`: what pages see of them; None: the
-    simulator has none.
+    `tell`: called with kind and text of events, for the terminal. `devices`: shown to pages; None without devices.
     """
 
     def __init__(
@@ -61,15 +60,15 @@ class Server:
         self._web = Web(access, content.page, content.world)
         self._hello = _text("hello", version=protocol.VERSION, **content.hello)
         self._pages: dict[int, ConnectedPage] = {}
-        self._served = 0
+        self._page_count = 0
         self._last_new_start = -NEW_START_PERIOD
-        self._left_alone = False
+        self._paused_without_pages = False
         self._first_frame: Callable[[], None] | None = None
-        self._said: deque[str] = deque(maxlen=100)
+        self._messages: deque[str] = deque(maxlen=100)
 
     def say(self, text: str) -> None:
-        """A sentence for the terminal and all pages; may be called from any thread."""
-        self._said.append(text)
+        """Send a message to the terminal and all pages, from any thread."""
+        self._messages.append(text)
 
     async def run(
         self,
@@ -96,10 +95,10 @@ class Server:
         """
         self._first_frame = first_frame
         logger = logging.getLogger(__name__)
-        logger.setLevel(logging.CRITICAL + 1)  # what others send that is no HTTP is not worth a line
+        logger.setLevel(logging.CRITICAL + 1)  # requests that are not HTTP are not logged
         self._web.watch(listening)
         async with serve(
-            self._talk,
+            self._serve_page,
             sock=listening,
             backlog=BACKLOG,
             process_request=lambda connection, request: self._web.answer(connection, request, len(self._pages)),
@@ -118,7 +117,7 @@ class Server:
                 finished, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
                 for task in finished:
                     task.result()
-            except HostError as error:  # pages are told why, before they lose the server
+            except HostError as error:  # the reason for the pages
                 for page in list(self._pages.values()):
                     await page.connection.close(_CAR_ENDED, str(error)[:_LONGEST_REASON])
                 raise
@@ -127,64 +126,64 @@ class Server:
                 for task in tasks:
                     task.cancel()
 
-    async def _talk(self, connection: ServerConnection) -> None:
-        """All that happens with one page."""
-        if len(self._pages) >= MOST_PAGES:  # several came at once
+    async def _serve_page(self, connection: ServerConnection) -> None:
+        """Serve one page until it is closed."""
+        if len(self._pages) >= MOST_PAGES:  # several pages connected at the same time
             await connection.close(_POLICY_VIOLATION, "Too many pages are connected.")
             return
-        self._served += 1
-        page = self._pages[self._served] = ConnectedPage(self._served, connection)
+        self._page_count += 1
+        page = self._pages[self._page_count] = ConnectedPage(self._page_count, connection)
         page.texts.append(self._hello)
-        self._came_back()
+        self._resume()
         if self.devices is not None:
             page.texts.append(_text("devices", devices=self.devices.state()))
         feed = asyncio.create_task(self._feed(page))
         ending: list[asyncio.Task[None]] = []
 
         def heard() -> None:
-            """Count a frame, of which a message may have any number without a byte."""
+            """Count a WebSocket frame; a message may consist of many empty ones."""
             try:
                 page.heard()
             except HostError as error:
                 if not ending:
-                    ending.append(asyncio.create_task(self._end(page, error)))
+                    ending.append(asyncio.create_task(self._close_page(page, error)))
 
         connection.heard = heard  # type: ignore[attr-defined]
         try:
             async for data in connection:
-                await self._take(page, data)
+                await self._receive(page, data)
         except ConnectionClosed:
             pass
         except HostError as error:
-            await self._end(page, error)
+            await self._close_page(page, error)
         finally:
             feed.cancel()
             del self._pages[page.number]
-            self._let_go(page, "was closed")
+            self._release_inputs(page, "was closed")
             if page.watched:
-                self._left()
+                self._pause_without_pages()
 
-    async def _end(self, page: ConnectedPage, error: HostError) -> None:
-        """End the connection of a page that does what it must not."""
+    async def _close_page(self, page: ConnectedPage, error: HostError) -> None:
+        """Close the connection of a page that violates a limit."""
         self._tell("told", f"Page {page.number} is closed: {error}")
         await page.connection.close(_POLICY_VIOLATION, str(error)[:_LONGEST_REASON])
 
-    def _left(self) -> None:
-        """With nobody who sees it the car stands."""
-        with contextlib.suppress(HostError):  # a car that has ended stands
+    def _pause_without_pages(self) -> None:
+        """Pause the car if no page is left."""
+        with contextlib.suppress(HostError):  # the car may have ended
             if not self._pages and self._car.latest().running:
                 self._car.command("pause")
-                self._left_alone = True
+                self._paused_without_pages = True
                 self._tell("told", "Paused: the last page is gone; the car drives on when one comes back.")
 
-    def _came_back(self) -> None:
-        if self._left_alone:
-            self._left_alone = False
+    def _resume(self) -> None:
+        if self._paused_without_pages:
+            self._paused_without_pages = False
             with contextlib.suppress(HostError):
                 self._car.command("run")
 
-    async def _take(self, page: ConnectedPage, data: str | bytes) -> None:
-        """What a page says; a sentence goes back where it is refused."""
+    async def _receive(self, page: ConnectedPage, data: str | bytes) -> None:
+        """Read and execute a message of a page; a refusal is sent back."""
         try:
             message = protocol.read_message(data, self._car.inputs)
         except HostError as error:
@@ -192,21 +191,21 @@ class Server:
             page.texts.append(_text("refused", text=str(error)))
             return
         try:
-            await self._do(page, message)
+            await self._execute(page, message)
         except HostError as error:
             page.texts.append(_text("refused", text=str(error)))
 
-    async def _do(self, page: ConnectedPage, message: protocol.Message) -> None:
+    async def _execute(self, page: ConnectedPage, message: protocol.Message) -> None:
         if isinstance(message, protocol.Seen):
             page.saw(message.count)
         elif isinstance(message, protocol.Want):
             self._arbiter.want(page.source(message.source), message.values)
         elif isinstance(message, protocol.Order):
-            self._check_pace(message.name)
+            self._check_rate(message.name)
             self._car.command(message.name, message.value)
         elif isinstance(message, protocol.Place):
-            place = self._place(message.name)
-            self._check_pace("reset")
+            place = self._place_values(message.name)
+            self._check_rate("reset")
             self._car.restart(place)
         elif isinstance(message, protocol.Report):
             page.texts.append(_text("report", **self._car.step_times().report()))
@@ -218,12 +217,12 @@ class Server:
         else:
             await asyncio.to_thread(self.devices.message, message.content)
 
-    def _place(self, name: str) -> Mapping[str, Value]:
+    def _place_values(self, name: str) -> Mapping[str, Value]:
         if name not in self._places:
             raise HostError(f"The world has no place {name[:40]!r}; it has {', '.join(self._places) or 'none'}.")
         return self._places[name]
 
-    def _check_pace(self, name: str) -> None:
+    def _check_rate(self, name: str) -> None:
         if name not in _NEW_STARTS:
             return
         now = time.monotonic()
@@ -232,9 +231,9 @@ class Server:
         self._last_new_start = now
 
     async def _feed(self, page: ConnectedPage) -> None:
-        """Texts and frames to a page; whoever does not read waits here alone."""
+        """Send texts and frames to a page; only this task waits for a page that does not read."""
         last_sent: object = None
-        with contextlib.suppress(ConnectionClosed, HostError):  # a car that has ended is seen by the pump
+        with contextlib.suppress(ConnectionClosed, HostError):  # `_pump` reports the end of the car
             while True:
                 while page.texts:
                     await page.connection.send(page.texts.popleft())
@@ -251,21 +250,21 @@ class Server:
                 await asyncio.sleep(FRAME_PERIOD)
 
     async def _pump(self) -> None:
-        """Events of the car and devices to all pages; pages that stall let go."""
+        """Send events of the car and devices to all pages, and release inputs of pages that stall."""
         device_states: list[dict[str, Any]] = []
         while True:
             for event in self._car.events():
                 self._report_all(event.kind, event.time, event.text)
-            while self._said:
-                self._report_all("told", self._car.latest().time, self._said.popleft())
+            while self._messages:
+                self._report_all("told", self._car.latest().time, self._messages.popleft())
             for page in list(self._pages.values()):
                 if page.stalls():
-                    self._let_go(page, "no longer sends messages")
+                    self._release_inputs(page, "no longer sends messages")
             device_states = self._show_devices(device_states)
             await asyncio.sleep(_PUMP_PERIOD)
 
     def _show_devices(self, before: list[dict[str, Any]]) -> list[dict[str, Any]]:
-        """What has changed of devices: to pages that watch, and where one comes or goes to all."""
+        """Send changed states of devices to pages that watch them, and added or removed devices to all pages."""
         if self.devices is None or not self._pages:
             return before
         state = self.devices.state()
@@ -277,15 +276,15 @@ class Server:
                     page.texts.append(text)
         return state
 
-    def _let_go(self, page: ConnectedPage, why: str) -> None:
+    def _release_inputs(self, page: ConnectedPage, reason: str) -> None:
         released = [name for source in sorted(page.sources) for name in self._arbiter.gone(source)]
         if released:
             self._report_all(
-                "told", self._car.latest().time, f"Page {page.number} {why}: {', '.join(released)} let go."
+                "told", self._car.latest().time, f"Page {page.number} {reason}: {', '.join(released)} let go."
             )
 
     def _report_all(self, kind: str, seconds: float, text: str) -> None:
-        """A sentence for the terminal and all pages."""
+        """Send an event to the terminal and all pages."""
         self._tell(kind, text)
         for page in self._pages.values():
             page.texts.append(_text("event", kind=kind, time=seconds, text=text))

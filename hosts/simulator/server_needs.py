@@ -1,4 +1,4 @@
-"""The interface of devices for the server, and the files that it serves."""
+"""What the server needs: the interface of devices, and the content that it sends."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from hosts.common.numbers import Value
 
 
 class ShownDevices(Protocol):
-    """The interface of devices for the server; see `hosts.simulator.devices.Devices`."""
+    """The interface of `hosts.simulator.devices.Devices` for the server."""
 
     def state(self) -> list[dict[str, Any]]: ...
 

@@ -1,4 +1,4 @@
-"""Memory that the car's process and the main process share; neither ever waits for the other."""
+"""Memory shared by the process of the car and the main process, without locks."""
 
 import threading
 from dataclasses import dataclass
@@ -16,40 +16,40 @@ MOMENT = (
     *("count", "time", "epoch", "running", "refused", "behind", "speed", "wall"),
     *("cost", "worst", "lateness", "missed", "saved"),
 )
-"""Values of a moment before those of the columns."""
+"""Values of a state before those of the columns."""
 ROW = ("count", "time", "epoch")
 """Values of a row of a recording before those of the columns."""
 STATE_HEAD = Struct("<qq")
 """Count and epoch of the row after which a state was saved."""
 STOP, RECORDING, LOST_ROWS, LOST_MESSAGES = range(4)
-"""Places among the flags: asks the car's process to end; somebody takes the rows; what found no room."""
+"""Indices of flags: the process of the car has to end; rows are recorded; rows and messages without room."""
 _FLAGS = 8
 _COMMANDS = 256
 _MESSAGE_BYTES = 1 << 18
 _STATE_BYTES = 1 << 20
-_TRIES = 4
-_ORDER = threading.Lock()
+_READ_ATTEMPTS = 4
+_BARRIER_LOCK = threading.Lock()
 
 
-def _fence() -> None:
-    """What was written before is seen by others before what comes after, on processors that would change the order."""
-    with _ORDER:
+def _memory_barrier() -> None:
+    """A memory barrier: other processes see earlier writes before later ones."""
+    with _BARRIER_LOCK:
         pass
 
 
 def shared_files(name: str) -> list[Path]:
-    """Files of the memory of a name."""
+    """Files of the shared memory of a name."""
     file = Path("/dev/shm", name)
     return [file] if file.exists() else []
 
 
 class TwoSlots:
-    """A record with one writer and any readers: it is written into two slots in turn.
+    """A record with one writer and any number of readers, written alternately into two slots.
 
-    A reader takes the slot that was finished last. It is torn only if the writer began twice meanwhile; after a few
-    such attempts the reader keeps the record it had.
+    A reader copies the slot that was finished last. The copy is inconsistent only if the writer has begun two records
+    meanwhile; after some such attempts the reader keeps its former record.
 
-    `counters`: int64, zero at first: numbers of the last record that was begun and that was finished, shape (2,);
+    `counters`: int64, initially zero: numbers of the last record begun and of the last finished, shape (2,);
     `slots`: shape (2, n).
     """
 
@@ -59,28 +59,28 @@ class TwoSlots:
 
     @property
     def written(self) -> int:
-        """Records that were finished so far."""
+        """Number of records finished so far."""
         return int(self._counters[1])
 
     def begin(self) -> NDArray[np.float64]:
-        """The slot to write the next record into; `finish` shows it to readers."""
+        """The slot of the next record; `finish` publishes it."""
         number = int(self._counters[0]) + 1
         self._counters[0] = number
-        _fence()
+        _memory_barrier()
         slot: NDArray[np.float64] = self._slots[number % 2]
         return slot
 
     def finish(self) -> None:
-        _fence()
+        _memory_barrier()
         self._counters[1] = self._counters[0]
 
     def read(self) -> NDArray[np.float64]:
-        """A copy of the last record, or of an older one where the writer was too fast."""
-        for _ in range(_TRIES):
+        """A copy of the last record, or of an older one if the writer was too fast."""
+        for _ in range(_READ_ATTEMPTS):
             number = int(self._counters[1])
-            _fence()
+            _memory_barrier()
             copy: NDArray[np.float64] = self._slots[number % 2].copy()
-            _fence()
+            _memory_barrier()
             if self._counters[0] <= number + 1:
                 self._last = copy
                 break
@@ -88,9 +88,9 @@ class TwoSlots:
 
 
 class Ring:
-    """Rows from one writer to one reader; without room they are counted and left out.
+    """A ring buffer of rows with one writer and one reader.
 
-    `counters`: int64, zero at first: rows written and read, shape (2,); `rows`: shape (capacity, n).
+    `counters`: int64, initially zero: rows written and read, shape (2,); `rows`: shape (capacity, n).
     """
 
     def __init__(self, counters: NDArray[np.int64], rows: NDArray[np.float64]) -> None:
@@ -101,29 +101,29 @@ class Ring:
         return int(self._counters[0] - self._counters[1]) < self._capacity
 
     def slot(self) -> NDArray[np.float64]:
-        """The row to write into where there is room; `finish` shows it to the reader."""
+        """The row to write if there is room; `finish` publishes it."""
         row: NDArray[np.float64] = self._rows[int(self._counters[0]) % self._capacity]
         return row
 
     def finish(self) -> None:
-        _fence()
+        _memory_barrier()
         self._counters[0] += 1
 
     def take(self) -> NDArray[np.float64]:
-        """Copies of all rows that wait, shape (k, n), in their order."""
+        """Remove and return all waiting rows, shape (k, n)."""
         written = int(self._counters[0])
-        read = max(int(self._counters[1]), written - self._capacity)  # an FMU may have damaged both
-        _fence()
+        read = max(int(self._counters[1]), written - self._capacity)  # a faulty FMU may have overwritten both
+        _memory_barrier()
         rows: NDArray[np.float64] = self._rows[np.arange(read, written) % self._capacity]
-        _fence()
+        _memory_barrier()
         self._counters[1] = written
         return rows
 
 
 class ByteRing:
-    """Messages of any length from one writer to one reader; without room they are counted by the caller.
+    """A ring buffer of messages of any length with one writer and one reader.
 
-    `counters`: int64, zero at first: bytes written and read, shape (2,); `data`: uint8, shape (n,).
+    `counters`: int64, initially zero: bytes written and read, shape (2,); `data`: uint8, shape (n,).
     """
 
     _HEAD = 4
@@ -141,7 +141,7 @@ class ByteRing:
         first = min(len(record), size - begin)
         self._data[begin : begin + first] = record[:first]
         self._data[: len(record) - first] = record[first:]
-        _fence()
+        _memory_barrier()
         self._counters[0] = written + len(record)
         return True
 
@@ -149,9 +149,9 @@ class ByteRing:
         """Remove and return all waiting messages."""
         written = int(self._counters[0])
         read = max(int(self._counters[1]), written - len(self._data))
-        _fence()
+        _memory_barrier()
         data = self._data[np.arange(read, written) % len(self._data)].tobytes()
-        _fence()
+        _memory_barrier()
         self._counters[1] = written
         messages, offset = [], 0
         while offset < len(data):
@@ -163,24 +163,24 @@ class ByteRing:
 
 @dataclass(frozen=True)
 class Sizes:
-    """Sizes that determine the layout of the memory."""
+    """Sizes that determine the layout of the shared memory."""
 
     inputs: int
     columns: int
     """`inputs`, `columns`: number of inputs, and of inputs and outputs."""
     rows: int
-    """Rows of a recording that may wait."""
+    """Largest number of waiting rows of a recording."""
 
 
 class SharedValues:
     """Views of the shared memory.
 
-    `name`: of memory that another process has made; without it, it is made.
+    `name`: of memory that another process has created; None: it is created.
 
     Attributes
     ----------
     flags : ndarray of shape (8,)
-        int64, see `STOP` and its neighbours.
+        int64, indexed by `STOP` and others.
     moments : TwoSlots
         From the car: `MOMENT`, then the columns.
     wants : TwoSlots
@@ -200,11 +200,11 @@ class SharedValues:
         counters = 12
         doubles = 2 * moment + 2 * wants + 3 * _COMMANDS + row * sizes.rows + TIMES_SIZE
         size = 8 * (_FLAGS + counters + doubles) + _MESSAGE_BYTES + _STATE_BYTES
-        with stop_signals_blocked():  # shared memory has a process of Python's beside it
+        with stop_signals_blocked():  # Python starts a helper process for shared memory
             self._memory = SharedMemory(name) if name else SharedMemory(create=True, size=size)
         self.name = self._memory.name
         assert self._memory.buf is not None
-        self._free, self._owner = self._memory.buf, name is None
+        self._unused, self._owner = self._memory.buf, name is None
         self.flags = np.frombuffer(self._take(8 * _FLAGS), np.int64)
         pairs = np.frombuffer(self._take(8 * counters), np.int64).reshape(6, 2)
         self.moments = TwoSlots(pairs[0], self._doubles(2, moment))
@@ -214,17 +214,17 @@ class SharedValues:
         self.times = self._doubles(1, TIMES_SIZE)[0]
         self.messages = ByteRing(pairs[4], np.frombuffer(self._take(_MESSAGE_BYTES), np.uint8))
         self.states = ByteRing(pairs[5], np.frombuffer(self._take(_STATE_BYTES), np.uint8))
-        del self._free
+        del self._unused
 
     def _doubles(self, rows: int, columns: int) -> NDArray[np.float64]:
         return np.frombuffer(self._take(8 * rows * columns), np.float64).reshape(rows, columns)
 
     def _take(self, size: int) -> memoryview:
-        part, self._free = self._free[:size], self._free[size:]
-        return part
+        view, self._unused = self._unused[:size], self._unused[size:]
+        return view
 
     def close(self) -> None:
-        """Give the memory back; the views are no longer to be used."""
+        """Release the memory; the views must not be used any more."""
         del self.flags, self.moments, self.wants, self.commands, self.rows, self.times, self.messages, self.states
         try:
             self._memory.close()

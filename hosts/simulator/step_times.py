@@ -1,4 +1,4 @@
-"""Costs and lateness of the steps: histograms of fixed size, and what a person or a program reads of them."""
+"""Costs and lateness of the steps: histograms of fixed size, their text and their JSON."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _SCALARS = (
     *("cost_sum", "cost_largest", "lateness_largest", "capped", "capped_largest"),
     *CAUSES,
 )
-_PLACES = {name: k for k, name in enumerate(_SCALARS)}
+_INDICES = {name: k for k, name in enumerate(_SCALARS)}
 TIMES_SIZE = len(_SCALARS) + 2 * BINS
 """Doubles of a record."""
 _COST = len(_SCALARS)
@@ -30,27 +30,27 @@ _QUANTILES = (("median", 0.5), ("p99", 0.99), ("p999", 0.999))
 
 
 def bin_of(seconds: float) -> int:
-    """The bin of a time."""
+    """The bin of a time, s."""
     if seconds <= _FIRST:
         return 0
     return min(1 + int(_PER_DECADE * math.log10(seconds / _FIRST)), BINS - 1)
 
 
 class TimesRecord:
-    """Where the car's loop adds a step; only it writes. `values`: zero at first, shape (TIMES_SIZE,)."""
+    """The record to which the loop of the car adds steps. `values`: initially zero, shape (TIMES_SIZE,)."""
 
     def __init__(self, values: NDArray[np.float64]) -> None:
         self._values = memoryview(values.data).cast("B").cast("d")
 
     def add(self, name: str, amount: float) -> None:
         """Add to a figure: steps, simulated, scheduled, wall, paused, missed, skipped, lost, capped, `CAUSES`."""
-        self._values[_PLACES[name]] += amount
+        self._values[_INDICES[name]] += amount
 
     def __getitem__(self, name: str) -> float:
-        return self._values[_PLACES[name]]
+        return self._values[_INDICES[name]]
 
     def add_step(self, cost: float, lateness: float) -> None:
-        """Count a step by its cost and the lateness of its begin, s."""
+        """Count a step. `cost`: its wall time, s; `lateness`: of its begin, s."""
         values = self._values
         values[_COST + bin_of(cost)] += 1.0
         values[_LATENESS + bin_of(lateness)] += 1.0
@@ -59,9 +59,9 @@ class TimesRecord:
         self.raise_to("lateness_largest", lateness)
 
     def raise_to(self, name: str, value: float) -> None:
-        """Keep the largest: cost_largest, lateness_largest, capped_largest."""
-        if value > self._values[_PLACES[name]]:
-            self._values[_PLACES[name]] = value
+        """Raise a maximum to a value: cost_largest, lateness_largest, capped_largest."""
+        if value > self._values[_INDICES[name]]:
+            self._values[_INDICES[name]] = value
 
 
 @dataclass(frozen=True)
@@ -73,29 +73,32 @@ class Spread:
     largest: float
     """s."""
 
-    def quantile(self, part: float) -> float:
-        """The time that this part of the steps does not exceed, s: the upper edge of its bin (6 %), 0 without steps."""
+    def quantile(self, probability: float) -> float:
+        """The quantile, s, as the upper edge of its bin (6 %); 0 without steps. `probability`: from 0 to 1."""
         total = float(self.counts.sum())
         if total == 0.0:
             return 0.0
-        index = int(np.searchsorted(np.cumsum(self.counts), part * total))
+        index = int(np.searchsorted(np.cumsum(self.counts), probability * total))
         return min(self.largest, edge(index))
 
     def report(self) -> dict[str, Any]:
         occupied = np.flatnonzero(self.counts)
         bins = [[min(edge(int(k)), self.largest), int(self.counts[k])] for k in occupied]
-        return {name: self.quantile(part) for name, part in _QUANTILES} | {"largest": self.largest, "bins": bins}
+        return {name: self.quantile(probability) for name, probability in _QUANTILES} | {
+            "largest": self.largest,
+            "bins": bins,
+        }
 
     def words(self) -> str:
-        quantiles = [self.quantile(part) for _, part in _QUANTILES]
+        quantiles = [self.quantile(probability) for _, probability in _QUANTILES]
         pairs = zip(("median", "p99", "p99.9", "largest"), (*quantiles, self.largest), strict=True)
         return ", ".join(f"{name} {1e3 * value:.3g} ms" for name, value in pairs)
 
     def lines(self) -> list[str]:
-        """A bar for each part of a decade that has steps."""
+        """Lines of a chart with a bar for each third of a decade that has steps."""
         rows: dict[float, float] = {}
         for k in np.flatnonzero(self.counts):
-            top = next(t for t in _TOPS if t >= edge(int(k)) * (1.0 - 1e-9))
+            top = next(t for t in _CHART_EDGES if t >= edge(int(k)) * (1.0 - 1e-9))
             rows[top] = rows.get(top, 0.0) + float(self.counts[k])
         highest = max(rows.values(), default=1.0)
         return [
@@ -104,12 +107,12 @@ class Spread:
         ]
 
 
-def edge(place: int) -> float:
+def edge(index: int) -> float:
     """Upper edge of a bin, s; infinite for the last."""
-    return math.inf if place >= BINS - 1 else float(_FIRST * 10.0 ** (place / _PER_DECADE))
+    return math.inf if index >= BINS - 1 else float(_FIRST * 10.0 ** (index / _PER_DECADE))
 
 
-_TOPS = [float(f"{m}e{e}") for e in range(-6, 2) for m in (1, 2, 5)] + [math.inf]
+_CHART_EDGES = [float(f"{m}e{e}") for e in range(-6, 2) for m in (1, 2, 5)] + [math.inf]
 
 
 @dataclass(frozen=True)
@@ -123,33 +126,33 @@ class StepTimes:
     simulated: float
     """Simulated time of these steps, s."""
     scheduled: float
-    """Wall time that they were to take at the speeds that were asked for, s."""
+    """Wall time of these steps at the requested speeds, s."""
     wall: float
     paused: float
     """`wall`, `paused`: wall time in which the car ran and in which it was paused, s."""
     missed: int
-    """Deadlines that were missed: the step was not done when the next was to begin."""
+    """Number of steps that ended after the scheduled begin of the next."""
     missed_by: dict[str, int]
-    """How many of them by each of `CAUSES`; all zero where the system does not report them."""
+    """Their number by each of `CAUSES`; all zero if the system does not report causes."""
     skipped: int
-    """How often the schedule was moved on because the car was too late."""
+    """Number of times at which the schedule was moved because the car was too late."""
     lost: float
-    """Wall time by which it was moved, s."""
+    """Wall time by which the schedule was moved, s."""
     cost: Spread
     lateness: Spread
-    """`cost`, `lateness`: of the work of a step, and of its begin after its scheduled time."""
+    """`cost`, `lateness`: wall time of a step, and delay of its begin."""
     mean: float
-    """Of the costs, s."""
+    """Mean cost, s."""
     capped: int
-    """Inner steps of the FMU that a limit of iterations cut short."""
+    """Inner steps of the FMU that ended at the limit of iterations."""
     capped_residual: float
-    """The largest that they left, m."""
+    """Largest residual of these, m."""
 
     @staticmethod
     def of(values: NDArray[np.float64], step: float, paced: bool) -> StepTimes:
-        """From a record that the loop writes."""
+        """The times of a record of the loop."""
         v = values.copy()
-        scalar = {name: float(v[k]) for name, k in _PLACES.items()}
+        scalar = {name: float(v[k]) for name, k in _INDICES.items()}
         steps = int(scalar["steps"])
         return StepTimes(
             step,
@@ -172,7 +175,7 @@ class StepTimes:
 
     @property
     def factor(self) -> float:
-        """Scheduled over wall seconds while it ran: 1 where it kept up, whatever the speed that was asked for."""
+        """Scheduled over wall time while the car ran: 1 if it kept up, at any requested speed."""
         return self.scheduled / self.wall if self.wall > 0.0 else 1.0
 
     def report(self) -> dict[str, Any]:
@@ -193,7 +196,7 @@ class StepTimes:
         if self.paced:
             if abs(self.scheduled - self.simulated) > 1e-6 * self.simulated:
                 rows.append(f"at the speeds that were asked for (slow motion) this takes {self.scheduled:.3f} s")
-            # a schedule that is moved on leaves out deadlines, which are missed too
+            # deadlines left out by a moved schedule are missed too
             deadlines = max(self.missed, round(self.steps * (1.0 + self.lost / self.scheduled)))
             rows += [
                 f"lateness of its begin: {self.lateness.words()}",

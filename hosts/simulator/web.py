@@ -1,4 +1,4 @@
-"""HTTP side of the server: addresses, requests, and the limit of connections."""
+"""HTTP part of the server: addresses, requests, and limits of connections."""
 
 import asyncio
 import errno
@@ -21,108 +21,108 @@ from hosts.simulator.access_control import AccessControl
 
 DRIVE = "/drive"
 MOST_STRANGERS = 64
-"""Connections that have not shown the token; a further one ends the oldest."""
+"""Largest number of connections without the token; a further one ends the oldest."""
 MOST_PAGES = 8
 MOST_ANSWERS = 16
-"""Pages and worlds that are being sent at once."""
+"""Largest number of pages and worlds sent at the same time."""
 STRANGERS_PER_SECOND = 400
-"""Connections that are taken before they have shown the token."""
+"""Connections without the token that are accepted per second."""
 BACKLOG = 1024
-"""Connections that the system keeps until they are taken."""
+"""Connections that the system queues until they are accepted."""
 READ_WITHIN = 10.0
-"""Who takes nothing of an answer for so long, s, is ended."""
+"""Time without progress of an answer, s, after which its connection is ended."""
 DEFAULT_PORT = 8765
-_PORTS_TRIED = 100
-_PIECE = 65536  # bytes of a body that are written at once
-_LOOKS = 64  # connections that are looked at before others have their turn
+_MOST_PORTS = 100
+_PIECE_SIZE = 65536  # bytes of a body that are written at once
+_MOST_EXAMINED = 64  # connections examined before other tasks continue
 _FIRST_BYTES = 2048
 _LONGEST_METHOD = 20
 _NOT_ALLOWED = b"HTTP/1.1 405 Method Not Allowed\r\nAllow: GET, HEAD\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
-_TAKEN = (errno.EADDRINUSE, errno.EACCES)
+_UNAVAILABLE = (errno.EADDRINUSE, errno.EACCES)
 
 
-class _Doors(socket.socket):
-    """A socket that listens, and ends connections of a flood before they cost what a connection costs.
+class _FloodGuard(socket.socket):
+    """A listening socket that closes connections of a flood before they are served.
 
-    Under a flood it takes those that have sent the token with their first bytes; of the others so many a second.
+    Under a flood it accepts connections that have sent the token with their first bytes, and some others per second.
     """
 
     token = b""
-    _may_come, _at = float(STRANGERS_PER_SECOND), 0.0
+    _allowance, _last_time = float(STRANGERS_PER_SECOND), 0.0
 
     def accept(self) -> tuple[socket.socket, Any]:
-        """The next connection that is taken; `BlockingIOError`: there is none, or others are to have their turn."""
-        for _ in range(_LOOKS):
-            line, address = super().accept()
+        """Accept the next connection; `BlockingIOError` if there is none, or after some closed ones."""
+        for _ in range(_MOST_EXAMINED):
+            connection, address = super().accept()
             now = time.monotonic()
-            gained = STRANGERS_PER_SECOND * (now - self._at)
-            self._may_come, self._at = min(STRANGERS_PER_SECOND, self._may_come + gained), now
-            if self._may_come >= 1.0:
-                self._may_come -= 1.0
-                return line, address
-            if self._knows(line):
-                return line, address
-            line.close()
+            gain = STRANGERS_PER_SECOND * (now - self._last_time)
+            self._allowance, self._last_time = min(STRANGERS_PER_SECOND, self._allowance + gain), now
+            if self._allowance >= 1.0:
+                self._allowance -= 1.0
+                return connection, address
+            if self._has_token(connection):
+                return connection, address
+            connection.close()
         raise BlockingIOError
 
-    def _knows(self, line: socket.socket) -> bool:
-        line.setblocking(False)
+    def _has_token(self, connection: socket.socket) -> bool:
+        connection.setblocking(False)
         try:
-            return bool(self.token) and self.token in line.recv(_FIRST_BYTES, socket.MSG_PEEK)
+            return bool(self.token) and self.token in connection.recv(_FIRST_BYTES, socket.MSG_PEEK)
         except OSError:
             return False
 
 
 def listening_socket(address: str, port: int | None) -> socket.socket:
-    """A socket that listens. `port`: by default the first free one from `DEFAULT_PORT` on.
+    """A listening socket. `port`: by default the first free one from `DEFAULT_PORT` on.
 
-    Raises `HostError`: the port is taken, with the next free one; or there is no such address.
+    Raises `HostError`: the port is not available, with the next free one; or the address does not exist.
     """
     if port is not None and not 0 <= port <= 65535:
         raise HostError(f"The port is {port}; it must be from 1 to 65535, or 0 for any that is free.")
     first = DEFAULT_PORT if port is None else port
-    for tried in range(first, min(first + _PORTS_TRIED, 65536)):
+    for number in range(first, min(first + _MOST_PORTS, 65536)):
         try:
-            result = _bound(address, tried)
+            result = _bound_socket(address, number)
         except OSError as error:
             if error.errno == errno.EACCES and port is not None:
                 raise HostError(
                     f"The system does not allow you to use the port {port}; give one from 1024 on."
                 ) from None
-            if error.errno not in _TAKEN:
+            if error.errno not in _UNAVAILABLE:
                 raise HostError(f"The server cannot listen on {address}: {reason(error)}.") from None
             continue
-        if port is None or tried == port:
+        if port is None or number == port:
             return result
         result.close()
         raise HostError(
-            f"The port {port} of {address} is taken by another program; the port {tried} is free: --port {tried}."
+            f"The port {port} of {address} is taken by another program; the port {number} is free: --port {number}."
         )
-    raise HostError(f"The ports {first} to {first + _PORTS_TRIED - 1} of {address} are all taken; give another --port.")
+    raise HostError(f"The ports {first} to {first + _MOST_PORTS - 1} of {address} are all taken; give another --port.")
 
 
-def _bound(address: str, port: int) -> socket.socket:
+def _bound_socket(address: str, port: int) -> socket.socket:
     family, *_, sockaddr = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0]
-    dual = sockaddr[0] == "::" and socket.has_dualstack_ipv6()  # the name of this machine may be one of IPv4 alone
-    with socket.create_server((str(sockaddr[0]), port), family=family, dualstack_ipv6=dual) as bound:
-        if hasattr(socket, "TCP_DEFER_ACCEPT"):  # who is taken has sent first bytes, unless it is silent for a second
-            bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_DEFER_ACCEPT, 1)
-        return _Doors(family, socket.SOCK_STREAM, fileno=bound.detach())
+    dual = sockaddr[0] == "::" and socket.has_dualstack_ipv6()  # the name of this machine may have an IPv4 address only
+    with socket.create_server((str(sockaddr[0]), port), family=family, dualstack_ipv6=dual) as server_socket:
+        if hasattr(socket, "TCP_DEFER_ACCEPT"):  # accepted connections have sent bytes, unless silent for a second
+            server_socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_DEFER_ACCEPT, 1)
+        return _FloodGuard(family, socket.SOCK_STREAM, fileno=server_socket.detach())
 
 
 class Web:
     """Answers requests. `page`: HTML; `world`: JSON of the drawing of the world."""
 
     def __init__(self, access: AccessControl, page: str, world: Mapping[str, Any]) -> None:
-        self._guard = access
+        self._access = access
         self._kinds = {"/": "text/html; charset=utf-8", "/world": "application/json"}
         texts = {"/": page, "/world": json.dumps(world, allow_nan=False)}
         self._bodies = {(path, True): gzip.compress(text.encode(), 5, mtime=0) for path, text in texts.items()}
-        self._strangers: dict[ServerConnection, None] = {}  # the oldest first
-        self._answered: set[ServerConnection] = set()  # who has the token and is being sent a body
+        self._unidentified: dict[ServerConnection, None] = {}  # oldest first
+        self._being_answered: set[ServerConnection] = set()  # with the token, while a body is sent
 
     async def answer(self, connection: ServerConnection, request: Request, pages: int) -> Response | None:
-        """What a request gets; None: it becomes a WebSocket. `pages`: how many are connected."""
+        """The answer to a request; None: it becomes a WebSocket. `pages`: number of connected pages."""
         headers = request.headers
         try:
             path = urlsplit(request.path).path
@@ -130,13 +130,13 @@ class Web:
             path = ""
         if not path.startswith("/"):
             return connection.respond(http.HTTPStatus.BAD_REQUEST, "The request names no address.\n")
-        results = {name: headers.get_all(name) for name in ("Host", "Origin")}
-        doubled = next((name for name, values in results.items() if len(values) > 1), None)
-        refusal = f"The request says {doubled} several times." if doubled else ""
-        refusal = refusal or self._guard.refusal(request.path, {name: v[0] for name, v in results.items() if v})
+        values_by_name = {name: headers.get_all(name) for name in ("Host", "Origin")}
+        repeated = next((name for name, values in values_by_name.items() if len(values) > 1), None)
+        refusal = f"The request says {repeated} several times." if repeated else ""
+        refusal = refusal or self._access.refusal(request.path, {name: v[0] for name, v in values_by_name.items() if v})
         if refusal:
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"{refusal}\n")
-        self._strangers.pop(connection, None)
+        self._unidentified.pop(connection, None)
         if path == DRIVE:
             if pages < MOST_PAGES:
                 return None
@@ -144,7 +144,7 @@ class Web:
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, message)
         if path not in self._kinds:
             return connection.respond(http.HTTPStatus.NOT_FOUND, f"There is /, the page, /world and {DRIVE}.\n")
-        if len(self._answered) >= MOST_ANSWERS:
+        if len(self._being_answered) >= MOST_ANSWERS:
             message = (
                 f"{MOST_ANSWERS} answers are being sent, which is as many as this server sends at once; try again.\n"
             )
@@ -153,16 +153,16 @@ class Web:
         if (path, gzipped) not in self._bodies:
             self._bodies[path, gzipped] = gzip.decompress(self._bodies[path, True])
         body = self._bodies[path, gzipped]
-        head = _head(self._kinds[path], len(body), gzipped)
-        self._answered.add(connection)
+        head = _response_head(self._kinds[path], len(body), gzipped)
+        self._being_answered.add(connection)
         try:
             await _send(connection, head, b"" if getattr(request, "method", "GET") == "HEAD" else body)
         finally:
-            self._answered.discard(connection)
-        return head  # the library writes it to a line that is closed
+            self._being_answered.discard(connection)
+        return head  # the library writes it to the closed connection
 
     def connection_type(self) -> type[ServerConnection]:
-        """Connections that are counted until they have shown the token; who floods the server ends its own."""
+        """The class of connections, which counts those without the token and ends the oldest of too many."""
         web = self
 
         class Known(ServerConnection):
@@ -172,14 +172,14 @@ class Web:
 
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
                 super().connection_made(transport)
-                web._strangers[self] = None
-                if len(web._strangers) > MOST_STRANGERS:
-                    oldest = next(iter(web._strangers))
-                    del web._strangers[oldest]
+                web._unidentified[self] = None
+                if len(web._unidentified) > MOST_STRANGERS:
+                    oldest = next(iter(web._unidentified))
+                    del web._unidentified[oldest]
                     oldest.transport.abort()
 
             def data_received(self, data: bytes) -> None:
-                if self.request is None:  # the library takes any method for GET, or none but GET
+                if self.request is None:  # the library treats any method as GET, or refuses all others
                     received = self._method
                     self._method = (received + data)[:_LONGEST_METHOD]
                     method, space, _ = self._method.partition(b" ")
@@ -196,40 +196,40 @@ class Web:
                 super().process_event(event)
 
             def connection_lost(self, exc: Exception | None) -> None:
-                web._strangers.pop(self, None)
+                web._unidentified.pop(self, None)
                 super().connection_lost(exc)
 
         return Known
 
     def watch(self, listening: socket.socket) -> None:
-        """Let a listening socket of `listening_socket` know who is to come in under a flood."""
-        if isinstance(listening, _Doors):
-            listening.token = self._guard.token.encode()
+        """Give a socket of `listening_socket` the token for connections under a flood."""
+        if isinstance(listening, _FloodGuard):
+            listening.token = self._access.token.encode()
 
     def end_strangers(self) -> None:
-        """End the connections that no page is at the other end of, for which a server that closes would wait."""
-        for connection in (*self._strangers, *self._answered):
+        """Abort connections without a page, for which the closing server would wait."""
+        for connection in (*self._unidentified, *self._being_answered):
             connection.transport.abort()
 
 
 async def _send(connection: ServerConnection, head: Response, body: bytes) -> None:
-    """Send an answer piece by piece, so that all that wait share its body; who does not read is ended."""
+    """Send an answer in pieces of a shared body; a connection that does not read is aborted."""
     transport = connection.transport
     transport.set_write_buffer_limits(0)
     transport.write(head.serialize())
     try:
-        for offset in range(0, max(len(body), 1), _PIECE):
-            transport.write(body[offset : offset + _PIECE])
+        for offset in range(0, max(len(body), 1), _PIECE_SIZE):
+            transport.write(body[offset : offset + _PIECE_SIZE])
             async with asyncio.timeout(READ_WITHIN):
                 await connection.drain()
-            if transport.is_closing():  # the other side has gone
+            if transport.is_closing():  # the client has closed the connection
                 return
         transport.close()
     except (TimeoutError, OSError):
         transport.abort()
 
 
-def _head(kind: str, size: int, gzipped: bool) -> Response:
+def _response_head(kind: str, size: int, gzipped: bool) -> Response:
     headers = Headers(
         {
             "Content-Type": kind,

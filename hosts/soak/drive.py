@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hosts.common.numbers import Value
 from hosts.driving.pilots.pilot import OBSERVED
-from hosts.driving.random_driver import RandomDriver, wild_start
+from hosts.driving.random_driver import RandomDriver, random_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
 from hosts.soak.last_seconds import RecentSteps
@@ -120,7 +120,7 @@ class _Drive:
         seconds = _RUN[0] + (_RUN[1] - _RUN[0]) * chance.random()
         steps = round(min(seconds, task.seconds - self.outcome.simulated) / task.step)
         again = 1 + int(chance.random() * (steps - _AGAIN - 1))
-        start: dict[str, Value] = {**wild_start(seed, ground.targets)}
+        start: dict[str, Value] = {**random_start(seed, ground.targets)}
         if ground.road:
             start["road.file"] = ground.road
         if task.fidelity is not None:

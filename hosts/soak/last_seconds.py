@@ -7,7 +7,7 @@ from typing import NamedTuple
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.format import REFUSED
-from hosts.recordings.manoeuvre_export import to_manoeuvre
+from hosts.recordings.manoeuvre_export import export_manoeuvre
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.recording import Recorder, recording_meta
 
@@ -63,5 +63,5 @@ class RecentSteps:
             else:
                 recorder.event(rows[-1].time, kind, text, epoch=0)
         manoeuvre = folder / "manoeuvre.csv"
-        to_manoeuvre(read_recording(folder), manoeuvre)
+        export_manoeuvre(read_recording(folder), manoeuvre)
         return manoeuvre

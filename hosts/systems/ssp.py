@@ -15,7 +15,7 @@ from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.parameters_as_set import written
+from hosts.fmu.parameters_as_set import value_text
 from hosts.systems.connections import Wire, fmus_of, starts_of, wires_of
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
@@ -123,10 +123,10 @@ def _component(
         connectors = SubElement(component, f"{_STRUCTURE}Connectors")
         for variable, causality in sorted(ends):
             end = SubElement(connectors, f"{_STRUCTURE}Connector", name=variable, kind=causality)
-            (place,) = fmu.places([variable])
-            if place.size > 1:
+            (scalar,) = fmu.scalars([variable])
+            if scalar.size > 1:
                 raise HostError(f"'{part}.{variable}' is a part of an array; SSP wires whole variables only.")
-            kind = _FIRST.get(place.type, place.type) if version == "1.0" else place.type
+            kind = _FIRST.get(scalar.type, scalar.type) if version == "1.0" else scalar.type
             SubElement(end, f"{_COMMON}{kind}")
     if (values := f"resources/{part}.ssv") in content:
         bindings = SubElement(component, f"{_STRUCTURE}ParameterBindings")
@@ -136,4 +136,4 @@ def _component(
 def _entries(fmu: Fmu, values: Mapping[str, Value]) -> list[Entry]:
     """Start values of a part as a parameter set has them."""
     variables = {name: fmu.table.settable(name, "") for name in values}
-    return [Entry(name, v.kind, written(v, values[name]), None) for name, v in variables.items()]
+    return [Entry(name, v.kind, value_text(v, values[name]), None) for name, v in variables.items()]

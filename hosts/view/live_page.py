@@ -22,7 +22,7 @@ from hosts.driving.manoeuvre import with_names_of
 from hosts.fmu.fmu_file import fmu_file
 from hosts.fmu.settings import Settings
 from hosts.recordings.format import is_recording
-from hosts.recordings.load_manoeuvre import check_asked, load_manoeuvre
+from hosts.recordings.load_manoeuvre import check_manoeuvre_option, load_manoeuvre
 from hosts.view.open_page import open_page
 from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
 from hosts.view.page_text import Page, script_of
@@ -50,7 +50,7 @@ def _written(options: argparse.Namespace, set_options: FmuOptions) -> int:
     if len(options.what) > _MOST_PICTURES:
         raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
-    check_asked(options.manoeuvre)
+    check_manoeuvre_option(options.manoeuvre)
     if options.world is not None:
         check_world(options.world)
     paths = [fmu_file(path) for path in options.what if path not in results]

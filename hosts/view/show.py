@@ -15,7 +15,7 @@ from hosts.common.errors import HostError
 from hosts.common.road import options_with_road
 from hosts.fmu.car import is_car
 from hosts.fmu.fmu_file import fmu_file
-from hosts.recordings.load_manoeuvre import check_asked
+from hosts.recordings.load_manoeuvre import check_manoeuvre_option
 from hosts.view.open_page import open_page
 from hosts.view.view_sources import ViewRunOptions, recordings_of
 from viewer.gltf import write_gltf
@@ -32,7 +32,7 @@ _PLOTTED = 3  # signals of a result that is not drawn
 def show(options: argparse.Namespace) -> int:
     """Write what is asked for and open the page; gives the exit code."""
     page = _page(options)
-    check_asked(options.manoeuvre)
+    check_manoeuvre_option(options.manoeuvre)
     options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
     for file in (page, options.png, options.mp4, options.gltf):
         if file is not None:

@@ -16,7 +16,7 @@ from hosts.driving.course_scenery import with_course, with_marks
 from hosts.driving.courses import TRACKS, course_of
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import with_names_of
-from hosts.driving.manoeuvre_settings import set_in
+from hosts.driving.manoeuvre_settings import apply_settings
 from hosts.driving.pilots.pilot import ACTS, OBSERVED
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.driving.runs_with_progress import run_with_bar
@@ -261,7 +261,7 @@ def _of_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Recordi
         manoeuvre = with_names_of(manoeuvre_of(fmu, manoeuvre_name, run_options.stop_time), fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(fmu, manoeuvre, run_options.fmu_options)
+        manoeuvre, settings = apply_settings(fmu, manoeuvre, run_options.fmu_options)
         scene = scene_of(path, settings.start)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, run_options.step), driver)
     if scene is None:

@@ -11,7 +11,7 @@ from ali3.units import number_with_unit, quantity
 from hosts.common.errors import HostError
 from hosts.common.package_names import check_car, check_world
 from hosts.fmu.variables import Variable
-from hosts.recordings.load_manoeuvre import check_asked
+from hosts.recordings.load_manoeuvre import check_manoeuvre_option
 
 
 @pytest.mark.parametrize(
@@ -103,7 +103,7 @@ def test_misspelt_cars_worlds_and_manoeuvres_are_reported_before_anything_is_mad
     for check, word, meant in (
         (lambda word: check_car(Path(word)), "hatchbak", "hatchback"),
         (check_world, "proving_grund", "proving_ground"),
-        (check_asked, "slalm", "slalom"),
+        (check_manoeuvre_option, "slalm", "slalom"),
     ):
         with pytest.raises(HostError, match=f"There is no .* '{word}'.*; did you mean '{meant}'"):
             check(word)
@@ -111,4 +111,4 @@ def test_misspelt_cars_worlds_and_manoeuvres_are_reported_before_anything_is_mad
     with pytest.raises(HostError, match="the cars of the package are .*, prototype, saloon"):
         check_car(Path("xyz"))
     check_car(tmp_path)
-    check_asked(None)
+    check_manoeuvre_option(None)

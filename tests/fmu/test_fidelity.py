@@ -87,7 +87,7 @@ def test_a_state_brings_its_fidelity_along(kerb: Path) -> None:
 
 def test_the_fidelity_may_change_until_initialisation_ends(kerb: Path) -> None:
     with Fmu(kerb) as fmu, Fmu(kerb) as other:
-        references = [place.reference for place in fmu.places(["fidelity"])]
+        references = [scalar.reference for scalar in fmu.scalars(["fidelity"])]
         fmu._slave.setupExperiment(startTime=0.0)
         fmu._slave.enterInitializationMode()
         for fidelity in (2.0, 0.0, 1.0):

@@ -81,16 +81,16 @@ def wild(given: Callable[[float, Mapping[str, float]], Given]) -> Callable[[floa
 def derivatives(fmu: Fmu, outputs: list[str], given: Given) -> NDArray[np.float64]:
     """Of the outputs by what is given, each times one, over the last step; no numbers where that is refused."""
     slave: Any = fmu._slave
-    places = fmu.places(outputs)
-    sizes = {place.reference: place.size for place in places}
+    scalars = fmu.scalars(outputs)
+    sizes = {scalar.reference: scalar.size for scalar in scalars}
     count = (sum(sizes.values()),) if fmu.description.fmiVersion.startswith("3") else ()
-    known = [place.reference for place in fmu.places(given)]
+    known = [scalar.reference for scalar in fmu.scalars(given)]
     try:
         result = slave.getDirectionalDerivative(list(sizes), known, [1.0] * len(known), *count)
     except FMICallException:
         return np.full(len(outputs), math.nan)
     begin = dict(zip(sizes, np.cumsum([0, *sizes.values()]), strict=False))
-    return np.array([result[begin[place.reference] + place.item] for place in places])
+    return np.array([result[begin[scalar.reference] + scalar.index] for scalar in scalars])
 
 
 def drive(

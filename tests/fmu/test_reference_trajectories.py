@@ -18,7 +18,7 @@ from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.random_driver import RandomDriver, wild_start
+from hosts.driving.random_driver import RandomDriver, random_start
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.scalars import ELEMENTS, element_names
 from mbs import Pose, Simulation
@@ -266,7 +266,7 @@ def test_in_the_air_behind_a_kerb_the_centre_of_mass_falls(car: Road) -> None:
 @of_kinds("native")
 @pytest.mark.parametrize("seed", quick((4,), (1, 4, 5), "proof"))
 def test_a_random_drive_is_that_of_the_kernel_with_small_steps(car: Road, seed: int) -> None:
-    start = {n: x for n, x in wild_start(seed).items() if n not in ("initial.x", "initial.y")}
+    start = {n: x for n, x in random_start(seed).items() if n not in ("initial.x", "initial.y")}
     with Fmu(car("drop")) as fmu:
         inputs = fmu.names("input")
         wild = Manoeuvre("wild", np.zeros(0), {}, 4.0, start | {"step_size": 0.2 * H})

@@ -111,7 +111,7 @@ def test_stresses_have_no_rates(kerb_fmus: Path) -> None:
     with Fmu(kerb_fmus / "native.fmu") as fmu:
         fmu.initialise({"fidelity": 0.0})
         fmu.step(0.0, H)
-        reference = [place.reference for place in fmu.places(["stress.SG1"])]
+        reference = [scalar.reference for scalar in fmu.scalars(["stress.SG1"])]
         with pytest.raises(FMICallException):
             fmu._slave.getRealOutputDerivatives(reference, [1])
         assert any("'stress.SG1' is not known: it depends on forces" in line for line in fmu.messages)

@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ali3.temporary_folder import temporary_folder
-from hosts.check.all_checks import CHECKS, done
+from hosts.check.all_checks import CHECKS, run_check
 from hosts.check.instance import open_subject
 from tests.forked import forked
 
@@ -20,7 +20,7 @@ def one_check(fmu: Path, name: str, steps: int = 10) -> tuple[str, str]:
         def verdict_and_words() -> str:
             os.chdir(folder)
             tempfile.tempdir = str(folder)
-            finding = done(check, open_subject(fmu, folder / "fmu", steps, {}))
+            finding = run_check(check, open_subject(fmu, folder / "fmu", steps, {}))
             with suppress(ChildProcessError):
                 while True:
                     os.wait()

@@ -95,15 +95,15 @@ def test_an_fmu_without_memory_is_not_bad(fmus: dict[str, Path], tmp_path: Path)
     program = (
         "import resource, sys\n"
         "from pathlib import Path\n"
-        "from hosts.check.all_checks import done\n"
+        "from hosts.check.all_checks import run_check\n"
         "from hosts.check.instance import Check, Instance, open_subject\n"
         "subject, crowd = open_subject(Path(sys.argv[1]), Path(sys.argv[2]), 10, {}), []\n"
         "used = int(Path('/proc/self/statm').read_text().split()[0]) * resource.getpagesize()\n"
         "resource.setrlimit(resource.RLIMIT_AS, (used + 30_000_000, resource.RLIM_INFINITY))\n"
-        "print(done(Check('x', lambda subject: 1 / 0), subject).words)\n"
+        "print(run_check(Check('x', lambda subject: 1 / 0), subject).words)\n"
         "try:\n"
         "    crowded = lambda subject: [crowd.append(Instance(subject)) for _ in range(100_000)]\n"
-        "    print(done(Check('crowd', crowded), subject))\n"
+        "    print(run_check(Check('crowd', crowded), subject))\n"
         "except MemoryError:\n"
         "    print('MemoryError')\n"
     )

@@ -9,7 +9,7 @@ import fmpy
 import pytest
 
 from ali3.isolated_processes import Lost
-from hosts.check.all_checks import CHECKS, Checker, lost
+from hosts.check.all_checks import CHECKS, Checker, finding_of_loss
 from hosts.check.command import main
 from hosts.check.instance import Finding
 from hosts.experiment.pool import Pool
@@ -46,7 +46,7 @@ def of_some(path: Path, names: tuple[str, ...], steps: int, limit: float = 20.0)
     with Pool(Checker(path, steps, {}), Finding, reads=(path,), limit=limit, in_all=True) as pool:
         for name in names:
             result = pool.run(by_name[name])
-            finding = lost(CHECKS[by_name[name]], result, limit) if isinstance(result, Lost) else result
+            finding = finding_of_loss(CHECKS[by_name[name]], result, limit) if isinstance(result, Lost) else result
             results.append((finding.verdict, finding.words))
     return results
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from fmu_src.native.sources import HERE as FMI_HEADERS
-from hosts.check.all_checks import CHECKS, done
+from hosts.check.all_checks import CHECKS, run_check
 from hosts.check.instance import Instance, open_subject
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu
@@ -198,7 +198,7 @@ def test_checks_drive_elements_of_inputs(fmu: Path, tmp_path: Path) -> None:
     for place, path in enumerate((fmu, silent, complete)):
         subject = open_subject(path, tmp_path / f"open{place}", 5, {"A[2,1]": -9.0, "u[2]": 4.0})
         names = ("runs", "refusals", "refused steps", "dependencies", "derivatives")
-        lines[path] = {c.name: done(c, subject).words for c in CHECKS if c.name in names}
+        lines[path] = {c.name: run_check(c, subject).words for c in CHECKS if c.name in names}
     assert lines[fmu]["runs"] == "5 steps of 0.01 s, 2 outputs move"
     assert "NaN for an input" in lines[fmu]["refusals"]
     assert lines[fmu]["refused steps"].startswith("a refused step at 0 s can be asked for without end")

@@ -11,7 +11,7 @@ from ali3.scene.base64_numbers import encoded
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.driving.co_simulation import run
-from hosts.driving.course_scenery import things_of, with_marks
+from hosts.driving.course_scenery import scenery_of, with_marks
 from hosts.driving.courses import course_of
 from hosts.driving.ground_marks import lanes, marks_of_inputs
 from hosts.driving.manoeuvre import Manoeuvre
@@ -116,7 +116,7 @@ def test_cones_stand_along_the_course_as_it_was_laid_out() -> None:
     pilot.act(0.0, observation)
     assert pilot.marks == []
     pilot.act(1.5, observation)
-    places = things_of(pilot.marks)
+    places = scenery_of(pilot.marks)
     assert len(places) == 34
     first = course.gates[0]
     assert places[0]["at"] == pytest.approx([100.0 - first.y_right, 7.0 + first.x_start])

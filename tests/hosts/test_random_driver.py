@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hosts.driving.pilots.pilot import OBSERVED
-from hosts.driving.random_driver import TOP_SPEED, RandomDriver, Target, wild_start
+from hosts.driving.random_driver import TOP_SPEED, RandomDriver, Target, random_start
 
 CONTROLS = ("steering", "throttle", "brake", "hand_brake", "selector")
 STEP = 0.01
@@ -67,8 +67,8 @@ def test_the_driver_crosses_the_target_in_its_direction() -> None:
 
 
 def test_starts_are_fast_in_the_air_and_far_away() -> None:
-    starts = [wild_start(seed) for seed in range(400)]
-    assert starts[7] == wild_start(7)
+    starts = [random_start(seed) for seed in range(400)]
+    assert starts[7] == random_start(7)
     values = {name: np.array([start[f"initial.{name}"] for start in starts]) for name in ("x", "z", "yaw", "speed")}
     assert 35.0 < values["speed"].max() <= TOP_SPEED
     assert np.count_nonzero(values["z"] == 0.0) > 100
@@ -76,7 +76,7 @@ def test_starts_are_fast_in_the_air_and_far_away() -> None:
     assert np.count_nonzero(np.abs(values["x"]) > 5e4) > 20
     assert np.abs(values["x"]).max() <= 1e5
     target = Target(100.0, 50.0, 1.0)
-    before = [start for start in (wild_start(seed, [target]) for seed in range(50)) if start["initial.yaw"] == 1.0]
+    before = [start for start in (random_start(seed, [target]) for seed in range(50)) if start["initial.yaw"] == 1.0]
     assert len(before) > 10
     for start in before:
         along = (start["initial.x"] - 100.0) * math.cos(1.0) + (start["initial.y"] - 50.0) * math.sin(1.0)

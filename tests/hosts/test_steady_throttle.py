@@ -19,7 +19,7 @@ from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.fmu.fmu import StepRefusedError
 from hosts.run.command import main
 from hosts.run.run_summary import summary
-from hosts.simulator.headless_driving import OfManoeuvre
+from hosts.simulator.headless_driving import ManoeuvreDriver
 from hosts.study.jobs import Job
 from hosts.study.plan import job_digest
 from tests.hosts.made_fmu import MadeFmu
@@ -146,8 +146,8 @@ def test_find_throttle_is_read_from_and_written_to_a_file(tmp_path: Path) -> Non
 def test_the_simulator_refuses_a_manoeuvre_that_finds_its_throttle() -> None:
     car: Any = SimpleNamespace(inputs=["steering", "throttle", "brake"])
     with pytest.raises(HostError, match=r"'step_steer' finds its throttle in a run before"):
-        OfManoeuvre(read_manoeuvre("step_steer"), car)
-    OfManoeuvre(read_manoeuvre("step_steer_given_throttle"), car)
+        ManoeuvreDriver(read_manoeuvre("step_steer"), car)
+    ManoeuvreDriver(read_manoeuvre("step_steer_given_throttle"), car)
 
 
 @pytest.mark.slow

@@ -8,14 +8,14 @@ from hosts.driving.pilots.pilot import Pilot
 
 
 class Braking:
-    """From a moment on the steering stays, the throttle is released and the brake is pressed.
+    """From a time on the steering is fixed, the throttle released and the brake pressed.
 
     Parameters
     ----------
     before : Pilot
-        Drives until then, and acts on all inputs that this one does.
+        Drives until then, with all inputs of this one.
     begins : callable
-        Of the time and the observation; braking begins at the first time at which it is true.
+        Function of time and observation; braking begins at the first time at which it is true.
     pedal : float
         Brake, 0 to 1.
     rise_time : float
@@ -43,25 +43,25 @@ class Braking:
         self.rise_time = rise_time
         self.gear = dict(gear or {})
         self.onset = math.nan
-        self._place: tuple[float, float, float] | None = None
-        self._held: dict[str, float] = {}
+        self._pose: tuple[float, float, float] | None = None
+        self._fixed_inputs: dict[str, float] = {}
         self._last = 0.0
 
     @property
     def marks(self) -> list[Mark]:
         """A line where braking begins, beside what the other pilot drives by."""
-        return marks_of(self.before) + ([] if self._place is None else [line_across(*self._place)])
+        return marks_of(self.before) + ([] if self._pose is None else [line_across(*self._pose)])
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         step, self._last = time - self._last, time
         if math.isnan(self.onset):
-            if not self._held or not self.begins(time, observation):
-                self._held = dict(self.before.act(time, observation))
-                return {"brake": 0.0, **self._held, **{name: values[0] for name, values in self.gear.items()}}
+            if not self._fixed_inputs or not self.begins(time, observation):
+                self._fixed_inputs = dict(self.before.act(time, observation))
+                return {"brake": 0.0, **self._fixed_inputs, **{name: values[0] for name, values in self.gear.items()}}
             self.onset = time
             if {"chassis.x", "chassis.y", "chassis.yaw"} <= set(observation):
-                self._place = observation["chassis.x"], observation["chassis.y"], observation["chassis.yaw"]
-        # The input holds through the coming step: its middle gives the same pedal whatever the step.
+                self._pose = observation["chassis.x"], observation["chassis.y"], observation["chassis.yaw"]
+        # The input is held over the next step, so that its middle gives the mean pedal.
         share = (time + 0.5 * step - self.onset) / self.rise_time if self.rise_time > 0.0 else 1.0
         pedals = {"throttle": 0.0, "brake": self.pedal * min(share, 1.0)}
-        return {**self._held, **pedals, **{name: values[1] for name, values in self.gear.items()}}
+        return {**self._fixed_inputs, **pedals, **{name: values[1] for name, values in self.gear.items()}}

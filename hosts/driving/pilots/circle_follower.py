@@ -18,18 +18,18 @@ class CircleFollower:
     radius : float
         m, positive: to the left, negative: to the right.
     speed : float or callable
-        Wanted, m/s; or a function of the time in s.
+        Target speed, m/s, or as a function of the time, s.
     wheelbase : float
         m.
     wheel_angle_max : float
         Mean angle of the front wheels where the input is 1, rad.
     horizon : float
-        Time in which an error is taken back, s.
+        Time constant of the correction of errors, s.
 
     Notes
     -----
-    The curvature that is steered for is that of the circle, less feedback of direction and place of travel and of the
-    integral of the place, with three equal poles at -1/`horizon` for a car that follows its front wheels at once.
+    The demanded curvature is that of the circle less feedback of the errors of direction and position and of the
+    integral of the latter, with three equal poles at -1/`horizon` for a car that follows its front wheels at once.
     The sideslip is part of the direction of travel: a car that drifts is on its circle.
     """
 
@@ -55,7 +55,7 @@ class CircleFollower:
         self._time = 0.0
 
     def offset(self, observation: Mapping[str, float]) -> float:
-        """How far to the left of the circle the car is, m; zero before the first act."""
+        """Distance of the car to the left of the circle, m; zero before the first act."""
         if self._centre is None:
             return 0.0
         distance = math.hypot(observation["chassis.x"] - self._centre[0], observation["chassis.y"] - self._centre[1])
@@ -73,13 +73,13 @@ class CircleFollower:
         if self._centre is None:
             self._centre = (x - self.radius * math.sin(travel), y + self.radius * math.cos(travel))
         step, self._time = time - self._time, time
-        cx, cy = self._centre
+        centre_x, centre_y = self._centre
         side = math.copysign(1.0, self.radius)
-        tangent = math.atan2(side * (x - cx), -side * (y - cy))
-        astray = math.remainder(travel - tangent, 2.0 * math.pi)
+        tangent = math.atan2(side * (x - centre_x), -side * (y - centre_y))
+        direction_error = math.remainder(travel - tangent, 2.0 * math.pi)
         offset = self.offset(observation)
         length = self.horizon * max(speed, 1.0)
-        curvature = 1.0 / self.radius - 3.0 * astray / length - 3.0 * offset / length**2
+        curvature = 1.0 / self.radius - 3.0 * direction_error / length - 3.0 * offset / length**2
         curvature -= self._integral / length**2 / self.horizon
         steering = math.atan(self.wheelbase * curvature) / self.wheel_angle_max
         if abs(steering) < self.largest:

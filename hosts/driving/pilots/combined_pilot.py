@@ -9,7 +9,7 @@ from hosts.driving.pilots.pilot import Pilot
 class CombinedPilot:
     """Pilots that share a car, such as one who steers and one who holds the speed.
 
-    `pilots`: where two act on an input the later one does.
+    `pilots`: of two that act on an input the later one counts.
     """
 
     def __init__(self, *pilots: Pilot) -> None:

@@ -11,10 +11,10 @@ from hosts.driving.pilots.speed_holder import SpeedHolder
 
 @dataclass(frozen=True)
 class DriverSettings:
-    """What a driver knows of the car and wants."""
+    """Settings of a driver: speed, dimensions of the car and gains."""
 
     speed: float
-    """To be held, m/s."""
+    """Target speed, m/s."""
     wheelbase: float
     """m."""
     wheel_angle_max: float
@@ -24,8 +24,8 @@ class DriverSettings:
     """`vehicle_length`, `vehicle_width`: outline centred on the origin of the vehicle axes, m."""
     curvature_preview: float = 0.25
     heading_preview: float = 0.1
-    """`curvature_preview`, `heading_preview`: how far ahead the driver reads the curvature and the direction of the
-    path, s; it makes up for the car's delay."""
+    """`curvature_preview`, `heading_preview`: preview times of curvature and direction of the path, s, which compensate
+    the delay of the car."""
     heading_gain: float = 0.8
     """Wheel angle per error of the heading."""
     lateral_gain: float = 0.05
@@ -36,7 +36,7 @@ class DriverSettings:
 
 
 class CourseFollower:
-    """Closed loop from the car's position to its pedals and steering."""
+    """Feedback from the position of the car to its steering and pedals."""
 
     def __init__(self, course: Course, settings: DriverSettings) -> None:
         self.course = course

@@ -16,15 +16,15 @@ class LineFollower:
     wheel_angle_max : float
         Mean angle of the front wheels where the input is 1, rad.
     preview : float
-        How far ahead the curvature of the line is read, s; it makes up for the delay of the car.
+        Preview time of the curvature of the line, s, which compensates the delay of the car.
     horizon : float
-        Time in which an error is taken back, s.
+        Time constant of the correction of errors, s.
     lead : float
-        Errors are taken as they will be after this time, s.
+        Errors are extrapolated by this time, s.
 
     Notes
     -----
-    The curvature that is steered for is that of the line less feedback of direction and place of travel, with two equal
+    The demanded curvature is that of the line less feedback of the errors of direction and position, with two equal
     poles at -1/`horizon` for a car that follows its front wheels at once. The sideslip is part of the direction of
     travel where the car reports it.
     """
@@ -52,7 +52,7 @@ class LineFollower:
         course_y, slope, course_curvature = self.course.path(x)
         heading_error = math.remainder(travel - math.atan(slope), 2.0 * math.pi)
         offset = (y - course_y) * math.cos(math.atan(slope))
-        # both errors as they will be when the car answers
+        # both errors are extrapolated to the response of the car
         offset += self.lead * speed * heading_error
         if "chassis.wz" in observation:
             heading_error += self.lead * (observation["chassis.wz"] - speed * course_curvature)

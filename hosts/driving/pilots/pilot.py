@@ -6,16 +6,16 @@ from typing import Protocol
 from hosts.common.errors import HostError
 
 OBSERVED = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
-"""Outputs without which a course cannot be followed."""
+"""Outputs that a driver of a course needs."""
 ACTS = ("steering", "throttle", "brake")
-"""Inputs without which it cannot."""
+"""Inputs that a driver of a course needs."""
 
 
-def refuse_missing(names: Sequence[str], whose: str) -> None:
-    """Raises `HostError` where a driver needs variables that are not there. `whose`: how messages call the FMU."""
+def refuse_missing(names: Sequence[str], owner: str) -> None:
+    """Raise `HostError` if `names`, of missing variables, has any. `owner`: the FMU, for messages."""
     if names:
         raise HostError(
-            f"The driver needs variables that {whose} does not have: {', '.join(names)}. Where they have other names, "
+            f"The driver needs variables that {owner} does not have: {', '.join(names)}. Where they have other names, "
             "an alias file says which (--aliases)."
         )
 
@@ -24,5 +24,5 @@ class Pilot(Protocol):
     """A driver: from the outputs of the car to its inputs."""
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
-        """Inputs for the coming communication step; `observation`: all outputs by our names, until that step."""
+        """Inputs for the next communication step. `time`: s; `observation`: outputs before it, by our names."""
         ...

@@ -1,4 +1,4 @@
-"""A pilot that gathers speed on a straight and then drives a course that begins before the car."""
+"""A pilot that accelerates on a straight and then drives a course that begins at the car."""
 
 import math
 from collections import ChainMap
@@ -12,7 +12,7 @@ from hosts.driving.pilots.speed_holder import SpeedHolder
 
 
 class RunUpPilot:
-    """Drives straight until the speed is there; the course is laid out from where the car then is.
+    """Drives straight until the speed is reached; the course then begins at the pose of the car.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class RunUpPilot:
         return {**self.steering.act(time, here), **pedals}
 
     def seen(self, observation: Mapping[str, float]) -> tuple[float, float, float]:
-        """Place and heading of the car in the axes of the course, m and rad."""
+        """Position and heading of the car in the axes of the course, m and rad."""
         x0, y0, yaw0 = self.pose
         dx, dy = observation["chassis.x"] - x0, observation["chassis.y"] - y0
         turned = math.remainder(observation["chassis.yaw"] - yaw0, 2.0 * math.pi)

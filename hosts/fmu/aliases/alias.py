@@ -1,4 +1,4 @@
-"""Our names for variables of an FMU, with factor and offset."""
+"""Aliases: our names for variables of an FMU of another program, with factor and offset."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,7 +13,7 @@ from hosts.fmu.aliases.derived_variable import Derived
 
 @dataclass(frozen=True)
 class Alias:
-    """One variable: value of the FMU = factor * ours + offset."""
+    """The alias of one variable: value in the FMU = factor * ours + offset."""
 
     ours: str
     theirs: str
@@ -27,33 +27,32 @@ class Aliases:
 
     aliases: tuple[Alias, ...] = ()
     constants: Mapping[str, float] = field(default_factory=dict)
-    """By our names."""
+    """Constants of the car, by our names."""
     derived: tuple[Derived, ...] = ()
-    """Each after those that it needs."""
+    """Derived variables, each after those that it needs."""
     missing: Mapping[str, str] = field(default_factory=dict)
-    """Our names that the file has and this FMU cannot have, and why, in a sentence."""
+    """Our names in the file that this FMU cannot provide, with a sentence on the reason."""
 
     def names(self, theirs: Sequence[str]) -> tuple[str, ...]:
-        """Our names of variables; those without an alias keep theirs."""
+        """Our names of variables; a variable without an alias keeps its name."""
         by_name = {alias.theirs: alias.ours for alias in self.aliases}
         return tuple(by_name.get(name, name) for name in theirs)
 
     def ours(self, theirs: Iterable[str]) -> set[str]:
-        """All of our names that an FMU with these variables has, derived ones among them."""
+        """All our names that an FMU with these variables provides, including derived ones."""
         return {*self.names(tuple(theirs)), *(d.ours for d in self.derived)}
 
     @property
     def of_record(self) -> dict[str, tuple[str, float, float]]:
-        """By the FMU's names ours, factor and offset, as records of runs have them: value of the FMU = factor * ours +
-        offset."""
+        """Our name, factor and offset by the name in the FMU, as in records of runs."""
         return {a.theirs: (a.ours, a.factor, a.offset) for a in self.aliases}
 
     def why_missing(self, name: str) -> str:
-        """Why this FMU does not have one of our names, in a sentence; empty where the file does not know it."""
+        """A sentence on why this FMU lacks one of our names; empty if it is not in the file."""
         return self.missing.get(name, "")
 
     def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Factors and offsets of variables. `theirs`: n names.
+        """Factors and offsets of variables. `theirs`: their n names in the FMU.
 
         Returns `factors` and `offsets`, shape (n,): ours = (theirs - offset) / factor.
         """
@@ -62,7 +61,7 @@ class Aliases:
         return np.array([a.factor for a in results]), np.array([a.offset for a in results])
 
     def inputs(self, values: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-        """Values and rates under our names as the FMU has them."""
+        """Values and rates of inputs, converted from our names and units to those of the FMU."""
         by_name = {alias.ours: alias for alias in self.aliases}
         results = {}
         for name, (value, rate) in values.items():
@@ -71,7 +70,7 @@ class Aliases:
         return results
 
     def values(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Start values under our names as the FMU has them; texts stay as they are."""
+        """Start values, converted from our names and units to those of the FMU; texts are unchanged."""
         by_name = {alias.ours: alias for alias in self.aliases}
         results = {}
         for name, value in values.items():
@@ -81,7 +80,7 @@ class Aliases:
         return results
 
     def own_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
-        """Start values of the FMU under our names, in our units; texts stay as they are."""
+        """Start values, converted from the names and units of the FMU to ours; texts are unchanged."""
         by_name = {alias.theirs: alias for alias in self.aliases}
         results: dict[str, Value] = {}
         for name, value in values.items():

@@ -8,9 +8,9 @@ from hosts.fmu.variables import Variables
 
 
 def aliases_of(file: str | Path | None, variables: Variables) -> Aliases:
-    """Those of a file, none where none is named. `file`: as `hosts.fmu.aliases.file.find_aliases` takes it.
+    """The aliases of a file, or none without a file. `file`: see `hosts.fmu.aliases.file.find_aliases`.
 
-    Raises `HostError`: the file is not right, or is none for this FMU.
+    Raises `HostError`: the file has a fault, or does not fit this FMU.
     """
     if file is None:
         return Aliases()

@@ -12,7 +12,7 @@ from hosts.fmu.aliases.alias import Alias
 from hosts.fmu.variables import Variable
 
 _TOLERANCE = 1e-3
-"""Relative, between two factors that are meant to be the same: 57.3 for a degree is."""
+"""Relative difference between factors that count as equal, such as 57.3 for degrees per radian."""
 
 
 def declared(variable: Variable) -> str:
@@ -20,46 +20,46 @@ def declared(variable: Variable) -> str:
     return variable.unit
 
 
-def definition(variable: Variable) -> UnitDefinition | None:
-    """What that unit is; None where it says nothing or nobody knows it."""
+def unit_definition(variable: Variable) -> UnitDefinition | None:
+    """The definition of the unit of a real variable; None where the unit has no meaning or is unknown."""
     unit = variable.definition or known_unit(variable.unit or "")
     return None if unit is None or variable.kind != "Real" or says_nothing(unit) else unit
 
 
 def is_si(variable: Variable) -> bool:
-    """Whether a value needs no conversion, as far as the FMU declares."""
-    unit = definition(variable)
+    """Whether a variable is in SI units, or declares no known unit."""
+    unit = unit_definition(variable)
     return unit is None or (math.isclose(unit.factor, 1.0, rel_tol=_TOLERANCE) and unit.offset == 0.0)
 
 
 def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
-    """What a value in SI is to be multiplied by.
+    """The factor from SI units to a unit of an alias file.
 
-    `unit`: as it stands in the file; `variable`: that has it; its own definition of a unit of that name counts. Raises
-    `HostError`: nobody knows the unit, or the FMU declares another.
+    `variable`: of the FMU; its definition of a unit of this name takes precedence. Raises `HostError`: the unit is
+    unknown, or the FMU declares another.
     """
     declared_unit = variable.definition if variable is not None and variable.unit == unit else None
-    known = declared_unit or (known_unit(unit) if isinstance(unit, str) else None)
-    if known is None:
+    file_unit = declared_unit or (known_unit(unit) if isinstance(unit, str) else None)
+    if file_unit is None:
         raise HostError(f"{where}: the unit {brief(unit)} is not known (such as m, km/h, deg or rpm); give a factor.")
-    if known.offset:
+    if file_unit.offset:
         raise HostError(f"{where}: the unit {brief(unit)} has another zero than the SI unit; give factor and offset.")
     if variable is not None:
-        present = definition(variable)
-        if present is not None and not _same(known, present):
+        fmu_unit = unit_definition(variable)
+        if fmu_unit is not None and not _are_equal(file_unit, fmu_unit):
             raise HostError(
                 f"{where}: the file says that '{variable.name}' is in {unit}, the FMU declares {declared(variable)}; "
                 "one of them is wrong."
             )
-    return 1.0 / known.factor
+    return 1.0 / file_unit.factor
 
 
 def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: bool, where: str) -> None:
     """Refuse a factor that contradicts the unit that the FMU declares.
 
-    Raises `HostError` with the unit and the factor, and what it would be.
+    Raises `HostError` with the unit, the factor and the expected factor.
     """
-    ours, fmu_unit = unit_of(alias.ours), definition(variable)
+    ours, fmu_unit = unit_of(alias.ours), unit_definition(variable)
     if ours is None or fmu_unit is None or by_constant:
         return
     our_unit = known_unit(ours)
@@ -79,7 +79,7 @@ def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: 
         )
 
 
-def _same(one: UnitDefinition, other: UnitDefinition) -> bool:
+def _are_equal(one: UnitDefinition, other: UnitDefinition) -> bool:
     if not same_quantity(one, other):
         return False
     if math.isclose(one.factor, other.factor, rel_tol=_TOLERANCE):

@@ -12,21 +12,21 @@ _CALL = re.compile(r"\s*(\w+)\s*\(([^()]*)\)\s*")
 
 
 def parse_derived(ours: str, text: str, constants: Mapping[str, float], where: str) -> Derived:
-    """A formula as an alias file has it.
+    """The derived variable of an entry of an alias file.
 
-    `constants`: their names in `text` become numbers; `where`: how messages call it. Raises `HostError`: there is no
-    such formula, or it takes other arguments.
+    `constants`: replace their names in `text`; `where`: subject of messages. Raises `HostError`: the formula does not
+    exist, or takes other arguments.
     """
-    call = _CALL.fullmatch(text)
-    if call is None:
+    match = _CALL.fullmatch(text)
+    if match is None:
         raise HostError(f"{where}: from is '{text}'; it must be a formula such as sideslip(chassis.vx, chassis.vy).")
-    name, inside = call.groups()
+    name, argument_text = match.groups()
     if name not in FORMULAS:
         hint = did_you_mean(name, FORMULAS, f"there are {', '.join(sorted(FORMULAS))}")
         raise HostError(f"{where}: there is no formula '{name}'{hint}")
-    arguments = tuple(_argument(word.strip(), constants, where) for word in inside.split(","))
+    arguments = tuple(_argument(word.strip(), constants, where) for word in argument_text.split(","))
     formula = FORMULAS[name]
-    if not formula.takes(len(arguments)):
+    if not formula.accepts(len(arguments)):
         raise HostError(
             f"{where}: {name} takes ({', '.join(formula.arguments)}), {len(formula.arguments)} in number; "
             f"it is given {len(arguments)}."

@@ -1,4 +1,4 @@
-"""A variable of ours that the FMU does not have, computed from those that it has."""
+"""Derived variables: ours that the FMU lacks, computed from those that it has."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ class Derived:
 
     ours: str
     formula: str
-    """Of `FORMULAS`."""
+    """Name in `FORMULAS`."""
     arguments: tuple[str | float, ...]
-    """Names of ours, else of the FMU; or numbers."""
+    """Our names of variables, names in the FMU of those without one, or numbers."""
 
     @property
-    def how(self) -> Formula:
-        """The formula itself."""
+    def function(self) -> Formula:
+        """The formula."""
         return FORMULAS[self.formula]
 
     @property
@@ -33,20 +33,20 @@ class Derived:
         return tuple(a for a in self.arguments if isinstance(a, str))
 
 
-def in_order(derived: Sequence[Derived], known: Collection[str]) -> tuple[list[Derived], dict[str, str]]:
-    """Those that can be computed, each after what it needs.
+def sort_derived(derived: Sequence[Derived], known: Collection[str]) -> tuple[list[Derived], dict[str, str]]:
+    """The derived variables that can be computed, each after those that it needs.
 
     Returns
     -------
     ordered : list of Derived
     missing : dict of str to str
-        Of the others, a name that it lacks.
+        By name of each other variable, an argument that it lacks.
     """
-    present, open_ones, ordered = set(known), list(derived), list[Derived]()
+    available, remaining, ordered = set(known), list(derived), list[Derived]()
     while True:
-        ready = [d for d in open_ones if present.issuperset(d.names)]
+        ready = [d for d in remaining if available.issuperset(d.names)]
         if not ready:
-            return ordered, {d.ours: next(n for n in d.names if n not in present) for d in open_ones}
+            return ordered, {d.ours: next(n for n in d.names if n not in available) for d in remaining}
         ordered += ready
-        present.update(d.ours for d in ready)
-        open_ones = [d for d in open_ones if d not in ready]
+        available.update(d.ours for d in ready)
+        remaining = [d for d in remaining if d not in ready]

@@ -11,16 +11,16 @@ from hosts.common.errors import HostError
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.checks import check_unit, declared, factor_of_unit, is_si
 from hosts.fmu.aliases.derived_entry import parse_derived
-from hosts.fmu.aliases.derived_variable import Derived, in_order
+from hosts.fmu.aliases.derived_variable import Derived, sort_derived
 from hosts.fmu.variables import Variable, Variables
 
 _RECORDED = ("input", "output")
 
 
 def find_aliases(name: str | Path, variables: Variables) -> Aliases:
-    """Those of a file that comes with the package, by its name, or of another.
+    """The aliases of a file of the package, by its name, or of another file.
 
-    `name`: such as ``chrono``; a file of that name here comes first. Raises `HostError`: see `read_aliases`.
+    `name`: such as ``chrono``, or a path; a file of this name takes precedence. Raises `HostError`: see `read_aliases`.
     """
     try:
         path = alias_file(name)
@@ -36,54 +36,54 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     ----------
     file : Path
         TOML: ``"our name" = "name in the FMU"`` or ``"our name" = { name = "...", factor = 1.0, offset = 0.0 }``, where
-        the value in the FMU is factor times ours plus offset; with ``unit`` that is a value in SI, in which the FMU has
-        that unit. ``"our name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/fmu.md``.
+        the value in the FMU is factor times ours plus offset; with ``unit``, that of the FMU, this value is in SI
+        units. ``"our name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/fmu.md``.
     variables : Variables or collection of str
-        Of the FMU; with names alone, units are not checked.
+        Variables of the FMU; with names alone, units are not checked.
 
     Raises
     ------
     HostError
-        With the file, the key and what would be right.
+        A fault, with the file, the key and a remedy.
     """
     try:
         content = read_content(file)
     except UserError as error:
         raise HostError(str(error)) from None
     names = set(variables.names if isinstance(variables, Variables) else variables)
-    of_fmu = variables if isinstance(variables, Variables) else None
-    constants = _constants(content, of_fmu)
+    fmu_variables = variables if isinstance(variables, Variables) else None
+    constants = _constants(content, fmu_variables)
     missing: dict[str, str] = {}
     needed: set[str] = set()
     aliases = []
     for entry in content.entries.values():
         if "from" in entry.value:
             continue
-        lacks = _lacks(entry, names)
-        if lacks:
-            missing[entry.ours] = lacks
+        why = _reason_missing(entry, names)
+        if why:
+            missing[entry.ours] = why
         elif entry.value.get("factor") in content.needs and entry.value["factor"] not in constants:
             needed.add(entry.value["factor"])
         else:
-            aliases.append(_alias(entry, constants, of_fmu))
-            if of_fmu is not None and _is_hidden(of_fmu[entry.value["name"]]):
+            aliases.append(_alias(entry, constants, fmu_variables))
+            if fmu_variables is not None and _is_hidden(fmu_variables[entry.value["name"]]):
                 missing[entry.ours] = (
                     f"{entry.file} takes '{entry.ours}' from '{entry.value['name']}', which is a local variable of the "
                     "FMU and no output"
                 )
-    aliases = [a for a in aliases if not _is_there_itself(a, content.entries[a.ours], aliases, names)]
+    aliases = [a for a in aliases if not _is_superfluous(a, content.entries[a.ours], aliases, names)]
     ours_by_theirs: dict[str, str] = {}
     for alias in aliases:
-        ours = ours_by_theirs.setdefault(alias.theirs, alias.ours)
-        if ours != alias.ours:
-            raise HostError(f"{file}: '{alias.theirs}' is named {ours} and {alias.ours}; give it one name.")
-    derived = _derived(content, constants, aliases, names, of_fmu, missing)
-    _demand(needed | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
+        first_name = ours_by_theirs.setdefault(alias.theirs, alias.ours)
+        if first_name != alias.ours:
+            raise HostError(f"{file}: '{alias.theirs}' is named {first_name} and {alias.ours}; give it one name.")
+    derived = _derived_variables(content, constants, aliases, names, fmu_variables, missing)
+    _check_needed(needed | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
     if content.entries and not aliases and not derived:
-        first = next(iter(content.entries.values()))
+        example = next(iter(content.entries.values()))
         raise HostError(
             f"{file}: of its {len(content.entries)} names this FMU has none, such as "
-            f"'{first.value.get('name', first.ours)}'; is it an FMU of that program?"
+            f"'{example.value.get('name', example.ours)}'; is it an FMU of that program?"
         )
     return Aliases(tuple(aliases), constants, derived, missing)
 
@@ -93,7 +93,7 @@ def _is_hidden(variable: Variable) -> bool:
 
 
 def _constants(content: Content, variables: Variables | None) -> dict[str, float]:
-    """Those of the file, and those of its needs that are constants of the FMU."""
+    """Constants of the file, and the needed ones that are constants of the FMU."""
     constants = dict(content.constants)
     for name in content.needs:
         if name not in constants and variables is not None and name in variables.names:
@@ -103,22 +103,22 @@ def _constants(content: Content, variables: Variables | None) -> dict[str, float
     return constants
 
 
-def _demand(needed: Collection[str], content: Content) -> None:
-    """Refuse a car of which numbers are not known, all in one sentence."""
+def _check_needed(needed: Collection[str], content: Content) -> None:
+    """Raise `HostError` if numbers of the car are needed that are not known."""
     if not needed:
         return
     numbers = ", ".join(f"'{name}' ({content.needs[name]})" for name in content.needs if name in needed)
-    base = Path(content.file)
-    how = (
-        f'write a file with extends = "{base.stem}" and them in its table [constants], for --aliases'
-        if base.parent == SHIPPED
+    file = Path(content.file)
+    remedy = (
+        f'write a file with extends = "{file.stem}" and them in its table [constants], for --aliases'
+        if file.parent == SHIPPED
         else "give them in its table [constants]"
     )
-    raise HostError(f"{base.name} needs numbers of this car, {numbers}: {how}.")
+    raise HostError(f"{file.name} needs numbers of this car, {numbers}: {remedy}.")
 
 
-def _lacks(entry: Entry, names: Collection[str]) -> str:
-    """Why a name is left out, empty if the FMU has it; `HostError` where it must have it."""
+def _reason_missing(entry: Entry, names: Collection[str]) -> str:
+    """Why an optional variable is left out; empty if the FMU has it; `HostError` if a required one is missing."""
     theirs = entry.value["name"]
     if theirs in names:
         return ""
@@ -152,8 +152,8 @@ def _alias(entry: Entry, constants: dict[str, float], variables: Variables | Non
     return alias
 
 
-def _is_there_itself(alias: Alias, entry: Entry, aliases: list[Alias], names: Collection[str]) -> bool:
-    """Whether the FMU has our name too; then a file for many FMUs leaves its own alias out."""
+def _is_superfluous(alias: Alias, entry: Entry, aliases: list[Alias], names: Collection[str]) -> bool:
+    """Whether the FMU has a variable of our name, so that a file for many FMUs needs no alias."""
     if alias.ours == alias.theirs or alias.ours not in names or alias.ours in {a.theirs for a in aliases}:
         return False
     if entry.partial:
@@ -161,7 +161,7 @@ def _is_there_itself(alias: Alias, entry: Entry, aliases: list[Alias], names: Co
     raise HostError(f"{entry.file}: the FMU has a variable '{alias.ours}' itself; it needs no alias.")
 
 
-def _derived(
+def _derived_variables(
     content: Content,
     constants: dict[str, float],
     aliases: list[Alias],
@@ -169,23 +169,23 @@ def _derived(
     variables: Variables | None,
     missing: dict[str, str],
 ) -> tuple[Derived, ...]:
-    """Those that can be computed, in order."""
+    """The derived variables that can be computed, each after those that it needs."""
     ours_of = {a.theirs: a.ours for a in aliases}
-    present = {ours_of.get(n, n) for n in names if variables is None or variables[n].causality in _RECORDED}
+    available = {ours_of.get(n, n) for n in names if variables is None or variables[n].causality in _RECORDED}
     requested = []
     for entry in content.entries.values():
-        if "from" not in entry.value or entry.ours in present:
+        if "from" not in entry.value or entry.ours in available:
             continue
         parsed = parse_derived(entry.ours, entry.value["from"], constants, entry.where)
         arguments = tuple(ours_of.get(a, a) if isinstance(a, str) else a for a in parsed.arguments)
         requested.append(replace(parsed, arguments=arguments))
-    computable, lacking = in_order(requested, present | set(content.needs))
+    computable, lacking = sort_derived(requested, available | set(content.needs))
     for ours, name in lacking.items():
         entry = content.entries[ours]
         if not entry.partial:
             raise HostError(
                 f"{entry.where}: '{name}' is neither an input or output of the FMU nor another name or constant of the "
-                f"file{did_you_mean(name, present)}"
+                f"file{did_you_mean(name, available)}"
             )
         why = missing.get(name, "which the FMU does not have")
         missing[ours] = f"{entry.file} computes '{ours}' from '{name}', {why}"

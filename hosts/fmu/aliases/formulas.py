@@ -1,6 +1,6 @@
 """Named formulas that compute our variables from other variables of an FMU.
 
-Vehicle axes are those of ISO 8855, turned from the earth's by yaw, pitch and roll about z, the new y and the new x.
+Vehicle axes are those of ISO 8855, rotated from the earth axes by yaw, pitch and roll about z, the new y and the new x.
 """
 
 from collections.abc import Callable
@@ -11,24 +11,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array: TypeAlias = NDArray[np.float64]
-_SLOWEST = 0.1
-"""Below it a car has no direction of travel, m/s; as our FMUs have it."""
+_LEAST_SPEED = 0.1
+"""Speed below which the sideslip is zero, m/s, as in our FMUs."""
 
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula."""
+    """A formula with named arguments."""
 
     arguments: tuple[str, ...]
-    """For people; the last may end with ``...``."""
+    """Names for messages; the last may end with ``...`` for any number."""
     compute: Callable[..., Array]
-    """Of the time, shape (n,), and the arguments, each of that shape or a number; in SI units."""
+    """Function of the time, shape (n,), and the arguments, each of this shape or a number; SI units."""
     needs_past: bool = False
-    """Whether it looks at other rows than the one it is for."""
-    turns: bool = False
-    """Whether it is an angle that counts whole turns."""
+    """Whether it uses other rows than its own."""
+    wraps: bool = False
+    """Whether it is an angle without jumps by whole turns."""
 
-    def takes(self, count: int) -> bool:
+    def accepts(self, count: int) -> bool:
         """Whether the formula accepts a number of arguments."""
         if self.arguments[-1].endswith("..."):
             return count >= len(self.arguments)
@@ -48,7 +48,7 @@ def _roll(time: Array, w: Array, x: Array, y: Array, z: Array) -> Array:
 
 
 def _axes(roll: Array, pitch: Array, yaw: Array) -> tuple[tuple[Array, Array, Array], ...]:
-    """The vehicle's axes x, y, z in earth axes."""
+    """The vehicle axes x, y, z in earth axes."""
     cr, sr, cp, sp, cy, sy = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch), np.cos(yaw), np.sin(yaw)
     return (
         (cy * cp, sy * cp, -sp),
@@ -57,7 +57,7 @@ def _axes(roll: Array, pitch: Array, yaw: Array) -> tuple[tuple[Array, Array, Ar
     )
 
 
-def _vehicle(axis: int) -> Callable[..., Array]:
+def _vehicle_component(axis: int) -> Callable[..., Array]:
     def component(time: Array, x: Array, y: Array, z: Array, roll: Array, pitch: Array, yaw: Array) -> Array:
         a = _axes(roll, pitch, yaw)[axis]
         return a[0] * x + a[1] * y + a[2] * z
@@ -91,8 +91,8 @@ def _point_acceleration(axis: int) -> Callable[..., Array]:
     def component(time: Array, *v: Array) -> Array:
         w, r = v[3:6], v[6:9]
         rates = tuple(_rate(time, x) for x in w)
-        turned = tuple(_cross(k, w, r) for k in range(3))
-        return v[axis] + _cross(axis, rates, r) + _cross(axis, w, turned)
+        w_cross_r = tuple(_cross(k, w, r) for k in range(3))
+        return v[axis] + _cross(axis, rates, r) + _cross(axis, w, w_cross_r)
 
     return component
 
@@ -113,7 +113,7 @@ def _angular_velocity(axis: int) -> Callable[..., Array]:
 
 
 def _rate(time: Array, x: Array) -> Array:
-    """Rate of change by differences of second order; NaN where there is one row only."""
+    """Rate of change by differences of second order; NaN for a single row."""
     if np.shape(x) != time.shape:
         x = np.broadcast_to(x, time.shape)
     if len(time) < 2:
@@ -122,7 +122,7 @@ def _rate(time: Array, x: Array) -> Array:
 
 
 def _sideslip(time: Array, vx: Array, vy: Array) -> Array:
-    return np.where(np.hypot(vx, vy) < _SLOWEST, 0.0, np.arctan2(vy, vx))
+    return np.where(np.hypot(vx, vy) < _LEAST_SPEED, 0.0, np.arctan2(vy, vx))
 
 
 def _length(time: Array, *components: Array) -> Array:
@@ -140,18 +140,18 @@ _W = ("wx", "wy", "wz")
 _V = ("vx", "vy", "vz")
 
 FORMULAS = {
-    "yaw": Formula(_Q, _yaw, turns=True),
+    "yaw": Formula(_Q, _yaw, wraps=True),
     "pitch": Formula(_Q, _pitch),
     "roll": Formula(_Q, _roll),
     "length": Formula(("x", "y..."), _length),
     "product": Formula(("x", "y..."), _product),
     "sideslip": Formula(("vx", "vy"), _sideslip),
     "rate": Formula(("x",), _rate, needs_past=True),
-    "unwrapped": Formula(("angle",), lambda time, x: np.unwrap(np.broadcast_to(x, time.shape)), turns=True),
+    "unwrapped": Formula(("angle",), lambda time, x: np.unwrap(np.broadcast_to(x, time.shape)), wraps=True),
 }
 for _k, _axis in enumerate("xyz"):
     FORMULAS |= {
-        f"vehicle_{_axis}": Formula(("x", "y", "z", *_ANGLES), _vehicle(_k)),
+        f"vehicle_{_axis}": Formula(("x", "y", "z", *_ANGLES), _vehicle_component(_k)),
         f"point_{_axis}": Formula(("x", "y", "z", *_ANGLES, *_R), _point(_k)),
         f"point_v{_axis}": Formula((*_V, *_W, *_R), _point_velocity(_k)),
         f"point_a{_axis}": Formula(("ax", "ay", "az", *_W, *_R), _point_acceleration(_k), needs_past=True),

@@ -1,4 +1,4 @@
-"""The ends and the rest of axes, found while a person moves everything once."""
+"""Calibration and assignment of the axes of a device while a person moves them."""
 
 from dataclasses import dataclass, replace
 
@@ -7,15 +7,15 @@ from hosts.simulator.devices.mapping import CENTRED, PEDALS, DeviceMapping, Inpu
 from hosts.simulator.devices.reading import Reading, Source
 
 REST_TIME = 1.0
-"""Seconds for which nothing may move, so that it counts as let go."""
+"""Time without movement, s, after which the device counts as released."""
 STILL = 0.05
-"""Movement within which an axis counts as still."""
-LEAST_WAY = 0.3
-"""An axis that moved by less was not meant."""
-FIRST_WAY = 0.2
-"""Movement that shows the first direction of the steering."""
+"""Largest movement of an axis at rest."""
+LEAST_MOVEMENT = 0.3
+"""Least movement of an axis that is calibrated."""
+FIRST_MOVEMENT = 0.2
+"""Movement that determines the first direction of the steering."""
 MARGIN = 0.02
-"""Share of the way before its ends where the ends of the mapping are, so that they are surely reached."""
+"""Share of the range by which the ends of the mapping lie before those of the axis, so that they are reached."""
 _NEAR_END = 0.25
 LET_GO = "Let go of everything, the steering wheel straight ahead."
 MOVE = (
@@ -25,88 +25,93 @@ MOVE = (
 
 
 class Calibration:
-    """Two stages: at first everything is let go, then moved. `mapping`: which axis drives which input."""
+    """A calibration in two stages: the device at rest, then moved. `mapping`: of axes to inputs."""
 
     def __init__(self, mapping: DeviceMapping) -> None:
         self._mapping = mapping
-        self._since: float | None = None
+        self._still_since: float | None = None
         self._span: list[list[float]] = []
         self._rest: list[float] = []
         self._known: tuple[bool, ...] = ()
-        self._first: list[float] = []
+        self._first_movement: list[float] = []
 
     @property
     def stage(self) -> str:
         """``rest`` or ``move``."""
-        return "move" if self._first else "rest"
+        return "move" if self._first_movement else "rest"
 
     @property
     def words(self) -> str:
         """Instruction for the person."""
-        return MOVE if self._first else LET_GO
+        return MOVE if self._first_movement else LET_GO
 
     def ends(self) -> list[list[float]]:
-        """Lowest and highest value of each axis since everything was let go."""
-        return [[round(low, 4), round(high, 4)] for low, high in self._span] if self._first else []
+        """Lowest and highest value of each axis since the rest."""
+        return [[round(low, 4), round(high, 4)] for low, high in self._span] if self._first_movement else []
 
     def feed(self, time: float, reading: Reading) -> None:
-        """Take the next values. `time`: in s, of any clock that does not go back."""
+        """Take the next values. `time`: of a monotonic clock, s."""
         axes = reading.axes
-        if not self._first:
-            still = self._since is not None and all(
-                max(high, at) - min(low, at) <= STILL for (low, high), at in zip(self._span, axes, strict=True)
+        if not self._first_movement:
+            is_still = self._still_since is not None and all(
+                max(high, position) - min(low, position) <= STILL
+                for (low, high), position in zip(self._span, axes, strict=True)
             )
-            if not still:
-                self._since, self._span = time, [[at, at] for at in axes]
-            self._widen(reading)
-            if self._since is not None and time - self._since >= REST_TIME:
+            if not is_still:
+                self._still_since, self._span = time, [[position, position] for position in axes]
+            self._extend_spans(reading)
+            if self._still_since is not None and time - self._still_since >= REST_TIME:
                 self._rest = [0.5 * (low + high) for low, high in self._span]
-                self._span, self._first, self._known = [[at, at] for at in axes], [0.0] * len(axes), reading.known
+                self._span, self._first_movement, self._known = (
+                    [[position, position] for position in axes],
+                    [0.0] * len(axes),
+                    reading.known,
+                )
             return
-        if reading.known != self._known:  # an axis that read 0 until it was touched begins here
+        if reading.known != self._known:  # an axis reads 0 until it is first moved
             for k, (before, now) in enumerate(zip(self._known, reading.known, strict=True)):
                 if now and not before:
                     self._span[k], self._rest[k] = [axes[k], axes[k]], axes[k]
             self._known = reading.known
-        self._widen(reading)
-        for k, at in enumerate(axes):
-            if not self._first[k] and abs(at - self._rest[k]) > FIRST_WAY:
-                self._first[k] = at - self._rest[k]
+        self._extend_spans(reading)
+        for k, position in enumerate(axes):
+            if not self._first_movement[k] and abs(position - self._rest[k]) > FIRST_MOVEMENT:
+                self._first_movement[k] = position - self._rest[k]
 
     def result(self) -> tuple[DeviceMapping, list[str], list[str]]:
-        """The mapping with the ends that were found.
+        """The mapping with calibrated ends.
 
         Returns
         -------
         mapping : DeviceMapping
-        found : list of str
-            Inputs whose ends are new.
-        still : list of str
-            Inputs whose axis was not moved far enough; they are as before.
+        calibrated : list of str
+            Inputs with new ends.
+        unmoved : list of str
+            Inputs whose axis was not moved far enough; they are unchanged.
         """
-        inputs, results, still = dict(self._mapping.inputs), [], []
+        inputs, calibrated, unmoved = dict(self._mapping.inputs), [], []
         for name, old in self._mapping.inputs.items():
             source = Source.read(old.source)
             if source.kind != "axis" or name not in (*CENTRED, *PEDALS):
                 continue
             k = source.number
-            if not self._first or k >= len(self._span) or self._span[k][1] - self._span[k][0] < LEAST_WAY:
-                still.append(name)
+            if not self._first_movement or k >= len(self._span) or self._span[k][1] - self._span[k][0] < LEAST_MOVEMENT:
+                unmoved.append(name)
                 continue
             inputs[name] = self._steering(old, k) if name in CENTRED else self._pedal(old, k)
-            results.append(name)
-        return replace(self._mapping, inputs=inputs), results, still
+            calibrated.append(name)
+        return replace(self._mapping, inputs=inputs), calibrated, unmoved
 
-    def _widen(self, reading: Reading) -> None:
-        for span, at in zip(self._span, reading.axes, strict=True):
-            span[0], span[1] = min(span[0], at), max(span[1], at)
+    def _extend_spans(self, reading: Reading) -> None:
+        for span, position in zip(self._span, reading.axes, strict=True):
+            span[0], span[1] = min(span[0], position), max(span[1], position)
 
     def _steering(self, old: InputMapping, k: int) -> InputMapping:
         low, high = self._span[k]
         at_rest = (self._rest[k] - low) / (high - low)
         centre = self._rest[k] if _NEAR_END < at_rest < 1.0 - _NEAR_END else 0.5 * (low + high)
-        # The first way was to the left, where the input is positive.
-        return replace(old, inverted=self._first[k] < 0.0, low=low, high=high, centre=centre)
+        # The first movement was to the left, where the input is positive.
+        return replace(old, inverted=self._first_movement[k] < 0.0, low=low, high=high, centre=centre)
 
     def _pedal(self, old: InputMapping, k: int) -> InputMapping:
         low, high = self._span[k]
@@ -117,7 +122,7 @@ class Calibration:
             return replace(old, inverted=False, low=rest, high=high - margin, dead_zone=zone, centre=None)
         if at_rest >= 1.0 - _NEAR_END:
             return replace(old, inverted=True, low=low + margin, high=rest, dead_zone=zone, centre=None)
-        # Two pedals share the axis: each keeps its half.
+        # Two pedals share the axis; each keeps its half.
         if old.inverted:
             return replace(old, low=low + margin, high=rest, dead_zone=zone, centre=None)
         return replace(old, low=rest, high=high - margin, dead_zone=zone, centre=None)
@@ -125,21 +130,21 @@ class Calibration:
 
 @dataclass
 class Assignment:
-    """An input waits for the axis or button that a person moves for it."""
+    """The assignment of the next axis or button that is moved to an input."""
 
     name: str
     base: Reading
-    """When it began."""
+    """Reading at the begin."""
     until: float
-    """s, when it gives up."""
+    """Time at which the assignment ends without a result, s."""
 
-    WAY = 0.5
-    """Movement of an axis that is meant."""
+    LEAST_MOVEMENT = 0.5
+    """Least movement of an axis that is assigned."""
 
     def feed(self, reading: Reading) -> InputMapping | None:
-        """Take the next values; the mapping when something was moved far enough.
+        """Take the next values; the mapping once an axis or button was moved far enough, else None.
 
-        An axis of the steering counts as moved to the left.
+        An axis for the steering must be moved to the left.
         """
         base = list(self.base.axes)
         for k, known in enumerate(self.base.known):
@@ -152,10 +157,10 @@ class Assignment:
         if self.name not in (*CENTRED, *PEDALS) or not base:
             return None
         k = max(range(len(base)), key=lambda i: abs(reading.axes[i] - base[i]))
-        travel = reading.axes[k] - base[k]
-        if abs(travel) < self.WAY:
+        movement = reading.axes[k] - base[k]
+        if abs(movement) < self.LEAST_MOVEMENT:
             return None
         if self.name in CENTRED:
-            return InputMapping(f"axis {k}", inverted=travel < 0.0)
-        low, high = (-1.0, 1.0) if abs(base[k]) > self.WAY else (0.0, 1.0) if travel > 0.0 else (-1.0, 0.0)
-        return InputMapping(f"axis {k}", travel < 0.0, low, high, PEDAL_DEAD_ZONE)
+            return InputMapping(f"axis {k}", inverted=movement < 0.0)
+        low, high = (-1.0, 1.0) if abs(base[k]) > self.LEAST_MOVEMENT else (0.0, 1.0) if movement > 0.0 else (-1.0, 0.0)
+        return InputMapping(f"axis {k}", movement < 0.0, low, high, PEDAL_DEAD_ZONE)

@@ -1,4 +1,4 @@
-"""Mappings of devices that nobody has assigned yet, by the kind that SDL reports."""
+"""Default mappings of devices, by the kind that SDL reports."""
 
 import re
 from collections.abc import Collection
@@ -7,11 +7,11 @@ from hosts.simulator.devices.mapping import DeviceMapping, DeviceSettings, Input
 from hosts.simulator.devices.reading import Reading
 
 ROTATION = 900.0
-"""Degrees of most steering wheels for computers."""
+"""Rotation of most steering wheels for computers from end to end, degrees."""
 PEDAL_DEAD_ZONE = 0.03
 STICK_DEAD_ZONE = 0.08
-_SIDE = 0.5
-"""An axis that rests beyond this is taken for a pedal that is not pressed."""
+_REST_BEYOND = 0.5
+"""Magnitude at rest beyond which an axis counts as a released pedal."""
 _GAMEPAD = {
     "steering": "leftx",
     "throttle": "righttrigger",
@@ -26,54 +26,54 @@ _HAT_BITS = {1: "up", 2: "right", 4: "down", 8: "left"}
 
 
 def default_mapping(kind: str, reading: Reading, bindings: str, inputs: Collection[str]) -> DeviceMapping:
-    """A first guess; empty for a device that nothing is known of.
+    """The default mapping; empty for an unknown kind of device.
 
-    `kind`: as of `Joystick`; `reading`: as it came: a pedal that rests at the high end of its axis is inverted;
-    `bindings`: SDL's table of a gamepad.
+    `kind`: see `Joystick`; `reading`: at rest: a pedal that rests at the high end of its axis is inverted; `bindings`:
+    the mapping string of SDL for a gamepad; `inputs`: those that devices can drive.
     """
     if kind == "gamepad":
-        results, settings = _of_gamepad(bindings), DeviceSettings()
+        mappings, settings = _gamepad_mapping(bindings), DeviceSettings()
     elif kind == "wheel":
-        results, settings = _of_wheel(reading), DeviceSettings(rotation=ROTATION)
-    elif reading.axes and not reading.buttons:  # pedals by themselves
-        results, settings = _pedals(reading, range(len(reading.axes))), DeviceSettings()
+        mappings, settings = _wheel_mapping(reading), DeviceSettings(rotation=ROTATION)
+    elif reading.axes and not reading.buttons:  # separate pedals
+        mappings, settings = _pedal_mapping(reading, range(len(reading.axes))), DeviceSettings()
     else:
-        results, settings = {}, DeviceSettings()
-    return DeviceMapping({name: m for name, m in results.items() if name in inputs}, settings)
+        mappings, settings = {}, DeviceSettings()
+    return DeviceMapping({name: m for name, m in mappings.items() if name in inputs}, settings)
 
 
-def _of_wheel(reading: Reading) -> dict[str, InputMapping]:
+def _wheel_mapping(reading: Reading) -> dict[str, InputMapping]:
     count = len(reading.axes)
     results = {"steering": InputMapping("axis 0", inverted=True)} if count else {}
     if count == 2:  # both pedals on one axis
         results["throttle"] = InputMapping("axis 1", True, -1.0, 0.0, PEDAL_DEAD_ZONE)
         results["brake"] = InputMapping("axis 1", False, 0.0, 1.0, PEDAL_DEAD_ZONE)
         return results
-    # With four axes the one after the wheel's is mostly the clutch.
-    return results | _pedals(reading, range(1 if count == 3 else 2, count))
+    # With four axes the second one is mostly the clutch.
+    return results | _pedal_mapping(reading, range(1 if count == 3 else 2, count))
 
 
-def _pedals(reading: Reading, axes: range) -> dict[str, InputMapping]:
+def _pedal_mapping(reading: Reading, axes: range) -> dict[str, InputMapping]:
     results = {}
     for name, k in zip(("throttle", "brake"), axes, strict=False):
-        # Most pedals that do not say where they rest do so at the high end.
-        inverted = not reading.known[k] or reading.axes[k] > -_SIDE
+        # Most pedals with an unknown rest rest at the high end.
+        inverted = not reading.known[k] or reading.axes[k] > -_REST_BEYOND
         results[name] = InputMapping(f"axis {k}", inverted, dead_zone=PEDAL_DEAD_ZONE)
     return results
 
 
-def _of_gamepad(bindings: str) -> dict[str, InputMapping]:
-    table = dict(part.split(":", 1) for part in bindings.split(",") if ":" in part)
-    read = {name: _bound(name, table.get(where, "")) for name, where in _GAMEPAD.items()}
-    return {name: mapping for name, mapping in read.items() if mapping is not None}
+def _gamepad_mapping(bindings: str) -> dict[str, InputMapping]:
+    table = dict(entry.split(":", 1) for entry in bindings.split(",") if ":" in entry)
+    mappings = {name: _mapping_of_binding(name, table.get(element, "")) for name, element in _GAMEPAD.items()}
+    return {name: mapping for name, mapping in mappings.items() if mapping is not None}
 
 
-def _bound(name: str, binding: str) -> InputMapping | None:
-    """From SDL's words: ``a2`` an axis, ``+a2`` half of it, ``~`` inverted, ``b6`` a button, ``h0.1`` a hat."""
-    result = _BINDING.fullmatch(binding)
-    if result is None:
+def _mapping_of_binding(name: str, binding: str) -> InputMapping | None:
+    """The mapping of an SDL binding: ``a2`` axis, ``+a2`` half axis, ``~`` inverted, ``b6`` button, ``h0.1`` hat."""
+    match = _BINDING.fullmatch(binding)
+    if match is None:
         return None
-    half, axis, inverted, button, hat, bit = result.groups()
+    half, axis, inverted, button, hat, bit = match.groups()
     if axis is None:
         source = f"button {button}" if button is not None else f"hat {hat} {_HAT_BITS.get(int(bit), 'up')}"
         return None if name == "steering" else InputMapping(source)

@@ -1,4 +1,4 @@
-"""One plugged-in device, such as a steering wheel: the values that it asks for at the inputs of the car."""
+"""A connected device, such as a steering wheel, and its requests for inputs of the car."""
 
 import math
 from collections.abc import Callable, Collection, Mapping
@@ -14,16 +14,15 @@ from hosts.simulator.devices.steering import Steering
 from hosts.simulator.input_arbiter import LET_GO
 
 TOUCHED = 0.02
-"""A device asks for values at an input once the input has moved by this share; one that lies untouched does not."""
+"""Change of an input from its rest with which a device begins to request it."""
 BUTTON_RATES = {"throttle": 2.5, "brake": 4.0, "hand_brake": 8.0}
-"""Largest change per second of a pedal while its button is down, as with keys; after that `LET_GO` applies."""
+"""Largest change per second of a pedal while its button is pressed, as with keys; `LET_GO` after its release."""
 
 
 class Device:
-    """A device.
+    """A connected device.
 
-    `id`, `label`: its unique names for programs and for people; `inputs`: inputs of the car, by their names in
-    mappings.
+    `id`, `label`: its unique names for programs and for messages; `inputs`: of the car, by their names in mappings.
     """
 
     def __init__(
@@ -44,16 +43,16 @@ class Device:
         self.force: ForceFeedback | None = None
         self.force_problem = ""
         self._inputs, self._steering = inputs, steering
-        self._at_rest: dict[str, float] = {}
-        self._awake: set[str] = set()
+        self._rest_values: dict[str, float] = {}
+        self._requesting: set[str] = set()
         self._pressed: set[str] = self.reading.pressed()
         self._sent: dict[str, tuple[float, float]] = {}
-        self._rest(list(mapping.inputs))
+        self._store_rest(list(mapping.inputs))
 
     def remap(self, mapping: DeviceMapping) -> list[str]:
-        """Take another mapping. Inputs whose mapping changes are not asked for until they are touched.
+        """Replace the mapping. Inputs with a changed mapping are not requested until they are moved.
 
-        Returns those of them that the device asked for until now.
+        Returns those of them that the device requested before.
         """
         changed = {
             n for n in {*mapping.inputs, *self.mapping.inputs} if mapping.inputs.get(n) != self.mapping.inputs.get(n)
@@ -62,26 +61,26 @@ class Device:
         return self.sleep(changed)
 
     def sleep(self, names: Collection[str]) -> list[str]:
-        """Ask for these inputs only when they are touched again; returns those that the device asked for until now."""
-        awake = [name for name in names if name in self._awake]
-        self._rest(names)
-        return awake
+        """Request these inputs only after they are moved again; returns those that the device requested before."""
+        requested = [name for name in names if name in self._requesting]
+        self._store_rest(names)
+        return requested
 
-    def _rest(self, names: Collection[str]) -> None:
-        """Take the present values of these inputs as those of an untouched device."""
+    def _store_rest(self, names: Collection[str]) -> None:
+        """Take the present values of these inputs as their rest."""
         for name in names:
-            self._awake.discard(name)
-            self._at_rest.pop(name, None)
+            self._requesting.discard(name)
+            self._rest_values.pop(name, None)
             self._sent.pop(name, None)
             mapping = self.mapping.inputs.get(name)
             value = None if mapping is None or name in SELECTOR else self.value(name, mapping)
             if value is not None:
-                self._at_rest[name] = value
+                self._rest_values[name] = value
 
     def wants(self, everything: bool) -> dict[str, tuple[float, float]]:
-        """Inputs of the car that the last reading asks for: value, and largest change per second.
+        """Requests of the last reading: by input of the car, its value and largest change per second.
 
-        `everything`: also those that have not changed since the last call.
+        `everything`: including requests that have not changed since the last call.
         """
         results: dict[str, tuple[float, float]] = {}
         for name, mapping in self.mapping.inputs.items():
@@ -90,31 +89,33 @@ class Device:
             value = self.value(name, mapping)
             if value is None:
                 continue
-            if name not in self._awake:
-                if abs(value - self._at_rest.setdefault(name, value)) <= TOUCHED:
+            if name not in self._requesting:
+                if abs(value - self._rest_values.setdefault(name, value)) <= TOUCHED:
                     continue
-                self._awake.add(name)
-            want = value, self._rate(name, mapping, value)
-            if everything or self._sent.get(name) != want:
-                self._sent[name] = want
-                results.update(self._asked(name, mapping, want))
+                self._requesting.add(name)
+            request = value, self._rate(name, mapping, value)
+            if everything or self._sent.get(name) != request:
+                self._sent[name] = request
+                results.update(self._car_request(name, mapping, request))
         results.update(self._selector())
         return results
 
     def value(self, name: str, mapping: InputMapping) -> float | None:
-        """Value of an input of the car in the last reading; None: its source has none."""
+        """Value of an input of the car in the last reading; None if its source has no value."""
         value = mapping.value(name, self.reading)
         if value is None or name != "steering":
             return value
         return self._steering.share(value, self.mapping.settings.rotation)
 
-    def _asked(self, name: str, mapping: InputMapping, want: tuple[float, float]) -> dict[str, tuple[float, float]]:
-        """A value by the car's name of the input: steering may be an angle there."""
+    def _car_request(
+        self, name: str, mapping: InputMapping, request: tuple[float, float]
+    ) -> dict[str, tuple[float, float]]:
+        """The request under the name of the input of the car, where the steering may be an angle."""
         turn = mapping.value(name, self.reading) if name == "steering" else None
         if turn is None:
-            return {name: want}
-        steers, value = self._steering.want(turn, self.mapping.settings.rotation)
-        return {steers: (value, want[1])}
+            return {name: request}
+        input_name, value = self._steering.want(turn, self.mapping.settings.rotation)
+        return {input_name: (value, request[1])}
 
     def _rate(self, name: str, mapping: InputMapping, value: float) -> float:
         if Source.read(mapping.source).kind == "axis":
@@ -122,7 +123,7 @@ class Device:
         return BUTTON_RATES[name] if value else LET_GO[name]
 
     def _selector(self) -> Mapping[str, tuple[float, float]]:
-        """The position of the selector that a button asks for when it goes down."""
+        """The request for the selector of a button that has just been pressed."""
         pressed = self.reading.pressed()
         new, self._pressed = pressed - self._pressed, pressed
         for name, value in SELECTOR.items():
@@ -132,7 +133,7 @@ class Device:
         return {}
 
     def start_force(self, torque: Callable[[], float | None], fail: Callable[[str], None]) -> None:
-        """Start force feedback. `torque`: of the steering wheel, N m; `fail`: called with a sentence if it fails."""
+        """Start force feedback. `torque`: of the steering wheel, N m; `fail`: called with a message if it fails."""
         handle, sdl = self.joystick.handle, self.joystick.sdl
         self.force = ForceFeedback(sdl, handle, torque, lambda: self.mapping.settings, fail)
 
@@ -144,7 +145,7 @@ class Device:
         return True
 
     def state(self) -> dict[str, Any]:
-        """The device as the page shows it."""
+        """The device as JSON for pages."""
         reading: Reading = self.reading
         inputs = {}
         for name, m in self.mapping.inputs.items():

@@ -1,4 +1,4 @@
-"""Sentences about devices."""
+"""Messages about devices."""
 
 from collections.abc import Collection, Sequence
 
@@ -10,15 +10,15 @@ def and_list(names: Sequence[str]) -> str:
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
-def number_text(names: Sequence[str]) -> str:
-    """A sentence on the inputs that a device can drive."""
+def drivable_text(names: Sequence[str]) -> str:
+    """The part of a message on the inputs that a device can drive."""
     return f"a device can drive {and_list(names)}" if names else "a device can drive none of its inputs"
 
 
-def came(label: str, kind: str, mapping: DeviceMapping, kept: bool, inputs: Collection[str]) -> str:
-    """The sentence for a device that was plugged in."""
+def connection_text(label: str, kind: str, mapping: DeviceMapping, from_file: bool, inputs: Collection[str]) -> str:
+    """The message for a device that was connected. `from_file`: whether its mapping is stored."""
     drives = [f"{name} by {m.source}" for name, m in mapping.inputs.items() if name in inputs]
     if not drives:
         return f"{label} is plugged in and drives nothing yet: assign its axes under Devices in the page."
-    how = "as it was assigned" if kept else f"as a {kind} for now; calibrate it under Devices in the page"
-    return f"{label} is plugged in and drives {and_list(drives)}, {how}."
+    origin = "as it was assigned" if from_file else f"as a {kind} for now; calibrate it under Devices in the page"
+    return f"{label} is plugged in and drives {and_list(drives)}, {origin}."

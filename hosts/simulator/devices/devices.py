@@ -10,7 +10,7 @@ from typing import Any
 from hosts.common.errors import HostError
 from hosts.simulator.devices.calibration import Assignment, Calibration
 from hosts.simulator.devices.device import Device
-from hosts.simulator.devices.device_text import and_list, number_text
+from hosts.simulator.devices.device_text import and_list, drivable_text
 from hosts.simulator.devices.mapping import DeviceMapping, drivable, read_input, read_settings
 from hosts.simulator.devices.reader import ArbiterLike, Reader
 from hosts.simulator.devices.reading import Source
@@ -23,19 +23,19 @@ ASSIGN_TIME = 15.0
 class Devices:
     """Wheels, pedals and gamepads that drive the car; a context manager.
 
-    Without SDL and without a device one sentence says so, and everything else works.
+    A message reports a missing SDL or device; everything else works.
 
     Parameters
     ----------
     arbiter : InputArbiter
-        Takes what devices want, as source ``device NAME``.
+        Receives the requests of devices, with the source ``device NAME``.
     constants : mapping of str to float
-        Of the car; `vehicle.steering_wheel_angle_max` is used.
+        Constants of the car, of which `vehicle.steering_wheel_angle_max` is used.
     tell : callable
-        Takes sentences for people, from any thread.
+        Called with messages, from any thread.
     torque : callable or None
         Torque of the driver's hands on the car's steering wheel, N m, positive to the left; None while the car does not
-        run. Called from a thread of each motor. Instead of a callable None: the car does not have it.
+        run. Called from a thread of each motor. None: the car has no such output.
     """
 
     def __init__(
@@ -59,87 +59,87 @@ class Devices:
         self.close()
 
     def close(self) -> None:
-        """Let motors go and end all threads."""
+        """Stop all motors and threads."""
         self._reader.close()
 
     def state(self) -> list[dict[str, Any]]:
-        """The devices that are plugged in, for the page."""
+        """The connected devices as JSON for pages."""
         with self._reader.lock:
             return [device.state() for device in self._reader.devices.values()]
 
     def assign(self, device: str, name: str, mapping: Mapping[str, Any] | None) -> None:
-        """Another mapping of an input; it is kept in the device's file.
+        """Replace the mapping of an input, and store it in the file of the device.
 
         `device`: its `id`; `mapping`: fields of `InputMapping`; None: the device does not drive this input. Raises
-        `HostError`: the device is not there, or the mapping is wrong; nothing changes.
+        `HostError`: the device is not connected, or the mapping is wrong; nothing changes.
         """
         with self._reader.lock:
-            result = self._device(device)
+            connected = self._device(device)
             assigned = None if mapping is None else read_input(name, mapping)
             if name not in self._inputs:
-                raise HostError(f"The car has no input for '{name}'; {number_text(self._inputs)}.")
-            if assigned is not None and not Source.read(assigned.source).is_in(result.reading):
-                raise HostError(f"{result.label} has no {assigned.source}; it has {result.reading.counts()}.")
-            self._reader.remap(result, result.mapping.with_input(name, assigned))
+                raise HostError(f"The car has no input for '{name}'; {drivable_text(self._inputs)}.")
+            if assigned is not None and not Source.read(assigned.source).is_in(connected.reading):
+                raise HostError(f"{connected.label} has no {assigned.source}; it has {connected.reading.counts()}.")
+            self._reader.remap(connected, connected.mapping.with_input(name, assigned))
 
     def assign_by_moving(self, device: str, name: str, on: bool = True) -> None:
-        """The next axis or button that is moved on this device drives this input; see `assign`."""
+        """Assign the next axis or button that is moved to an input, or end this; see `assign`."""
         with self._reader.lock:
-            result = self._device(device)
+            connected = self._device(device)
             if name not in self._inputs:
-                raise HostError(f"The car has no input for '{name}'; {number_text(self._inputs)}.")
-            result.assignment = Assignment(name, result.reading, time.monotonic() + ASSIGN_TIME) if on else None
+                raise HostError(f"The car has no input for '{name}'; {drivable_text(self._inputs)}.")
+            connected.assignment = Assignment(name, connected.reading, time.monotonic() + ASSIGN_TIME) if on else None
 
     def calibrate(self, device: str, on: bool, keep: bool = True) -> None:
         """Begin a calibration, or end it.
 
-        `device`: its `id`; `on`: true: begin; the device drives nothing until the end; `keep`: at the end, whether what
-        was found counts. Raises `HostError`: the device is not there.
+        `device`: its `id`; `on`: whether to begin; the device drives nothing until the end; `keep`: whether the result
+        is used at the end. Raises `HostError`: the device is not connected.
         """
         with self._reader.lock:
-            result = self._device(device)
+            connected = self._device(device)
             if on:
-                self._reader.let_go(result)
-                result.calibration = Calibration(result.mapping)
+                self._reader.let_go(connected)
+                connected.calibration = Calibration(connected.mapping)
                 return
-            calibration, result.calibration = result.calibration, None
+            calibration, connected.calibration = connected.calibration, None
             if calibration is None or not keep:
                 return
-            mapping, new, still = calibration.result()
-            self._reader.remap(result, mapping)
-            if new:
-                self._reader.tell(f"{result.label}: the ends of {and_list(new)} are found.")
-            if still:
-                self._reader.tell(f"{result.label}: {and_list(still)} was not moved far enough and is as before.")
+            mapping, calibrated, unmoved = calibration.result()
+            self._reader.remap(connected, mapping)
+            if calibrated:
+                self._reader.tell(f"{connected.label}: the ends of {and_list(calibrated)} are found.")
+            if unmoved:
+                self._reader.tell(f"{connected.label}: {and_list(unmoved)} was not moved far enough and is as before.")
 
     def reset_mapping(self, device: str) -> None:
-        """The mapping that a device of this kind begins with; its file is removed."""
+        """Return to the default mapping of the kind of device, and remove its file."""
         with self._reader.lock:
-            result = self._device(device)
+            connected = self._device(device)
             self._reader.files.remove(device)
-            self._reader.remap(result, self._reader.default(result.joystick), save=False)
+            self._reader.remap(connected, self._reader.default(connected.joystick), save=False)
 
     def set_settings(self, device: str, settings: Mapping[str, Any]) -> None:
-        """Other `DeviceSettings`; those not named stay. Kept in the device's file; see `assign` for errors."""
+        """Change some `DeviceSettings` and store them in the file of the device; see `assign` for errors."""
         with self._reader.lock:
-            result = self._device(device)
-            device_settings = read_settings(settings, result.mapping.settings)
-            self._reader.remap(result, DeviceMapping(result.mapping.inputs, device_settings))
+            connected = self._device(device)
+            device_settings = read_settings(settings, connected.mapping.settings)
+            self._reader.remap(connected, DeviceMapping(connected.mapping.inputs, device_settings))
 
     def test_force(self, device: str) -> None:
-        """A short push to the left. Raises `HostError`: the device is not there or has no motor that works."""
+        """Push the wheel to the left for a moment. Raises `HostError`: the device is not connected or has no motor."""
         with self._reader.lock:
-            result = self._device(device)
-            if result.force is None or not result.force.works:
-                raise HostError(f"{result.label} has no force: {result.force_problem or 'it has no motor'}.")
-            result.force.pulse()
+            connected = self._device(device)
+            if connected.force is None or not connected.force.works:
+                raise HostError(f"{connected.label} has no force: {connected.force_problem or 'it has no motor'}.")
+            connected.force.pulse()
 
     def message(self, message: Mapping[str, Any]) -> None:
-        """Do what a message of the page asks for.
+        """Execute a message of a page.
 
         `message`: `type` is ``assign``, ``assign by moving``, ``calibrate``, ``reset mapping``, ``device settings`` or
-        ``test force``; `device` an `id`; see the method of that name for the others. Raises `HostError`: it cannot be
-        done; nothing changes.
+        ``test force``; `device` an `id`; see the method of that name for other fields. Raises `HostError`: it
+        cannot be executed; nothing changes.
         """
         kind, device = message.get("type"), message.get("device")
         if not isinstance(device, str):
@@ -163,7 +163,7 @@ class Devices:
             raise HostError(f"A message about devices has the type {kind!r}, which is unknown.")
 
     def _device(self, device: str) -> Device:
-        result = self._reader.devices.get(device)
-        if result is None:
+        connected = self._reader.devices.get(device)
+        if connected is None:
             raise HostError(f"The device '{device}' is not plugged in.")
-        return result
+        return connected

@@ -1,21 +1,21 @@
-"""From the torque of the car's steering wheel to the force of a motor."""
+"""The force of a motor from the torque of the steering wheel of the car."""
 
 import math
 
 from hosts.simulator.devices.mapping import DeviceSettings
 
 FULL = 32767
-"""Level of a constant force at which the motor gives all it can; positive turns the wheel to the left."""
+"""Level of the largest constant force; a positive one turns the wheel to the left."""
 RISE = 0.5
-"""Seconds in which the force comes up when the car starts to run, so that nothing hits the hands."""
+"""Rise time of the force when the car starts to run, s, so that there is no jerk."""
 
 
 class ForceLaw:
-    """Level of the force, step by step: gain, smoothing, saturation."""
+    """The control law of the force: gain, low-pass filter and saturation."""
 
     def __init__(self) -> None:
-        self._smooth = 0.0
-        self._running = 0.0
+        self._filtered_torque = 0.0
+        self._running_time = 0.0
 
     def level(self, torque: float | None, settings: DeviceSettings, step: float) -> int:
         """The next level.
@@ -34,14 +34,14 @@ class ForceLaw:
             From -`FULL` to `FULL`; 0 while the car does not run.
         """
         if torque is None or not math.isfinite(torque):
-            self._smooth = self._running = 0.0
+            self._filtered_torque = self._running_time = 0.0
             return 0
-        self._running += step
-        share = 1.0 - math.exp(-step / settings.smoothing) if settings.smoothing > 0.0 else 1.0
-        self._smooth += share * (torque - self._smooth)
-        rise = min(1.0, self._running / RISE)
-        # What the hands feel is the opposite of what they give.
-        felt = -self._smooth * rise * settings.force / settings.full_torque
+        self._running_time += step
+        filter_gain = 1.0 - math.exp(-step / settings.smoothing) if settings.smoothing > 0.0 else 1.0
+        self._filtered_torque += filter_gain * (torque - self._filtered_torque)
+        rise = min(1.0, self._running_time / RISE)
+        # The motor acts against the torque of the hands.
+        relative_force = -self._filtered_torque * rise * settings.force / settings.full_torque
         if settings.force_inverted:
-            felt = -felt
-        return round(FULL * max(-1.0, min(1.0, felt)))
+            relative_force = -relative_force
+        return round(FULL * max(-1.0, min(1.0, relative_force)))

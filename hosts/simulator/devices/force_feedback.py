@@ -11,13 +11,13 @@ from hosts.simulator.devices.mapping import DeviceSettings
 from hosts.simulator.devices.motor import Motor
 
 PERIOD = 0.008
-"""s; motors on a USB cable take about 125 values per second."""
-PULSE = 0.3  # of the largest force, in a test of it
+"""Period of updates, s; motors on USB take about 125 values per second."""
+PULSE = 0.3  # share of the largest force, for a test
 PULSE_TIME = 0.4  # s
 
 
 class ForceFeedback:
-    """Moves the motor until it is stopped, or fails once.
+    """Moves the motor of a device in a thread until it is stopped or fails.
 
     Parameters
     ----------
@@ -27,9 +27,9 @@ class ForceFeedback:
         Torque of the driver's hands on the car's steering wheel, N m, positive to the left; None while the car does not
         run.
     settings : callable
-        Those of the device now.
+        Returns the present settings of the device.
     fail : callable
-        Told, in words, why there is no force any more.
+        Called with the reason if the force ends by itself.
     """
 
     def __init__(
@@ -47,16 +47,16 @@ class ForceFeedback:
         self.works = False
         """Whether the motor moves."""
         self.level = 0
-        """Of the constant force, now."""
+        """Present level of the constant force."""
         self._thread = threading.Thread(target=self._run, name="force feedback", daemon=True)
         self._thread.start()
 
     def pulse(self) -> None:
-        """Push to the left for a moment, whatever the car does."""
+        """Push to the left for a moment, independently of the car."""
         self._pulse_until = time.monotonic() + PULSE_TIME
 
     def stop(self, timeout: float) -> bool:
-        """End it; whether the motor is closed and the thread has ended in time."""
+        """Stop the motor; whether the thread has ended within `timeout` s."""
         self._end.set()
         self._thread.join(timeout)
         return not self._thread.is_alive()
@@ -68,18 +68,18 @@ class ForceFeedback:
             self._fail(str(error))
             return
         self.works = True
-        why = ""
+        reason = ""
         try:
             self._move(motor)
         except HostError as error:
-            why = str(error)
-        except Exception as error:  # whatever the torque's source does: the motor must not go on pulling
-            why = f"{type(error).__name__}: {error}"
+            reason = str(error)
+        except Exception as error:  # after any error of `torque` the motor must be stopped
+            reason = f"{type(error).__name__}: {error}"
         finally:
             self.works, self.level = False, 0
             motor.close()
-        if why and not self._end.is_set():
-            self._fail(why)
+        if reason and not self._end.is_set():
+            self._fail(reason)
 
     def _move(self, motor: Motor) -> None:
         law, last = ForceLaw(), time.monotonic()

@@ -1,4 +1,4 @@
-"""Devices that are plugged in, read by SDL's joystick interface."""
+"""Connected devices, read by the joystick interface of SDL."""
 
 import ctypes
 from dataclasses import dataclass
@@ -14,38 +14,38 @@ _ALL_EVENTS = 0x0, 0xFFFF
 
 @dataclass
 class Joystick:
-    """A device that is open."""
+    """An opened device."""
 
     sdl: Any
     handle: Any
-    """Of SDL."""
+    """Pointer of SDL."""
     instance: int
-    """Number that SDL gives at each plugging in."""
+    """Number that SDL assigns at each connection."""
     guid: str
     """The same for all devices of a model."""
     serial: str
     path: str
-    """`serial`, `path`: empty where the device or the system has none."""
+    """`serial`, `path`: empty if not known."""
     name: str
     kind: str
     """``wheel``, ``gamepad`` or ``other``."""
     bindings: str
-    """SDL's table of a gamepad: which axis is which trigger."""
+    """Mapping string of SDL for a gamepad."""
     usb: str
-    """Numbers of maker and product, such as ``046d:c24f``."""
+    """Numbers of vendor and product, such as ``046d:c24f``."""
 
     def __post_init__(self) -> None:
         count = (self.sdl.SDL_JoystickNumAxes, self.sdl.SDL_JoystickNumButtons, self.sdl.SDL_JoystickNumHats)
         self._axes, self._buttons, self._hats = (range(max(0, number(self.handle))) for number in count)
         self._known = [False] * len(self._axes)
-        self._first = ctypes.c_int16()
+        self._initial_value = ctypes.c_int16()
 
     def read(self) -> Reading:
-        """Its values as of the last `Joysticks.update`."""
+        """The values at the last `Joysticks.update`."""
         sdl, handle = self.sdl, self.handle
         for k in self._axes:
             if not self._known[k]:
-                has_initial_state = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
+                has_initial_state = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._initial_value))
                 self._known[k] = bool(has_initial_state)
         return Reading(
             tuple([_share(sdl.SDL_JoystickGetAxis(handle, k)) for k in self._axes]),
@@ -59,49 +59,49 @@ class Joystick:
 
 
 class Joysticks:
-    """All devices. One thread calls this. `sdl`: started."""
+    """All devices, for use by one thread. `sdl`: initialised."""
 
     def __init__(self, sdl: Any) -> None:
         self._sdl = sdl
-        self._open: dict[int, Joystick] = {}
+        self._devices_by_instance: dict[int, Joystick] = {}
         self._refused: set[int] = set()
 
     def update(self) -> tuple[list[Joystick], list[Joystick], list[str]]:
-        """Fetch the values of all devices, and see which came and went.
+        """Read the values of all devices, and find those that were connected or disconnected.
 
         Returns
         -------
         added, removed : list of Joystick
-            Those that went are still to be closed by the caller.
+            The caller closes removed ones.
         refused : list of str
-            Names of those that came and cannot be opened.
+            Names of connected devices that cannot be opened.
         """
         sdl = self._sdl
         sdl.SDL_JoystickUpdate()
-        sdl.SDL_FlushEvents(*_ALL_EVENTS)  # nobody takes events here: they would fill SDL's queue
+        sdl.SDL_FlushEvents(*_ALL_EVENTS)  # unread events would fill the queue of SDL
         present = {sdl.SDL_JoystickGetDeviceInstanceID(k): k for k in range(sdl.SDL_NumJoysticks())}
-        removed = [self._open.pop(i) for i in [*self._open] if i not in present]
+        removed = [self._devices_by_instance.pop(i) for i in [*self._devices_by_instance] if i not in present]
         self._refused &= present.keys()
         added, refused = [], []
         for instance, index in present.items():
-            if instance < 0 or instance in self._open or instance in self._refused:
+            if instance < 0 or instance in self._devices_by_instance or instance in self._refused:
                 continue
-            joystick = self._opened(index)
+            joystick = self._open_device(index)
             if joystick is None:
                 self._refused.add(instance)
                 refused.append(text(sdl.SDL_JoystickNameForIndex(index)) or "A device without a name")
             else:
-                self._open[instance] = joystick
+                self._devices_by_instance[instance] = joystick
                 added.append(joystick)
         return added, removed, refused
 
     def close(self) -> None:
-        """Close all."""
-        for joystick in self._open.values():
+        """Close all devices."""
+        for joystick in self._devices_by_instance.values():
             joystick.close()
-        self._open.clear()
+        self._devices_by_instance.clear()
 
-    def _opened(self, index: int) -> Joystick | None:
+    def _open_device(self, index: int) -> Joystick | None:
         sdl = self._sdl
         handle = sdl.SDL_JoystickOpen(index)
         if not handle:
@@ -125,5 +125,5 @@ class Joysticks:
 
 
 def _share(value: int) -> float:
-    """From SDL's whole numbers to -1 to 1, both ends exactly."""
+    """The share from -1 to 1 of an integer of SDL; both ends are exact."""
     return value / _HIGHEST if value >= 0 else -value / _LOWEST

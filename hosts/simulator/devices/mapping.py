@@ -1,4 +1,4 @@
-"""How a source of a device moves an input of the car."""
+"""Mappings of axes and buttons of a device to inputs of the car."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from hosts.common.errors import HostError
 from hosts.simulator.devices.reading import Reading, Source
 
 CENTRED = ("steering",)
-"""Inputs from -1 to 1; those of `PEDALS` go from 0 to 1."""
+"""Inputs from -1 to 1; those of `PEDALS` are from 0 to 1."""
 ANGLE = "steering_wheel_angle_demand"
-"""Input in rad by which a car without `steering` is steered."""
+"""Input of a car without `steering`, rad."""
 PEDALS = ("throttle", "brake", "hand_brake")
 SELECTOR = {"selector drive": 1.0, "selector neutral": 0.0, "selector reverse": -1.0}
-"""What a press of a button sets the input `selector` to."""
+"""Values of the input `selector` by name of the mapping of a button."""
 NARROWEST = 0.05
-"""Least distance of the ends of an axis."""
-MOST_DEAD = 0.9
+"""Least distance between the ends of an axis."""
+LARGEST_DEAD_ZONE = 0.9
 
 
 def drivable(inputs: Collection[str]) -> list[str]:
-    """What devices can drive of the inputs of a car, in the words of mappings."""
+    """Inputs of a car that devices can drive, by their names in mappings."""
     steering = ["steering"] if {"steering", ANGLE} & {*inputs} else []
     return steering + [name for name in PEDALS if name in inputs] + (list(SELECTOR) if "selector" in inputs else [])
 
@@ -35,39 +35,38 @@ class InputMapping:
     source: str
     """Such as ``axis 0``, ``button 5`` or ``hat 0 up``."""
     inverted: bool = False
-    """Whether the input grows as the axis falls."""
+    """Whether the input increases as the axis decreases."""
     low: float = -1.0
     high: float = 1.0
-    """`low`, `high`: ends of the axis, from -1 to 1; beyond them nothing changes. Half an axis: 0 and 1, or -1 and
-    0."""
+    """`low`, `high`: ends of the axis, from -1 to 1; half an axis has 0 and 1, or -1 and 0."""
     dead_zone: float = 0.0
-    """Share of the way that does nothing: to both sides of the middle, or at the rest of a pedal."""
+    """Share of the range without effect, on both sides of the centre or at the rest of a pedal."""
     centre: float | None = None
-    """Where an axis of the steering rests; None: halfway."""
+    """Rest of an axis of the steering; None: halfway between the ends."""
 
     def value(self, name: str, reading: Reading) -> float | None:
-        """The input. `name`: of the input: whether it has a middle depends on it.
+        """The value of an input for a reading. `name`: of the input.
 
-        Result: from -1 to 1 with a middle, else from 0 to 1; at the ends of the axis exactly these. None: the device
-        does not say.
+        Result: from -1 to 1 for `CENTRED` inputs, else from 0 to 1, exactly at the ends of the axis; None if the device
+        reports no value.
         """
         source = Source.read(self.source)
-        at = source.position(reading)
-        if at is None:
+        position = source.position(reading)
+        if position is None:
             return None
         if source.kind != "axis":
-            return 1.0 - at if self.inverted else at
-        return self._centred(at) if name in CENTRED else self._pedal(at)
+            return 1.0 - position if self.inverted else position
+        return self._centred(position) if name in CENTRED else self._pedal(position)
 
-    def _centred(self, at: float) -> float:
+    def _centred(self, position: float) -> float:
         centre = 0.5 * (self.low + self.high) if self.centre is None else self.centre
-        travel = self.high - centre if at >= centre else centre - self.low
-        share = max(-1.0, min(1.0, (at - centre) / travel))
-        size = max(0.0, abs(share) - self.dead_zone) / (1.0 - self.dead_zone)
-        return math.copysign(size, -share if self.inverted else share) if size else 0.0
+        travel = self.high - centre if position >= centre else centre - self.low
+        share = max(-1.0, min(1.0, (position - centre) / travel))
+        magnitude = max(0.0, abs(share) - self.dead_zone) / (1.0 - self.dead_zone)
+        return math.copysign(magnitude, -share if self.inverted else share) if magnitude else 0.0
 
-    def _pedal(self, at: float) -> float:
-        travel = self.high - at if self.inverted else at - self.low
+    def _pedal(self, position: float) -> float:
+        travel = self.high - position if self.inverted else position - self.low
         share = max(0.0, min(1.0, travel / (self.high - self.low)))
         return max(0.0, share - self.dead_zone) / (1.0 - self.dead_zone)
 
@@ -77,20 +76,20 @@ class DeviceSettings:
     """Settings of a device as a whole."""
 
     rotation: float = 0.0
-    """Degrees between the ends of the real wheel: the steering wheel of the car then turns by the same angle. 0: the
-    ends of the axis are full steering."""
+    """Rotation of the wheel from end to end, degrees, by which the steering wheel of the car turns too; 0: the ends of
+    the axis are full steering."""
     force: float = 0.5
-    """Factor on the force; 0: none."""
+    """Factor of the force."""
     full_torque: float = 10.0
-    """Torque of the car's steering wheel, N m, at which the motor gives all it can with `force` 1."""
+    """Torque of the steering wheel of the car for the largest force with `force` 1, N m."""
     force_inverted: bool = False
-    """Whether the motor of this device turns the other way."""
+    """Whether the motor acts in the other direction."""
     smoothing: float = 0.01
     """Time constant of the force, s."""
     damper: float = 0.1
-    """Share of the motor's largest damping, always on."""
+    """Share of the largest damping, always active."""
     spring: float = 0.1
-    """Share of the motor's largest spring to the middle, on while the car does not run."""
+    """Share of the largest centring spring, active while the car does not run."""
 
 
 _RANGES = {
@@ -111,20 +110,20 @@ class DeviceMapping:
     settings: DeviceSettings = DeviceSettings()
 
     def with_input(self, name: str, mapping: InputMapping | None) -> DeviceMapping:
-        """A copy in which an input is driven by another source, or by none."""
+        """A copy with another mapping of an input, or without one."""
         inputs = {k: v for k, v in self.inputs.items() if k != name}
         return replace(self, inputs=inputs if mapping is None else {**inputs, name: mapping})
 
 
 def read_input(name: str, table: object) -> InputMapping:
-    """The mapping of an input from a table of its fields. `table`: what is not in it is as by default.
+    """The mapping of an input from a table of its fields; missing ones have their defaults.
 
-    Raises `HostError`: a field is unknown or has a value that cannot be.
+    Raises `HostError`: a field is unknown or has an invalid value.
     """
     label = f"The mapping of '{name}'"
     if name not in (*CENTRED, *PEDALS, *SELECTOR):
-        raise HostError(f"'{name}' cannot be driven by a device; {_list([*CENTRED, *PEDALS, *SELECTOR])} can.")
-    fields = _fields(label, table, asdict(InputMapping("")))
+        raise HostError(f"'{name}' cannot be driven by a device; {_list_text([*CENTRED, *PEDALS, *SELECTOR])} can.")
+    fields = _checked_fields(label, table, asdict(InputMapping("")))
     if "source" not in fields:
         raise HostError(f"{label} has no source; it needs one such as “axis 2”.")
     source = Source.read(fields["source"])
@@ -134,9 +133,9 @@ def read_input(name: str, table: object) -> InputMapping:
         raise HostError(f"{label} has the source “{source}”; '{name}' needs a button or a hat.")
     for number in ("low", "high", "centre"):
         if fields.get(number) is not None:
-            fields[number] = _number(label, number, fields[number], -1.0, 1.0)
+            fields[number] = _checked_number(label, number, fields[number], -1.0, 1.0)
     if "dead_zone" in fields:
-        fields["dead_zone"] = _number(label, "dead_zone", fields["dead_zone"], 0.0, MOST_DEAD)
+        fields["dead_zone"] = _checked_number(label, "dead_zone", fields["dead_zone"], 0.0, LARGEST_DEAD_ZONE)
     _check_bool(label, fields, "inverted")
     mapping = InputMapping(**fields)
     if mapping.high - mapping.low < NARROWEST:
@@ -152,38 +151,38 @@ def read_input(name: str, table: object) -> InputMapping:
 
 
 def read_settings(table: object, base: DeviceSettings | None = None) -> DeviceSettings:
-    """Settings from a table; what is not in it is that of `base`.
+    """Settings from a table; missing ones are those of `base`.
 
-    Raises `HostError`: a field is unknown or has a value that cannot be.
+    Raises `HostError`: a field is unknown or has an invalid value.
     """
     subject, base = "The settings of the device", base or DeviceSettings()
-    fields = _fields(subject, table, asdict(base))
+    fields = _checked_fields(subject, table, asdict(base))
     _check_bool(subject, fields, "force_inverted")
     for name in fields:
         if name in _RANGES:
-            fields[name] = _number(subject, name, fields[name], *_RANGES[name])
+            fields[name] = _checked_number(subject, name, fields[name], *_RANGES[name])
     return replace(base, **fields)
 
 
-def _fields(what: str, table: object, known: Mapping[str, object]) -> dict[str, Any]:
+def _checked_fields(subject: str, table: object, known: Mapping[str, object]) -> dict[str, Any]:
     if not isinstance(table, Mapping):
-        raise HostError(f"{what} is {table!r}; it must be a table.")
+        raise HostError(f"{subject} is {table!r}; it must be a table.")
     for name in table:
         if name not in known:
-            raise HostError(f"{what} has '{name}', which is none of {_list(list(known))}.")
+            raise HostError(f"{subject} has '{name}', which is none of {_list_text(list(known))}.")
     return dict(table)
 
 
-def _number(what: str, name: str, value: object, low: float, high: float) -> float:
+def _checked_number(subject: str, name: str, value: object, low: float, high: float) -> float:
     if isinstance(value, (int, float)) and not isinstance(value, bool) and low <= value <= high:
         return float(value)
-    raise HostError(f"{what} has {name} = {value!r}; it must be a number from {low:g} to {high:g}.")
+    raise HostError(f"{subject} has {name} = {value!r}; it must be a number from {low:g} to {high:g}.")
 
 
-def _check_bool(what: str, fields: Mapping[str, object], name: str) -> None:
+def _check_bool(subject: str, fields: Mapping[str, object], name: str) -> None:
     if not isinstance(fields.get(name, False), bool):
-        raise HostError(f"{what} has {name} = {fields[name]!r}; it must be true or false.")
+        raise HostError(f"{subject} has {name} = {fields[name]!r}; it must be true or false.")
 
 
-def _list(names: list[str]) -> str:
+def _list_text(names: list[str]) -> str:
     return ", ".join(f"'{name}'" for name in names)

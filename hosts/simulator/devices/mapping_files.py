@@ -25,7 +25,7 @@ _HEAD = """\
 
 
 def configuration_folder() -> Path:
-    """Folder of the mappings: in ``ALI3_CONFIG``, else in the user's folder of configurations of this system."""
+    """Folder of the mappings: in ``ALI3_CONFIG``, else in the configuration folder of the user."""
     folder = os.environ.get("ALI3_CONFIG")
     if folder:
         return Path(folder, "devices")
@@ -33,7 +33,7 @@ def configuration_folder() -> Path:
 
 
 class MappingFiles:
-    """The files in a folder, one for each device. `folder`: made when something is written."""
+    """The files in a folder, one for each device. `folder`: created when a file is written."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -43,7 +43,7 @@ class MappingFiles:
         return self.folder / f"{device}.toml"
 
     def serial(self, device: str) -> str:
-        """Serial number in a device's file, empty without one."""
+        """Serial number in the file of a device, or empty."""
         try:
             return str(read_toml(self.file(device)).get("serial", ""))
         except FileError:
@@ -52,19 +52,19 @@ class MappingFiles:
     def read(self, device: str) -> DeviceMapping | None:
         """The mapping of a device; None if it has no file.
 
-        Raises `HostError`: the file cannot be read or is damaged; the sentence names it.
+        Raises `HostError`: the file cannot be read or is damaged.
         """
         file = self.file(device)
         if not file.exists():
             return None
         table = read_toml(file, HostError)
         try:
-            return _mapping(table)
+            return _read_mapping(table)
         except HostError as error:
             raise HostError(f"{file} is damaged: {error}") from None
 
     def write(self, device: str, mapping: DeviceMapping, name: str, serial: str = "") -> None:
-        """Write the file of a device. One that is damaged is kept beside it, with `.damaged` added to its name.
+        """Write the file of a device. A damaged one is kept, with `.damaged` added to its name.
 
         Raises `FileError`: it cannot be written.
         """
@@ -89,7 +89,7 @@ class MappingFiles:
             raise HostError(f"{self.file(device)} cannot be removed: {reason(error)}.") from None
 
 
-def _mapping(table: dict[str, Any]) -> DeviceMapping:
+def _read_mapping(table: dict[str, Any]) -> DeviceMapping:
     if table.get("format") != FORMAT or table.get("version") != VERSION:
         raise HostError(f'format = "{FORMAT}" and version = {VERSION} are missing.')
     for name in table:
@@ -98,5 +98,5 @@ def _mapping(table: dict[str, Any]) -> DeviceMapping:
     inputs = table.get("inputs", {})
     if not isinstance(inputs, dict):
         raise HostError(f"inputs = {brief(inputs)} is not a table.")
-    read = {name: read_input(name, fields) for name, fields in inputs.items()}
-    return DeviceMapping(read, read_settings(table.get("settings", {})))
+    input_mappings = {name: read_input(name, fields) for name, fields in inputs.items()}
+    return DeviceMapping(input_mappings, read_settings(table.get("settings", {})))

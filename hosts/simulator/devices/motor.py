@@ -1,4 +1,4 @@
-"""The motor of a device, moved by SDL's haptics."""
+"""The motor of a device, moved by the haptic interface of SDL."""
 
 import ctypes
 from typing import Any
@@ -13,10 +13,10 @@ _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
 
 
 class Motor:
-    """A device that can push. One thread calls this.
+    """The motor of a device, for use by one thread.
 
-    `joystick`: of SDL; it stays open until this is closed. Raises `HostError`: it has no motor for a constant force, or
-    it cannot be opened.
+    `joystick`: of SDL; it must stay open until the motor is closed. Raises `HostError`: the motor has no constant force
+    or cannot be opened.
     """
 
     def __init__(self, sdl: Any, joystick: Any) -> None:
@@ -27,56 +27,56 @@ class Motor:
         self._effects: dict[str, tuple[int, Any]] = {}
         self._levels: dict[str, int] = {}
         try:
-            self._can = int(sdl.SDL_HapticQuery(self._haptic))
-            if not self._can & sdl.SDL_HAPTIC_CONSTANT:
+            self._capabilities = int(sdl.SDL_HapticQuery(self._haptic))
+            if not self._capabilities & sdl.SDL_HAPTIC_CONSTANT:
                 raise HostError("its motor has no constant force")
-            if self._can & sdl.SDL_HAPTIC_GAIN:
+            if self._capabilities & sdl.SDL_HAPTIC_GAIN:
                 sdl.SDL_HapticSetGain(self._haptic, 100)
-            if self._can & sdl.SDL_HAPTIC_AUTOCENTER:
-                sdl.SDL_HapticSetAutocenter(self._haptic, 0)  # else it pulls to the middle on its own
-            self._start("constant", self._constant(0))
+            if self._capabilities & sdl.SDL_HAPTIC_AUTOCENTER:
+                sdl.SDL_HapticSetAutocenter(self._haptic, 0)  # else the device centres itself
+            self._start_effect("constant", self._constant_effect(0))
         except HostError:
             self.close()
             raise
 
     def push(self, level: int) -> None:
-        """A constant force. `level`: from -32767 to 32767, positive to the left.
+        """Set the constant force. `level`: from -32767 to 32767, positive to the left.
 
         Raises `HostError`: the device refuses it.
         """
         if self._levels.get("constant") == level:
             return
-        self._change("constant", self._constant(level))
+        self._update_effect("constant", self._constant_effect(level))
         self._levels["constant"] = level
 
     def condition(self, kind: str, share: float) -> bool:
-        """A damper or a spring to the middle; False where the device has no such.
+        """Set a damper or a centring spring; False if the device has none.
 
-        `kind`: ``damper`` or ``spring``; `share`: from 0 to 1 of the largest. Raises `HostError`: the device refuses
-        it.
+        `kind`: ``damper`` or ``spring``; `share`: of the largest coefficient, 0 to 1. Raises `HostError`: the device
+        refuses it.
         """
         number = getattr(self._sdl, _CONDITIONS[kind])
-        if not self._can & number:
+        if not self._capabilities & number:
             return False
         coefficient = round(_MOST_COEFFICIENT * max(0.0, min(1.0, share)))
         if self._levels.get(kind, 0) == coefficient:
             return True
-        effect = self._condition(number, coefficient)
+        effect = self._condition_effect(number, coefficient)
         if kind in self._effects:
-            self._change(kind, effect)
+            self._update_effect(kind, effect)
         else:
-            self._start(kind, effect)
+            self._start_effect(kind, effect)
         self._levels[kind] = coefficient
         return True
 
     def close(self) -> None:
-        """Stop the motor; never raises."""
+        """Stop and close the motor, without raising an error."""
         if not self._haptic:
             return
         sdl, haptic = self._sdl, self._haptic
         if "constant" in self._effects:
             number, _ = self._effects["constant"]
-            sdl.SDL_HapticUpdateEffect(haptic, number, ctypes.byref(self._constant(0)))
+            sdl.SDL_HapticUpdateEffect(haptic, number, ctypes.byref(self._constant_effect(0)))
         for number, _ in self._effects.values():
             sdl.SDL_HapticStopEffect(haptic, number)
             sdl.SDL_HapticDestroyEffect(haptic, number)
@@ -85,7 +85,7 @@ class Motor:
         sdl.SDL_HapticClose(haptic)
         self._haptic = None
 
-    def _start(self, kind: str, effect: Any) -> None:
+    def _start_effect(self, kind: str, effect: Any) -> None:
         sdl = self._sdl
         number = sdl.SDL_HapticNewEffect(self._haptic, ctypes.byref(effect))
         if number < 0:
@@ -94,32 +94,32 @@ class Motor:
         if sdl.SDL_HapticRunEffect(self._haptic, number, 1) < 0:
             raise HostError(f"its motor does not start a {kind} force: SDL says “{last_error(sdl)}”")
 
-    def _change(self, kind: str, effect: Any) -> None:
+    def _update_effect(self, kind: str, effect: Any) -> None:
         number, _ = self._effects[kind]
         if self._sdl.SDL_HapticUpdateEffect(self._haptic, number, ctypes.byref(effect)) < 0:
             raise HostError(f"its motor refuses a {kind} force: SDL says “{last_error(self._sdl)}”")
         self._effects[kind] = number, effect
 
-    def _constant(self, level: int) -> Any:
+    def _constant_effect(self, level: int) -> Any:
         effect = self._sdl.SDL_HapticEffect()
         effect.type = self._sdl.SDL_HAPTIC_CONSTANT
-        self._direct(effect.constant.direction)
+        self._set_direction(effect.constant.direction)
         effect.constant.length = self._sdl.SDL_HAPTIC_INFINITY
         effect.constant.level = level
         return effect
 
-    def _condition(self, number: int, coefficient: int) -> Any:
+    def _condition_effect(self, number: int, coefficient: int) -> Any:
         effect = self._sdl.SDL_HapticEffect()
         effect.type = number
-        self._direct(effect.condition.direction)
+        self._set_direction(effect.condition.direction)
         effect.condition.length = self._sdl.SDL_HAPTIC_INFINITY
         for k in range(3):
             effect.condition.right_sat[k] = effect.condition.left_sat[k] = _FULL_SATURATION
             effect.condition.right_coeff[k] = effect.condition.left_coeff[k] = coefficient
         return effect
 
-    def _direct(self, direction: Any) -> None:
-        """SDL's directions are where a force comes from: a positive one from the right pushes to the left."""
+    def _set_direction(self, direction: Any) -> None:
+        """Set the direction from which a force comes: a positive one from the right pushes to the left."""
         version = self._sdl.SDL_version()
         self._sdl.SDL_GetVersion(ctypes.byref(version))
         if (version.major, version.minor, version.patch) >= _STEERING_AXIS_SINCE:

@@ -1,4 +1,4 @@
-"""The thread that reads devices, notices which are plugged in or out, and passes on their values."""
+"""The thread that reads devices, detects their connection and removal, and passes on their values."""
 
 import threading
 import time
@@ -12,7 +12,7 @@ from hosts.common.errors import HostError
 from hosts.simulator.devices import sdl as sdl_library
 from hosts.simulator.devices.defaults import default_mapping
 from hosts.simulator.devices.device import Device
-from hosts.simulator.devices.device_text import and_list, came
+from hosts.simulator.devices.device_text import and_list, connection_text
 from hosts.simulator.devices.identity import Identities
 from hosts.simulator.devices.joysticks import Joystick, Joysticks
 from hosts.simulator.devices.mapping import DeviceMapping
@@ -21,11 +21,11 @@ from hosts.simulator.devices.reading import Source
 from hosts.simulator.devices.steering import ANGLE_MAX, Steering
 
 PERIOD = 0.004
-"""s between two readings."""
+"""Time between two readings, s."""
 IDLE_PERIOD = 0.05
-"""s between two looks for devices while there is none."""
+"""Time between two searches while there is no device, s."""
 REPEAT = 0.25
-"""s after which values are sent again, for inputs that another source no longer drives."""
+"""Time after which values are sent again, s, for inputs that another source no longer drives."""
 _START_TIME = 5.0
 _END_TIME = 0.4
 TORQUE = "steering_wheel_torque"
@@ -40,10 +40,10 @@ class ArbiterLike(Protocol):
 
 
 class Reader:
-    """Reads devices while it runs.
+    """Reads devices in a thread.
 
-    `inputs`: that devices can drive, in the words of mappings; `torque`: as of `Devices`. `lock`: held while `devices`
-    or one of them is looked at or changed; `devices`: those that are plugged in, by `id`.
+    `inputs`: that devices can drive, by their names in mappings; `torque`: see `Devices`. `devices`: the connected
+    ones, by `id`; `lock`: to be held while they are read or changed.
     """
 
     def __init__(
@@ -61,13 +61,13 @@ class Reader:
         self.files = MappingFiles(folder)
         self._arbiter, self._steering, self._torque = arbiter, steering, torque
         self._identities = Identities(self.files.serial)
-        self._end, self._ready = threading.Event(), threading.Event()
+        self._stop, self._ready = threading.Event(), threading.Event()
         self._thread: threading.Thread | None = None
         self._sdl: Any = None
-        self._told_angle = False
+        self._angle_reported = False
 
     def start(self) -> None:
-        """Begin; returns when the devices that are there are known. Without SDL one sentence says so."""
+        """Start the thread, and wait until the connected devices are known. A message reports a missing SDL."""
         try:
             self._sdl = sdl_library.load()
         except HostError as error:
@@ -79,13 +79,13 @@ class Reader:
             self.tell(f"SDL has not found out within {_START_TIME:g} s which devices there are; it goes on looking.")
 
     def close(self) -> None:
-        """Let motors go and end all threads."""
-        self._end.set()
+        """Stop all motors and threads."""
+        self._stop.set()
         if self._thread is not None:
             self._thread.join(2.0 * _END_TIME)
 
     def _run(self) -> None:
-        """The thread: SDL wants all calls about joysticks from the thread that began."""
+        """Run in the thread, from which SDL requires all its joystick calls."""
         try:
             sdl_library.start(self._sdl)
         except HostError as error:
@@ -95,26 +95,26 @@ class Reader:
         joysticks = Joysticks(self._sdl)
         try:
             self._loop(joysticks)
-        except Exception as error:  # the car goes on, and nothing that was held stays held
-            why = str(error) if isinstance(error, UserError) else f"{type(error).__name__}: {error}."
-            self.tell(f"Devices are no longer read; the keyboard drives. {why}")
+        except Exception as error:  # the car goes on, and all inputs are released
+            reason = str(error) if isinstance(error, UserError) else f"{type(error).__name__}: {error}."
+            self.tell(f"Devices are no longer read; the keyboard drives. {reason}")
             for device in self.devices.values():
-                with suppress(Exception):  # perhaps it is the car that is gone
+                with suppress(Exception):  # the car may have ended
                     self._arbiter.gone(device.source)
         finally:
             with self.lock:
-                gone, self.devices = [*self.devices.values()], {}
-            for device in gone:
+                removed, self.devices = [*self.devices.values()], {}
+            for device in removed:
                 if device.force is not None:
-                    device.force.stop(0.0)  # all at once; waited for below
-            closed = [device.close(_END_TIME) for device in gone]
+                    device.force.stop(0.0)  # all at the same time; `close` waits for each
+            closed = [device.close(_END_TIME) for device in removed]
             if all(closed):
                 sdl_library.stop(self._sdl)
             self._ready.set()
 
     def _loop(self, joysticks: Joysticks) -> None:
         next_time = repeat = time.monotonic()
-        while not self._end.is_set():
+        while not self._stop.is_set():
             added, removed, refused = joysticks.update()
             for joystick in removed:
                 self._remove(joystick)
@@ -125,7 +125,7 @@ class Reader:
             now = time.monotonic()
             with self.lock:
                 for device in self.devices.values():
-                    self._follow(device, now, now >= repeat)
+                    self._read_device(device, now, now >= repeat)
             if now >= repeat:
                 repeat = now + REPEAT
             if not self._ready.is_set():
@@ -135,7 +135,7 @@ class Reader:
             next_time = max(now, next_time + (PERIOD if self.devices else IDLE_PERIOD))
             time.sleep(max(0.0, next_time - time.monotonic()))
 
-    def _follow(self, device: Device, now: float, everything: bool) -> None:
+    def _read_device(self, device: Device, now: float, everything: bool) -> None:
         """Read a device, advance its calibration or assignment, and request the inputs that it drives."""
         device.reading = device.joystick.read()
         if device.calibration is not None:
@@ -158,7 +158,7 @@ class Reader:
     def _add(self, joystick: Joystick) -> None:
         id = self._identities.take(joystick.guid, joystick.serial, joystick.path)
         labels = {device.label for device in self.devices.values()}
-        label = next(n for n in _labels(joystick.name) if n not in labels)
+        label = next(n for n in _unique_labels(joystick.name) if n not in labels)
         try:
             mapping, from_file = self.files.read(id), True
         except HostError as error:
@@ -169,16 +169,16 @@ class Reader:
         device = Device(id, label, joystick, mapping, self.inputs, self._steering)
         with self.lock:
             self.devices[id] = device
-        self.tell(came(label, joystick.kind, mapping, from_file, self.inputs))
+        self.tell(connection_text(label, joystick.kind, mapping, from_file, self.inputs))
         missing = [m.source for m in mapping.inputs.values() if not Source.read(m.source).is_in(device.reading)]
         if missing:
             self.tell(f"{label} has no {and_list(missing)}, as its file says; it has {device.reading.counts()}.")
-        if mapping.settings.rotation and self._steering.says_no_angle and not self._told_angle:
-            self._told_angle = True
+        if mapping.settings.rotation and self._steering.lacks_angle and not self._angle_reported:
+            self._angle_reported = True
             self.tell(f"The car does not say {ANGLE_MAX}, so a wheel's whole turn is full steering.")
-        self._begin_force(device)
+        self._start_force(device)
 
-    def _begin_force(self, device: Device) -> None:
+    def _start_force(self, device: Device) -> None:
         joystick = device.joystick
         if joystick.kind == "gamepad" or self._sdl.SDL_JoystickIsHaptic(joystick.handle) <= 0:
             return
@@ -187,9 +187,9 @@ class Reader:
             self.tell(f"{device.label} has a motor, but the car has no {TORQUE}: it gives no force.")
             return
 
-        def fail(why: str) -> None:
-            device.force_problem = why
-            self.tell(f"{device.label} goes on without force: {why}.")
+        def fail(reason: str) -> None:
+            device.force_problem = reason
+            self.tell(f"{device.label} goes on without force: {reason}.")
 
         device.start_force(self._torque, fail)
 
@@ -209,7 +209,7 @@ class Reader:
         return default_mapping(joystick.kind, joystick.read(), joystick.bindings, self.inputs)
 
     def let_go(self, device: Device) -> None:
-        """Release the inputs that the device drives; what is moved again drives again."""
+        """Release the inputs that the device drives until they are moved again."""
         device.sleep(list(device.mapping.inputs))
         self._arbiter.gone(device.source)
 
@@ -225,7 +225,7 @@ class Reader:
             self.tell(f"{error} What was set for {device.label} holds until it is pulled out.")
 
 
-def _labels(name: str) -> Iterator[str]:
+def _unique_labels(name: str) -> Iterator[str]:
     yield name
     number = 2
     while True:

@@ -1,4 +1,4 @@
-"""SDL, which reads wheels, pedals and gamepads and moves their motors."""
+"""Loads and starts SDL, the library that reads wheels, pedals and gamepads and moves their motors."""
 
 import warnings
 from typing import Any
@@ -6,28 +6,28 @@ from typing import Any
 from hosts.common.errors import HostError
 
 _HINTS = {
-    "SDL_NO_SIGNAL_HANDLERS": "1",  # else SDL takes Ctrl+C and SIGTERM away from the program
-    "SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS": "1",  # there is no window that could have the focus
-    "SDL_JOYSTICK_THREAD": "1",  # Windows: messages about devices come without a window
+    "SDL_NO_SIGNAL_HANDLERS": "1",  # else SDL handles Ctrl+C and SIGTERM
+    "SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS": "1",  # there is no window with the focus
+    "SDL_JOYSTICK_THREAD": "1",  # on Windows device messages need no window
 }
-_INSTEAD = "the keyboard, and gamepads in the page, still drive"
+_ALTERNATIVE = "the keyboard, and gamepads in the page, still drive"
 
 
 def load() -> Any:
     """The module `sdl2`, not yet initialised. Raises `HostError`: SDL is not installed or cannot be loaded."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # PySDL2 says which library it takes
+            warnings.simplefilter("ignore")  # PySDL2 warns of the library that it loads
             import sdl2
     except ModuleNotFoundError:
         raise HostError(
             "Wheels, pedals and gamepads of this computer are not read, because PySDL2 is not installed: "
-            f"pip install 'ali3[simulator]' brings it; {_INSTEAD}."
+            f"pip install 'ali3[simulator]' brings it; {_ALTERNATIVE}."
         ) from None
     except (ImportError, OSError, RuntimeError) as error:
         raise HostError(
             "Wheels, pedals and gamepads of this computer are not read, because SDL cannot be loaded "
-            f"({_line(error)}); {_INSTEAD}."
+            f"({_error_line(error)}); {_ALTERNATIVE}."
         ) from None
     for name, value in _HINTS.items():
         sdl2.SDL_SetHint(name.encode(), value.encode())
@@ -35,21 +35,21 @@ def load() -> Any:
 
 
 def start(sdl: Any) -> None:
-    """Begin to look for devices, without video; to be called by the thread that reads them.
+    """Start the search for devices, without video, in the thread that reads them.
 
-    Raises `HostError`: SDL cannot look for devices.
+    Raises `HostError`: SDL cannot start.
     """
-    # The layer of game controllers is there for its table of triggers and sticks only; values are read from joysticks.
+    # Game controllers only give the mapping strings of gamepads; values are read from joysticks.
     if sdl.SDL_InitSubSystem(sdl.SDL_INIT_JOYSTICK | sdl.SDL_INIT_GAMECONTROLLER) != 0:
         raise HostError(
-            f"Wheels, pedals and gamepads of this computer are not read: SDL says “{last_error(sdl)}”; {_INSTEAD}."
+            f"Wheels, pedals and gamepads of this computer are not read: SDL says “{last_error(sdl)}”; {_ALTERNATIVE}."
         )
-    # Without haptics devices are still read.
+    # Devices can be read without haptics.
     sdl.SDL_InitSubSystem(sdl.SDL_INIT_HAPTIC)
 
 
 def stop(sdl: Any) -> None:
-    """End what `start` began, by the same thread."""
+    """Stop SDL, in the thread that has started it."""
     if sdl.SDL_WasInit(sdl.SDL_INIT_HAPTIC):
         sdl.SDL_QuitSubSystem(sdl.SDL_INIT_HAPTIC)
     sdl.SDL_QuitSubSystem(sdl.SDL_INIT_JOYSTICK | sdl.SDL_INIT_GAMECONTROLLER)
@@ -61,10 +61,10 @@ def last_error(sdl: Any) -> str:
 
 
 def text(value: bytes | None) -> str:
-    """A text of SDL, empty where it has none."""
+    """A text of SDL; empty for a null pointer."""
     return (value or b"").decode("utf-8", "replace").strip()
 
 
-def _line(error: Exception) -> str:
-    words = str(error).strip().splitlines()
-    return words[0].rstrip(".") if words else type(error).__name__
+def _error_line(error: Exception) -> str:
+    lines = str(error).strip().splitlines()
+    return lines[0].rstrip(".") if lines else type(error).__name__

@@ -100,15 +100,15 @@ def test_rows_that_come_one_by_one():
     ]
     derivation = Derivation(derived[::-1], ("w", "x", "y", "z"))
     assert set(derivation.names) == {"yaw", "rate", "twice"}
-    rows = np.array([derivation.live(t, q) for t, q in zip(TIME, Q.T, strict=True)])
+    rows = np.array([derivation.update(t, q) for t, q in zip(TIME, Q.T, strict=True)])
     columns = dict(zip(derivation.names, rows.T, strict=True))
     assert columns["yaw"] == pytest.approx(YAW, abs=1e-9)
     assert np.isnan(columns["rate"][0])
     assert columns["rate"][1:] == pytest.approx(3.0, abs=1e-6)
     assert columns["twice"][1:] == pytest.approx(6.0, abs=1e-6)
-    again = dict(zip(derivation.names, derivation.live(TIME[-1], Q[:, -1]), strict=True))
+    again = dict(zip(derivation.names, derivation.update(TIME[-1], Q[:, -1]), strict=True))
     assert again["rate"] == pytest.approx(3.0, abs=1e-6)
-    first = dict(zip(derivation.names, derivation.live(0.0, Q[:, 0]), strict=True))
+    first = dict(zip(derivation.names, derivation.update(0.0, Q[:, 0]), strict=True))
     assert first["yaw"] == pytest.approx(0.0, abs=1e-12)
     assert np.isnan(first["rate"])
 

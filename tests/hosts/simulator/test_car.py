@@ -192,7 +192,7 @@ def test_a_refused_step_pauses_and_a_rewind_runs_on(make: Made) -> None:
 
 def test_nobody_takes_the_events_and_the_car_drives_on(make: Made) -> None:
     car = make()
-    assert car._mail is not None
+    assert car._messages is not None
     for _ in range(200):  # batches that the queue of commands holds
         for _ in range(20):
             car.command("rewind", 1.0)

@@ -76,7 +76,7 @@ def test_states_between_lead_to_the_same_bits(fmu: Callable[[str], Path], tmp_pa
     last, actual = last_drive(drive), []
     for there in (True, False):
         with Repeater(drive) as repeater:
-            assert len(list(repeater.along(last, 9700))) == (200 if there else 9700)
+            assert len(list(repeater.go_to(last, 9700))) == (200 if there else 9700)
             actual.append(repeater.fmu.state_bytes())
         shutil.rmtree(folder / "states", ignore_errors=True)
     assert actual[0] == actual[1]
@@ -86,7 +86,7 @@ def test_states_between_lead_to_the_same_bits(fmu: Callable[[str], Path], tmp_pa
     (folder / "states" / "1-10000.state").write_bytes(b"of another build")
     (folder / "recording.json").write_text(json.dumps(meta | {"guid": "{another}"}))
     with Repeater(read_recording(folder)) as repeater:
-        assert len(list(repeater.along(last, 9700))) == 9700
+        assert len(list(repeater.go_to(last, 9700))) == 9700
 
 
 @pytest.mark.slow
@@ -114,7 +114,7 @@ def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_foun
     assert (replayed.rows, replayed.different) == (3151, 0)
     with Repeater(drive) as repeater:
         get = repeater.fmu.getter(outputs)
-        for count in repeater.along(last_drive(drive), 3150):
+        for count in repeater.go_to(last_drive(drive), 3150):
             if count + 1 in seen:
                 assert np.array(get()).tobytes() == seen.pop(count + 1)
     assert seen == {}
@@ -147,7 +147,7 @@ def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
     with Car(settings(fmu("sledge"), tmp_path / "drive", paced=True)) as car:
         steps(car, 200)
         stall.set()
-        until(car, lambda _: car._mail is not None and car._shared.rows.has_room())
+        until(car, lambda _: car._messages is not None and car._shared.rows.has_room())
         lost = [e for e in car.events() if e.kind == "overflow"]
     lost += [e for e in car.events() if e.kind == "overflow"]
     number = int(lost[-1].text.split()[0])

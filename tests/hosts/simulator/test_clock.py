@@ -11,7 +11,7 @@ import pytest
 
 import hosts.simulator.priority as room
 from hosts.simulator.clock import Clock, LinuxClock, SleepingClock, make_clock
-from hosts.simulator.priority import ask_for_priority
+from hosts.simulator.priority import request_priority
 
 _LINUX = pytest.mark.skipif(sys.platform != "linux", reason="clock_nanosleep")
 _CLOCKS = [pytest.param(LinuxClock, marks=_LINUX), SleepingClock, make_clock]
@@ -76,10 +76,10 @@ def test_the_obtained_priority_is_reported(monkeypatch: pytest.MonkeyPatch) -> N
         monkeypatch.setattr(room, name, lambda name=name, message=message: tried.append(name) or message)
     if sys.platform == "win32":
         pytest.skip("the calls of POSIX")
-    assert "no priority above the usual" in ask_for_priority()
+    assert "no priority above the usual" in request_priority()
     assert tried == ["_fifo", "_nice", "_keep_memory"]
     monkeypatch.setattr(room, "_nice", lambda: "nice.")
-    assert ask_for_priority() == "nice."
+    assert request_priority() == "nice."
     monkeypatch.setattr(room, "_fifo", lambda: "first in, first out.")
     monkeypatch.setattr(room, "_keep_memory", lambda: "Locked.")
-    assert ask_for_priority() == "first in, first out. Locked."
+    assert request_priority() == "first in, first out. Locked."

@@ -14,7 +14,7 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.last_drive import last_drive
 from hosts.recordings.load_manoeuvre import load_manoeuvre
-from hosts.recordings.manoeuvre_export import to_manoeuvre
+from hosts.recordings.manoeuvre_export import export_manoeuvre
 from hosts.recordings.recorded_columns import recorded_columns
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 from hosts.recordings.recording import Recorder, recording_meta
@@ -86,7 +86,7 @@ def test_a_recording_that_begins_with_a_state(fmus: dict[str, Path], tmp_path: P
     drive.close()
     assert replay(read_recording(tmp_path / "second")).different == 0
     out = tmp_path / "again.csv"
-    assert to_manoeuvre(read_recording(tmp_path / "second"), out) == [out, tmp_path / "again.state"]
+    assert export_manoeuvre(read_recording(tmp_path / "second"), out) == [out, tmp_path / "again.state"]
     assert_driven_again(fmus["sledge"], out, tmp_path / "second", 40)
     (tmp_path / "second" / "start.state").unlink()
     assert replay(read_recording(tmp_path / "second")).different > 0
@@ -116,7 +116,7 @@ def test_outputs_are_recorded_seldom(fmus: dict[str, Path], tmp_path: Path) -> N
     (folder / "states").mkdir()
     (folder / "states" / f"{last.epoch[row]}-{last.count[row]}.state").write_bytes(b"damaged")
     with pytest.raises(HostError, match="refused a saved state"):
-        to_manoeuvre(drive, tmp_path / "part.csv", 0.7)
+        export_manoeuvre(drive, tmp_path / "part.csv", 0.7)
 
 
 def test_what_of_a_car_is_recorded(fmus: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
@@ -151,7 +151,7 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
     """Since the last start, without what was rewound; from the folder, from a file, and a part with its state."""
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     drive, out = read_recording(folder), tmp_path / "last.csv"
-    assert to_manoeuvre(drive, out) == [out]
+    assert export_manoeuvre(drive, out) == [out]
     for source in (out, folder):
         manoeuvre = load_manoeuvre(str(source))
         assert manoeuvre.stop_time == pytest.approx(0.55)
@@ -167,12 +167,12 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
         n = len(drive.inputs)
         assert np.array_equal(result.values[0, n:], rows.values[kept][0, n:])
     part = tmp_path / "part.csv"
-    assert to_manoeuvre(drive, part, 0.36, 0.66) == [part, tmp_path / "part.state"]
+    assert export_manoeuvre(drive, part, 0.36, 0.66) == [part, tmp_path / "part.state"]
     with Fmu(fmus["sledge"]) as again:
         result = run(again, load_manoeuvre(str(part)), STEP)
     assert np.array_equal(as_recorded(result, drive), rows.values[kept][21:51])
     with pytest.raises(HostError, match="no step between these times in the last drive"):
-        to_manoeuvre(drive, part, 0.9)
+        export_manoeuvre(drive, part, 0.9)
 
 
 def test_a_step_that_was_refused_is_refused_again(fmus: dict[str, Path], tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ import pytest
 
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
-from hosts.recordings.manoeuvre_export import to_manoeuvre
+from hosts.recordings.manoeuvre_export import export_manoeuvre
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 from hosts.recordings.recorded_view import recorded_view
 from hosts.recordings.recording import Recorder
@@ -230,7 +230,7 @@ def test_missing_rows_are_reported(fmus: dict[str, Path], tmp_path: Path) -> Non
     with pytest.raises(HostError, match="3 rows are missing after step 10"):
         replay(recorded)
     with pytest.raises(HostError, match="3 rows are missing after step 10"):
-        to_manoeuvre(recorded, tmp_path / "m.csv")
+        export_manoeuvre(recorded, tmp_path / "m.csv")
 
 
 def test_the_command_shows_repeats_and_makes_a_manoeuvre(
