@@ -2,14 +2,14 @@
 import { el, whole, write } from "../common/dom.js";
 import { Gauge } from "./gauges.js";
 
-/** Outputs of the speed of what drives, the first that there is. */
-const TURNS = ["engine_speed", "motor_speed"];
+/** Outputs of the speed of the engine or motor; the first existing one is shown. */
+const SPEEDS = ["engine_speed", "motor_speed"];
 const RPM = 30 / Math.PI;
-/** Revolutions at the end of the bar before more was seen, rpm; and the share from which on it is red. */
-const [REVOLUTIONS, RED] = [6000, 0.92];
+/** Initial end of the bar of the engine speed, rpm, and share from which it is red. */
+const [LARGEST_RPM, RED] = [6000, 0.92];
 const BARS = { brake: "#ff5a4d", throttle: "#59d07a", hand_brake: "#ffb03b" };
 
-/** Instruments of a car; what an FMU has no output for is left out. */
+/** Instruments of a car, as far as the FMU has outputs for them. */
 export class Cluster {
   /** @param {Set<string>} names - Columns of the FMU. */
   constructor(names) {
@@ -17,9 +17,9 @@ export class Cluster {
     this._names = names;
     this._speed = el("b", { data: "speed" });
     this._gear = el("span.a3-gear", { data: "gear" });
-    this._turns = TURNS.find((name) => names.has(name));
+    this._turns = SPEEDS.find((name) => names.has(name));
     this._revolutions = new Gauge({ data: "revolutions", colour: "#7fc4ff" });
-    this._most = REVOLUTIONS;
+    this._most = LARGEST_RPM;
     this._pedals = Object.entries(BARS)
       .map(([name, colour]) => ({ column: used(name), gauge: new Gauge({ data: `pedal ${name}`, label: name.replace("_", " "), way: "up", colour }) }))
       .filter(({ column }) => column);
@@ -56,7 +56,7 @@ export class Cluster {
 }
 
 /**
- * The gear in a word: R, N, or its number.
+ * Text of the gear: R, N, or its number.
  * @param {(name: string) => number} lookup
  * @param {{selector?: string, gear?: string}} columns - Those that the FMU has.
  */

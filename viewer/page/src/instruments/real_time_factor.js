@@ -1,11 +1,11 @@
 // The real-time factor of a run as text.
 import { short } from "../common/dom.js";
 
-/** Beyond this the machine does not keep up. */
+/** Ratio to the requested speed below which the machine is too slow. */
 const SLOW = 0.97;
 
 /**
- * What the machine does, in words; a warning where it is slower than asked for.
+ * Text of the real-time factor, and a warning if the machine is too slow.
  * @param {{running: boolean, speed: number, factor: number | null}} pace `factor`: simulated seconds per second of the clock
  */
 export function realTimeText({ running, speed, factor }) {

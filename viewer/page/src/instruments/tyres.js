@@ -1,12 +1,11 @@
-// The four tyres from above: load as the size of a circle, forces in the plane as an arrow, use of friction as colour.
+// Diagram of the four tyres from above: load as a circle, horizontal force as an arrow, use of friction as colour.
 import { svg, whole, write } from "../common/dom.js";
 
-/** Half the side of the drawing, and radius of a circle at the mean load of a wheel at rest, in its units. */
+/** Half the side of the drawing, and radius of the circle of the mean load, in units of the drawing. */
 const [HALF, RADIUS] = [50, 13];
-/** Places by the last letters of a wheel's name; ahead is up. */
+/** Positions by the last letters of the name of a wheel; forward is up. */
 const PLACES = { FL: [-26, -29], FR: [26, -29], RL: [-26, 19], RR: [26, 19] };
-/** From no use of friction to all of it. */
-/** @type {[number, number[]][]} */
+/** Colours by the use of friction, 0 to 1. @type {[number, number[]][]} */
 const COLOURS = [[0, [64, 150, 90]], [0.5, [110, 190, 90]], [0.8, [245, 190, 60]], [1, [232, 60, 45]]]; // prettier-ignore
 
 /** Colour where the friction is not known. */
@@ -22,7 +21,7 @@ export function useColour(use) {
   return `rgb(${a.map((part, i) => Math.round(part + s * (b[i] - part))).join(",")})`;
 }
 
-/** Wheels of an FMU: what is before `.Fz` in the names of its outputs. @param {Iterable<string>} names */
+/** Names of the wheels of an FMU, which has outputs `<wheel>.Fz`. @param {Iterable<string>} names */
 export function wheelsOf(names) {
   return [...names].map((name) => /^(.*)\.Fz$/.exec(name)?.[1]).filter(Boolean);
 }
@@ -31,11 +30,11 @@ export function wheelsOf(names) {
 export class Tyres {
   /**
    * @param {string[]} wheels - Their names.
-   * @param {(at: number[], wheel: string) => number} friction - Largest force over the load of a wheel at a place of the earth.
+   * @param {(at: number[], wheel: string) => number} friction - Largest force over the load of a wheel at a point.
    */
   constructor(wheels, friction) {
     this._friction = friction;
-    this._mean = 0; // N, load of a wheel; follows slowly
+    this._mean = 0; // smoothed mean load of a wheel, N
     this._items = wheels.slice(0, 4).map((name, k) => {
       const [x, y] = PLACES[name.slice(-2)] ?? PLACES[Object.keys(PLACES)[k]];
       const circle = svg("circle", { cx: x, cy: y, r: 0, "fill-opacity": 0.85, stroke: "#fff", "stroke-width": 0.8 });
@@ -52,7 +51,7 @@ export class Tyres {
     this.element.style.display = wheels.length ? "" : "none";
   }
 
-  /** Share of the friction that each wheel uses. @returns {Object<string, number>} */
+  /** Used share of friction by wheel. @returns {Object<string, number>} */
   get uses() {
     return Object.fromEntries(this._items.map(({ name, use }) => [name, use]));
   }
@@ -84,7 +83,7 @@ export class Tyres {
   }
 }
 
-/** From the axes of a wheel, which is steered to the left, to those of the car; on the screen y goes down. */
+/** Vector in axes of the car from that in axes of a wheel steered to the left; y is down on the screen. */
 function turned([x, y], steer) {
   const [c, s] = [Math.cos(steer), Math.sin(steer)];
   return [c * x + s * y, -s * x + c * y];
