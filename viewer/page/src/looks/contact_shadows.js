@@ -1,4 +1,4 @@
-// Contact shadows: soft dark areas of the ground below the body and below each wheel, at every quality.
+// Contact shadows: soft dark areas on the ground below the body and each wheel.
 import * as THREE from "three";
 import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
 import { discard } from "./discard.js";
@@ -6,20 +6,20 @@ import { laid, LIFT } from "./ground_offset.js";
 import { groundHeight } from "./road_height.js";
 import { atEachPixel, atEachPoint } from "./vertex_code.js";
 
-/** How dark the middle of a shadow is, of the body and of a wheel, beside shadows of the sun and in place of them. */
+/** Darkness of the middle of shadows of body and wheel, with shadows of the sun and without. */
 const [BESIDE, ALONE] = [[0.4, 0.6], [0.62, 0.62]]; // prettier-ignore
-/** Sides of the body's shadow beside those of the rectangle of its wheels, and of a wheel's beside its radius and width. */
+/** Size of the shadow of the body relative to the rectangle of its wheels, and of a wheel relative to its radius and width. */
 const [LONG, WIDE, TREAD, FLANK] = [1.42, 1.2, 1.3, 1.3];
-/** Share of the distance by which a shadow is drawn nearer: above paint, below tyre marks. */
+/** Depth offset as a share of the distance, between those of paint and tyre marks. */
 const NEARER = 0.005;
-/** Metres above the ground at which a body throws half of its shadow. */
+/** Height of a body with half of the darkness, m. */
 const FADE = 1;
 
 const DARK = /* glsl */ `
 vec2 inside = 1.0 - vCorner * vCorner;
 diffuseColor.a *= vDark * smoothstep(0.0, 0.55, inside.x * inside.y);`;
 
-/** @param {Data} view the SceneView */
+/** Makes the shadows. @param {Data} view the SceneView */
 export function contactShadows(view) {
   const { scene, parts, up } = view;
   const wheels = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
@@ -46,7 +46,7 @@ export function contactShadows(view) {
   };
   return {
     mesh,
-    /** @param {number[]} origin earth position of the picture's origin @param {boolean} alone no shadows of the sun */
+    /** @param {number[]} origin earth position of the origin of the picture, m @param {boolean} alone without shadows of the sun */
     follow(origin, alone) {
       const [body, wheel] = alone ? ALONE : BESIDE;
       const centres = wheels.map(({ frame, at }) => parts.frames.point(frame, at ?? [0, 0, 0]));
@@ -63,7 +63,7 @@ export function contactShadows(view) {
       });
       const middle = add(add(scale(forward, spread[0][0]), scale(left, spread[1][0])), scale(up, least));
       const radius = wheels[0].radius;
-      const long = spread[1][1] > radius ? LONG : 1; // what has its wheels in one line does not reach beyond them
+      const long = spread[1][1] > radius ? LONG : 1; // a vehicle with wheels in one line does not extend beyond them
       put(0, middle, scale(forward, long * spread[0][1] + radius), scale(left, WIDE * spread[1][1] + 0.3 * radius), body, origin, least);
       centres.forEach((centre, k) => {
         const bottom = add(centre, scale(up, -wheels[k].radius));
