@@ -1,17 +1,17 @@
-// Signs with texts: all texts of a world in one texture.
+// Makes signs; all their texts are in one texture.
 import * as THREE from "three";
 import { el } from "../../common/dom.js";
 
-/** Pixels of the board of one text. */
+/** Size of the board of a text, pixels. */
 const [WIDE, HIGH] = [256, 128];
 const COLUMNS = 4;
-/** Texts that find place in the picture. */
+/** Largest number of texts in the texture. */
 export const MOST_TEXTS = 128;
-/** Sides of a board, in metres. */
+/** Sides of a board, m. */
 const BOARD = [1.8, 0.9];
 const GREY = [0.3, 0.31, 0.32];
 
-/** Lines of a text: at most three, as even as its words let them be. @param {string} text */
+/** Lines of a text, at most three, of similar length. @param {string} text */
 export function lines(text) {
   const words = text.trim().split(/\s+/);
   const count = Math.min(words.length, text.length <= 11 ? 1 : text.length <= 26 ? 2 : 3);
@@ -29,7 +29,7 @@ export function lines(text) {
   return found;
 }
 
-/** @param {string[]} texts each once @returns {THREE.CanvasTexture} */
+/** Makes the texture. @param {string[]} texts each once @returns {THREE.CanvasTexture} */
 export function signTexture(texts) {
   const canvas = el("canvas");
   canvas.width = COLUMNS * WIDE;
@@ -58,7 +58,7 @@ export function signTexture(texts) {
 }
 
 /**
- * One sign: its board, which faces whoever looks along the yaw, and its back and posts.
+ * Adds a sign: its board, which faces a reader looking along the yaw, its back and posts.
  * @param {import("./triangles.js").Triangles} boards @param {import("./triangles.js").Triangles} posts
  * @param {Data} sign @param {number} index of its text @param {number} count of all texts
  */
@@ -75,7 +75,7 @@ export function addSign(boards, posts, { at, yaw, height = 2.5 }, index, count) 
   const rows = Math.ceil(count / COLUMNS);
   const [u, v] = [(index % COLUMNS) / COLUMNS, 1 - Math.floor(index / COLUMNS) / rows];
   const uvs = [[u, v - 1 / rows], [u + 1 / COLUMNS, v - 1 / rows], [u + 1 / COLUMNS, v], [u, v]]; // prettier-ignore
-  // The reader's left is the board's left.
+  // The left of the reader is the left of the board.
   boards.quad([corner(w, low, -0.02), corner(-w, low, -0.02), corner(-w, height, -0.02), corner(w, height, -0.02)], [1, 1, 1], uvs);
   posts.quad([corner(-w, low, 0.02), corner(w, low, 0.02), corner(w, height, 0.02), corner(-w, height, 0.02)], GREY);
   for (const aside of [-0.35 * wide, 0.35 * wide]) posts.box(corner(aside, -0.1, 0.05), [0.06, 0.06, height], yaw, GREY);

@@ -1,15 +1,16 @@
-// Guard rails and buildings.
+// Makes guard rails and buildings.
 import looks from "../../../../looks.json" with { type: "json" };
 import { randomNumbers } from "../../common/random.js";
 import { atEachPixel, atEachPoint } from "../vertex_code.js";
 
 const { zinc: ZINC, roof: ROOF } = looks.things;
-/** Across a rail, from below: outwards and up, of a rail of height 1 whose beam is its upper 0.4. */
+/** Cross section of the beam of a rail of height 1, from below: outward and up. */
 const BEAM = [[0.0, 0.6], [0.08, 0.66], [0.08, 0.72], [0.0, 0.8], [0.08, 0.88], [0.08, 0.94], [0.0, 1.0]]; // prettier-ignore
-/** Metres between the posts of a rail. */
+/** Distance of the posts of a rail, m. */
 const POSTS = 4;
 
 /**
+ * Adds a guard rail.
  * @param {import("./triangles.js").Triangles} triangles @param {{points: number[][], height?: number}} barrier
  * @param {boolean} [coarse] with a third of the points along and across
  */
@@ -40,7 +41,7 @@ export function addBarrier(triangles, { points: all, height = 0.8 }, coarse = fa
 
 const WALLS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 0.36, 0.27]]; // prettier-ignore
 
-/** A box with windows and a gable roof. @param {import("./triangles.js").Triangles} triangles places: metres of the wall, below zero where no windows are */
+/** Adds a box with windows and a gable roof. @param {import("./triangles.js").Triangles} triangles texture coordinates: m of the wall, negative without windows */
 export function addBuilding(triangles, { at, yaw, size }) {
   const [length, width, height] = size;
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
@@ -60,7 +61,7 @@ export function addBuilding(triangles, { at, yaw, size }) {
   }
 }
 
-/** Windows in a regular order, by the metres of a wall. @param {Data} shader of three.js */
+/** Adds windows at regular distances to a shader of walls. @param {Data} shader of three.js */
 export function windows(shader) {
   atEachPoint(shader, "varying vec2 vWall;", "vWall = uv;");
   atEachPixel(shader, "varying vec2 vWall;", {
