@@ -1,10 +1,10 @@
-// The wire of a coil spring: points and normals for any length; pure numbers.
+// Computes the surface of the wire of a coil spring of any length.
 import shapes from "../../../shapes.json" with { type: "json" };
 
 const { sides: AROUND, per_turn: PER_TURN } = shapes.spring;
 
 /**
- * Height of the wire's middle over a turn: end coils lie flat, the active ones share what is left.
+ * Height of the middle of the wire: end coils are flat, active coils have the remaining height.
  * @param {number} turn 0 to coils @param {number} coils @param {number} wire diameter @param {number} height length of the spring
  */
 export function heightAt(turn, coils, wire, height) {
@@ -16,7 +16,7 @@ export function heightAt(turn, coils, wire, height) {
   return wire / 2 + ends * flat + (active / (coils - 2 * dead)) * rest;
 }
 
-/** Triangles of a wire, by index. @param {number} coils @param {number} [every] ring and side is taken @returns {number[]} */
+/** Indices of the triangles of a wire. @param {number} coils @param {number} [every] stride of rings and sides @returns {number[]} */
 export function coilTriangles(coils, every = 1) {
   const last = Math.round(coils * PER_TURN);
   const sides = Array.from({ length: Math.floor(AROUND / every) }, (_, k) => k * every);
@@ -32,8 +32,8 @@ export function coilTriangles(coils, every = 1) {
 }
 
 /**
- * Points and normals of the wire about the y axis, from y = 0 on; it begins at z.
- * @param {{coils: number, radius: number, wire: number}} spring radius: of the wire's middle @param {number} height
+ * Points and normals of the wire about the y axis, from y = 0; the wire begins at z.
+ * @param {{coils: number, radius: number, wire: number}} spring radius: of the middle of the wire, m @param {number} height
  */
 export function coilSurface({ coils, radius, wire }, height) {
   const rings = Math.round(coils * PER_TURN) + 1;

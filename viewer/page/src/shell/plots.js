@@ -1,22 +1,21 @@
-// Beside the picture: a list of all signals to choose from, and a diagram for each unit of those chosen.
+// The plots beside the picture: a list of all signals, and a diagram for each unit of the chosen ones.
 import { Chart, palette } from "./chart.js";
 import { el, select } from "../common/dom.js";
 import { byUnit, found } from "./series.js";
 
 const LISTED = 300;
 const LOWEST = 130; // pixels of a diagram
-const EVERY = 120; // ms between two drawings of a live run
-/** How much of a live run is shown, s. @type {[number, string][]} */
+const EVERY = 120; // least interval of drawing a live run, ms
+/** Shown time spans of a live run, s. @type {[number, string][]} */
 const SPANS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [Infinity, "all"]]; // prettier-ignore
 
-/** The list of signals and the diagrams of those that are chosen. */
 export class Plots {
   span = SPANS[0][0];
   drawnAt = -Infinity;
 
   /**
    * @param {HTMLElement} parent @param {import("./shell.js").Shell} shell of the page
-   * @param {import("./shell.js").Source} source @param {string[]} chosen names at the start
+   * @param {import("./shell.js").Source} source @param {string[]} chosen names of initial signals
    */
   constructor(parent, shell, source, chosen) {
     this.shell = shell;
@@ -47,14 +46,14 @@ export class Plots {
     this._draw();
   }
 
-  /** @param {string[]} names that are plotted from now on */
+  /** Chooses the plotted signals. @param {string[]} names */
   choose(names) {
     this.chosen = names.filter((name) => this.names.includes(name));
     this._list();
     this._draw();
   }
 
-  /** Show the present time, and new values of a live run. @param {boolean} [all] at once, not after `EVERY` */
+  /** Shows the current time and new values of a live run. @param {boolean} [all] whether values are updated at once */
   now(all = false) {
     if (this.source.grows && (all || performance.now() - this.drawnAt > EVERY)) {
       this.drawnAt = performance.now();
