@@ -63,28 +63,23 @@ def largest_gap_of_motion(
     )
     largest_distance, largest_angle, distance_frame, angle_frame = 0.0, 0.0, "", ""
     for name, frame in scene["frames"].items():
+        distance = angle = 0.0
         if "position" in frame:
             squared_distance = np.zeros(len(samples))
             for column in frame["position"]:
                 x = columns[column]
                 squared_distance += (x[samples] - (x[a] + share * (x[b] - x[a]))) ** 2
             distance = float(np.sqrt(_largest(squared_distance)))
-            largest_distance, distance_frame = (
-                (distance, name) if distance > largest_distance else (largest_distance, distance_frame)
-            )
             q = np.stack([columns[column] for column in frame["quaternion"]])
             angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], share)
         elif "angle" in frame or "way" in frame:
             x = columns[frame.get("angle", frame.get("way"))]
-            angle = distance = _largest(np.abs(x[samples] - (x[a] + share * (x[b] - x[a]))))
-            if "way" in frame:
-                angle = 0.0
-                largest_distance, distance_frame = (
-                    (distance, name) if distance > largest_distance else (largest_distance, distance_frame)
-                )
-        else:
-            continue
-        largest_angle, angle_frame = (angle, name) if angle > largest_angle else (largest_angle, angle_frame)
+            error = _largest(np.abs(x[samples] - (x[a] + share * (x[b] - x[a]))))
+            distance, angle = (error, 0.0) if "way" in frame else (0.0, error)
+        if distance > largest_distance:
+            largest_distance, distance_frame = distance, name
+        if angle > largest_angle:
+            largest_angle, angle_frame = angle, name
     notes = []
     if largest_distance > _VISIBLE_DISTANCE * scene["extent"]:
         notes.append(f"the place of {distance_frame!r} by up to {largest_distance:.2g} m")
