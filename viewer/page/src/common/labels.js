@@ -3,7 +3,7 @@
 /** Vertical offsets of labels in their heights, in the order of trial, and horizontal distance from their dot, pixels. */
 const [OFFSETS, GAP] = [[0, 1, -1, 2, -2, 3, -3], 8];
 /** Half the side of a dot, pixels. */
-const DOT = 5;
+const DOT_HALF_SIDE = 5;
 /** Cost of overlap with dots or the outside of the picture, relative to that of labels with each other. */
 const DOT_COST = 10;
 /** Additional cost of each later position, and bonus of the previous position, both as shares of the area. */
@@ -22,7 +22,7 @@ const commonArea = (one, other) => [0, 1].map((k) => Math.max(0, Math.min(one[k 
  * @returns {{spot: string, left: number, top: number}[]}
  */
 export function besides(labels, picture, over = []) {
-  const dots = labels.map(({ at: [x, y] }) => [x - DOT, y - DOT, x + DOT, y + DOT]);
+  const dots = labels.map(({ at: [x, y] }) => [x - DOT_HALF_SIDE, y - DOT_HALF_SIDE, x + DOT_HALF_SIDE, y + DOT_HALF_SIDE]);
   const occupied = [...over];
   return labels.map(({ at: [x, y], size: [width, height], above: [share, more] = [0.5, 0], sides = [1, -1, 0], spot: now }) => {
     const area = width * height || 1; // 0 while the page is hidden

@@ -4,7 +4,7 @@ import { styled } from "../styles.js";
 import style from "./notices.css";
 
 /** Largest numbers of events and notes on the screen, and duration of events, s. */
-const [EVENTS, NOTES, DURATION] = [4, 4, 7];
+const [MAX_EVENTS, MAX_NOTES, DURATION] = [4, 4, 7];
 
 /** A sentence without its numbers. @param {string} text */
 const wordsOf = (text) => text.replace(/[\d.]+/g, "");
@@ -58,7 +58,7 @@ export class Notices {
     const last = this._events.lastElementChild;
     const line = last?.textContent === text ? last : el("div", {}, text);
     this._events.append(line);
-    while (this._events.childElementCount > EVENTS) this._events.firstElementChild.remove();
+    while (this._events.childElementCount > MAX_EVENTS) this._events.firstElementChild.remove();
     clearTimeout(this._ends.get(line));
     this._ends.set(line, setTimeout(() => line.remove(), 1000 * DURATION));
   }
@@ -67,7 +67,7 @@ export class Notices {
   note(text) {
     if (this.noted.includes(text)) return;
     this.noted.push(text);
-    const more = this.noted.length - NOTES;
+    const more = this.noted.length - MAX_NOTES;
     if (more > 1) this._notes.lastElementChild.remove();
     this._notes.append(el("div", {}, more > 0 ? `${more} more ${more > 1 ? "notes stand" : "note stands"} in the settings.` : text));
   }

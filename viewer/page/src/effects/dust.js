@@ -6,7 +6,7 @@ import { Cloud, KINDS } from "./cloud.js";
 import { Wheels } from "./wheels.js";
 
 /** Largest number of particles in the air. */
-const MOST = 700;
+const MAX_PARTICLES = 700;
 
 const VERTEX = /* glsl */ `
 attribute vec4 tint;
@@ -44,7 +44,7 @@ export class Dust {
    */
   constructor(view, options = {}) {
     this.view = view;
-    this.most = options.most ?? MOST;
+    this.most = options.most ?? MAX_PARTICLES;
     this.wheels = new Wheels(view.scene, options);
     /** Reason why there is no dust; empty if there is. */
     this.problem = this.wheels.problem;

@@ -4,15 +4,15 @@ import { apart } from "./wheels.js";
 /** Distance of sections, and the largest distance within a mark, m. */
 export const [STEP, GAP] = [0.12, 6];
 /** Darkness of a mark of a fully sliding tyre at its usual load. */
-const DARKEST = 0.8;
+const MAX_DARKNESS = 0.8;
 /** Load of the darkest mark, N. */
-const LOAD = 1500;
+const FULL_LOAD = 1500;
 
 /** Darkness of a mark, 0 to 1: 0 below the limit of the tyre, then rising with slip and load. */
-export const darkness = (use, load) => (use <= 1 ? 0 : DARKEST * Math.min(1, 0.35 + 0.65 * (use - 1)) * Math.min(1, load / LOAD));
+export const darkness = (use, load) => (use <= 1 ? 0 : MAX_DARKNESS * Math.min(1, 0.35 + 0.65 * (use - 1)) * Math.min(1, load / FULL_LOAD));
 
 /** Surfaces with marks; rubber does not adhere to slick or loose ones. */
-const MARKED = new Set(["asphalt", "concrete", "paint"]);
+const MARKED_SURFACES = new Set(["asphalt", "concrete", "paint"]);
 
 /** Ring buffers of sections of all wheels; new sections replace the oldest. */
 export class Tracks {
@@ -51,7 +51,7 @@ export class Tracks {
   }
 
   _extend(ring, contact, time) {
-    const dark = contact.touching && MARKED.has(contact.surface) ? darkness(contact.use, contact.load) : 0;
+    const dark = contact.touching && MARKED_SURFACES.has(contact.surface) ? darkness(contact.use, contact.load) : 0;
     const last = ring.count > 0 ? this.row(ring, ring.count - 1) : null;
     const distance = last === null ? Infinity : apart(contact.at, last.slice(0, 3));
     if (dark === 0 || (ring.open && distance > GAP)) {

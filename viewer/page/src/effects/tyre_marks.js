@@ -8,11 +8,11 @@ import { Tracks } from "./tracks.js";
 import { Wheels } from "./wheels.js";
 
 /** Largest number of sections of a wheel, for 500 m of marks. */
-const MOST = 4096;
+const MAX_SECTIONS = 4096;
 /** Stride of the sections that are drawn in a draft. */
 const DRAFT_STRIDE = 4;
 /** Largest distance of the focus from the base point of the marks, m. */
-const FAR = 500;
+const MAX_DISTANCE = 500;
 
 const RUBBER = /* glsl */ `
 float soft = max(fwidth(vMark.y), 1e-3);
@@ -30,7 +30,7 @@ export class TyreMarks {
    */
   constructor(view, options = {}) {
     this.view = view;
-    this.most = options.most ?? MOST;
+    this.most = options.most ?? MAX_SECTIONS;
     this.wheels = new Wheels(view.scene, options);
     /** Reason why there are no marks; empty if there are. */
     this.problem = this.wheels.problem;
@@ -63,7 +63,7 @@ export class TyreMarks {
     this.take(lookup, time, epoch);
     if (this.mesh === undefined) return;
     const { origin } = this.view;
-    if (this._base === null || Math.hypot(...subtract(origin, this._base)) > FAR) {
+    if (this._base === null || Math.hypot(...subtract(origin, this._base)) > MAX_DISTANCE) {
       this._base = [...origin];
       this._drawn = "";
     }

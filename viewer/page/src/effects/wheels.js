@@ -8,7 +8,7 @@ export const LIMITS = { slip: 0.139, lateral: 0.15 };
 /** Load below which a tyre has no marks, dust and sound, N. */
 export const LIGHT = 150;
 /** Speed below which slip, a quotient of small numbers, is ignored, m/s. */
-const CREEP = 0.3;
+const MIN_SPEED = 0.3;
 
 /**
  * Combined slip over the slip of the largest force; above 1 a tyre slides.
@@ -66,7 +66,7 @@ export class Wheels {
     const sliding = Math.hypot(slip * fastest, Math.sin(angle) * speed);
     return {
       touching: true, at, normal, side, load, slip, sliding, width, radius, speed: fastest,
-      use: fastest > CREEP ? use(slip, angle) : 0,
+      use: fastest > MIN_SPEED ? use(slip, angle) : 0,
       surface: this.surface(at[0], at[1]),
     }; // prettier-ignore
   }

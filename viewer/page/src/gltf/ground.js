@@ -11,13 +11,13 @@ import { floats } from "../scene/data.js";
 import { add, length, scale, subtract } from "../scene/math.js";
 
 /** Width of the drawn ground beside the path, m. */
-export const AROUND = 60;
+export const MARGIN = 60;
 /** Largest number of cells of a ground, and their least side, m. */
-const [MOST, FINEST] = [60000, 0.25];
+const [MAX_CELLS, MIN_CELL] = [60000, 0.25];
 /** Height of paths above the ground, m, which covers errors of the thinned ground and of the contact points. */
-const ABOVE = 0.05;
+const PATH_HEIGHT = 0.05;
 /** Distance of points of a path, as a share of the size of the scene. */
-const APART = 0.02;
+const POINT_DISTANCE = 0.02;
 
 const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks.paths;
 
@@ -34,7 +34,7 @@ function materialOf(name) {
 }
 
 /** Bounds of the drawn ground along x and y. @param {import("./run.js").Run} run @param {number[][]} axes */
-export const nearby = (run, axes) => axes.slice(0, 2).map((axis) => run.extentAlong(axis)).map(([low, high]) => [low - AROUND, high + AROUND]); // prettier-ignore
+export const nearby = (run, axes) => axes.slice(0, 2).map((axis) => run.extentAlong(axis)).map(([low, high]) => [low - MARGIN, high + MARGIN]); // prettier-ignore
 
 /** Mesh of a level or inclined road or a profile, to twice the size of the scene beyond the frames. @param {Data} road @param {import("./run.js").Run} run @param {number[]} up @returns {THREE.Mesh} */
 export function plainRoad(road, run, up) {
@@ -58,7 +58,7 @@ function cut(patch, ways) {
 }
 
 /**
- * Meshes of patches in a rectangle, thinned to at most `MOST` cells.
+ * Meshes of patches in a rectangle, thinned to at most `MAX_CELLS` cells.
  * @param {import("../looks/heights.js").Patch[]} patches @param {number[][]} ways low and high along x and y @param {(x: number, y: number) => string} nameAt name of the surface
  * @param {number} [border] continuation at both ends along x, m
  * @returns {{parts: Map<THREE.Material, THREE.BufferGeometry>, base: number[], error: number}} base: origin of
@@ -66,11 +66,11 @@ function cut(patch, ways) {
  */
 function meshesOf(patches, ways, nameAt, border = 0) {
   const inside = patches.map((patch) => cut(patch, ways)).filter((part) => part !== null);
-  let spacing = FINEST;
+  let spacing = MIN_CELL;
   const stride = ({ patch }) => Math.max(1, Math.round(spacing / Math.sqrt(patch.spacing[0] * patch.spacing[1])));
   const lines = (part) => [part.n, part.m].map((n, k) => strided(n, stride(part)).map((line) => line + [part.i0, part.j0][k]));
   const cells = (part) => lines(part).reduce((product, { length: n }) => product * (n - 1), 1);
-  while (inside.reduce((sum, part) => sum + cells(part), 0) > MOST) spacing *= 2;
+  while (inside.reduce((sum, part) => sum + cells(part), 0) > MAX_CELLS) spacing *= 2;
   const base = [...ways.map(([low, high]) => Math.round(0.5 * (low + high))), 0];
   /** @type {Object<string, {positions: number[], index: number[]}>} */
   const sheets = {};
@@ -137,7 +137,7 @@ export function paths(run, up) {
     const kept = [];
     points.forEach((point, k) => {
       const last = kept[kept.length - 1];
-      if (k === 0 || epoch[at[k]] !== epoch[at[last]] || length(subtract(point, points[last])) >= APART * scene.extent) kept.push(k);
+      if (k === 0 || epoch[at[k]] !== epoch[at[last]] || length(subtract(point, points[last])) >= POINT_DISTANCE * scene.extent) kept.push(k);
     });
     const [stretch, epochs, which] = [kept.map((k) => points[k]), kept.map((k) => epoch[at[k]]), Math.min(n, 1)];
     if (stretch.length < 2) return [];
@@ -146,7 +146,7 @@ export function paths(run, up) {
     geometry.setIndex(ribbonTriangles(epochs));
     const look = { name: "path", color: [BODY, WHEEL][which], opacity: OPACITIES[which], transparent: true, side: THREE.DoubleSide };
     const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial(look));
-    mesh.position.fromArray(add(stretch[0], scale(up, ABOVE - LIFT)));
+    mesh.position.fromArray(add(stretch[0], scale(up, PATH_HEIGHT - LIFT)));
     return [{ name: n === 0 ? "path" : `path ${frames[n - 1]}`, mesh }];
   });
 }

@@ -9,7 +9,7 @@ import { unit } from "../scene/math.js";
 import { makeShape } from "../shapes/index.js";
 import { File } from "./file.js";
 import { flexible } from "./flexible.js";
-import { AROUND, heights, nearby, paths, plainRoad } from "./ground.js";
+import { MARGIN, heights, nearby, paths, plainRoad } from "./ground.js";
 import { fixed, lean, meshOf, moving } from "./meshes.js";
 import { keptTimes } from "./motion.js";
 import { Run } from "./run.js";
@@ -81,7 +81,7 @@ function addGround() {
     else {
       const { axes, parts, base, error } = heights(entry, run, up);
       addFixed(title, toEarth(meshOf(parts), base, axes));
-      notes.push(`Of the ${title}, what is within ${AROUND} m of the way is drawn; its heights are up to ${rounded(1000 * error, 2)} mm off.`);
+      notes.push(`Of the ${title}, what is within ${MARGIN} m of the way is drawn; its heights are up to ${rounded(1000 * error, 2)} mm off.`);
     }
   }
   const axes = [...groundAxes({}, up), up];

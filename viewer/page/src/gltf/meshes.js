@@ -7,14 +7,14 @@ import { continuous, leastTwist } from "./motion.js";
 import { row } from "./run.js";
 
 /** Distance of points that are merged, m; relative deviation of a point that is fixed in a frame. */
-const [MERGED, FIXED] = [1e-7, 1e-9];
+const [MERGE_DISTANCE, FIXED_DEVIATION] = [1e-7, 1e-9];
 
 /** A mesh, with the frame that it is fixed in or its motion in the earth. @typedef {{mesh: THREE.Mesh, frame?: string, motion?: import("./motion.js").Motion, bent?: number}} Piece */
 
 /** Geometry with equal points merged, without degenerate triangles and unused attributes. @param {THREE.BufferGeometry} geometry */
 export function lean(geometry) {
   for (const name of Object.keys(geometry.attributes)) if (!["position", "normal", "color"].includes(name)) geometry.deleteAttribute(name);
-  const merged = mergeVertices(geometry, MERGED);
+  const merged = mergeVertices(geometry, MERGE_DISTANCE);
   const [kept, triangle] = [[], new THREE.Triangle()];
   for (let i = 0; i < merged.index.count; i += 3) {
     const corners = [0, 1, 2].map((k) => merged.index.getX(i + k));
@@ -107,7 +107,7 @@ function fixtureOf(positions, known, run) {
   for (const frame of known) {
     const place = within(frame, 0);
     let isFixed = true;
-    for (let k = 0; k < run.count && isFixed; k++) isFixed = length(subtract(within(frame, k), place)) <= FIXED * (1 + length(row(positions, k, 3)));
+    for (let k = 0; k < run.count && isFixed; k++) isFixed = length(subtract(within(frame, k), place)) <= FIXED_DEVIATION * (1 + length(row(positions, k, 3)));
     if (isFixed) return { frame, place };
   }
   return null;

@@ -6,7 +6,7 @@ import { Gauge } from "./gauges.js";
 const SPEEDS = ["engine_speed", "motor_speed"];
 const RPM = 30 / Math.PI;
 /** Initial end of the bar of the engine speed, rpm, and share from which it is red. */
-const [LARGEST_RPM, RED] = [6000, 0.92];
+const [INITIAL_RPM, RED_SHARE] = [6000, 0.92];
 const BARS = { brake: "#ff5a4d", throttle: "#59d07a", hand_brake: "#ffb03b" };
 
 /** Instruments of a car, as far as the FMU has outputs for them. */
@@ -19,7 +19,7 @@ export class Cluster {
     this._gear = el("span.a3-gear", { data: "gear" });
     this._turns = SPEEDS.find((name) => names.has(name));
     this._revolutions = new Gauge({ data: "revolutions", colour: "#7fc4ff" });
-    this._most = LARGEST_RPM;
+    this._most = INITIAL_RPM;
     this._pedals = Object.entries(BARS)
       .map(([name, colour]) => ({ column: used(name), gauge: new Gauge({ data: `pedal ${name}`, label: name.replace("_", " "), way: "up", colour }) }))
       .filter(({ column }) => column);
@@ -42,7 +42,7 @@ export class Cluster {
     if (this._turns) {
       const turns = RPM * Math.abs(lookup(this._turns));
       if (turns > this._most) this._most = 1000 * Math.ceil(turns / 1000);
-      this._revolutions.show(turns / this._most, turns > RED * this._most ? "#ff5a4d" : undefined);
+      this._revolutions.show(turns / this._most, turns > RED_SHARE * this._most ? "#ff5a4d" : undefined);
       this._revolutions.words(`${turns.toFixed(0)} rpm`);
     }
     if (this._used) {

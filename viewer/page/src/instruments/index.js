@@ -8,7 +8,7 @@ import { frictionOf } from "./surfaces.js";
 import { Tyres, wheelsOf } from "./tyres.js";
 
 /** Least time between two drawings of the small map, s. */
-const MAP_EVERY = 0.1;
+const MAP_INTERVAL = 0.1;
 
 /** The instruments over the picture of a car, as far as there are signals for them. */
 export class Instruments {
@@ -56,7 +56,7 @@ export class Instruments {
     this.tyres.show(lookup);
     this.plan.trail.add(car.x, car.y);
     const now = performance.now() / 1000;
-    if (now - this._mapTime < MAP_EVERY || this.inset.element.hidden) return;
+    if (now - this._mapTime < MAP_INTERVAL || this.inset.element.hidden) return;
     this._mapTime = now;
     this.inset.show(car);
   }

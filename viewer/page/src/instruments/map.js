@@ -4,11 +4,11 @@ import { besides } from "../common/labels.js";
 import { Surfaces } from "./surfaces.js";
 
 /** Distance of points of the trail, m, and their largest number. */
-const [SPACING, MOST_POINTS] = [1.5, 4000];
+const [SPACING, MAX_POINTS] = [1.5, 4000];
 /** Distance of the car from the border of the small map, m. */
-const AROUND = 110;
+const MAP_DISTANCE = 110;
 /** Radius of the clickable area of a place, pixels. */
-const NEAR = 18;
+const CLICK_RADIUS = 18;
 /** Margin of the drawn ground beyond each side of a map, as a share of that side. */
 const MARGIN = 0.5;
 /** Height of a line of text, pixels. */
@@ -29,7 +29,7 @@ export class Trail {
     const last = this.points[this.points.length - 1];
     if (!Number.isFinite(x + y) || (last && Math.hypot(x - last[0], y - last[1]) < SPACING)) return;
     this.points.push([x, y]);
-    if (this.points.length > MOST_POINTS) this.points.splice(0, MOST_POINTS / 10);
+    if (this.points.length > MAX_POINTS) this.points.splice(0, MAX_POINTS / 10);
   }
 
   /**
@@ -229,7 +229,7 @@ export class WorldMap {
 
   _view(width, height) {
     const car = this._car ?? { x: 0, y: 0 };
-    if (!this._whole) return { scale: (this.zoom * Math.min(width, height)) / (2 * AROUND), x: car.x, y: car.y };
+    if (!this._whole) return { scale: (this.zoom * Math.min(width, height)) / (2 * MAP_DISTANCE), x: car.x, y: car.y };
     const [x0, y0, x1, y1] = this.plan.bounds;
     const [left, top, right, bottom] = this._free?.() ?? [0, 0, width, height];
     const scale = this.zoom * 0.95 * Math.min((right - left) / Math.max(1, x1 - x0), (bottom - top) / Math.max(1, y1 - y0));
@@ -286,7 +286,7 @@ export class WorldMap {
   _click(event, go) {
     const place = this.plan.places.find(({ x, y }) => {
       const [px, py] = this.pixel([x, y]);
-      return Math.hypot(px - event.offsetX, py - event.offsetY) < NEAR;
+      return Math.hypot(px - event.offsetX, py - event.offsetY) < CLICK_RADIUS;
     });
     if (place) go(place);
   }

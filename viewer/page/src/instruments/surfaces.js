@@ -8,9 +8,9 @@ const COLOURS = {
   asphalt: [92, 96, 102], concrete: [150, 150, 146], grass: [86, 112, 66], gravel: [140, 124, 98],
   dirt: [120, 98, 74], wet: [58, 84, 116], ice: [176, 208, 226], paint: [214, 214, 210],
 }; // prettier-ignore
-const OTHER = [128, 118, 128];
+const OTHER_COLOUR = [128, 118, 128];
 /** Friction of a road without a value, for a car without that parameter. */
-const FRICTION = 1.0;
+const DEFAULT_FRICTION = 1.0;
 
 /** The surfaces of the roads of a scene. */
 export class Surfaces {
@@ -43,16 +43,16 @@ export function frictionOf(surfaces, fixed, [x, y], wheel) {
   const axle = wheel.at(-2) === "R" ? "rear" : "front";
   const number = (/** @type {string} */ name, /** @type {number} */ other) => Number(fixed(name) ?? other);
   const local = surfaces.friction(x, y);
-  const road = Number.isFinite(local) ? local : number("road.friction", FRICTION);
+  const road = Number.isFinite(local) ? local : number("road.friction", DEFAULT_FRICTION);
   return road * number("road.friction_factor", 1) * number(`vehicle.tyre_friction_${axle}`, NaN) * number(`${axle}.tyre.grip`, 1);
 }
 
 function gridOf(road) {
   if (road.kind === "terrain" && road.surface) {
     const { names, classes, ...grid } = new SurfaceRaster(road.surface);
-    const colours = names.map((name) => COLOURS[name] ?? OTHER);
+    const colours = names.map((name) => COLOURS[name] ?? OTHER_COLOUR);
     const frictions = (index) => road.surface.frictions[classes[index]];
-    return { grid, frictions, colour: (index) => colours[classes[index]] ?? OTHER };
+    return { grid, frictions, colour: (index) => colours[classes[index]] ?? OTHER_COLOUR };
   }
   if (road.kind !== "grid") return null;
   const heights = floats(road.heights);
@@ -74,11 +74,11 @@ function boxOf({ origin, spacing, shape }) {
 }
 
 /** Largest number of pixels of a side of a picture of the ground. */
-const MOST = 1400;
+const MAX_PIXELS = 1400;
 
 function imageOf(grid, colour) {
   const [n, m] = grid.shape;
-  const every = Math.max(1, Math.ceil(Math.max(n, m) / MOST));
+  const every = Math.max(1, Math.ceil(Math.max(n, m) / MAX_PIXELS));
   const image = el("canvas");
   [image.width, image.height] = [Math.ceil(n / every), Math.ceil(m / every)];
   const context = image.getContext("2d");

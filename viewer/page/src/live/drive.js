@@ -13,7 +13,7 @@ import { Sampler } from "../sources/sampler.js";
 import { missingParts, unpack, unpackedJson } from "../bytes.js";
 
 const ACTS = ["steering", "throttle", "brake"];
-const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
+const PLOTTED_NAMES = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
 const PANEL_MS = 100;
 const RESTART_MS = 250;
 
@@ -235,7 +235,7 @@ class Drive extends Shell {
     this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
     if (this.cameras.includes(camera)) this.camera(camera);
-    const requested = this.options.plots ?? PLOTTED.filter((name) => session.columns.has(name));
+    const requested = this.options.plots ?? PLOTTED_NAMES.filter((name) => session.columns.has(name));
     const names = [...session.columns.keys()];
     const first = requested.length ? requested : names.slice(this.inputs.length, this.inputs.length + 3);
     this.plotted = first.slice(0, 4);

@@ -3,11 +3,11 @@ import { place } from "../sources/sampler.js";
 import { LimitedInputs } from "./input_rates.js";
 
 /** Interval of saved states, s. */
-const SAVE_EVERY = 0.25;
+const SAVE_INTERVAL = 0.25;
 /** Longest time to go back, s. */
-const LONGEST_BACK = 30;
+const MAX_REWIND = 30;
 
-const NUMBERS = ["Real", "Integer", "Boolean"];
+const NUMBER_TYPES = ["Real", "Integer", "Boolean"];
 
 /** Inputs, then tunable parameters, of FMUs, each name once. */
 export function heldVariables(descriptions) {
@@ -15,7 +15,7 @@ export function heldVariables(descriptions) {
   for (const { variables } of descriptions) {
     for (const v of variables) {
       const settable = v.causality === "input" || (v.causality === "parameter" && v.variability === "tunable");
-      if (settable && NUMBERS.includes(v.type) && !found.has(v.name)) found.set(v.name, v);
+      if (settable && NUMBER_TYPES.includes(v.type) && !found.has(v.name)) found.set(v.name, v);
     }
   }
   const all = [...found.values()];
@@ -141,7 +141,7 @@ export class Engine {
     this._past.set(this.k, before && values.every((value, i) => Object.is(value, before[i])) ? before : values);
     this.k += 1;
     this._read();
-    if (this.k % Math.max(1, Math.round(SAVE_EVERY / this.step)) === 0) this._save();
+    if (this.k % Math.max(1, Math.round(SAVE_INTERVAL / this.step)) === 0) this._save();
     return refused;
   }
 
@@ -257,7 +257,7 @@ export class Engine {
   _save() {
     const states = this.runs.map((run) => (run.failed === null ? run.slave.getState() : null));
     this._states.push([this.k, states, this.runs.map((run) => run.last.slice())]);
-    while (this._states.length > 1 && this.k - this._states[1][0] >= LONGEST_BACK / this.step) {
+    while (this._states.length > 1 && this.k - this._states[1][0] >= MAX_REWIND / this.step) {
       this._states.shift()[1].forEach((s) => s?.free());
       for (const step of this._past.keys()) {
         if (step >= this.oldest - 1) break;

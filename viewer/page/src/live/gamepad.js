@@ -6,7 +6,7 @@ export const STANDARD = { steering: "axis 0 inverted", throttle: "button 7", bra
 export const OTHER = { steering: "axis 0 inverted", throttle: "none", brake: "none", hand_brake: "none" };
 
 /** Change of an axis or button at which the device takes control. */
-const TOUCHED = 0.02;
+const TAKEOVER_CHANGE = 0.02;
 
 /**
  * Value of an axis with a dead zone in its middle, continuous at its ends.
@@ -68,7 +68,7 @@ export class Gamepad {
     }
     if (!this.pad) return { changed, touched: false };
     const now = [...this.pad.axes, ...this.pad.buttons.map((b) => b.value)];
-    const touched = this._before !== null && now.some((v, k) => Math.abs(v - this._before[k]) > TOUCHED);
+    const touched = this._before !== null && now.some((v, k) => Math.abs(v - this._before[k]) > TAKEOVER_CHANGE);
     if (touched || this._before === null) this._before = now;
     return { changed, touched };
   }

@@ -4,7 +4,7 @@ import { DRIVING } from "../common/key_table.js";
 /** Largest changes per second of simulated time: with the key pressed, and released. */
 export const RATES = { steering: [1.6, 3.0], throttle: [2.5, 5.0], brake: [4.0, 8.0], hand_brake: [8.0, 8.0] };
 /** Lateral acceleration of full steering by a key, m/s2. */
-const LATERAL = 9.0;
+const LATERAL_ACCELERATION = 9.0;
 /** Defaults for FMUs without these constants, m and rad. */
 const WHEELBASE = 2.5;
 const WHEEL_ANGLE = 0.55;
@@ -43,7 +43,7 @@ export class Keyboard {
 
   /** Share of full lock for a key, limited by the lateral acceleration at a speed, m/s. */
   steeringLimit(speed) {
-    const angle = (LATERAL * this._wheelbase) / Math.max(speed * speed, 1e-6);
+    const angle = (LATERAL_ACCELERATION * this._wheelbase) / Math.max(speed * speed, 1e-6);
     return Math.min(1, Math.max(0.02, angle / this._angle));
   }
 

@@ -3,10 +3,10 @@
 /** Guessed half-widths around 0 by unit, for variables that start at 0. */
 const GUESSES = { m: 10, "m/s": 40, "m/s2": 10, rad: Math.PI, "rad/s": 10, N: 1000, "N.m": 100, kg: 100, s: 10, "1": 1 };
 /** Least ratio of the ends of a range of a logarithmic slider. */
-const LOGARITHMIC = 50;
+const LOGARITHMIC_RATIO = 50;
 
 /** Share of a guess below which a start value counts as 0. */
-const TINY = 1e-3;
+const ZERO_SHARE = 1e-3;
 
 /**
  * The range of a variable.
@@ -18,12 +18,12 @@ export function rangeOf({ min, max, start, unit, type, largest = 0 }) {
   const whole = type === "Integer" || type === "Enumeration";
   const guess = whole ? 10 : (GUESSES[unit ?? "1"] ?? 10);
   const begin = Math.max(Math.abs(Number(start ?? 0)), largest);
-  const width = begin < TINY * guess && !largest ? guess : rounded(2 * begin);
+  const width = begin < ZERO_SHARE * guess && !largest ? guess : rounded(2 * begin);
   let low = min ?? Math.min(-width, max === undefined ? 0 : max - 2 * width);
   let high = max ?? Math.max(width, min === undefined ? 0 : min + 2 * width);
   if (whole) [low, high] = [Math.ceil(low), Math.floor(high)];
   const guessed = min === undefined || max === undefined;
-  return { low, high, guessed, log: !whole && low > 0 && high / low >= LOGARITHMIC, whole };
+  return { low, high, guessed, log: !whole && low > 0 && high / low >= LOGARITHMIC_RATIO, whole };
 }
 
 /** The value rounded up to one digit. */

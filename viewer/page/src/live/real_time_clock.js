@@ -2,7 +2,7 @@
 import { Factor } from "../sources/factor.js";
 
 /** Lateness above which steps are not caught up, s of the clock. */
-const LAG_MOST = 0.25;
+const MAX_LAG = 0.25;
 
 /** Computes the steps that are due by a clock. */
 export class RealTimeClock {
@@ -54,7 +54,7 @@ export class RealTimeClock {
    */
   reached(now, k) {
     if (!this.running) return;
-    if (now - this.deadline(k + 1) > LAG_MOST) {
+    if (now - this.deadline(k + 1) > MAX_LAG) {
       this._anchor(now, k);
       this.slow += 1;
     }

@@ -7,7 +7,7 @@ import { Timing } from "../instruments/timing.js";
 import { movedRoads } from "./roads.js";
 
 /** Number of sampled times of a run. */
-const SAMPLES = 40;
+const SAMPLE_COUNT = 40;
 /** Time of the run after which it is not sampled again, so that cameras stay, s. */
 const LAST_SURVEY = 20;
 
@@ -107,11 +107,11 @@ export class Stage {
   survey([begin, end]) {
     if (end < 2 * this._surveyed || this._surveyed > LAST_SURVEY || !(end > begin)) return;
     this._surveyed = Math.max(0.25, end);
-    const times = Array.from({ length: SAMPLES }, (_, i) => begin + (i / (SAMPLES - 1)) * (end - begin));
+    const times = Array.from({ length: SAMPLE_COUNT }, (_, i) => begin + (i / (SAMPLE_COUNT - 1)) * (end - begin));
     for (const part of this.parts) {
       const { recording: run } = part;
-      const instants = run ? times.map((_, i) => run.t[0] + (i / (SAMPLES - 1)) * (run.t.at(-1) - run.t[0])) : times;
-      part.view.scan((i) => part.sample(instants[i]), SAMPLES);
+      const instants = run ? times.map((_, i) => run.t[0] + (i / (SAMPLE_COUNT - 1)) * (run.t.at(-1) - run.t[0])) : times;
+      part.view.scan((i) => part.sample(instants[i]), SAMPLE_COUNT);
     }
   }
 

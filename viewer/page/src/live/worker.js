@@ -4,9 +4,9 @@ import { Engine } from "./engine.js";
 import { RealTimeClock } from "./real_time_clock.js";
 
 /** Longest computation between messages of the page, s of the clock. */
-const SLICE = 0.012;
+const MAX_SLICE = 0.012;
 /** Least interval of sending rows to the page, s of the clock. */
-const POST_EVERY = 0.008;
+const POST_INTERVAL = 0.008;
 const WAKE_MS = 4;
 
 /** Time of a common clock of page and worker, s. */
@@ -113,7 +113,7 @@ export class Runner {
     let done = 0;
     let isRunning = true;
     let now = begin;
-    while (isRunning && this.engine.k < due && now - begin < SLICE) {
+    while (isRunning && this.engine.k < due && now - begin < MAX_SLICE) {
       isRunning = this._makeStep();
       if (isRunning) done += 1;
       now = clock();
@@ -121,7 +121,7 @@ export class Runner {
     if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / 200);
     if (!isRunning) return;
     this.pacer.reached(now, this.engine.k);
-    if (now - this._posted >= POST_EVERY) this._send("rows");
+    if (now - this._posted >= POST_INTERVAL) this._send("rows");
     const wait = 1000 * (this.pacer.deadline(this.engine.k + 1) - now);
     this._timer = setTimeout(() => this._tick(), Math.max(0, Math.min(WAKE_MS, wait)));
   }

@@ -3,8 +3,8 @@ import { SURFACES } from "./heights.js";
 import { smoothTexture } from "./noise.js";
 
 /** Largest number of points of a side of the texture; larger rasters are averaged. */
-const MOST = 4096;
-const LAST = SURFACES.length - 1;
+const MAX_SIDE = 4096;
+const LAST_SURFACE = SURFACES.length - 1;
 
 /**
  * Shares of the surfaces. Two surfaces share a channel: 128 + 127 is all of one, and half as much below 128 is all of the
@@ -14,14 +14,14 @@ const LAST = SURFACES.length - 1;
  * @param {number} [most] largest number of points of a side
  * @returns {{width: number, height: number, factor: number, pixels: Uint8Array}} rows along x; factor: number of averaged points in each direction
  */
-export function shares(raster, most = MOST) {
+export function shares(raster, most = MAX_SIDE) {
   const factor = Math.max(1, Math.ceil(Math.max(...raster.shape) / most));
   const [height, width] = raster.shape.map((n) => Math.ceil(n / factor));
   const { shape, classes } = raster;
   const one = 127 / (factor * factor);
   const places = Array.from({ length: 256 }, (_, k) => Math.max(0, SURFACES.indexOf(raster.names[k])));
-  const channels = Uint8Array.from(places, (place) => Math.min(place, LAST - place));
-  const amounts = Float32Array.from(places, (place) => (2 * place < LAST ? one : -0.5 * one));
+  const channels = Uint8Array.from(places, (place) => Math.min(place, LAST_SURFACE - place));
+  const amounts = Float32Array.from(places, (place) => (2 * place < LAST_SURFACE ? one : -0.5 * one));
   const sums = new Float32Array(4 * width * height).fill(128.5);
   for (let i = 0; i < height * factor; i++) {
     const row = Math.min(i, shape[0] - 1) * shape[1];

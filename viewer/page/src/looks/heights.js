@@ -4,7 +4,7 @@ import { floats } from "../scene/data.js";
 import looks from "../../../looks.json" with { type: "json" };
 
 /** Number of cells of a side of the table that finds the patch at a point. */
-const TABLE = 64;
+const TABLE_SIDE = 64;
 
 /**
  * @typedef {{origin: number[], spacing: number[], shape: number[], heights: Float32Array}} Patch
@@ -25,14 +25,14 @@ export class HeightField {
     const ends = this.patches.map(({ origin, spacing, shape }) => origin.map((o, k) => o + spacing[k] * (shape[k] - 1)));
     this.low = [0, 1].map((k) => this.patches.reduce((low, { origin }) => Math.min(low, origin[k]), Infinity));
     this.high = [0, 1].map((k) => ends.reduce((high, end) => Math.max(high, end[k]), -Infinity));
-    this.cell = [0, 1].map((k) => (this.high[k] - this.low[k]) / TABLE || 1);
+    this.cell = [0, 1].map((k) => (this.high[k] - this.low[k]) / TABLE_SIDE || 1);
     this.near = 1e-6 * Math.max(...this.cell);
     this.table = new Map();
     this.patches.forEach((patch, index) => {
       const [from, to] = [this._cellOf(patch.origin), this._cellOf(ends[index])];
       for (let a = from[0]; a <= to[0]; a++) {
         for (let b = from[1]; b <= to[1]; b++) {
-          const key = a * TABLE + b;
+          const key = a * TABLE_SIDE + b;
           if (!this.table.has(key)) this.table.set(key, []);
           this.table.get(key).push({ patch, end: ends[index] });
         }
@@ -50,11 +50,11 @@ export class HeightField {
   }
 
   _candidates(x, y) {
-    return this.table.get(this._line(0, x) * TABLE + this._line(1, y)) ?? [];
+    return this.table.get(this._line(0, x) * TABLE_SIDE + this._line(1, y)) ?? [];
   }
 
   _line(k, value) {
-    return Math.min(TABLE - 1, Math.max(0, Math.floor((value - this.low[k]) / this.cell[k])));
+    return Math.min(TABLE_SIDE - 1, Math.max(0, Math.floor((value - this.low[k]) / this.cell[k])));
   }
 
   _holds({ patch: { origin }, end }, x, y) {

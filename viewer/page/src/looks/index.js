@@ -13,10 +13,10 @@ function lookOf(scene) {
 }
 
 /** Number of pixels of a draft, which processors draw more than 15 times a second, and least resolution by side. */
-const [DRAFT_PIXELS, LEAST] = [480 * 270, 0.5];
+const [DRAFT_PIXELS, MIN_RESOLUTION] = [480 * 270, 0.5];
 
 /** Resolution of a draft relative to the page, by side. @param {number} area of the picture in the page */
-const draftRatio = (area) => Math.min(1, Math.max(LEAST, Math.sqrt(DRAFT_PIXELS / area)));
+const draftRatio = (area) => Math.min(1, Math.max(MIN_RESOLUTION, Math.sqrt(DRAFT_PIXELS / area)));
 
 /** Makes the look of a picture. @param {Data} view the SceneView */
 export function makeLook(view) {

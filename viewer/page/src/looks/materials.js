@@ -6,7 +6,7 @@ import looks from "../../../looks.json" with { type: "json" };
 const KINDS = looks.materials;
 
 /** Opacities of open covers: panels, glass. */
-const OPEN = [0.3, 0.18];
+const OPEN_OPACITIES = [0.3, 0.18];
 
 /** Makes and stores the materials of a scene. */
 export class Materials {
@@ -41,7 +41,7 @@ export class Materials {
       const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
       material.name = kind;
       material.side = double ? THREE.DoubleSide : THREE.FrontSide;
-      if (cover) this._covers.set(material, { solid, open: kind === "glass" ? OPEN[1] : OPEN[0] });
+      if (cover) this._covers.set(material, { solid, open: kind === "glass" ? OPEN_OPACITIES[1] : OPEN_OPACITIES[0] });
       if (solid < 1) Object.assign(material, { transparent: true, opacity: solid, depthWrite: false });
       this._made.set(key, material);
     }

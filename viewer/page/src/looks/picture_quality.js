@@ -8,15 +8,15 @@ const LEVELS = ["draft", "low", "medium", "high"];
 /** Choices of the user, finest first. */
 export const QUALITIES = ["auto", ...[...LEVELS].reverse()];
 /** Drawing time above which a coarser level is chosen, and below which a draft becomes finer, ms. */
-const [SLOW, QUICK] = [40, 12];
+const [SLOW_TIME, QUICK_TIME] = [40, 12];
 /** Interval of pictures of a driven car above which drafts get fewer pixels, and above which the page was inactive, ms. */
-const [LONG_INTERVAL, INACTIVE] = [55, 250];
+const [LONG_INTERVAL, INACTIVE_INTERVAL] = [55, 250];
 /** Number of pictures skipped at first, which compile shaders and load textures, and number of measured pictures. */
-const [SKIPPED, MEASURED] = [3, 5];
+const [SKIPPED_PICTURES, MEASURED_PICTURES] = [3, 5];
 /** Stride of measured pictures while a car is driven, since other parts of a world may need more time. */
-const STRIDE = 20;
+const DRIVING_STRIDE = 20;
 /** Least relative resolution of a draft by side, and factor of its changes. */
-const [LEAST_SHARE, COARSER] = [0.5, 0.8];
+const [MIN_RESOLUTION, RESOLUTION_FACTOR] = [0.5, 0.8];
 
 /** @param {number[]} values */
 const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
@@ -56,7 +56,7 @@ export class PictureQuality {
   }
 
   _measure(level) {
-    this.skipped = level ? SKIPPED : Infinity;
+    this.skipped = level ? SKIPPED_PICTURES : Infinity;
     this.every = 1;
     this.times = [];
     this.gaps = [];
@@ -64,7 +64,7 @@ export class PictureQuality {
 
   before() {
     const now = performance.now();
-    if (this.goes && now - this.drawn < INACTIVE) this.gaps.push(now - this.drawn);
+    if (this.goes && now - this.drawn < INACTIVE_INTERVAL) this.gaps.push(now - this.drawn);
     this.drawn = now;
     this.looks = this.skipped <= 0;
     if (this.looks) this.began = now;
@@ -77,17 +77,17 @@ export class PictureQuality {
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
     this.times.push(performance.now() - this.began);
     this.skipped = this.every - 1;
-    if (this.times.length < MEASURED) return;
+    if (this.times.length < MEASURED_PICTURES) return;
     // The drawing time does not include other work of the machine for a picture.
     const time = median(this.times);
-    this._decide(this.level === "draft" && median(this.gaps) > LONG_INTERVAL ? Math.max(time, SLOW + 1) : time);
+    this._decide(this.level === "draft" && median(this.gaps) > LONG_INTERVAL ? Math.max(time, SLOW_TIME + 1) : time);
   }
 
   /** @param {number} time of a picture, ms */
   _decide(time) {
     this.times = [];
     this.gaps = [];
-    this.every = STRIDE;
+    this.every = DRIVING_STRIDE;
     if (!this.goes) this.skipped = Infinity;
     const level = nextLevel(this.level, time, this.driven);
     const finer = LEVELS.indexOf(level) > LEVELS.indexOf(this.level);
@@ -108,8 +108,8 @@ export class PictureQuality {
  * @param {number} share @param {number} time of a picture, ms
  */
 export function nextShare(share, time) {
-  if (time > SLOW) return Math.max(LEAST_SHARE, share * COARSER);
-  return time < SLOW / 3 ? Math.min(1, share / COARSER) : share;
+  if (time > SLOW_TIME) return Math.max(MIN_RESOLUTION, share * RESOLUTION_FACTOR);
+  return time < SLOW_TIME / 3 ? Math.min(1, share / RESOLUTION_FACTOR) : share;
 }
 
 /**
@@ -118,6 +118,6 @@ export function nextShare(share, time) {
  */
 export function nextLevel(level, time, driven) {
   const at = LEVELS.indexOf(level);
-  if (time > SLOW) return LEVELS[Math.max(driven ? 0 : Math.min(at, LEVELS.indexOf("medium")), at - 1)];
-  return level === "draft" && time < QUICK ? "low" : level;
+  if (time > SLOW_TIME) return LEVELS[Math.max(driven ? 0 : Math.min(at, LEVELS.indexOf("medium")), at - 1)];
+  return level === "draft" && time < QUICK_TIME ? "low" : level;
 }

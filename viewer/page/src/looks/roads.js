@@ -8,19 +8,19 @@ import shared from "../../../looks.json" with { type: "json" };
 import { gripOf, heldWithin, slickness } from "./heights.js";
 
 /** Half the side of an unbounded road, m. */
-const ENDLESS = 1500;
+const HALF_SIDE = 1500;
 /** Distances from the eye at which unbounded ground is divided, since processors draw large triangles with depth errors, m. */
-const EDGES = [-320, -80, -20, 20, 80, 320];
+const DIVISIONS = [-320, -80, -20, 20, 80, 320];
 /** Motion of the eye after which a profile is rebuilt, less than half of its middle piece, m. */
-const STEP = 10;
+const UPDATE_DISTANCE = 10;
 /** Width of the continuation of a grid beyond its border, m. */
 export const { border } = shared;
 /** Cells of a side of a piece of a grid; pieces outside the picture are not drawn. */
-const PIECE = 64;
+const PIECE_CELLS = 64;
 /** Largest length of a drawn cell of a grid, since longer triangles have depth errors, m. */
-const LONGEST = 20;
+const MAX_CELL = 20;
 /** Largest number of cells along a road from this division; cells of longer roads are longer. */
-const MOST_ADDED = 400;
+const MAX_ADDED = 400;
 
 /**
  * Makes the roads.
@@ -59,7 +59,7 @@ export function makeRoads(scene, looks) {
 }
 
 /** A square on a plane through a point that follows the eye, with the friction of a road. */
-function unboundedPlane(point, normal, material, road, reach = ENDLESS) {
+function unboundedPlane(point, normal, material, road, reach = HALF_SIDE) {
   const edges = divisions(-reach, reach);
   const cells = edges.length - 1;
   const geometry = new THREE.PlaneGeometry(cells, cells, cells, cells).rotateX(-Math.PI / 2);
@@ -86,7 +86,7 @@ function plane(road, { up, asphalt, reach }) {
 }
 
 /** A road with a profile along a direction, level before and behind it, built around the eye. */
-function profile(road, { up, asphalt: material, reach = ENDLESS }) {
+function profile(road, { up, asphalt: material, reach = HALF_SIDE }) {
   const forward = unit(road.direction ?? [1, 0, 0]);
   const side = cross(up, forward);
   const base = road.origin ?? [0, 0, 0];
@@ -95,7 +95,7 @@ function profile(road, { up, asphalt: material, reach = ENDLESS }) {
   const follow = (origin, eye) => {
     const to = subtract(add(origin, eye), base);
     const [s, aside] = [dot(to, forward), road.width === undefined ? dot(to, side) : 0];
-    if (built === null || Math.abs(s - built.s) > STEP || Math.abs(aside - built.aside) > STEP) {
+    if (built === null || Math.abs(s - built.s) > UPDATE_DISTANCE || Math.abs(aside - built.aside) > UPDATE_DISTANCE) {
       built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
       rebuild(mesh.geometry, strip(road, s, reach), { forward, side, up, half: (road.width ?? 2 * reach) / 2, slick: slickness(gripOf(road)) });
     }
@@ -123,7 +123,7 @@ export function strip(road, s, reach) {
 }
 
 /** Width of the stone along the upper edge of a kerb, m. */
-const STONE = 0.15;
+const STONE_WIDTH = 0.15;
 
 /**
  * Surfaces between stations, and whether each is a kerb: a face steeper than 1 in 2, or its stone.
@@ -137,14 +137,14 @@ export function surfaces(pairs) {
     const to = pairs[i + 1];
     const kerb = steep(from, to);
     const at = (s) => [s, from[1] + ((s - from[0]) / (to[0] - from[0])) * (to[1] - from[1])];
-    const long = to[0] - from[0] > 3 * STONE;
+    const long = to[0] - from[0] > 3 * STONE_WIDTH;
     if (!kerb && long && i > 0 && steep(pairs[i - 1], from) && pairs[i - 1][1] < from[1]) {
-      const edge = at(from[0] + STONE);
+      const edge = at(from[0] + STONE_WIDTH);
       found.push({ from, to: edge, kerb: true });
       from = edge;
     }
     if (!kerb && long && i + 2 < pairs.length && steep(to, pairs[i + 2]) && pairs[i + 2][1] < to[1]) {
-      const edge = at(to[0] - STONE);
+      const edge = at(to[0] - STONE_WIDTH);
       found.push({ from, to: edge, kerb: false }, { from: edge, to, kerb: true });
     } else found.push({ from, to, kerb });
   }
@@ -154,8 +154,8 @@ export function surfaces(pairs) {
 /** Angle above which edges stay sharp, rad. */
 const CREASE = Math.PI / 8;
 
-/** Both ends and the `EDGES` between them. @param {number} from @param {number} to */
-const divisions = (from, to) => [from, ...EDGES.filter((edge) => from < edge && edge < to), to];
+/** Both ends and the `DIVISIONS` between them. @param {number} from @param {number} to */
+const divisions = (from, to) => [from, ...DIVISIONS.filter((edge) => from < edge && edge < to), to];
 
 function rebuild(geometry, pairs, { forward, side, up, half, slick: road }) {
   const positions = [];
@@ -201,11 +201,11 @@ export function kept(n, same) {
 }
 
 /**
- * Lines with additional ones, so that their distance is at most `LONGEST`, or a share of a long road.
+ * Lines with additional ones, so that their distance is at most `MAX_CELL`, or a share of a long road.
  * @param {number[]} lines @param {number} spacing m
  */
 export function divided(lines, spacing) {
-  const longest = Math.max(LONGEST, ((lines[lines.length - 1] - lines[0]) * spacing) / MOST_ADDED);
+  const longest = Math.max(MAX_CELL, ((lines[lines.length - 1] - lines[0]) * spacing) / MAX_ADDED);
   return lines.flatMap((k, at) => {
     const gap = (lines[at + 1] ?? k) - k;
     const parts = Math.max(1, Math.ceil((gap * spacing) / longest));
@@ -242,9 +242,9 @@ function grid(road, { up, road: material, grass }) {
   const aside = divided(kept(ny, (k) => everyIndex(nx, (i) => same(i * ny + k, i * ny + k + 1))), dy);
   const [right, left] = [[-border / dy, 0], [ny - 1, ny - 1 + border / dy]].map((ends) => divided(ends, dy)); // prettier-ignore
   const addSheet = (/** @type {number[]} */ across, /** @type {THREE.Material} */ look, /** @type {(friction: (values: Float32Array) => number) => number[]} */ slickOf) => {
-    for (let i0 = 0; i0 < along.length - 1; i0 += PIECE) {
-      for (let j0 = 0; j0 < across.length - 1; j0 += PIECE) {
-        const [i1, j1] = [Math.min(i0 + PIECE, along.length - 1), Math.min(j0 + PIECE, across.length - 1)];
+    for (let i0 = 0; i0 < along.length - 1; i0 += PIECE_CELLS) {
+      for (let j0 = 0; j0 < across.length - 1; j0 += PIECE_CELLS) {
+        const [i1, j1] = [Math.min(i0 + PIECE_CELLS, along.length - 1), Math.min(j0 + PIECE_CELLS, across.length - 1)];
         const [positions, slick, triangles] = [[], [], []];
         for (let i = i0; i <= i1; i++) {
           for (let j = j0; j <= j1; j++) {

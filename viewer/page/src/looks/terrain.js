@@ -16,11 +16,11 @@ export const FINE = { cells: 128, pieces: 120, most: Infinity, least: 2e-3, near
 /** For few calls; the error near the camera is covered by the depth offset of paint. @type {Fineness} */
 export const ROUGH = { cells: 64, pieces: 14, most: 15000, least: 8e-3, near: 0, error: 2.5e-3 };
 /** Largest number of points of a piece. */
-const POINTS = 60000;
+const MAX_POINTS = 60000;
 /** Factor of the error of distant parts, repeated while there are too many triangles. */
-const COARSER = 1.25;
+const ERROR_FACTOR = 1.25;
 /** Motion of the eye after which levels are chosen again, m. */
-const STEP = 15;
+const UPDATE_DISTANCE = 15;
 
 /**
  * Makes the terrain.
@@ -32,7 +32,7 @@ const STEP = 15;
 export function terrain(material, axes, field, fineness) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
-  const pieces = bundles(parts(field.patches, fineness.cells), fineness.pieces, POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
+  const pieces = bundles(parts(field.patches, fineness.cells), fineness.pieces, MAX_POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
   const around = terrainBorder(field, material, fineness.least);
   group.add(...pieces.map(({ mesh }) => mesh), around.mesh);
   let chosen = null;
@@ -41,7 +41,7 @@ export function terrain(material, axes, field, fineness) {
     const from = axes.map((axis) => dot(origin, axis));
     const camera = axes.slice(0, 2).map((axis, k) => from[k] + dot(eye, axis));
     around.follow(from);
-    const moved = chosen === null || Math.hypot(camera[0] - chosen[0], camera[1] - chosen[1]) > STEP;
+    const moved = chosen === null || Math.hypot(camera[0] - chosen[0], camera[1] - chosen[1]) > UPDATE_DISTANCE;
     for (const { mesh, base } of pieces) mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
     if (!moved) return;
     chosen = camera;
@@ -62,7 +62,7 @@ export function terrain(material, axes, field, fineness) {
  */
 export function levelsWithin(pieces, eye, { most, least, near, error: first }) {
   const distances = pieces.map((drawn) => drawn.map(({ middle, radius }) => Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius - near));
-  for (let error = first; ; error *= COARSER) {
+  for (let error = first; ; error *= ERROR_FACTOR) {
     const chosen = pieces.map((drawn, k) => drawn.map(({ levels }, i) => coarsest(levels, least + error * Math.max(0, distances[k][i]))));
     const count = pieces.flatMap((drawn, k) => drawn.map(({ levels }, i) => levels[chosen[k][i]].triangles.length / 3));
     if (error > 1 || count.reduce((sum, value) => sum + value, 0) <= most) return chosen;

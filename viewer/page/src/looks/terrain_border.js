@@ -4,7 +4,7 @@ import * as THREE from "three";
 /** Drawn distance around the focus, m. */
 const REACH = 1600;
 /** Spacing of the lattice of its centres, m, so that pictures do not depend on the path of the focus. */
-const STEP = 200;
+const LATTICE_SPACING = 200;
 
 /**
  * Stations of the border: points of patches on the sides of low and high x and y.
@@ -81,7 +81,7 @@ export function terrainBorder(field, material, tolerance) {
   let built = null;
   /** @param {number[]} origin of the picture in the axes of the world, m */
   const follow = (origin) => {
-    const near = [0, 1].map((k) => STEP * Math.round(origin[k] / STEP));
+    const near = [0, 1].map((k) => LATTICE_SPACING * Math.round(origin[k] / LATTICE_SPACING));
     if (built === null || near[0] !== built[0] || near[1] !== built[1]) {
       built = near;
       fill(mesh.geometry, borderQuads(field, stations, built), built);

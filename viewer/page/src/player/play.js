@@ -12,8 +12,8 @@ import { Recordings } from "../sources/recordings.js";
 import { fromHash, toHash } from "./link.js";
 import { Traces } from "./traces.js";
 
-const JUMP = 0.5; // s of the run at real time: longest interval within a trail
-const SCANNED = 200; // number of times at which ranges are determined
+const MAX_INTERVAL = 0.5; // s of the run at real time: longest interval within a trail
+const SCANNED_TIMES = 200; // number of times at which ranges are determined
 
 /**
  * Makes the page from its data.
@@ -200,7 +200,7 @@ class Player extends Shell {
   /** Samples the run for constant floor height and scales of arrows and colours. */
   _scan() {
     const { t, columns } = this.runs[this.solid];
-    const times = Math.min(t.length, SCANNED);
+    const times = Math.min(t.length, SCANNED_TIMES);
     const sample = (i) => (times > 1 ? Math.round((i * (t.length - 1)) / (times - 1)) : 0);
     this.view.scan((i) => (name) => columns[name]?.data[sample(i)], times);
     this._lower(this.runs[this.solid], this.view);
@@ -261,7 +261,7 @@ class Player extends Shell {
       for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
       for (const { traces, sampler } of this.drawnRuns) traces.update(this.time, sampler.place[0]);
       const { samplers, speed } = this.source;
-      this.instruments?.plan.trail.at(this.time, this.runs[this.solid].epoch[samplers[this.solid].place[0]], JUMP * Math.max(1, speed));
+      this.instruments?.plan.trail.at(this.time, this.runs[this.solid].epoch[samplers[this.solid].place[0]], MAX_INTERVAL * Math.max(1, speed));
       this.instruments?.show(numbers[this.solid]);
       this.view.render();
     }

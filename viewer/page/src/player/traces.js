@@ -8,8 +8,8 @@ import { groundHeight } from "../looks/road_height.js";
 import { Frames } from "../scene/frames.js";
 import { add, dot, finite, length, scale, subtract } from "../scene/math.js";
 
-const MOST = 4000; // points of a path
-const LEAST = 1.5; // least width of the path of the reference point, pixels
+const MAX_POINTS = 4000; // points of a path
+const MIN_WIDTH = 1.5; // least width of the path of the reference point, pixels
 const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks.paths;
 
 /** The traces of a run in a view; those of a ghost are wider, in its colour, below others, and without marks and dust. */
@@ -40,7 +40,7 @@ export class Traces {
   /** @param {Data} scene @param {{tint: string, under: number}} [ghost] */
   _paths(scene, { tint, under } = { tint: "", under: 0 }) {
     const { view, run } = this;
-    const count = Math.min(run.t.length, MOST);
+    const count = Math.min(run.t.length, MAX_POINTS);
     const instants = Array.from({ length: count }, (_, k) => (count > 1 ? Math.round((k * (run.t.length - 1)) / (count - 1)) : 0));
     const { move, feet } = feetOf(scene, this.lookups, view);
     const ways = waysOf(move, instants, feet);
@@ -51,7 +51,7 @@ export class Traces {
     ways.forEach(({ points, at }, k) => {
       if (points.length < 2) return;
       const which = k === 0 ? 0 : 1;
-      const look = { colour: tint || [BODY, WHEEL][which], width: (1 + under) * SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? (1 + under) * LEAST : undefined, under };
+      const look = { colour: tint || [BODY, WHEEL][which], width: (1 + under) * SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? (1 + under) * MIN_WIDTH : undefined, under };
       this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), epochs: at.map((i) => run.epoch[i]), points }, look));
     });
   }

@@ -5,18 +5,18 @@ import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.j
 import { TrailingDirection } from "./trailing_direction.js";
 
 /** Position of the eyes of the driver behind and above the centre of the steering wheel, m. */
-const EYES = [0.48, 0.24];
+const EYE_POSITION = [0.48, 0.24];
 /** Least height of the chase camera above the ground, as a share of the size of the drawing. */
 const CLEARANCE = 0.14;
 const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40, fixed: 40, trackside: 30 };
 /** Least width of the followed body in the picture of the fixed camera, as a share of its width. */
-const LEAST_SHARE = 0.1;
+const MIN_SHARE = 0.1;
 /** Largest angle of the followed body from the middle of that picture, as a share of the angle to its upper edge. */
-const TURNS = 0.5;
+const MAX_ANGLE_SHARE = 0.5;
 /** Half the size of the longest path with a fixed camera, as a share of the largest drawn distance. */
-const LARGEST_PATH = 0.3;
+const MAX_PATH = 0.3;
 /** Distance between trackside cameras, and from the path, relative to the size of the followed body. */
-const [POSTS, ASIDE] = [10, 3];
+const [CAMERA_SPACING, PATH_DISTANCE] = [10, 3];
 
 /** The cameras of a view, with positions relative to the origin of the picture. */
 export class Cameras {
@@ -71,12 +71,12 @@ export class Cameras {
     this.posts = [];
     let last = null;
     for (const point of path) {
-      if (last !== null && Math.hypot(...subtract(point, last)) < POSTS * extent) continue;
-      const aside = (this.posts.length % 2 === 0 ? 1 : -1) * ASIDE * extent;
+      if (last !== null && Math.hypot(...subtract(point, last)) < CAMERA_SPACING * extent) continue;
+      const aside = (this.posts.length % 2 === 0 ? 1 : -1) * PATH_DISTANCE * extent;
       this.posts.push(add(point, add(scale(last === null ? right : rightOf(last, point), aside), scale(up, 0.5 * extent))));
       last = point;
     }
-    const watched = reach <= LARGEST_PATH * this.rig.far ? ["fixed"] : [];
+    const watched = reach <= MAX_PATH * this.rig.far ? ["fixed"] : [];
     this.names = [...this.names, ...[...watched, "trackside"].filter((name) => !this.names.includes(name))];
   }
 
@@ -89,7 +89,7 @@ export class Cameras {
     this._angle((2 * half * 180) / Math.PI);
     const [ahead, toBody] = [unit(subtract(centre, eye)), unit(scale(from, -1))];
     const off = Math.acos(Math.min(1, dot(ahead, toBody)));
-    const share = whole || off < TURNS * half ? 1 : (TURNS * half) / off;
+    const share = whole || off < MAX_ANGLE_SHARE * half ? 1 : (MAX_ANGLE_SHARE * half) / off;
     this._look(from, add(from, add(scale(ahead, share), scale(toBody, 1 - share))), up);
   }
 
@@ -99,7 +99,7 @@ export class Cameras {
     const widest = Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180));
     const eye = add(centre, scale(from, Math.min(reach / (widest * this.aspect), 0.7 * this.rig.far)));
     const farthest = path.reduce((most, point) => Math.max(most, Math.hypot(...subtract(point, eye))), 0);
-    const narrow = extent / (2 * LEAST_SHARE * farthest * this.aspect);
+    const narrow = extent / (2 * MIN_SHARE * farthest * this.aspect);
     Object.assign(this.fixed, { aspect: this.aspect, eye, half: Math.atan(Math.min(widest, narrow)), whole: narrow >= widest });
   }
 
@@ -202,7 +202,7 @@ export class Cameras {
     const wheel = parts.frames.point(this.seat.frame, this.seat.at ?? [0, 0, 0]);
     if (wheel === null) return;
     const axes = [0, 1, 2].map((k) => [rotation[k], rotation[3 + k], rotation[6 + k]]);
-    const eye = add(subtract(wheel, origin), add(scale(axes[0], -EYES[0]), scale(axes[2], EYES[1])));
+    const eye = add(subtract(wheel, origin), add(scale(axes[0], -EYE_POSITION[0]), scale(axes[2], EYE_POSITION[1])));
     this._look(eye, add(eye, add(scale(axes[0], 10), scale(axes[2], -0.9))), axes[2]);
   }
 

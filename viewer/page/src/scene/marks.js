@@ -11,15 +11,15 @@ const BOX = "position:absolute;left:0;top:0;white-space:pre-wrap;will-change:tra
 const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:50%;border:2px solid #fff;box-sizing:border-box";
 const WORDS = "position:absolute;left:0;top:0;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
 /** Height of the top of labels above their dot, in their height and in pixels; that of the largest stress is above gauges. */
-const ABOVE = { gauge: [0.5, 0], most: [1, 12], picked: [0, -10] };
+const LABEL_HEIGHTS = { gauge: [0.5, 0], most: [1, 12], picked: [0, -10] };
 /** Elements over pictures that labels avoid, and interval of locating them, ms. */
 const [OVERLAYS, INTERVAL] = ["[data-legend], .a3-cluster, .a3-tyres, .a3-inset, .a3-timing, .a3-head, .a3-flags > *", 500];
 /** Distance from the border of the picture that leaves room for labels, pixels. */
-const WIDE = 190;
+const LABEL_ROOM = 190;
 /** Largest motion of the mouse during a click, pixels. */
 const CLICK_MOTION = 4;
 /** Largest number of lines on a clicked object. */
-const LINES = 7;
+const MAX_LINES = 7;
 
 /**
  * Labels of gauges and of the largest stress of a body, with positions in axes of its frame.
@@ -111,8 +111,8 @@ export class Marks {
         const { offsetWidth, offsetHeight } = label.words; // expensive, and all digits have the same width
         Object.assign(label, { letters: text.length, size: [offsetWidth, offsetHeight] });
       }
-      const outward = Math.min(at[0], width - at[0]) > WIDE; // reduces overlaps
-      return Object.assign(label, { at, above: ABOVE[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
+      const outward = Math.min(at[0], width - at[0]) > LABEL_ROOM; // reduces overlaps
+      return Object.assign(label, { at, above: LABEL_HEIGHTS[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
     });
     const places = besides(labels, this.view.size, seen.length > 0 ? this._covered() : []);
     for (const [k, { box, words, at }] of labels.entries()) {
@@ -183,7 +183,7 @@ export class Marks {
         const found = forcesOf(arrow, parts.frames, lookup);
         return typeof found === "string" || found.length === 0 ? [] : [`${arrow.name}: ${worded(length(found[0].vector), arrow.unit ?? "N")}`];
       });
-      return [frame, positionText, ...forces].slice(0, LINES);
+      return [frame, positionText, ...forces].slice(0, MAX_LINES);
     };
   }
 }

@@ -12,11 +12,11 @@ import { length, rotate, subtract } from "./math.js";
 import { roadUnder, tyresOf } from "./tyres.js";
 
 /** Least radius of drawn tubes of flexible bodies, as a share of the size of the drawing. */
-const THINNEST = 0.003;
+const MIN_RADIUS = 0.003;
 /** Name of shapes hidden by covers, as in mbs/vehicle/shapes/tube_frame.py. */
 const HIDDEN_NAME = "frame tube";
 /** Distance of parts of a ghost from those of the run below which they are hidden, as a share of the size of the drawing. */
-const COINCIDENT = 0.01;
+const COINCIDENCE_DISTANCE = 0.01;
 
 /** The moving parts of a run, or of a ghost. */
 export class Parts {
@@ -77,7 +77,7 @@ export class Parts {
   }
 
   _makeFlexible(body, { ghost = false }) {
-    const flexible = new Flexible(body, this.materials, THINNEST * (this.scene.extent ?? 0));
+    const flexible = new Flexible(body, this.materials, MIN_RADIUS * (this.scene.extent ?? 0));
     if (!ghost) shaded(flexible.object);
     this._carrier(body.frame).add(flexible.object);
     return flexible;
@@ -131,8 +131,8 @@ export class Parts {
   _coincide(names) {
     const { over, size = 0 } = this.options;
     if (over === undefined || over.closed !== this.closed) return false;
-    const near = (name) => frameDistance(this.frames.pose(name), over.frames.pose(name), size / 4) < COINCIDENT * size;
-    return names.every((name) => near(name) && nodeDistance(this._nodes(name), over._nodes(name)) < COINCIDENT * size);
+    const near = (name) => frameDistance(this.frames.pose(name), over.frames.pose(name), size / 4) < COINCIDENCE_DISTANCE * size;
+    return names.every((name) => near(name) && nodeDistance(this._nodes(name), over._nodes(name)) < COINCIDENCE_DISTANCE * size);
   }
 
   /** Drawn positions of nodes of the flexible bodies of a frame, in its axes. @param {string} name */

@@ -2,7 +2,7 @@
 import { add, dot, scale, subtract, unit } from "./math.js";
 
 /** Time without a picture after which the lag is discarded, s. */
-const PAUSE = 1;
+const MAX_PAUSE = 1;
 
 /** A horizontal direction with a lag. */
 export class TrailingDirection {
@@ -25,7 +25,7 @@ export class TrailingDirection {
     const now = this.clock();
     const elapsed = now - this.last;
     this.last = now;
-    if (this.direction === null || elapsed > PAUSE) this.direction = forward;
+    if (this.direction === null || elapsed > MAX_PAUSE) this.direction = forward;
     const share = 1 - Math.exp(-elapsed / this.lag);
     const mixed = add(scale(this.direction, 1 - share), scale(forward, share));
     this.direction = unit(subtract(mixed, scale(up, dot(mixed, up)))) ?? forward;

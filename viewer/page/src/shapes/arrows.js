@@ -6,9 +6,9 @@ import { add, length, scale, subtract, unit } from "../scene/math.js";
 import { stretch } from "./place.js";
 
 const COLOURS = new Map([["N", "#f4511e"], ["N.m", "#8e24aa"]]); // prettier-ignore
-const OTHER = "#00897b";
+const OTHER_COLOUR = "#00897b";
 /** Length of the longest arrow as a share of the size of the drawing. */
-const LONGEST = 0.35;
+const MAX_LENGTH = 0.35;
 
 /** The arrows of a scene. */
 export class Arrows {
@@ -52,12 +52,12 @@ export class Arrows {
 
   /** Scale of a unit: length of an arrow, m, and its value. @param {string} name of the unit */
   scaleOf(name) {
-    return { metres: niceStep(LONGEST * this.extent * this.factor), value: this.ranges.get(name) ?? 1 };
+    return { metres: niceStep(MAX_LENGTH * this.extent * this.factor), value: this.ranges.get(name) ?? 1 };
   }
 
   /** @param {string} name of the unit @returns {string} */
   colourOf(name) {
-    return COLOURS.get(name) ?? OTHER;
+    return COLOURS.get(name) ?? OTHER_COLOUR;
   }
 
   /** Updates the instances. @param {number[]} origin of the picture, m */

@@ -3,10 +3,10 @@ import * as THREE from "three";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { across, cross, subtract, unit } from "../scene/math.js";
 
-const AROUND = 12;
-const CIRCLE = Array.from({ length: AROUND }, (_, j) => [Math.cos, Math.sin].map((of) => of((2 * Math.PI * j) / AROUND)));
+const SIDES = 12;
+const CIRCLE = Array.from({ length: SIDES }, (_, j) => [Math.cos, Math.sin].map((of) => of((2 * Math.PI * j) / SIDES)));
 /** Stride of the points around a tube in a draft; balls are octahedra. */
-const COARSE = 3;
+const DRAFT_STRIDE = 3;
 
 /** A surface of beams and nodes, updated when the nodes move. */
 export class FrameTubes {
@@ -17,23 +17,23 @@ export class FrameTubes {
     this.thick = thickness(nodes, beams, radii);
     const [corners, ball] = [new THREE.OctahedronGeometry(1), new THREE.IcosahedronGeometry(1, 1)].map(merged);
     this.ball = ball.points;
-    this.first = beams.length * 2 * AROUND;
+    this.first = beams.length * 2 * SIDES;
     const count = this.first + nodes.length * (this.ball.length / 3);
     this.geometry = new THREE.BufferGeometry();
     for (const [name, size] of Object.entries({ position: 3, normal: 3, level: 1 })) {
       this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(count * size), size));
     }
-    const thick = [...radii.flatMap((radius) => Array(2 * AROUND).fill(radius)), ...this.thick.flatMap((radius) => Array(this.ball.length / 3).fill(radius))];
+    const thick = [...radii.flatMap((radius) => Array(2 * SIDES).fill(radius)), ...this.thick.flatMap((radius) => Array(this.ball.length / 3).fill(radius))];
     this.geometry.setAttribute("thick", new THREE.BufferAttribute(Float32Array.from(thick), 1));
     this.geometry.setIndex(this._triangles(nodes.length, 1, ball.index));
     const octahedron = corners.index.map((k) => nearest(corners.points.slice(3 * k, 3 * k + 3), ball.points));
     /** Triangles for drafts, of the same points. */
-    this.coarse = new THREE.BufferAttribute(Uint32Array.from(this._triangles(nodes.length, COARSE, octahedron)), 1);
+    this.coarse = new THREE.BufferAttribute(Uint32Array.from(this._triangles(nodes.length, DRAFT_STRIDE, octahedron)), 1);
   }
 
   /** Index of the beam of a triangle; -1 for a ball. @param {number} face */
   beamAt(face) {
-    const sides = this.geometry.getIndex() === this.coarse ? Math.ceil(AROUND / COARSE) : AROUND;
+    const sides = this.geometry.getIndex() === this.coarse ? Math.ceil(SIDES / DRAFT_STRIDE) : SIDES;
     const beam = Math.floor(face / (2 * sides));
     return beam < this.beams.length ? beam : -1;
   }
@@ -41,9 +41,9 @@ export class FrameTubes {
   _triangles(nodes, every, ball) {
     const list = [];
     this.beams.forEach((_, b) => {
-      for (let j = 0; j < AROUND; j += every) {
-        const [a, c] = [2 * AROUND * b + j, 2 * AROUND * b + ((j + every) % AROUND)];
-        list.push(a, c, a + AROUND, c, c + AROUND, a + AROUND);
+      for (let j = 0; j < SIDES; j += every) {
+        const [a, c] = [2 * SIDES * b + j, 2 * SIDES * b + ((j + every) % SIDES)];
+        list.push(a, c, a + SIDES, c, c + SIDES, a + SIDES);
       }
     });
     const size = this.ball.length / 3;
@@ -58,14 +58,14 @@ export class FrameTubes {
       const z = unit(subtract(nodes[to], nodes[from])) ?? [0, 0, 1];
       const x = across(z);
       const y = cross(z, x);
-      for (let j = 0; j < AROUND; j++) {
+      for (let j = 0; j < SIDES; j++) {
         const [cosine, sine] = CIRCLE[j];
-        const k = 3 * (2 * AROUND * b + j);
+        const k = 3 * (2 * SIDES * b + j);
         for (let i = 0; i < 3; i++) {
           const normal = x[i] * cosine + y[i] * sine;
-          normals.array[k + i] = normals.array[k + i + 3 * AROUND] = normal;
+          normals.array[k + i] = normals.array[k + i + 3 * SIDES] = normal;
           positions.array[k + i] = nodes[from][i] + normal * this.radii[b];
-          positions.array[k + i + 3 * AROUND] = nodes[to][i] + normal * this.radii[b];
+          positions.array[k + i + 3 * SIDES] = nodes[to][i] + normal * this.radii[b];
         }
       }
     });
@@ -89,7 +89,7 @@ export class FrameTubes {
       beam.forEach((node, end) => {
         const value = values[2 * b + end] / most;
         atNode[node] = Math.max(atNode[node], value);
-        level.array.fill(value, AROUND * (2 * b + end), AROUND * (2 * b + end + 1));
+        level.array.fill(value, SIDES * (2 * b + end), SIDES * (2 * b + end + 1));
       });
     });
     const size = this.ball.length / 3;

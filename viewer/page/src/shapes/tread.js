@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { smoothTexture } from "../looks/noise.js";
 
-const [WIDE, HIGH] = [1024, 64];
+const [WIDTH, HEIGHT] = [1024, 64];
 
 /**
  * Makes the texture, periodic around the tyre.
@@ -10,18 +10,18 @@ const [WIDE, HIGH] = [1024, 64];
  * @returns {THREE.DataTexture}
  */
 export function treadTexture(tread) {
-  const pixels = new Uint8Array(WIDE * HIGH * 4);
-  for (let j = 0; j < HIGH; j++) {
-    const v = (j + 0.5) / HIGH;
+  const pixels = new Uint8Array(WIDTH * HEIGHT * 4);
+  for (let j = 0; j < HEIGHT; j++) {
+    const v = (j + 0.5) / HEIGHT;
     const across = (v - tread[0]) / (tread[1] - tread[0]);
-    for (let i = 0; i < WIDE; i++) {
-      const value = across > 0 && across < 1 ? block(i / WIDE, across) : side(i / WIDE, v);
-      const k = 4 * (j * WIDE + i);
+    for (let i = 0; i < WIDTH; i++) {
+      const value = across > 0 && across < 1 ? block(i / WIDTH, across) : side(i / WIDTH, v);
+      const k = 4 * (j * WIDTH + i);
       pixels.fill(value, k, k + 3);
       pixels[k + 3] = 255;
     }
   }
-  return Object.assign(smoothTexture(pixels, WIDE, HIGH, 4), { colorSpace: THREE.SRGBColorSpace, wrapS: THREE.RepeatWrapping });
+  return Object.assign(smoothTexture(pixels, WIDTH, HEIGHT, 4), { colorSpace: THREE.SRGBColorSpace, wrapS: THREE.RepeatWrapping });
 }
 
 /** Grey value of slanted blocks with a closed rib in the middle. */

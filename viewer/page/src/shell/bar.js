@@ -3,8 +3,8 @@ import { button, el, icon, select, write } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
 /** Buttons before and after the slider: an action of the table of keys, and its label if it has no icon. */
-const BEFORE = [["reset"], ["rewind"], ["before"], ["toggle"], ["step"], ["upright", "upright"]];
-const BEHIND = [["mute"], ["levers", "levers"], ["panels", "signals"], ["settings", "settings"], ["csv", "CSV"], ["help", "?"], ["full screen"]]; // prettier-ignore
+const LEFT_BUTTONS = [["reset"], ["rewind"], ["before"], ["toggle"], ["step"], ["upright", "upright"]];
+const RIGHT_BUTTONS = [["mute"], ["levers", "levers"], ["panels", "signals"], ["settings", "settings"], ["csv", "CSV"], ["help", "?"], ["full screen"]]; // prettier-ignore
 /** @type {Object<string, Parameters<typeof icon>[0]>} */
 const ICONS = { reset: "reset", rewind: "rewind", before: "back", toggle: "play", step: "forward", mute: "sound", "full screen": "full" };
 const WORDS = { csv: "save inputs and outputs of the run as a table" };
@@ -41,7 +41,7 @@ export class Bar {
     const some = (list) => list.filter(([act]) => act in acts && (act !== "full screen" || document.fullscreenEnabled)).map(([act, words]) => this._button(act, words, acts[act])); // prettier-ignore
     const group = (...parts) => el("div.a3-group", {}, ...parts);
     const choices = [[size, steps], [place, places], [this.cameras, cameras]].filter(([, list]) => list.length > 1).map(([choice]) => choice); // prettier-ignore
-    this.element = el("div.a3-bar", { data: "bar" }, group(...some(BEFORE)), this.slide, this.clock, group(this.rate), group(...choices, ...some(BEHIND)));
+    this.element = el("div.a3-bar", { data: "bar" }, group(...some(LEFT_BUTTONS)), this.slide, this.clock, group(this.rate), group(...choices, ...some(RIGHT_BUTTONS)));
     this.speed(1);
   }
 

@@ -9,13 +9,13 @@ import { resampled, values } from "./series.js";
 /** Okabe and Ito's palette: distinguishable with any colour vision. */
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#8a8f94"];
 const FONT = "11px system-ui, sans-serif";
-const FAINT = { stroke: "#8884", width: 1 };
+const GRID_STYLE = { stroke: "#8884", width: 1 };
 // A canvas interprets currentColor as black.
 const INK = (/** @type {uPlot} */ plot) => getComputedStyle(plot.root).color;
-const AXIS = { stroke: INK, grid: FAINT, ticks: FAINT, font: FONT, labelFont: FONT, labelSize: 16 };
+const AXIS = { stroke: INK, grid: GRID_STYLE, ticks: GRID_STYLE, font: FONT, labelFont: FONT, labelSize: 16 };
 const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none";
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
-const SYNCED = "ali3"; // common cursor of all diagrams
+const CURSOR_KEY = "ali3"; // common cursor of all diagrams
 const NULL_RETAIN = 1; // of uPlot.join: retains gaps of a run
 
 /** Text of a number. @param {number} value @returns {string} */
@@ -102,7 +102,7 @@ export class Chart {
         { ...AXIS, label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
       ],
       series: [{}, ...this.curves.map(({ label, colour, dash, t }) => ({ label, stroke: colour, dash, width: 1.5, points: { show: t.length === 1 ? true : undefined } }))],
-      cursor: { sync: { key: SYNCED }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
+      cursor: { sync: { key: CURSOR_KEY }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       hooks: {
         draw: [() => this._putLine()],
         setScale: [(plot, key) => key === "x" && !this._isSettingScale && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],

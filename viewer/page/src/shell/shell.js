@@ -12,7 +12,7 @@ import { Plots } from "./plots.js";
 import { Settings } from "./settings.js";
 import style from "./style.css";
 
-const WIDE = 1.15; // least ratio of width to height for signals beside the picture
+const WIDE_RATIO = 1.15; // least ratio of width to height for signals beside the picture
 
 /** Values of columns at a time. @typedef {(name: string) => number | undefined} Lookup */
 
@@ -210,7 +210,7 @@ export class Shell {
   /** Puts the panel beside or below the picture, depending on the window. */
   shape() {
     const { clientWidth, clientHeight } = this.root;
-    this.root.dataset.shape = clientWidth > WIDE * clientHeight ? "wide" : "tall";
+    this.root.dataset.shape = clientWidth > WIDE_RATIO * clientHeight ? "wide" : "tall";
     this.dirty = true;
   }
 

@@ -7,8 +7,8 @@ const HEADER_NUMBERS = ["count", "time", "speed", "wall", "cost", "worst", "late
 /** Interval at which an unchanged request is sent again, so that the simulator knows that the page is alive, ms. */
 const REPEAT_INTERVAL = 200;
 /** Waiting time before the first attempt to reconnect, doubled with each further one up to the longest, ms. */
-const FIRST_WAIT = 250;
-const LONGEST_WAIT = 4000;
+const MIN_WAIT = 250;
+const MAX_WAIT = 4000;
 
 /**
  * Read a frame.
@@ -143,7 +143,7 @@ export class Link {
   _lost(reason) {
     this._sent.clear();
     if (this._closed) return;
-    const wait = Math.min(FIRST_WAIT * 2 ** this._tries, LONGEST_WAIT);
+    const wait = Math.min(MIN_WAIT * 2 ** this._tries, MAX_WAIT);
     this._tries += 1;
     this._reason = reason || this._reason; // the server's last reason is shown until it is back
     const explanation = this._reason ? `: ${this._reason.replace(/\.$/, "")}` : "";

@@ -7,7 +7,7 @@ import { Blend, turnsOf } from "./blend.js";
 import { clock } from "../live/worker.js";
 
 /** Delay of the picture behind the run, so that there is a row before and after it, s. */
-const BEHIND = 0.03;
+const DELAY = 0.03;
 /** Largest number of points of a curve. */
 const MAX_POINTS = 1000;
 
@@ -75,7 +75,7 @@ export class Session {
     if (this.scrubbed !== null) return this.scrubbed;
     if (!this.running) return this.end;
     const rate = this.pace.factor === null ? this.speed : Math.min(this.speed, this.pace.factor);
-    const target = this._k * this.step + rate * (clock() - this.pace.at - BEHIND);
+    const target = this._k * this.step + rate * (clock() - this.pace.at - DELAY);
     this._last = Math.max(this._last, Math.min(this.end, target));
     return this._last;
   }

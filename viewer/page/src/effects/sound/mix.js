@@ -3,7 +3,7 @@ import * as signals from "./signals.js";
 
 const PREFIX = /^(.+)\.slip_angle$/;
 /** Radius of a wheel, m, and the longest time between pictures for which changes of load are impacts, s. */
-const [RADIUS, LONGEST] = [0.3, 0.2];
+const [WHEEL_RADIUS, MAX_INTERVAL] = [0.3, 0.2];
 
 /** Computes sounds from the available signals; stores the last loads. */
 export class CarMix {
@@ -45,7 +45,7 @@ export class CarMix {
       load: number(`${prefix}.Fz`),
       slip: number(`${prefix}.slip`),
       angle: number(`${prefix}.slip_angle`),
-      tread: Math.abs(number(`${prefix}.omega`)) * RADIUS,
+      tread: Math.abs(number(`${prefix}.omega`)) * WHEEL_RADIUS,
     }));
     const before = this.loads;
     this.loads = wheels.map(({ load }) => load);
@@ -55,7 +55,7 @@ export class CarMix {
     const squeals = wheels.map(({ slip, angle, load, tread }) => signals.squealLevel(slip, angle, load, Math.max(speed, tread)));
     const loudest = squeals.indexOf(Math.max(...squeals, 0));
     const touching = wheels.length > 0 ? wheels.filter(({ load }) => load > 0).length / wheels.length : 1;
-    const thumps = before === null || step > LONGEST ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
+    const thumps = before === null || step > MAX_INTERVAL ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
     return {
       engine: this.engine ? { pitch: signals.enginePitch(number("engine_speed")), ...signals.engineLevels(number("engine_speed"), throttle) } : null,
       motor: this.motor ? this._motor(number, throttle) : null,

@@ -3,7 +3,7 @@ import { CYLINDERS, engineVoice } from "./engine_voice.js";
 import { Thumps, noiseBuffer, noiseVoice, squealVoice, whineVoice } from "./voices.js";
 
 /** Time constant of all changes, s, which avoids clicks. */
-const SMOOTH = 0.025;
+const TIME_CONSTANT = 0.025;
 /** Time without new values after which the sound fades, s. */
 const TIMEOUT = 0.4;
 
@@ -35,7 +35,7 @@ export class Mixer {
   /** Changes the sounds to a mix. @param {Mix | null} mix null: silence */
   set(mix) {
     const now = this.context.currentTime;
-    const to = (param, value) => param.setTargetAtTime(value, now, SMOOTH);
+    const to = (param, value) => param.setTargetAtTime(value, now, TIME_CONSTANT);
     const { gain } = this.master;
     gain.cancelScheduledValues(now);
     to(gain, mix === null ? 0 : 0.7 * this.volume);

@@ -8,7 +8,7 @@ export const IDLE = 85;
 /** Periods per revolution of the sound of an electric motor: two per pair of poles. */
 export const WAVES = 8;
 /** Load of the largest level of a tyre, N. */
-const LOAD = 3000;
+const FULL_LOAD = 3000;
 /** Least rate of change of a wheel's load that is audible as an impact, and that of the loudest, N/s. */
 const [LEAST_RATE, LOUDEST_RATE] = [60e3, 600e3];
 
@@ -37,11 +37,11 @@ export const motorLevel = (speed, effort) => clamp(Math.abs(speed) / 120) * (0.0
  */
 export function squealLevel(slip, angle, load, speed) {
   if (!(load > LIGHT)) return 0;
-  return clamp((use(slip, angle) - 0.9) / 1.6) * clamp(load / LOAD) ** 0.7 * clamp((speed - 1) / 3);
+  return clamp((use(slip, angle) - 0.9) / 1.6) * clamp(load / FULL_LOAD) ** 0.7 * clamp((speed - 1) / 3);
 }
 
 /** Pitch of squeal, falling with the load. @param {number} load N */
-export const squealPitch = (load) => 1050 - 330 * clamp(load / (2 * LOAD));
+export const squealPitch = (load) => 1050 - 330 * clamp(load / (2 * FULL_LOAD));
 
 /** Level of rolling noise. @param {number} speed m/s @param {number} share of the wheels that touch the ground */
 export const rollingLevel = (speed, share) => 0.3 * clamp(Math.abs(speed) / 40) ** 0.8 * share;

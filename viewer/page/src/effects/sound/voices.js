@@ -66,7 +66,7 @@ export function squealVoice(context, noise, to) {
 }
 
 /** Largest number of simultaneous impacts. */
-const MOST = 6;
+const MAX_IMPACTS = 6;
 
 /** Short low sounds of impacts. */
 export class Thumps {
@@ -87,7 +87,7 @@ export class Thumps {
 
   /** Plays an impact. @param {number} strength 0 to 1 */
   knock(strength) {
-    if (this.count >= MOST) return;
+    if (this.count >= MAX_IMPACTS) return;
     const { context } = this;
     const [begin, end] = [context.currentTime, context.currentTime + 0.28];
     const level = silent(context);

@@ -7,9 +7,9 @@ import { growing, prisms } from "./tubes.js";
 /** Largest number of triangles of all parts, of which solid parts may have at least half. */
 export const MOST = 12000;
 /** Cell size of the finest lattice, as a share of the size of the drawing. */
-const FINEST = 1.5e-3;
+const FINEST_CELL = 1.5e-3;
 /** Layer that cameras do not draw. */
-const UNSEEN = 1;
+const HIDDEN_LAYER = 1;
 
 /** Whether a mesh is drawn separately: it is transparent, or its form or look changes. @param {THREE.Mesh} mesh */
 const isSeparate = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone || mesh.userData.cover;
@@ -85,7 +85,7 @@ export function baked(parts, light, extent) {
   const surfaces = within(solid.map(({ object, meshes }) => {
     const inverse = object.matrixWorld.clone().invert();
     return joined(meshes.filter(({ userData }) => !userData.tubes).map((mesh) => surfaceOf(mesh, inverse.clone())));
-  }), Math.max(MOST / 2, MOST - otherTriangles), FINEST * extent); // prettier-ignore
+  }), Math.max(MOST / 2, MOST - otherTriangles), FINEST_CELL * extent); // prettier-ignore
   for (const { meshes } of solid) hidden.push(...meshes);
   const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k], tubes: tubes[k] })).filter(({ surface, tubes: { index } }) => surface.index.length + index.length > 0);
   const [points, corners] = ["positions", "index"].map((name) => sumOf(surfaces, name) + sumOf(tubes, name));
@@ -106,7 +106,7 @@ export function baked(parts, light, extent) {
     show(on) {
       batch.visible = on;
       if (!on) for (const { least } of parts.flexible) least.value = 0;
-      for (const mesh of hidden) mesh.layers.set(on ? UNSEEN : 0);
+      for (const mesh of hidden) mesh.layers.set(on ? HIDDEN_LAYER : 0);
       for (const [mesh, own] of single) mesh.material = on ? twins.get(own) : own;
       for (const mesh of coarsened) {
         const { coarse, fine = mesh.geometry.index } = mesh.userData;

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { atEachPoint } from "../vertex_code.js";
 
 /** Sides of a prism, and least radius of a tube, for a least width of a pixel, pixels. */
-const [SIDES, LEAST] = [4, 0.75];
+const [SIDES, MIN_RADIUS] = [4, 0.75];
 
 const GROW = /* glsl */ `
 mat4 stands = modelMatrix;
@@ -15,7 +15,7 @@ float least = aLeast * (projectionMatrix * viewMatrix * stands * vec4(position, 
 if (radius > 0.0) transformed += normal * thick * max(0.0, least / radius - 1.0);`;
 
 /** `aLeast` of a picture: least radius over half of its height. @param {number} height pixels */
-export const leastOf = (height) => (2 * LEAST) / height;
+export const leastOf = (height) => (2 * MIN_RADIUS) / height;
 
 /**
  * Widens tubes in a shader; the attribute `thick` is the radius of a point of a tube along its normal, else 0.

@@ -3,9 +3,9 @@
 /** @typedef {{positions: number[], normals: number[], colours: number[], index: number[]}} Surface */
 
 /** Number of lattice indices of an axis; three indices make one integer. */
-const LINES = 2 ** 17;
+const INDEX_COUNT = 2 ** 17;
 /** Ratio of cell sizes of a lattice and the next finer one. */
-const COARSER = 1.3;
+const CELL_RATIO = 1.3;
 
 /** Index of the nearest of six directions to a normal, which separates the two sides of a sheet. */
 function side(normals, k) {
@@ -43,10 +43,10 @@ function kindsOf({ normals, colours }) {
 function latticed({ positions, index }, kinds, cell) {
   const [cells, points] = [numbering(), numbering()];
   const [cellOf, pointOf] = [new Uint32Array(kinds.length), new Uint32Array(kinds.length)];
-  const line = (k) => Math.round(positions[k] / cell) + LINES / 2;
+  const line = (k) => Math.round(positions[k] / cell) + INDEX_COUNT / 2;
   let many = 0;
   kinds.forEach((kind, k) => {
-    cellOf[k] = cells((line(3 * k) * LINES + line(3 * k + 1)) * LINES + line(3 * k + 2));
+    cellOf[k] = cells((line(3 * k) * INDEX_COUNT + line(3 * k + 1)) * INDEX_COUNT + line(3 * k + 2));
     pointOf[k] = points(kind * kinds.length + cellOf[k]);
     many = Math.max(many, pointOf[k] + 1);
   });
@@ -106,7 +106,7 @@ export function within(surfaces, most, finest) {
   const count = (list) => list.reduce((sum, { index }) => sum + index.length / 3, 0);
   if (count(surfaces) <= most) return surfaces;
   const kinds = surfaces.map(kindsOf);
-  const lattice = (/** @type {number} */ k) => surfaces.map((surface, i) => latticed(surface, kinds[i], finest * COARSER ** k));
+  const lattice = (/** @type {number} */ k) => surfaces.map((surface, i) => latticed(surface, kinds[i], finest * CELL_RATIO ** k));
   let [low, high] = [-1, 0]; // too fine, possibly coarse enough
   let clustered = lattice(high);
   while (count(clustered) > most) {

@@ -3,15 +3,15 @@ import * as THREE from "three";
 import { dot, fromColumns } from "../../scene/math.js";
 import { turn } from "../../shapes/place.js";
 import { skylit } from "../skylight.js";
-import { PAINTS, ROUGHLY, arrowStrips, dashes, edges } from "./ribbon.js";
+import { PAINTS, DRAFT_OFFSET, arrowStrips, dashes, edges } from "./ribbon.js";
 import { MOST_TEXTS, addSign, signTexture } from "./signs.js";
 import { coneGeometry, postGeometry } from "./small_things.js";
-import { FAR, Forest, formOf, kindOf } from "./trees.js";
+import { FAR_DISTANCE, Forest, formOf, kindOf } from "./trees.js";
 import { Triangles } from "./triangles.js";
 import { addBarrier, addBuilding, windows } from "./walls.js";
 
 /** Least side of the squares of scenery, m, and their approximate largest number. */
-const [SQUARE, SQUARES] = [250, 20];
+const [MIN_SQUARE_SIDE, SQUARE_COUNT] = [250, 20];
 
 /** Stride of the trees in a draft. */
 const TREE_STRIDE = 3;
@@ -26,7 +26,7 @@ export function squares(things) {
     const [low, high] = places.reduce(([a, b], place) => [Math.min(a, place[k]), Math.max(b, place[k])], [Infinity, -Infinity]);
     return high - low;
   });
-  const size = Math.max(SQUARE, Math.sqrt((side[0] * side[1]) / SQUARES));
+  const size = Math.max(MIN_SQUARE_SIDE, Math.sqrt((side[0] * side[1]) / SQUARE_COUNT));
   const groups = new Map();
   things.forEach((thing, n) => {
     const key = places[n].slice(0, 2).map((value) => Math.floor(value / size)).join();
@@ -68,7 +68,7 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
   for (const square of drafted ? [fewer()] : squares(known)) {
     if (square.length === 0) continue;
     const base = placeOf(square[0]).slice();
-    for (const mesh of squareMeshes(square, base, { shared, texts, paint, ground, off: drafted ? ROUGHLY : undefined })) {
+    for (const mesh of squareMeshes(square, base, { shared, texts, paint, ground, off: drafted ? DRAFT_OFFSET : undefined })) {
       group.add(mesh);
       pieces.push({ mesh, base });
     }
@@ -81,7 +81,7 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
       if (levels === undefined) continue;
       const { center, radius } = mesh.boundingSphere;
       const distance = Math.hypot(...[0, 1, 2].map((k) => center.getComponent(k) + mesh.position.getComponent(k) - camera[k])) - radius;
-      mesh.geometry = levels[drafted || distance > FAR ? 1 : 0];
+      mesh.geometry = levels[drafted || distance > FAR_DISTANCE ? 1 : 0];
     }
   };
   const dispose = () => {

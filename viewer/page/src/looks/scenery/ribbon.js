@@ -6,9 +6,9 @@ import { LIFT } from "../ground_offset.js";
 export const PAINTS = looks.paints;
 
 /** Longest and shortest steps along a line, and its largest distance from the ground after thinning, m. */
-const [LONGEST, SHORTEST, OFF] = [2, 0.1, 1e-3];
+const [MAX_STEP, MIN_STEP, MAX_OFFSET] = [2, 0.1, 1e-3];
 /** The same distance in a draft, m. */
-export const ROUGHLY = 1e-2;
+export const DRAFT_OFFSET = 1e-2;
 
 /** Point between a and b. */
 const between = (a, b, share) => a.map((value, k) => value + share * (b[k] - value));
@@ -53,7 +53,7 @@ export function dashes(points, dash) {
  * @param {number} [off] largest distance of the edges from the ground after thinning, m
  * @returns {number[][][]} pairs of points: right edge, left edge
  */
-export function edges(points, width, ground, off = OFF) {
+export function edges(points, width, ground, off = MAX_OFFSET) {
   const stations = ground === null ? points : dense(points, ground);
   const pairs = stations.map((at, i) => {
     const side = scaledNormal(stations, i);
@@ -74,7 +74,7 @@ function dense(points, ground) {
     for (let done = 0; done < length - 1e-6; ) {
       const at = between(a, b, done / length);
       found.push(at);
-      done += Math.min(LONGEST, Math.max(SHORTEST, ground.stepAt(at[0], at[1])));
+      done += Math.min(MAX_STEP, Math.max(MIN_STEP, ground.stepAt(at[0], at[1])));
     }
   }
   found.push(points[points.length - 1]);

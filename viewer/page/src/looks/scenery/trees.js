@@ -15,7 +15,7 @@ const KINDS = [
 /** Colour of trunks, whose texture coordinates are above 1. */
 const BARK = looks.things.bark;
 /** Distance of far trees, m. */
-export const FAR = 120;
+export const FAR_DISTANCE = 120;
 
 /** Kind of a tree. @param {number} seed integer */
 export const kindOf = (seed) => Math.floor(3 * randomNumbers(seed)());
