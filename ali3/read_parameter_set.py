@@ -121,6 +121,7 @@ def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
 
 
 def _check_unique(names: Iterable[str], prefix: str, rule: str) -> None:
+    """Refuse a name that occurs twice, by a sentence with the prefix and the rule."""
     known_names: set[str] = set()
     for name in names:
         if name in known_names:

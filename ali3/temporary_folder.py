@@ -13,6 +13,7 @@ if sys.platform != "win32":
 
 PREFIX = ".ali3-"
 _cleared: set[Path] = set()
+"""Parents from which abandoned folders were removed."""
 
 
 @contextmanager
@@ -40,6 +41,7 @@ def temporary_folder(parent: str | os.PathLike[str] | None = None) -> Iterator[P
 
 
 def _locked_folder(parent: Path) -> tuple[Path, int]:
+    """A new folder, and the descriptor of its lock; -1 on Windows, where folders cannot be locked."""
     while True:
         folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent))
         if sys.platform == "win32":

@@ -34,7 +34,7 @@ function materialOf(name) {
 }
 
 /** Bounds of the drawn ground along x and y. @param {import("./run.js").Run} run @param {number[][]} axes */
-export const nearby = (run, axes) => axes.slice(0, 2).map((axis) => run.extentAlong(axis)).map(([low, high]) => [low - MARGIN, high + MARGIN]); // prettier-ignore
+export const boundsNear = (run, axes) => axes.slice(0, 2).map((axis) => run.extentAlong(axis)).map(([low, high]) => [low - MARGIN, high + MARGIN]); // prettier-ignore
 
 /** Mesh of a level or inclined road or a profile, to twice the size of the scene beyond the frames. @param {Data} road @param {import("./run.js").Run} run @param {number[]} up @returns {THREE.Mesh} */
 export function plainRoad(road, run, up) {
@@ -49,7 +49,7 @@ export function plainRoad(road, run, up) {
 /** @typedef {{patch: import("../looks/heights.js").Patch, i0: number, j0: number, n: number, m: number}} Part */
 
 /** Part of a patch in a rectangle; null if there is none. @param {import("../looks/heights.js").Patch} patch @param {number[][]} ways @returns {Part | null} */
-function cut(patch, ways) {
+function partWithin(patch, ways) {
   const [[i0, i1], [j0, j1]] = ways.map(([low, high], k) => {
     const at = (/** @type {number} */ value) => (value - patch.origin[k]) / patch.spacing[k];
     return [Math.max(0, Math.floor(at(low))), Math.min(patch.shape[k] - 1, Math.ceil(at(high)))];
@@ -65,7 +65,7 @@ function cut(patch, ways) {
  *   the positions; error: largest error of a height, m
  */
 function meshesOf(patches, ways, nameAt, border = 0) {
-  const inside = patches.map((patch) => cut(patch, ways)).filter((part) => part !== null);
+  const inside = patches.map((patch) => partWithin(patch, ways)).filter((part) => part !== null);
   let spacing = MIN_CELL;
   const stride = ({ patch }) => Math.max(1, Math.round(spacing / Math.sqrt(patch.spacing[0] * patch.spacing[1])));
   const lines = (part) => [part.n, part.m].map((n, k) => strided(n, stride(part)).map((line) => line + [part.i0, part.j0][k]));
@@ -105,9 +105,9 @@ function meshesOf(patches, ways, nameAt, border = 0) {
 }
 
 /** Meshes of a terrain, or of a road on a grid, near the path. @param {any} road @param {import("./run.js").Run} run @param {number[]} up */
-export function heights(road, run, up) {
+export function heightMeshes(road, run, up) {
   const axes = [...(road.kind === "grid" ? groundAxes(road, up) : groundAxes({}, up)).slice(0, 2), up];
-  const ways = nearby(run, axes);
+  const ways = boundsNear(run, axes);
   if (road.kind === "terrain") {
     const raster = new SurfaceRaster(road.surface);
     return { axes, ...meshesOf(new HeightField(road).patches, ways, (x, y) => raster.nameAt(x, y)) };
@@ -121,7 +121,7 @@ export function heights(road, run, up) {
  * Meshes of the paths of the reference point and the wheels; none without motion of the focus.
  * @param {import("./run.js").Run} run @param {number[]} up @returns {{name: string, mesh: THREE.Mesh}[]}
  */
-export function paths(run, up) {
+export function pathMeshes(run, up) {
   const { scene, epoch, count } = run;
   if (!scene.focus || scene.planar) return [];
   const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");

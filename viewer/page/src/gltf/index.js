@@ -9,7 +9,7 @@ import { unit } from "../scene/math.js";
 import { makeShape } from "../shapes/index.js";
 import { File } from "./file.js";
 import { flexible } from "./flexible.js";
-import { MARGIN, heights, nearby, paths, plainRoad } from "./ground.js";
+import { MARGIN, boundsNear, heightMeshes, pathMeshes, plainRoad } from "./ground.js";
 import { fixed, lean, meshOf, moving } from "./meshes.js";
 import { keptTimes } from "./motion.js";
 import { Run } from "./run.js";
@@ -79,16 +79,16 @@ function addGround() {
     if (entry.kind === "file") notes.push("The road of a file is not drawn.");
     else if (entry.kind !== "terrain" && entry.kind !== "grid") addFixed(title, merged(plainRoad(entry, run, up)));
     else {
-      const { axes, parts, base, error } = heights(entry, run, up);
+      const { axes, parts, base, error } = heightMeshes(entry, run, up);
       addFixed(title, toEarth(meshOf(parts), base, axes));
       notes.push(`Of the ${title}, what is within ${MARGIN} m of the way is drawn; its heights are up to ${rounded(1000 * error, 2)} mm off.`);
     }
   }
   const axes = [...groundAxes({}, up), up];
-  const { meshes, left } = scenery(scene.scenery ?? [], nearby(run, axes));
+  const { meshes, left } = scenery(scene.scenery ?? [], boundsNear(run, axes));
   for (const { kind, geometry, base, material } of meshes) addFixed(kind, toEarth(meshOf(new Map([[material, geometry]])), base, axes));
   if (left > 0) notes.push(`${left} things of the scenery are left out; the others stand by the way.`);
-  for (const { name: title, mesh } of paths(run, up)) addFixed(title, merged(mesh));
+  for (const { name: title, mesh } of pathMeshes(run, up)) addFixed(title, merged(mesh));
 }
 
 /** Merges equal points of a mesh. @param {THREE.Mesh} mesh */
