@@ -1,4 +1,4 @@
-"""The content of an alias file (names of another program for our variables) and of the files that it extends."""
+"""Reads alias files, which give the names of our variables in another program, and the files that they extend."""
 
 import math
 from collections.abc import Mapping
@@ -10,13 +10,13 @@ from ali3.errors import UserError
 from ali3.reading import is_file, read_toml
 
 CONSTANTS = "constants"
-"""The table of an alias file that says what the FMU does not provide of its car, such as ``vehicle.wheelbase``."""
+"""Key of the table of constants of the car that the FMU does not provide, such as ``vehicle.wheelbase``."""
 NEEDS = "needs"
-"""The table that says which constants depend on the car, each with a text."""
+"""Key of the table that describes the constants that depend on the car."""
 EXTENDS = "extends"
-"""The key that names the file, or one that comes with the package, whose entries count where this one has no own."""
+"""Key of the base file, by path or by its name in the package; entries of this file replace those of the base."""
 PARTIAL = "partial"
-"""The key that says that names which the FMU lacks are left out; else they are errors."""
+"""Key: whether entries whose variable the FMU lacks are left out; by default they are errors."""
 
 SHIPPED = Path(__file__).parent / "alias_files"
 _MOST_FILES = 10
@@ -29,15 +29,15 @@ class Entry:
 
     ours: str
     value: dict[str, Any]
-    """As it stands there; a text alone is ``{"name": text}``."""
+    """Content of the entry; a text alone is ``{"name": text}``."""
     file: str
-    """Where it stands."""
+    """Name of the alias file in messages."""
     partial: bool
-    """Whether it is left out where the FMU lacks the variable."""
+    """Whether the entry is left out if the FMU lacks the variable."""
 
     @property
     def where(self) -> str:
-        """How messages call it."""
+        """File and name of the entry in messages."""
         return f"{self.file}: '{self.ours}'"
 
 
@@ -47,14 +47,14 @@ class Content:
 
     file: str
     entries: dict[str, Entry] = field(default_factory=dict)
-    """By our names."""
+    """Entries by our names."""
     constants: dict[str, float] = field(default_factory=dict)
     needs: dict[str, str] = field(default_factory=dict)
-    """Constants of the car by name, with a text."""
+    """Descriptions of the constants that depend on the car, by name."""
 
 
 def read_content(file: Path, depth: int = 0) -> Content:
-    """Read a file and those that it extends; `UserError` with the file and the key."""
+    """Read a file and those that it extends. Raises `UserError` with the file and the key."""
     table = read_toml(file, UserError, f"The alias file {file}")
     content = Content(str(file))
     base = table.pop(EXTENDS, None)
@@ -63,8 +63,8 @@ def read_content(file: Path, depth: int = 0) -> Content:
             raise UserError(f"{file}: {EXTENDS} is {base!r}; it must be the name of an alias file.")
         if depth >= _MOST_FILES:
             raise UserError(f"{file}: more than {_MOST_FILES} files extend one another; does one extend itself?")
-        below = read_content(_found(base, file), depth + 1)
-        content = Content(str(file), dict(below.entries), dict(below.constants), dict(below.needs))
+        base_content = read_content(_base_file(base, file), depth + 1)
+        content = Content(str(file), dict(base_content.entries), dict(base_content.constants), dict(base_content.needs))
     partial = table.pop(PARTIAL, False)
     if not isinstance(partial, bool):
         raise UserError(f"{file}: {PARTIAL} is {partial!r}; it must be true or false.")
@@ -77,15 +77,12 @@ def read_content(file: Path, depth: int = 0) -> Content:
 
 
 def shipped_names() -> list[str]:
-    """Names of the alias files that come with the package, such as ``chrono``."""
+    """Names of the alias files in the package, such as ``chrono``."""
     return sorted(p.stem for p in SHIPPED.glob("*.toml"))
 
 
 def alias_file(name: str | Path) -> Path:
-    """The file of a name that comes with the package, or another; one of that name here comes first.
-
-    Raises `UserError`: there is neither.
-    """
+    """Path of an alias file: a file, or else the one of this name in the package. Raises `UserError`: there is none."""
     path = Path(name)
     if not is_file(path) and str(name) in shipped_names():
         path = SHIPPED / f"{name}.toml"
@@ -98,13 +95,13 @@ def alias_file(name: str | Path) -> Path:
 
 
 def number(value: Any, where: str) -> float:
-    """A finite number; else `UserError`."""
+    """Check that a value is a finite number. Raises `UserError`: it is not."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise UserError(f"{where} is {value!r}; it must be a finite number.")
     return float(value)
 
 
-def _found(base: str, file: Path) -> Path:
+def _base_file(base: str, file: Path) -> Path:
     path = file.parent / base
     if is_file(path):
         return path

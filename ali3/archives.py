@@ -1,4 +1,4 @@
-"""Lists, reads and unpacks zip archives such as FMUs and SSPs; nothing else in the project opens one."""
+"""Lists, reads and unpacks zip archives such as FMUs and SSPs; the only module that opens them."""
 
 from __future__ import annotations
 
@@ -21,20 +21,21 @@ from ali3.message_text import brief, one_line
 from ali3.reading import Error, is_file, open_file
 
 LARGEST_ARCHIVE = 2_000_000_000
-"""Bytes of the file."""
+"""Largest size of the file, bytes."""
 LARGEST_UNPACKED = 1_000_000_000
-"""Bytes of all entries of an archive."""
+"""Largest size of all entries together, bytes."""
 MOST_ENTRIES = 50_000
+# Signatures of the end records, and their sizes; that of ZIP64 includes its locator.
 _END = b"PK\5\6"
 _END_64 = b"PK\6\6"
 _END_SIZE = 22  # bytes
 _END_64_SIZE = 56 + 20  # bytes
-_MOST_COMMENT = 65535  # bytes
-_ENTRY = 46 + 200
-"""Bytes of an entry in the directory of an archive, with a long name."""
+_LARGEST_COMMENT = 65535  # bytes
+_ENTRY_SIZE = 46 + 200
+"""Size of an entry with a long name in the directory of an archive, bytes."""
 _LONGEST_NAME = 255  # bytes, on all usual file systems
-_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-# What `zipfile` raises of damaged archives, of other methods and of passwords.
+_COMPRESSION_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+# Errors of `zipfile` for damaged archives, unknown methods and passwords.
 _DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, KeyError, RuntimeError, NotImplementedError)
 
 
@@ -43,24 +44,24 @@ class Fault:
     """The reason why an archive is not unpacked."""
 
     words: str
-    """The rest of a sentence that begins with the name of the archive."""
+    """Predicate of a sentence whose subject is the archive."""
     clause: str = ""
-    """What of a standard it is against; empty: it is refused here alone."""
+    """Clause of the standard that is violated; empty if only this project refuses the archive."""
 
 
 class Archive:
-    """An archive that is opened for reading; a context.
+    """An archive opened for reading; a context manager.
 
     Parameters
     ----------
     file : path
         A regular file.
     error : type of exception
-        What is raised, with one sentence: it is not an archive, it is damaged, or it has a fault of `faults_of`.
+        Raised with one sentence if the file is not an archive, is damaged, or has a fault of `faults_of`.
     name, kind : str
-        How the sentence calls the file, by default by its path, and what it should be.
+        Name of the file in that sentence, by default its path, and the expected kind of file.
     largest, unpacked : int
-        Bytes of the file, and of all its entries.
+        Largest size of the file, and of all its entries together, bytes.
     """
 
     def __init__(
@@ -73,8 +74,8 @@ class Archive:
         unpacked: int = LARGEST_UNPACKED,
     ) -> None:
         self._name, self._error = name or str(file), error
-        self._held = ExitStack()
-        self._archive = self._held.enter_context(_opened(file, error, self._name, kind, largest))
+        self._resources = ExitStack()
+        self._archive = self._resources.enter_context(_opened(file, error, self._name, kind, largest))
         self._sizes = {info.filename: info.file_size for info in self._archive.infolist()}
         for fault in _faults(self._archive, unpacked):
             self.close()
@@ -82,14 +83,14 @@ class Archive:
 
     @property
     def names(self) -> list[str]:
-        """Names of the files, in their order."""
+        """Names of the files in the order of the archive."""
         return [name for name in self._sizes if not name.endswith("/")]
 
     def __contains__(self, entry: str) -> bool:
         return entry in self._sizes
 
     def read(self, entry: str, largest: int = LARGEST_UNPACKED) -> bytes:
-        """Content of a file. `largest`: bytes."""
+        """Content of a file of at most `largest` bytes."""
         label = f"{entry} in {self._name}"
         if entry not in self._sizes:
             raise self._error(f"{self._name} has no {entry}.")
@@ -103,7 +104,7 @@ class Archive:
             raise self._error(f"{label} cannot be read: {reason(fault)}.") from None
 
     def unpack(self, folder: Path, is_needed: Callable[[str], bool] = lambda name: True) -> None:
-        """Write the files whose names `is_needed` accepts into a folder. Raises `OSError` too: it cannot be written."""
+        """Write the files whose names `is_needed` accepts. Raises also `OSError`: the folder cannot be written."""
         for entry in self.names:
             if is_needed(entry):
                 file = folder / entry
@@ -112,7 +113,7 @@ class Archive:
 
     def close(self) -> None:
         """Close the file."""
-        self._held.close()
+        self._resources.close()
 
     def __enter__(self) -> Archive:
         return self
@@ -122,7 +123,7 @@ class Archive:
 
 
 def is_archive(file: str | os.PathLike[str]) -> bool:
-    """Whether there is a regular file that ends as an archive does."""
+    """Whether a file is regular and has the end record of an archive."""
     if not is_file(file):
         return False
     with open_file(file, sys.maxsize) as stream:
@@ -130,7 +131,7 @@ def is_archive(file: str | os.PathLike[str]) -> bool:
 
 
 def faults_of(file: str | os.PathLike[str], error: Error = FileError, kind: str = "an archive") -> list[Fault]:
-    """All that keeps an archive from being unpacked; `file`, `error`, `kind`: as of `Archive`."""
+    """All faults that prevent an archive from being unpacked; `file`, `error`, `kind`: as of `Archive`."""
     with _opened(file, error, str(file), kind, LARGEST_ARCHIVE) as archive:
         return list(_faults(archive, LARGEST_UNPACKED))
 
@@ -140,12 +141,12 @@ def _opened(
     file: str | os.PathLike[str], error: Error, name: str, kind: str, largest: int
 ) -> Iterator[zipfile.ZipFile]:
     with open_file(file, largest, error, name) as stream:
-        directory = _directory_size(stream)
-        if directory is None:
+        directory_size = _directory_size(stream)
+        if directory_size is None:
             raise error(f"{name} is not {kind} (not a zip archive).")
-        if directory > raised(MOST_ENTRIES * _ENTRY):  # which is read whole
-            limit_text = at_most(directory, MOST_ENTRIES * _ENTRY)
-            raise error(f"{name} has a directory of {directory} bytes; it must have {limit_text}.")
+        if directory_size > raised(MOST_ENTRIES * _ENTRY_SIZE):  # `zipfile` reads all of it into memory
+            limit_text = at_most(directory_size, MOST_ENTRIES * _ENTRY_SIZE)
+            raise error(f"{name} has a directory of {directory_size} bytes; it must have {limit_text}.")
         try:
             archive = zipfile.ZipFile(stream)
         except _DAMAGED as fault:
@@ -155,12 +156,12 @@ def _opened(
 
 
 def _directory_size(stream: BinaryIO) -> int | None:
-    """Bytes of the directory as the end of an archive says them; None where there is no such end."""
+    """Size of the directory in bytes, as the end record of the archive gives it; None without an end record."""
     size = stream.seek(0, os.SEEK_END)
-    stream.seek(max(0, size - _END_SIZE - _MOST_COMMENT - _END_64_SIZE))
+    stream.seek(max(0, size - _END_SIZE - _LARGEST_COMMENT - _END_64_SIZE))
     tail = stream.read()
-    plain = len(tail) - _END_SIZE
-    offset = plain if plain >= 0 and tail[plain:].startswith(_END) and tail.endswith(b"\0\0") else tail.rfind(_END)
+    last = len(tail) - _END_SIZE  # offset of the record in an archive without a comment
+    offset = last if last >= 0 and tail[last:].startswith(_END) and tail.endswith(b"\0\0") else tail.rfind(_END)
     if offset < 0 or len(tail) < offset + _END_SIZE:
         return None
     begin, end = offset + 12, offset + 16
@@ -192,7 +193,7 @@ def _folders(name: str) -> list[str]:
 
 
 def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
-    raw = info.orig_filename  # as it stands there: `filename` ends at a zero byte
+    raw = info.orig_filename  # the whole name: `filename` ends at a zero byte
     label = f"the entry {brief(raw)}"
     if raw.startswith("/") or re.match(r"[A-Za-z]:", raw):
         return Fault(f"has {label}, which is an absolute path", "APPNOTE 4.4.17.1")
@@ -205,7 +206,7 @@ def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
         return Fault(f"has {label}, which is not a file name")
     if info.flag_bits & 1:
         return Fault(f"has {label}, which is encrypted", "ISO/IEC 21320-1")
-    if info.compress_type not in _METHODS:
+    if info.compress_type not in _COMPRESSION_METHODS:
         return Fault(f"has {label}, packed by method {info.compress_type}; stored and deflate are", "ISO/IEC 21320-1")
     kind = stat.S_IFMT(info.external_attr >> 16)
     if kind not in (0, stat.S_IFREG, stat.S_IFDIR):

@@ -17,16 +17,16 @@ from ali3.reading import Error, open_file
 from ali3.unpacked_size import MOST_MEMORY, check_memory
 
 _COPIES = 2
-"""In memory: the bytes and the array, or the array and what is made of it."""
+"""Of an array in memory at the same time: its bytes and itself, or itself and the result of its use."""
 
 
 def read_arrays(
     file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = ""
 ) -> dict[str, NDArray[np.generic]]:
-    """Arrays by their names; that of a ``.npy`` file has an empty one.
+    """Arrays of a file by name; the name of the array of a ``.npy`` file is empty.
 
-    `largest`, `error`, `name`: as of `check_file`. Raises `error` with one sentence: it is no
-    such file, an array holds Python objects, or all would take more memory.
+    `largest`, `error`, `name`: as of `check_file`. Raises `error` with one sentence: the file has another format, an
+    array contains Python objects, or the arrays need more memory.
     """
     name = name or str(file)
     if Path(file).suffix.lower() != ".npz":
@@ -45,17 +45,18 @@ def read_arrays(
 def _array(stream: IO[bytes], size: int, error: Error, name: str) -> NDArray[np.generic]:
     try:
         version = npy.read_magic(stream)
-        header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
-        shape, by_columns, kind = header(stream)
-    except Exception as fault:  # what a damaged header does to its parser is not declared
+        read_header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+        shape, is_fortran_order, dtype = read_header(stream)
+    except Exception as fault:  # the parser does not declare its errors on damaged headers
         raise error(f"{name} cannot be read as an array: {reader_stops(fault)}") from None
-    if kind.hasobject:
+    if dtype.hasobject:
         raise error(f"{name} contains Python objects, which are not read.")
-    count, present = math.prod(shape), size - stream.tell()
-    if any(n < 0 for n in shape) or count * kind.itemsize != present:
+    n_values, available = math.prod(shape), size - stream.tell()
+    if any(n < 0 for n in shape) or n_values * dtype.itemsize != available:
         raise error(
-            f"{name} cannot be read: its shape {shape} of {kind} needs {count * kind.itemsize} bytes; it has {present}."
+            f"{name} cannot be read: its shape {shape} of {dtype} needs {n_values * dtype.itemsize} bytes; it has "
+            f"{available}."
         )
-    check_memory(_COPIES * present, error, name)
-    array = np.frombuffer(stream.read(present), kind)
-    return array.reshape(shape[::-1]).T if by_columns else array.reshape(shape)
+    check_memory(_COPIES * available, error, name)
+    array = np.frombuffer(stream.read(available), dtype)
+    return array.reshape(shape[::-1]).T if is_fortran_order else array.reshape(shape)

@@ -1,4 +1,4 @@
-"""The cache folder of the user: files that commands have made and can make again."""
+"""The cache folder of the user, for files that commands can make again."""
 
 import atexit
 import functools
@@ -16,10 +16,10 @@ VARIABLE = "ALI3_CACHE"
 
 
 def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> Path:
-    """A folder in the cache of the user, made if it is not there.
+    """Path of a folder in the cache of the user; it is made if it does not exist.
 
-    An environment variable names the cache; else it is a folder where the system keeps caches. Where none can be
-    written, the folder is a temporary one that goes when this process ends. Raises `FileError`: the variable names a
+    An environment variable names the cache; by default it is in the system's folder for caches. If that cannot be
+    written, the folder is temporary and is removed when this process ends. Raises `FileError`: the variable names a
     folder that cannot be written.
     """
     path = os.environ.get(variable)
@@ -33,13 +33,13 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
         if path:
             message = reason(error) if isinstance(error, OSError) else str(error)
             raise FileError(f"{variable} is '{path}', which cannot be written: {message}.") from None
-    folder = _passing(name).joinpath(*parts)
+    folder = _temporary_cache(name).joinpath(*parts)
     folder.mkdir(parents=True, exist_ok=True)
     return folder
 
 
 @functools.cache
-def _passing(name: str) -> Path:
+def _temporary_cache(name: str) -> Path:
     stack = ExitStack()
     atexit.register(stack.close)
     return stack.enter_context(temporary_folder())

@@ -1,4 +1,4 @@
-"""The last call that a process was asked to make, stored in a file so that it is known after the process crashes."""
+"""Stores the last call of a process in a file, so that it is known after the process has crashed."""
 
 import mmap
 from collections.abc import Callable
@@ -6,14 +6,14 @@ from pathlib import Path
 from struct import Struct
 from typing import Any
 
-_RECORD = Struct("<?31sd")  # whether the call has not come back, its name, the time of its step in s
-_NAME = Struct("<?31s")
+_RECORD = Struct("<?31sd")  # whether the call is running, its name, the time of its step in s
+_RECORD_WITHOUT_TIME = Struct("<?31s")
 _FILE = "asked"
 _buffer: mmap.mmap | None = None
 
 
 def begin_marks(folder: Path) -> None:
-    """From now on `marked` functions of this process leave their names in a file of this folder."""
+    """Make `marked` functions of this process store their names in a file of a folder."""
     global _buffer
     with (folder / _FILE).open("w+b") as file:
         file.write(_RECORD.pack(False, b"", -1.0))
@@ -22,33 +22,33 @@ def begin_marks(folder: Path) -> None:
 
 
 def marked(name: str, call: Callable[..., Any]) -> Callable[..., Any]:
-    """A function that leaves its name while it is called; the same function in a process without marks.
+    """A function that stores its name while it runs; in a process without marks, the function itself.
 
-    The second argument of one that is called ``...DoStep`` is a time, s.
+    The second argument of a function named ``...DoStep`` is a time, s.
     """
     buffer, encoded = _buffer, name.encode()
     if buffer is None:
         return call
-    record, short = _RECORD.pack_into, _NAME.pack_into
+    pack_with_time, pack_name = _RECORD.pack_into, _RECORD_WITHOUT_TIME.pack_into
 
-    def stepped(*arguments: Any) -> Any:
+    def call_step(*arguments: Any) -> Any:
         time = arguments[1]
-        record(buffer, 0, True, encoded, getattr(time, "value", time))
-        answer = call(*arguments)
+        pack_with_time(buffer, 0, True, encoded, getattr(time, "value", time))
+        result = call(*arguments)
         buffer[0] = 0
-        return answer
+        return result
 
-    def called(*arguments: Any, **named: Any) -> Any:
-        short(buffer, 0, True, encoded)
-        answer = call(*arguments, **named)
+    def call_function(*arguments: Any, **keywords: Any) -> Any:
+        pack_name(buffer, 0, True, encoded)
+        result = call(*arguments, **keywords)
         buffer[0] = 0
-        return answer
+        return result
 
-    return stepped if name.endswith("DoStep") else called
+    return call_step if name.endswith("DoStep") else call_function
 
 
 def last_call(folder: Path) -> str:
-    """What the process of a folder was at, such as `` in fmi2DoStep at 0.1 s``; empty where nothing was marked."""
+    """The last call of the process of a folder, such as `` in fmi2DoStep at 0.1 s``; empty if no call was marked."""
     try:
         content = (folder / _FILE).read_bytes()
     except OSError:
@@ -56,8 +56,8 @@ def last_call(folder: Path) -> str:
     if len(content) != _RECORD.size:  # the process has overwritten it
         return ""
     is_running, name, time = _RECORD.unpack(content)
-    message = name.rstrip(b"\0").decode("utf-8", "replace")
-    if not message.isidentifier():
+    call_name = name.rstrip(b"\0").decode("utf-8", "replace")
+    if not call_name.isidentifier():
         return ""
-    at = f" at {time:.9g} s" if time >= 0.0 and message.endswith("DoStep") else ""
-    return f" {'in' if is_running else 'after'} {message}{at}"
+    time_text = f" at {time:.9g} s" if time >= 0.0 and call_name.endswith("DoStep") else ""
+    return f" {'in' if is_running else 'after'} {call_name}{time_text}"

@@ -1,4 +1,4 @@
-"""A text in the file of a chart that lists what it shows, so that two versions of a picture can be compared."""
+"""Stores the texts of a chart in its file, so that two versions of a picture can be compared."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _KEY = "Description"
-"""Of the keywords that PNG knows for texts."""
+"""One of the keywords that PNG defines for texts."""
 
 
 def png_metadata(figure: Figure) -> dict[str, str | None]:
@@ -20,18 +20,19 @@ def png_metadata(figure: Figure) -> dict[str, str | None]:
 
 
 def described(figure: Figure) -> str:
-    """The title of a figure; then a line for each panel, with its axes and the labels of its curves, and for each text
-    in it; texts of the same height, as of a table, are one.
+    """Lines with the title of a figure, with axes and curves of each panel, and with each text in it.
+
+    Texts at the same height, such as a row of a table, are one line.
     """
     lines = [figure.get_suptitle()]
     for axes in figure.axes:
-        lines += _panel(axes)
+        lines += _panel_lines(axes)
     lines += [f"legend: {text.get_text()}" for legend in figure.legends for text in legend.get_texts()]
     return "\n".join(" ".join(line.split()) for line in lines if line)
 
 
 def description_of(file: Path) -> str:
-    """The words that a PNG or an SVG carries; empty without them."""
+    """The description in a PNG or SVG file; empty without one."""
     if file.suffix == ".svg":
         from lxml import etree
 
@@ -42,10 +43,10 @@ def description_of(file: Path) -> str:
         return str(picture.info.get(_KEY, ""))
 
 
-def _panel(axes: Axes) -> list[str]:
+def _panel_lines(axes: Axes) -> list[str]:
     title = " ".join(filter(None, map(axes.get_title, ("left", "center", "right"))))  # type: ignore[arg-type]
     curves = axes.get_legend_handles_labels()[1]
-    labels = {"panel": title, "x": axes.get_xlabel(), "y": axes.get_ylabel(), "curves": ", ".join(curves)}
+    parts = {"panel": title, "x": axes.get_xlabel(), "y": axes.get_ylabel(), "curves": ", ".join(curves)}
     rows = groupby(axes.texts, lambda text: text.get_position()[1])
-    texts = [": ".join(filter(None, (text.get_text() for text in row))) for _, row in rows]
-    return ["; ".join(f"{name} {message}" for name, message in labels.items() if message), *filter(None, texts)]
+    row_texts = [": ".join(filter(None, (text.get_text() for text in row))) for _, row in rows]
+    return ["; ".join(f"{name} {message}" for name, message in parts.items() if message), *filter(None, row_texts)]

@@ -20,32 +20,32 @@ from ali3.chart_description import described, png_metadata
 from ali3.files import atomic_file
 from ali3.message_text import clean
 
-_PIXELS = 96  # of CSS, an inch
-_DOTS = 150  # an inch, of what a drawing has as dots
+_PIXELS_PER_INCH = 96  # of CSS
+_DOTS_PER_INCH = 150  # of parts that are drawn as pixels
 MANY_POINTS = 200
-"""More markers than these of one curve are better drawn as dots (``rasterized``): each is some 80 bytes of SVG."""
+"""A curve with more markers is better drawn as pixels (``rasterized``): each marker takes about 80 bytes of SVG."""
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """A figure, drawn as SVG."""
+    """A figure as SVG."""
 
     svg: bytes
     words: str
-    """What it shows, for who cannot see it."""
+    """Alternative text."""
     size: tuple[int, int]
     """Width and height, CSS pixels."""
 
     def write(self, file: Path) -> Path:
-        """Write it; gives the file."""
+        """Write the SVG to a file and return its path."""
         with atomic_file(file) as temporary:
             temporary.write_bytes(self.svg)
         return file
 
 
 @contextlib.contextmanager
-def _however_long() -> Iterator[None]:
-    """Texts of strangers may be too long to be laid out: the picture is drawn all the same."""
+def _ignored_layout_warning() -> Iterator[None]:
+    """Ignore the warning that texts from files are too long for the layout."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "constrained_layout not applied", UserWarning)
         yield
@@ -54,20 +54,19 @@ def _however_long() -> Iterator[None]:
 def drawing(figure: Figure, message: str) -> Drawing:
     """Draw a figure as SVG, and close it; the same figure gives the same bytes.
 
-    `message`: what it shows, in a sentence; its title in the file, which tells what each panel shows too; empty: as the
-    figure is titled.
+    `message`: alternative text, which is also the title in the file; empty: the title of the figure.
     """
     content = io.BytesIO()
     figure_text = described(figure)
     title, description = (escape(clean(text)) for text in (message or figure_text.partition("\n")[0], figure_text))
-    figure.set_dpi(_DOTS)
-    with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
-        # once: savefig draws a figure and its layout twice
+    figure.set_dpi(_DOTS_PER_INCH)
+    with plt.rc_context({"svg.hashsalt": "ali3"}), _ignored_layout_warning():
+        # `savefig` would draw the figure and its layout twice.
         canvas: Any = FigureCanvasSVG(figure)
         canvas.print_svg(content, metadata={"Date": None, "Creator": None})
     plt.close(figure)
-    width, height = (round(_PIXELS * length) for length in figure.get_size_inches())
-    # matplotlib writes a title, but no description, and screen readers read neither of a drawing without a role.
+    width, height = (round(_PIXELS_PER_INCH * length) for length in figure.get_size_inches())
+    # matplotlib writes no description, and screen readers ignore a drawing without a role.
     prolog, root, remainder = content.getvalue().partition(b"<svg ")
     tag, _, elements = remainder.partition(b">")
     accessible_text = f' role="img">\n <title>{title}</title>\n <desc>{description}</desc>'.encode()
@@ -75,7 +74,7 @@ def drawing(figure: Figure, message: str) -> Drawing:
 
 
 def save_picture(figure: Figure, file: Path) -> None:
-    """Write a figure as PNG, with what it shows in words, and close it; the same figure gives the same bytes."""
-    with atomic_file(file) as temporary, _however_long():
+    """Write a figure as PNG with its description, and close it; the same figure gives the same bytes."""
+    with atomic_file(file) as temporary, _ignored_layout_warning():
         figure.savefig(temporary, dpi=110, metadata=png_metadata(figure))
     plt.close(figure)

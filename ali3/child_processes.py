@@ -8,15 +8,15 @@ from multiprocessing import resource_tracker
 
 from ali3.signals import STOPPING
 
-_CRASHES = ("SIGABRT", "SIGBUS", "SIGFPE", "SIGILL", "SIGSEGV", "SIGSYS", "SIGTRAP")
-_WINDOWS_CRASH = 0xC0000000
+_CRASH_SIGNALS = ("SIGABRT", "SIGBUS", "SIGFPE", "SIGILL", "SIGSEGV", "SIGSYS", "SIGTRAP")
+_LEAST_WINDOWS_CRASH = 0xC0000000
 
 
 @contextmanager
 def stop_signals_blocked() -> Iterator[None]:
-    """A context that blocks the signals of `STOPPING` for processes and threads started in it, which this program ends.
+    """Context that blocks the signals of `STOPPING` for processes and threads started in it, which this program ends.
 
-    A terminal sends Ctrl-C to all processes of a command. One that comes meanwhile is delivered after the context.
+    A terminal sends Ctrl-C to all processes of a command. A signal in the context is delivered after it.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -31,16 +31,16 @@ def stop_signals_blocked() -> Iterator[None]:
 
 
 def ignore_stopping() -> None:
-    """Ignore `STOPPING`: the program that has started this one ends it, and a terminal's signals reach both."""
+    """Ignore the signals of `STOPPING`: the parent process, which a terminal sends them too, ends this one."""
     for number in STOPPING:
         signal.signal(number, signal.SIG_IGN)
 
 
 def how_ended(code: int | None, message: str = "", call: str = "") -> str:
-    """How a process has ended that was to go on, as the end of a sentence, such as ``crashed (SIGSEGV)``.
+    """Describe the unexpected end of a process, as the end of a sentence, such as ``crashed (SIGSEGV)``.
 
-    `code`: as `subprocess` and `multiprocessing` give it; `message`: what it wrote to its standard error; the last line
-    is quoted; `call`: during what, such as `` in fmi2DoStep at 0.1 s``.
+    `code`: as `subprocess` and `multiprocessing` give it; `message`: standard error of the process, whose last line is
+    quoted; `call`: the last call, such as `` in fmi2DoStep at 0.1 s``.
     """
     last_line = (message.strip().splitlines() or [""])[-1]
     details = f"{call}: {last_line}" if last_line else call
@@ -49,7 +49,7 @@ def how_ended(code: int | None, message: str = "", call: str = "") -> str:
         name = signal_names.get(-code, f"signal {-code}")
         if name == "SIGKILL":  # no program does that to itself
             return f"was killed (SIGKILL){call}, by a user or by the system because memory ran out"
-        return f"crashed ({name}){details}" if name in _CRASHES else f"was ended by {name}{details}"
-    if sys.platform == "win32" and code is not None and code >= _WINDOWS_CRASH:
+        return f"crashed ({name}){details}" if name in _CRASH_SIGNALS else f"was ended by {name}{details}"
+    if sys.platform == "win32" and code is not None and code >= _LEAST_WINDOWS_CRASH:
         return f"crashed (0x{code:08X}){details}"
     return f"ended with exit code {code}{details}"

@@ -4,9 +4,9 @@ from collections.abc import Container, Iterable, Sequence
 
 
 def in_columns(rows: Sequence[Sequence[str]], right: Container[int] = ()) -> list[str]:
-    """A line for each row, its cells two blanks apart.
+    """Lines of a table, with two blanks between cells.
 
-    `rows`: with as many cells each; `right`: columns whose cells are flush right, from 0.
+    `rows`: of equal length; `right`: indices of the right-aligned columns.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     justified = [str.rjust if k in right else str.ljust for k in range(len(widths))]

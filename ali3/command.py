@@ -18,8 +18,8 @@ from ali3.search_path import forget_current_folder
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     """Run the subcommand that the first argument names.
 
-    `arguments`: by default those of the command line; `prog`: how the user typed the command. Returns the exit code: 0
-    done, 1 done and not good, 2 an error of the user's, 130 Ctrl-C.
+    `arguments`: by default those of the command line; `prog`: how the user typed the command. Returns the exit code of
+    `ali3.command_run`.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     forget_current_folder()
@@ -27,18 +27,18 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     if words and not words[0].startswith("-"):
         command = next((c for c in COMMANDS if c.name == words[0]), None)
         if command is None:
-            return _unknown(words[0], prog)
-        return run_command(lambda: _run(command, words[1:], prog))
-    return run_command(lambda: _help(words, prog))
+            return _report_unknown(words[0], prog)
+        return run_command(lambda: _run_subcommand(command, words[1:], prog))
+    return run_command(lambda: _print_help(words, prog))
 
 
-def _run(command: Command, arguments: Sequence[str], prog: str) -> int:
+def _run_subcommand(command: Command, arguments: Sequence[str], prog: str) -> int:
     command_needs(command.extra)
     module = importlib.import_module(command.module)
     return int(module.main(arguments, f"{prog} {command.name}"))
 
 
-def _help(arguments: Sequence[str], prog: str) -> int:
+def _print_help(arguments: Sequence[str], prog: str) -> int:
     parser = _parser(prog)
     parser.parse_args(arguments)
     parser.print_help(sys.stderr)
@@ -60,7 +60,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 
 class _Version(argparse.Action):
-    """Reads the version only when it is asked for: it costs more than all of the help."""
+    """Prints the version, which is read only here because that takes longer than printing the help."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from importlib.metadata import version
@@ -68,7 +68,7 @@ class _Version(argparse.Action):
         parser.exit(message=f"ali3 {version('ali3')}\n")
 
 
-def _unknown(name: str, prog: str) -> int:
+def _report_unknown(name: str, prog: str) -> int:
     names = [c.name for c in COMMANDS]
     hint = did_you_mean(name, names, f"the commands are {', '.join(names)}", 1)
     print(f"error: There is no command {brief(name)}{hint} {prog} --help describes them.", file=sys.stderr)

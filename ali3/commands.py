@@ -4,15 +4,16 @@ from typing import NamedTuple
 
 
 class Command(NamedTuple):
-    """A subcommand of ali3: name, module and extra."""
+    """A subcommand of ali3."""
 
     name: str
     """As the user types it."""
     module: str
     """Imported when the command runs; its ``main(arguments, prog)`` returns the exit code."""
     extra: str
-    """Of the installation, which brings the packages of the command; empty if it needs none."""
+    """Extra of the installation with the packages of the command; empty if it needs none."""
     text: str
+    """Line of the help."""
 
 
 COMMANDS = (

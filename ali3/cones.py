@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from ali3.iso_3888 import Gate
 
-_APART = 5.0  # m, about
+_SPACING = 5.0  # m, approximate
 
 
 def cone_places(gates: Sequence[Gate]) -> list[tuple[float, float]]:
@@ -12,7 +12,7 @@ def cone_places(gates: Sequence[Gate]) -> list[tuple[float, float]]:
     positions = []
     for gate in gates:
         length = gate.x_end - gate.x_start
-        n_intervals = max(1, round(length / _APART))
+        n_intervals = max(1, round(length / _SPACING))
         for k in range(n_intervals + 1):
             x = gate.x_start + length * k / n_intervals
             positions += [(x, gate.y_right), (x, gate.y_left)]

@@ -1,4 +1,4 @@
-"""Confines processes to the files that they need, by bubblewrap on Linux (option ``--confined``)."""
+"""Restricts processes to the files that they need, by bubblewrap on Linux (option ``--confined``)."""
 
 import os
 import shutil
@@ -12,30 +12,39 @@ import ali3
 from ali3.errors import UserError
 from ali3.limits import VARIABLE
 
-_SWITCH = "ALI3_CONFINED"  # programs that this one starts, such as workers of a study, know it by their environment
-_SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc/ld.so.cache", "/etc/ld.so.conf.d")
-_KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", VARIABLE)
-_APART = ("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts", "--new-session")
-_PATIENCE = 20.0  # s
+_CONFINED_VARIABLE = "ALI3_CONFINED"  # environment variable, which child processes inherit
+_SYSTEM_PATHS = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc/ld.so.cache", "/etc/ld.so.conf.d")
+_PASSED_VARIABLES = (
+    "PATH",
+    "LANG",
+    "LC_ALL",
+    "LC_CTYPE",
+    "LD_LIBRARY_PATH",
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    VARIABLE,
+)
+_ISOLATION_OPTIONS = ("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts", "--new-session")
+_TIMEOUT = 20.0  # s
 
 
 def confine() -> None:
-    """Processes of `ali3.isolated_processes` started from now on are confined. Raises `UserError`."""
+    """Confine the processes of `ali3.isolated_processes` that are started from now on. Raises `UserError`."""
     _bubblewrap()
-    os.environ[_SWITCH] = "1"
+    os.environ[_CONFINED_VARIABLE] = "1"
 
 
 def is_confined() -> bool:
     """Whether processes of `ali3.isolated_processes` are confined."""
-    return _SWITCH in os.environ
+    return _CONFINED_VARIABLE in os.environ
 
 
 def confined(command: Sequence[str], readable: Iterable[Path], writable: Sequence[Path]) -> list[str]:
-    """The command of a process that sees these files and folders of the user's alone, and begins in the last."""
+    """Command line of a process that sees only these files and folders of the user and runs in the last folder."""
     return [
         *_bubblewrap(),
         *("--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp"),
-        *(word for place in _places() for word in ("--ro-bind", place, place)),
+        *(word for path in _python_folders() for word in ("--ro-bind", path, path)),
         *(word for file in readable for word in ("--ro-bind-try", str(file), str(file))),
         *(word for file in writable for word in ("--bind", str(file), str(file))),
         *("--chdir", str(writable[-1])),
@@ -45,25 +54,25 @@ def confined(command: Sequence[str], readable: Iterable[Path], writable: Sequenc
 
 
 def environment(variables: dict[str, str], folder: Path) -> dict[str, str]:
-    """Environment variables that a confined process gets."""
+    """Environment variables of a confined process, whose home and temporary folder is `folder`."""
     temporary = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(folder))
-    return {name: value for name, value in variables.items() if name in _KEPT} | temporary
+    return {name: value for name, value in variables.items() if name in _PASSED_VARIABLES} | temporary
 
 
 @cache
 def _bubblewrap() -> tuple[str, ...]:
-    """The command that confines, as far as it is the same for all. Raises `UserError`: there is none that works."""
+    """Common part of the command lines of confined processes. Raises `UserError`: bubblewrap is not usable here."""
     program = shutil.which("bwrap") if sys.platform == "linux" else None
     if program is None:
-        why = "install bubblewrap (bwrap)" if sys.platform == "linux" else "it needs Linux"
-        raise UserError(f"--confined is not possible here, and nothing was run: {why}.")
-    system = tuple(word for place in _SYSTEM for word in ("--ro-bind-try", place, place))
+        remedy = "install bubblewrap (bwrap)" if sys.platform == "linux" else "it needs Linux"
+        raise UserError(f"--confined is not possible here, and nothing was run: {remedy}.")
+    system_binds = tuple(word for path in _SYSTEM_PATHS for word in ("--ro-bind-try", path, path))
     errors_text = ""
     for options in ((), ("--unshare-user",)):
-        command = (program, *_APART, *options, *system)
+        command = (program, *_ISOLATION_OPTIONS, *options, *system_binds)
         probe_command = [*command, "--proc", "/proc", "--dev", "/dev", "--", "/usr/bin/env", "true"]
         try:
-            process = subprocess.run(probe_command, capture_output=True, text=True, check=False, timeout=_PATIENCE)
+            process = subprocess.run(probe_command, capture_output=True, text=True, check=False, timeout=_TIMEOUT)
         except (OSError, subprocess.TimeoutExpired) as error:
             raise UserError(f"--confined is not possible here, and nothing was run: {error}.") from None
         if process.returncode == 0:
@@ -73,10 +82,10 @@ def _bubblewrap() -> tuple[str, ...]:
 
 
 @cache
-def _places() -> tuple[str, ...]:
-    """Folders of Python and of this program; those that `_SYSTEM` has are left out."""
+def _python_folders() -> tuple[str, ...]:
+    """Folders of Python and of this program that are not among the system paths."""
     root = Path(ali3.__file__).resolve().parents[1]
-    results = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.executable).resolve().parents[1]]
-    if not any(root.is_relative_to(place) for place in results):  # a clone: its packages alone
-        results += [file.parent for file in root.glob("*/__init__.py")]
-    return tuple(dict.fromkeys(str(place) for place in results if not place.is_relative_to("/usr")))
+    folders = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.executable).resolve().parents[1]]
+    if not any(root.is_relative_to(folder) for folder in folders):  # a clone: only its packages
+        folders += [file.parent for file in root.glob("*/__init__.py")]
+    return tuple(dict.fromkeys(str(folder) for folder in folders if not folder.is_relative_to("/usr")))

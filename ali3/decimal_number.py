@@ -5,8 +5,8 @@ import math
 import re
 
 DECIMAL = r"(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
-"""Pattern of a decimal number without its sign. What else `float` takes, such as 1_0 or digits of other scripts, is
-more often a slip than a number."""
+"""Pattern of a decimal number without its sign. Other texts that `float` accepts, such as 1_0 or digits of other
+scripts, are more often typing errors than numbers."""
 
 _NUMBER = re.compile(rf"[+-]?{DECIMAL}", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
@@ -26,7 +26,7 @@ def parse_number(text: str) -> float:
 
 
 def number(text: str) -> float:
-    """A number of the command line; whether it may be infinite or NaN depends on its use."""
+    """A number of the command line, which may be infinite or NaN."""
     try:
         return float(text) if _NOT_FINITE.fullmatch(text.strip()) else parse_number(text)
     except ValueError as error:
@@ -34,5 +34,5 @@ def number(text: str) -> float:
 
 
 def short(text: str) -> str:
-    """A word of the user in quotation marks, cut where it is long."""
+    """A word of the user in quotation marks, shortened to 40 characters."""
     return repr(text if len(text) <= 40 else text[:37] + "...")

@@ -2,10 +2,10 @@
 
 
 class UserError(Exception):
-    """Something the user can put right; the message says what."""
+    """An error that the user can correct; the message says how."""
 
     status = 2
-    """Exit code of a command that ends by it."""
+    """Exit code of a command that this error ends."""
 
 
 class FileError(UserError, OSError):
@@ -13,10 +13,10 @@ class FileError(UserError, OSError):
 
 
 class TableError(FileError, ValueError):
-    """A table that cannot be read, or holds something else; the message names file and line."""
+    """A table that cannot be read or has wrong content; the message names file and line."""
 
 
 def reason(error: OSError) -> str:
-    """The words of the operating system without number and file name, such as ``no space left on device``."""
+    """Message of the operating system without number and file name, such as ``no space left on device``."""
     text = error.strerror or str(error)
     return text[:1].lower() + text[1:]

@@ -8,64 +8,64 @@ from traceback import walk_tb
 from types import TracebackType
 
 _DISTRIBUTIONS = {"pil": "pillow", "sdl2": "pysdl2"}
-"""Distributions that are not named as the module they bring."""
+"""Distributions by module in small letters, where the names differ."""
 
 _extra: str | None = None
 
 
 def missing_package(package: str, extra: str = "") -> str:
-    """The sentence for a package that is not installed, with the line that installs it.
+    """The sentence for a package that is not installed, with the command that installs it.
 
-    `package`: its module, as in ``import``; `extra`: named where several extras bring the package and the command that
-    runs needs none of them.
+    `package`: its module, as in ``import``; `extra`: the extra to name if several contain the package and the running
+    command needs none of them.
     """
-    return f"The package {package} is not installed; {_install(_extra_of(package, extra))}"
+    return f"The package {package} is not installed; {_install_advice(_extra_with(package, extra))}"
 
 
 def missing_module(error: ModuleNotFoundError, extra: str = "") -> str:
-    """The sentence for a module that was not found, also when a library asked for it at run time.
+    """The sentence for a module that was not found, also if a library imports it at run time.
 
-    `error`: as it was caught; `extra`: as of `missing_package`. Raises `ModuleNotFoundError`: the same, where neither
-    an extra nor a package of an extra asks for the module: a mistake in code.
+    `extra`: as of `missing_package`. Raises `error` again if neither an extra nor a package of an extra requires the
+    module: an error of the program.
     """
     package = (error.name or "").partition(".")[0]
-    if _extra_of(package, extra) is not None:
+    if _extra_with(package, extra) is not None:
         return missing_package(package, extra)
-    for library in _askers(error.__traceback__):
-        if _extra_of(library) is None:
+    for library in _importing_libraries(error.__traceback__):
+        if _extra_with(library) is None:
             continue
-        optional = _distribution(package) in map(_name, _requirements(library))
-        line = _install(_extra_of(library, extra), _distribution(package) if optional else "")
-        return f"The package {library} needs {package}, which is not installed; {line}"
+        is_required = _distribution(package) in map(_requirement_name, _requirements(library))
+        advice = _install_advice(_extra_with(library, extra), _distribution(package) if is_required else "")
+        return f"The package {library} needs {package}, which is not installed; {advice}"
     raise error
 
 
 def command_needs(extra: str) -> None:
-    """Take over the extra of the command that runs."""
+    """Store the extra of the running command."""
     global _extra
     _extra = extra
 
 
 def extras() -> dict[str, set[str]]:
-    """Distributions that each extra of the installation asks for; what is needed without an extra under ``""``."""
+    """Distributions that each extra of the installation requires; those of no extra under ``""``."""
     results: dict[str, set[str]] = {}
     for requirement in _requirements("ali3"):
-        marked = re.search(r"""extra == ['"]([\w.-]+)['"]""", requirement)
-        results.setdefault(marked[1] if marked else "", set()).add(_name(requirement))
+        match = re.search(r"""extra == ['"]([\w.-]+)['"]""", requirement)
+        results.setdefault(match[1] if match else "", set()).add(_requirement_name(requirement))
     return results
 
 
-def _extra_of(package: str, wanted: str = "") -> str | None:
-    """The extra of the command that runs, the wanted one, or the smallest; None: no extra brings the package."""
-    providing = {extra: names for extra, names in extras().items() if _distribution(package) in names}
-    preferred = next((extra for extra in (_extra, wanted) if extra in providing), None)
-    return min(providing, key=lambda extra: len(providing[extra]), default=None) if preferred is None else preferred
+def _extra_with(package: str, preferred_extra: str = "") -> str | None:
+    """Extra of the running command, the preferred one, or the smallest with the package; None: there is none."""
+    candidates = {extra: names for extra, names in extras().items() if _distribution(package) in names}
+    preferred = next((extra for extra in (_extra, preferred_extra) if extra in candidates), None)
+    return min(candidates, key=lambda extra: len(candidates[extra]), default=None) if preferred is None else preferred
 
 
-def _askers(place: TracebackType | None) -> list[str]:
-    """Libraries that were at work when a module was not found, the one that asked for it first."""
-    names = [frame.f_globals.get("__name__", "").partition(".")[0] for frame, _ in walk_tb(place)]
-    installed = {name for name, of in packages_distributions().items() if "ali3" not in of}
+def _importing_libraries(traceback: TracebackType | None) -> list[str]:
+    """Libraries on the stack when a module was not found, the importing one first."""
+    names = [frame.f_globals.get("__name__", "").partition(".")[0] for frame, _ in walk_tb(traceback)]
+    installed = {name for name, owners in packages_distributions().items() if "ali3" not in owners}
     return list(takewhile(installed.__contains__, (n for n in reversed(names) if n not in sys.stdlib_module_names)))
 
 
@@ -76,7 +76,7 @@ def _requirements(distribution: str) -> list[str]:
         return []
 
 
-def _name(requirement: str) -> str:
+def _requirement_name(requirement: str) -> str:
     return _distribution(re.split(r"[^\w.-]", requirement, maxsplit=1)[0])
 
 
@@ -85,6 +85,6 @@ def _distribution(package: str) -> str:
     return _DISTRIBUTIONS.get(name, name)
 
 
-def _install(extra: str | None, more: str = "") -> str:
+def _install_advice(extra: str | None, packages: str = "") -> str:
     label = f'"ali3[{extra}]"' if extra else "ali3"
-    return f"run: python -m pip install {label} {more}".rstrip()
+    return f"run: python -m pip install {label} {packages}".rstrip()

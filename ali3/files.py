@@ -1,4 +1,4 @@
-"""Writes files atomically: a file is complete or not there."""
+"""Writes files atomically: a file is complete or does not exist."""
 
 import json
 import os
@@ -14,12 +14,11 @@ from ali3.temporary_folder import temporary_folder
 
 @contextmanager
 def atomic_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iterator[Path]:
-    """A path to write to; when the block ends without an error, the file there replaces `file` at once.
+    """Context with a path to write to, whose file replaces `file` if the block ends without an error.
 
-    `file`: a device or pipe is written to directly; `make_parents`: whether its folder is made if it is not there.
-    Raises `FileError` with the file and the reason, if it cannot be written. An older file is then unchanged, and
-    nothing is left. Result: a file of the same name in a temporary folder beside `file`, so that programs that write
-    the same file at the same time do not meet.
+    The path has the same name in a temporary folder beside `file`, so that programs can write the same file at the
+    same time. A device or pipe is written to directly. `make_parents`: whether missing folders are made. Raises
+    `FileError` with the file and the reason, if it cannot be written; an older file is then unchanged.
     """
     target = Path(os.path.realpath(file))  # a link stays a link
     _check_file(file, target)
@@ -51,7 +50,7 @@ def write_json(file: str | os.PathLike[str], content: Any) -> None:
 
 
 def make_folder(folder: str | os.PathLike[str]) -> Path:
-    """Make a folder and its parents unless they are there. Raises `FileError` with the folder and the reason."""
+    """Make a folder and its parents, unless they exist. Raises `FileError` with the folder and the reason."""
     path = Path(folder)
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -63,7 +62,7 @@ def make_folder(folder: str | os.PathLike[str]) -> Path:
 
 
 def check_writable(file: str | os.PathLike[str]) -> None:
-    """Raise the `FileError` that writing this file would end with, before the work that fills it."""
+    """Raise the `FileError` that writing a file would raise, before its content is computed."""
     target = Path(os.path.realpath(file))
     _check_file(file, target)
     nearest_parent = next(parent for parent in target.parents if parent.exists())
@@ -77,7 +76,7 @@ def check_writable(file: str | os.PathLike[str]) -> None:
 
 
 def _check_file(file: str | os.PathLike[str], target: Path) -> None:
-    """Refuse a folder, and a name that no file can have."""
+    """Refuse a folder and an invalid name."""
     try:
         if target.is_dir():
             raise FileError(f"{file} is a folder; it must be a file.")

@@ -14,11 +14,10 @@ from ali3.temporary_folder import temporary_folder
 
 @contextmanager
 def atomic_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
-    """A folder to fill; when the block ends without an error it becomes `folder` at once.
+    """Context with a temporary folder of the same name, which becomes `folder` if the block ends without an error.
 
-    `folder`: one that does not exist. If another program makes it meanwhile, its folder stays. Raises `FileError` with
-    the folder and the reason, if it cannot be written; nothing is left. Result: a folder of the same name in a
-    temporary one beside `folder`.
+    `folder`: does not exist yet; if another program makes it at the same time, that one stays. Raises `FileError` with
+    the folder and the reason, if it cannot be written; no files stay behind.
     """
     target = Path(folder)
     parent = make_folder(target.parent)
@@ -38,13 +37,13 @@ def atomic_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
         raise FileError(f"{folder} cannot be written: {reason(error)}.") from error
 
 
-def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
-    """Remove the folders that were not used for the longest time, while another program may do the same.
+def forget_oldest(cache: Path, kept: int, in_use: float = 0.0) -> None:
+    """Remove the least recently used folders of a cache; another program may do so at the same time.
 
-    `kept`: how many stay; `in_use`: those that were used in so many seconds stay too, s.
+    `kept`: number of folders that stay; `in_use`: folders used within this time stay too, s.
     """
     use_times: dict[Path, float] = {}
-    for folder in room.iterdir():
+    for folder in cache.iterdir():
         with suppress(FileNotFoundError):
             if folder.is_dir() and not folder.name.startswith("."):
                 use_times[folder] = folder.stat().st_mtime

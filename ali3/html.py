@@ -1,7 +1,4 @@
-"""The frame of every HTML page that is written: one file, in which nothing runs but the scripts that it was given.
-
-Reports have one style sheet, ``report.css``.
-"""
+"""Writes HTML pages as one file that runs no other scripts than its own; reports share the style ``report.css``."""
 
 import base64
 import hashlib
@@ -20,9 +17,8 @@ def page(
 ) -> str:
     """A complete HTML page as text.
 
-    Its content security policy lets it fetch nothing, show pictures that stand in it, and take only this style and
-    these scripts, which it knows by their SHA-256. Markup that a text has smuggled into the body can thus neither run,
-    nor load, nor send anything.
+    Its content security policy allows only embedded pictures, this style and these scripts, identified by their
+    SHA-256. Markup that a text has injected into the body can thus not run, load or send anything.
 
     Parameters
     ----------
@@ -35,17 +31,17 @@ def page(
     scripts : sequence of str, optional
         JavaScript, at the end of the body.
     sources : mapping of str to str, optional
-        What else the policy allows: sources by directive, such as ``{"connect-src": "'self'"}``.
+        Further sources that the policy allows, by directive, such as ``{"connect-src": "'self'"}``.
 
     Raises
     ------
     ValueError
-        A script or the style would end its element before its end, and its hash were that of another text.
+        A script or the style has characters that would end its element or change its hash.
     """
     for text, end in [(style, "</style"), *((script, "</script") for script in scripts)]:
         if end in text.lower() or "<!--" in text or "\r" in text or "\0" in text:
             raise ValueError(f"A script or style of the page '{title}' holds {end}, <!--, a carriage return or a zero.")
-    allowed = {
+    directives = {
         "default-src": "'none'",
         "script-src": " ".join(map(_hash, scripts)) or "'none'",
         "style-src": _hash(style) if style else "'none'",
@@ -54,8 +50,8 @@ def page(
         "form-action": "'none'",
     }
     for directive, added_sources in (sources or {}).items():
-        allowed[directive] = f"{allowed.get(directive, '')} {added_sources}".removeprefix("'none' ").strip()
-    policy = "; ".join(f"{directive} {value}" for directive, value in allowed.items())
+        directives[directive] = f"{directives.get(directive, '')} {added_sources}".removeprefix("'none' ").strip()
+    policy = "; ".join(f"{directive} {value}" for directive, value in directives.items())
     lines = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',
@@ -76,7 +72,7 @@ def page(
 def report(title: str, body: str, style: str = "") -> str:
     """A `page` in the style of all reports.
 
-    `body`: markup, in which texts are escaped; `style`: CSS beside that of all reports.
+    `body`: markup, in which texts are escaped; `style`: further CSS.
     """
     return page(title, f"<main>{body}</main>", files(__package__).joinpath("report.css").read_text("utf-8") + style)
 

@@ -21,18 +21,18 @@ Content: TypeAlias = "HtmlElement | str"
 
 
 def element(tag: str, /, *content: Content, **attributes: Any) -> HtmlElement:
-    """One element. `attributes`: a trailing underscore is left out, others become hyphens."""
-    builder_of_tag = getattr(builder, tag.upper(), None)
-    node = builder_of_tag() if builder_of_tag is not None else builder.E(tag)
+    """An element. `attributes`: a trailing underscore is removed, others become hyphens."""
+    make = getattr(builder, tag.upper(), None)
+    node = make() if make is not None else builder.E(tag)
     for key, value in attributes.items():
         node.set(key.rstrip("_").replace("_", "-"), clean(str(value)))
-    for part in content:
-        if not isinstance(part, str):
-            node.append(part)
+    for item in content:
+        if not isinstance(item, str):
+            node.append(item)
         elif len(node):
-            node[-1].tail = (node[-1].tail or "") + clean(part)
+            node[-1].tail = (node[-1].tail or "") + clean(item)
         else:
-            node.text = (node.text or "") + clean(part)
+            node.text = (node.text or "") + clean(item)
     return node
 
 
@@ -41,8 +41,8 @@ def table(
 ) -> HtmlElement:
     """A table that can be scrolled sideways; the first cell of a row is its header.
 
-    `caption`: above the table; without one a heading over it says what it is; `rows`: a row of one cell is a heading
-    over the next ones; a cell that is itself a ``td`` is taken as it is; `kind`: class of the table.
+    `caption`: above the table; empty: none; `rows`: a row of one cell is the heading of the following rows; a cell may
+    be a ``td`` itself; `kind`: class of the table.
     """
     body = []
     for header, *contents in rows:
@@ -51,29 +51,29 @@ def table(
             body.append(element("tr", element("th", header, scope="row"), *cells))
         else:
             body.append(element("tr", element("th", header, colspan=len(head), scope="colgroup", class_="group")))
-    heads = [element("th", cell, scope="col") if cell else element("td") for cell in head]
+    header_cells = [element("th", cell, scope="col") if cell else element("td") for cell in head]
     caption_elements, region_attributes = (
         ([element("caption", caption)], {"role": "region", "aria_label": caption}) if caption else ([], {})
     )
-    children = [*caption_elements, element("thead", element("tr", *heads)), element("tbody", *body)]
+    children = [*caption_elements, element("thead", element("tr", *header_cells)), element("tbody", *body)]
     content = element("table", *children) if kind is None else element("table", *children, class_=kind)
     return element("div", content, class_="wide", tabindex=0, **region_attributes)
 
 
 def picture(drawing: Drawing) -> HtmlElement:
-    """A drawing within the page, with what it shows in words."""
+    """A drawing embedded in the page, with its alternative text."""
     source = f"data:image/svg+xml;base64,{base64.b64encode(drawing.svg).decode('ascii')}"
     width, height = map(str, drawing.size)
-    # With its size a page that has not drawn it yet keeps its place: a link to what stands below ends there.
+    # The size reserves the space of a picture not drawn yet, so that links to later sections end at the right place.
     image = element("img", alt=drawing.words, src=source, width=width, height=height, loading="lazy")
     return element("figure", image, class_="plot")
 
 
 def document(title: str, body: Iterable[HtmlElement]) -> str:
-    """One HTML file that needs nothing else, in the style of all reports."""
+    """A self-contained HTML file in the style of all reports."""
     return html.report(clean(title), markup(body))
 
 
-def markup(parts: Iterable[HtmlElement]) -> str:
+def markup(elements: Iterable[HtmlElement]) -> str:
     """HTML text of elements."""
-    return "\n".join(str(lxml.html.tostring(part, encoding="unicode", method="html")) for part in parts)
+    return "\n".join(str(lxml.html.tostring(item, encoding="unicode", method="html")) for item in elements)

@@ -1,4 +1,4 @@
-"""The tracks of ISO 3888: lanes that hosts drive through and judge, and beside which worlds draw cones."""
+"""The lanes of the tracks of ISO 3888, for manoeuvres and for the cones of worlds."""
 
 from dataclasses import dataclass
 from itertools import accumulate
@@ -10,7 +10,7 @@ _SECTIONS: dict[Track, tuple[float, ...]] = {
     "ISO 3888-1": (15.0, 30.0, 25.0, 25.0, 30.0),
     "ISO 3888-2": (12.0, 13.5, 11.0, 12.5, 12.0),
 }
-"""Lengths, m: a lane, the way to the next one, and so on."""
+"""Lengths of lanes and of the gaps between them, in alternation, m."""
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
-"""Work in processes of their own: one that crashes or hangs takes nothing with it, and leaves nothing.
+"""Runs tasks in separate processes, whose crashes and hangs do not affect this one.
 
-Each has a folder, a session and descriptors of its own, and limits for time, memory and what it prints. It is told what
-to do by pickles, and answers by frames (`ali3.frames`): a library in it may write what it likes.
+Each process has its own folder, session and file descriptors, and limits of time, memory and output. It receives tasks
+as pickles and answers in frames (`ali3.frames`), so that libraries in it may print anything.
 """
 
 import os
@@ -29,13 +29,13 @@ from ali3.process_supervisor import LEFT
 from ali3.processes import module_command
 from ali3.temporary_folder import temporary_folder
 
-DONE, TOLD, ERROR, READY, ALIVE = 0, 1, 2, 3, 4
-"""Kinds of frames: a result, what is told before it, an error as its sentence and exit code, that work has come and may
-begin, that it goes on."""
-_START = 600.0  # s in which Python and its packages have begun, on a busy machine
-_LONGEST = 1e7  # s that a timer can wait on all platforms
-_END = 10.0  # s in which a supervisor ends all that is left
-_MOST_SAID = 4000  # bytes that are kept
+DONE, MESSAGE, ERROR, READY, ALIVE = 0, 1, 2, 3, 4
+"""Kinds of frames: the result of a task, a message before it, an error as sentence and exit code, the process is ready,
+the task is still running."""
+_START_TIMEOUT = 600.0  # s until Python and its packages are loaded, on a busy machine
+_LONGEST_TIMER = 1e7  # s that a timer can wait on all platforms
+_END_TIMEOUT = 10.0  # s until a supervisor has ended all processes
+_MOST_ERROR_BYTES = 4000  # bytes at the end of the standard error that are stored
 _MOST_PRINTED = 200_000_000  # bytes
 
 T = TypeVar("T")
@@ -45,36 +45,36 @@ Tell: TypeAlias = Callable[[Any], None]
 
 @dataclass(frozen=True)
 class Lost:
-    """A task that has no result, because its process has ended."""
+    """A task without a result, because its process has ended."""
 
     how: str
-    """As the end of a sentence, see `how_ended`, with what the process was asked last."""
+    """End of a sentence, see `how_ended`, with the last call of the process."""
     late: bool = False
-    """Whether it was ended at the time limit."""
+    """Whether the process was ended at the time limit."""
     kept: Any = None
-    """What `finish` of `Isolated.do` has found in its store."""
+    """Result of `finish` of `Isolated.do` for its store."""
 
 
 class _Process:
-    """One process: what is started, and what is ended with it."""
+    """A process with its folder, pipes and store."""
 
     def __init__(
         self, work: bytes, reads: Iterable[Path], writes: Iterable[Path], environment: Mapping[str, str]
     ) -> None:
-        self._held = ExitStack()
-        self.folder = self._held.enter_context(temporary_folder())
-        self.flooded, self._lock = False, threading.Lock()
+        self._resources = ExitStack()
+        self.folder = self._resources.enter_context(temporary_folder())
+        self.is_flooded, self._lock = False, threading.Lock()
         self.number: int | None = None
-        self.unread = ""
-        self._said = b""
-        life, self._life, self._memory = -1, -1, -1
+        self.answer_error = ""
+        self._error_tail = b""
+        life_pipe, self._life_pipe, self._memory = -1, -1, -1
         self.store = self.folder / "store"
         if sys.platform == "linux":
-            life, self._life = os.pipe()
+            life_pipe, self._life_pipe = os.pipe()
             self._memory = os.memfd_create("store")
             self.store = Path(f"/proc/self/fd/{self._memory}")
-        passed_descriptors = (life, self._memory) if life >= 0 else ()
-        command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
+        passed_descriptors = (life_pipe, self._memory) if life_pipe >= 0 else ()
+        command = module_command("ali3.worker", str(self.folder), str(life_pipe), str(Path.cwd()), str(self.store))
         variables = {**os.environ, **environment}
         environment = variables | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
         self._confined = is_confined()
@@ -96,14 +96,14 @@ class _Process:
             self._close()
             raise
         finally:
-            if life >= 0:
-                os.close(life)
-        self._drain = threading.Thread(target=self._listen, daemon=True)
-        self._drain.start()
+            if life_pipe >= 0:
+                os.close(life_pipe)
+        self._reader = threading.Thread(target=self._read_errors, daemon=True)
+        self._reader.start()
         self.send(work)
 
     def send(self, data: bytes) -> None:
-        """Write to it, unless it has ended; its output says so."""
+        """Write to the process, unless it has ended, which its output shows."""
         assert self.process.stdin is not None
         with suppress(OSError):
             self.process.stdin.write(data)
@@ -115,9 +115,9 @@ class _Process:
         return self.process.stdout
 
     def kill(self) -> None:
-        """End it, and all that it has started if the system reports what that is."""
-        if self._life >= 0:
-            self._close_life()  # its supervisor does it
+        """End the process, and those that it has started, as far as the system knows them."""
+        if self._life_pipe >= 0:
+            self._close_life_pipe()  # the supervisor then ends the process
             return
         if sys.platform != "win32":
             with suppress(OSError):
@@ -125,76 +125,74 @@ class _Process:
         self.process.kill()
 
     def end(self, finish: Callable[[Any, Path], Any]) -> tuple[str, str, Any, int]:
-        """Wait for its end, or make it end.
+        """Wait for the end of the process, or end it.
 
-        How it ended, with its last words; what it was asked last; what is kept; how many processes that it had started
-        were ended with it.
+        Returns how it ended, its last call, the result of `finish`, and how many processes were ended with it.
         """
         with suppress(subprocess.TimeoutExpired):
-            self.process.wait(1.0)  # its output is closed a moment before it has ended
+            self.process.wait(1.0)  # its output is closed shortly before it ends
         self.kill()
         try:
-            self.process.wait(_END)
+            self.process.wait(_END_TIMEOUT)
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
-        self._drain.join(1.0)
+        self._reader.join(1.0)
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             with suppress(OSError):
                 stream.close()  # type: ignore[union-attr]
-        call, survivors, stored = last_call(self.folder), self._left(), finish(None, self.store)
+        call, survivors, stored = last_call(self.folder), self._survivor_count(), finish(None, self.store)
         self._close()
-        if self.unread:
-            how = self.unread
-        elif self.flooded:
+        if self.answer_error:
+            how = self.answer_error
+        elif self.is_flooded:
             how = f"was ended{call} because it printed more than {_MOST_PRINTED / 1e6:g} MB"
         else:
             code = self.process.returncode
-            code = 128 - code if self._confined and code > 128 else code  # as bubblewrap tells signals
-            how = how_ended(code, self._said.decode("utf-8", "replace"), call)
+            code = 128 - code if self._confined and code > 128 else code  # as bubblewrap reports signals
+            how = how_ended(code, self._error_tail.decode("utf-8", "replace"), call)
         return how, call, stored, survivors
 
-    def _left(self) -> int:
+    def _survivor_count(self) -> int:
         with suppress(OSError, ValueError):
             return int((self.folder / LEFT).read_text(encoding="ascii")[:9])
         return 0
 
     def _close(self) -> None:
-        self._close_life()
+        self._close_life_pipe()
         memory, self._memory = self._memory, -1
         if memory >= 0:
             os.close(memory)
-        self._held.close()
+        self._resources.close()
 
-    def _close_life(self) -> None:
+    def _close_life_pipe(self) -> None:
         with self._lock:
-            life, self._life = self._life, -1
-        if life >= 0:
+            life_pipe, self._life_pipe = self._life_pipe, -1
+        if life_pipe >= 0:
             with suppress(OSError):
-                os.write(life, b"x")  # else its supervisor takes this process for dead
-            os.close(life)
+                os.write(life_pipe, b"x")  # otherwise its supervisor assumes that this process has ended
+            os.close(life_pipe)
 
-    def _listen(self) -> None:
-        """Keep the last of what it prints; one that prints without end is ended."""
+    def _read_errors(self) -> None:
+        """Store the end of the standard error; end a process that prints too much."""
         assert self.process.stderr is not None
         printed = 0
         with suppress(OSError, ValueError):
             while chunk := os.read(self.process.stderr.fileno(), 65536):
-                self._said = (self._said + chunk)[-_MOST_SAID:]
+                self._error_tail = (self._error_tail + chunk)[-_MOST_ERROR_BYTES:]
                 printed += len(chunk)
                 if printed > _MOST_PRINTED:
-                    self.flooded = True
+                    self.is_flooded = True
                     self.kill()
 
 
 class Isolated(Generic[T, R]):
-    """A process that does one task after the other. After one that was lost, the next has a new process.
+    """A process that does one task after another; after a lost task, the next one has a new process.
 
-    `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks; so it is of a
-    module, not of the file that is run as a program. `answer`, `message`: types of the result and of what is passed to
-    ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute. `reads`: files of
-    the user that it may read where processes are confined, `writes`: that it may write too; `environment`: variables
-    that it has beside those of this process.
+    `work`: ``work(task, tell)`` returns the result. It is pickled for each process, and so are tasks; therefore it must
+    be defined in a module, not in the program itself, and paths in tasks are absolute. `answer`, `message`: types of
+    the result and of the arguments of ``tell``: dataclasses, arrays, numbers and texts. `reads`, `writes`: files of the
+    user that confined processes may read, or read and write; `environment`: additional environment variables.
     """
 
     def __init__(
@@ -208,11 +206,11 @@ class Isolated(Generic[T, R]):
     ) -> None:
         self._work, self._environment = work, environment
         self._reads, self._writes = [file.absolute() for file in reads], list(writes)
-        self._types = {DONE: answer, TOLD: message, ERROR: tuple[str, int], READY: int, ALIVE: int}
+        self._types = {DONE: answer, MESSAGE: message, ERROR: tuple[str, int], READY: int, ALIVE: int}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
         self.left = 0
-        """Processes that its processes had started and that were ended with them."""
+        """Number of processes that the processes had started and that were ended with them."""
 
     def do(
         self,
@@ -224,11 +222,11 @@ class Isolated(Generic[T, R]):
     ) -> R | Lost:
         """Do a task and wait for it.
 
-        `tell`: called with what the work tells meanwhile; `limit`: in s without a word, see `ali3.processes.alive`,
-        after which the process is ended, or with `in_all` in s of the whole task; `finish`: makes the result out of
-        that of the work and of what is in the store of the process, see `ali3.processes.store`; where the process has
-        ended it is given None, and makes what is kept. Raises `UserError`: the work has raised one, or another error
-        that `run_command` would show.
+        `tell`: called with each message of the work; `limit`: longest time between messages, see
+        `ali3.processes.alive`, or with `in_all` longest time of the task, s, after which the process is ended;
+        `finish`: computes the result from that of the work, or None if the process has ended, and from the store of
+        the process, see `ali3.processes.store`. Raises `UserError`: the work has raised it, or another error that
+        `run_command` would show.
         """
         data, expired = pickle.dumps(task), threading.Event()
         process, is_new = self._started()
@@ -238,24 +236,24 @@ class Isolated(Generic[T, R]):
             process.kill()
 
         process.send(data)
-        begin, seconds = time.monotonic(), _START if is_new else limit
+        begin, timeout = time.monotonic(), _START_TIMEOUT if is_new else limit
         try:
-            while (answer := self._answer(process, seconds, end)) is not None and answer[0] in (TOLD, READY, ALIVE):
-                if answer[0] == TOLD:
+            while (answer := self._answer(process, timeout, end)) is not None and answer[0] in (MESSAGE, READY, ALIVE):
+                if answer[0] == MESSAGE:
                     tell(answer[1])
                 elif answer[0] == READY:
                     process.number, begin = answer[1], time.monotonic()
-                seconds = limit
+                timeout = limit
                 if in_all and limit is not None:
-                    seconds = max(limit - (time.monotonic() - begin), 0.0)
-        except BaseException:  # of `tell`, or Ctrl-C: what the process still says belongs to no other task
+                    timeout = max(limit - (time.monotonic() - begin), 0.0)
+        except BaseException:  # of `tell`, or Ctrl-C: no other task may get the answers of this one
             process.kill()
             self._end()
             raise
         if answer is None:
             how, call, stored = self._end(finish)
             if expired.is_set():
-                how = f"took more than {limit:g} s" if process.number else f"had not begun after {_START:g} s"
+                how = f"took more than {limit:g} s" if process.number else f"had not begun after {_START_TIMEOUT:g} s"
                 how += call
             return Lost(how, expired.is_set(), stored)
         kind, content = answer
@@ -270,21 +268,21 @@ class Isolated(Generic[T, R]):
 
     @property
     def pid(self) -> int | None:
-        """Number of the process that works; None where there is none, or it has not begun."""
+        """ID of the process; None if there is none, or it is not ready."""
         return None if self._process is None else self._process.number
 
     @property
     def folder(self) -> Path | None:
-        """Folder of the process that works, which is removed with it."""
+        """Folder of the process, which is removed with it; None if there is none."""
         return None if self._process is None else self._process.folder
 
     def send(self, word: Any) -> None:
-        """Say more to the process, which takes it by `ali3.processes.received` in the middle of its task."""
+        """Send a value to the process, which its task receives by `ali3.processes.received`."""
         if self._process is not None:
             self._process.send(pickle.dumps(word))
 
     def close(self) -> None:
-        """End the process, also in the middle of a task, which another thread may wait for; it is then lost."""
+        """End the process, also during a task of another thread, which is then lost."""
         with self._lock:
             self._closed = True
             if self._process is not None:
@@ -292,8 +290,8 @@ class Isolated(Generic[T, R]):
         self._end()
 
     def _answer(self, process: _Process, limit: float | None, end: Callable[[], None]) -> tuple[int, Any] | None:
-        timer = threading.Timer(min(limit or 0.0, _LONGEST), end)
-        timer.daemon = True  # Ctrl-C may come between any two lines: nothing waits for it then
+        timer = threading.Timer(min(limit or 0.0, _LONGEST_TIMER), end)
+        timer.daemon = True  # nothing waits for it after Ctrl-C between any two lines
         try:
             if limit is not None:
                 timer.start()
@@ -301,7 +299,7 @@ class Isolated(Generic[T, R]):
         except (EOFError, OSError, ValueError):
             return None
         except FrameError as error:
-            process.unread = f"gave an answer that cannot be read: {shortened(str(error))}"
+            process.answer_error = f"gave an answer that cannot be read: {shortened(str(error))}"
             process.kill()
             return None
         finally:
@@ -320,7 +318,7 @@ class Isolated(Generic[T, R]):
         return process, True
 
     def _end(self, finish: Callable[[Any, Path], Any] = lambda result, store: None) -> tuple[str, str, Any]:
-        """Forget the process, which has ended or is made to; how it ended, at which call, and what is kept of it."""
+        """End the process; returns how it ended, its last call, and the result of `finish`."""
         with self._lock:
             process, self._process = self._process, None
         if process is None:

@@ -21,7 +21,7 @@ def read_json(file: str | os.PathLike[str], error: Error = FileError, name: str 
 
 
 def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
-    """Content of the bytes of a JSON file: whole numbers have 64 bits, no key stands twice in a table.
+    """Content of the bytes of a JSON file: whole numbers have 64 bits, and keys of an object are unique.
 
     `error`, `name`: as of `toml_of`; `finite`: whether NaN and Infinity, which Python writes, are refused.
     """
@@ -30,8 +30,8 @@ def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
     if not data.strip():
         raise error(f"{name} is empty; it must be a JSON file.")
     try:
-        content = json.loads(file_text(data, error, name), object_pairs_hook=_table)
-    except _TwiceError as fault:
+        content = json.loads(file_text(data, error, name), object_pairs_hook=_object)
+    except _DuplicateKeyError as fault:
         raise error(f"{name} has the key {brief(str(fault))} twice in a table.") from None
     except json.JSONDecodeError as fault:
         raise error(f"{name} is not a JSON file: {one_line(str(fault))}.") from None
@@ -43,12 +43,12 @@ def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
     return content
 
 
-class _TwiceError(Exception):
+class _DuplicateKeyError(Exception):
     """A key occurs twice in an object."""
 
 
-def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     table = dict(pairs)
     if len(table) < len(pairs):
-        raise _TwiceError(max(Counter(key for key, _ in pairs).items(), key=itemgetter(1))[0])
+        raise _DuplicateKeyError(max(Counter(key for key, _ in pairs).items(), key=itemgetter(1))[0])
     return table

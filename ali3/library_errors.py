@@ -1,4 +1,4 @@
-"""Turns errors of a library that reads a file into one sentence."""
+"""Turns errors of libraries that read files into sentences."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,17 +9,17 @@ from ali3.message_text import one_line
 
 
 def reader_stops(error: BaseException) -> str:
-    """The end of a sentence: what a library raises on a damaged file is often none."""
+    """The end of a sentence from an error of a library, whose message is often no sentence."""
     first_line = (str(error).strip() or repr(error)).splitlines()[0].rstrip(".!")
     return f"it is damaged or of another format; its reader stops with '{one_line(first_line)}'."
 
 
 @contextmanager
 def read_by_library(name: str, error: type[Exception], what: str = "be read", extra: str = "") -> Iterator[None]:
-    """Within it, whatever a library raises on a file, its end of the program too, becomes one sentence.
+    """Context in which every error of a library, also `SystemExit`, becomes one sentence.
 
-    `name`: of the file; `error`: what is raised; sentences of our own pass; `what`: the file cannot; `extra`: of the
-    installation, named where the package is missing.
+    `name`: of the file; `error`: the error that is raised; errors of this type pass unchanged; `what`: predicate after
+    "cannot"; `extra`: of the installation, named if the package is missing.
     """
     try:
         yield
@@ -27,5 +27,5 @@ def read_by_library(name: str, error: type[Exception], what: str = "be read", ex
         raise
     except ModuleNotFoundError as fault:
         raise error(f"{name} cannot {what}. {missing_module(fault, extra)}") from fault
-    except (Exception, SystemExit) as fault:  # what a damaged file does to the readers is not declared
+    except (Exception, SystemExit) as fault:  # libraries do not declare their errors on damaged files
         raise error(f"{name} cannot {what}: {reader_stops(fault)}") from fault

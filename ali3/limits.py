@@ -12,7 +12,7 @@ VARIABLE = "ALI3_LIMITS"
 
 
 def factor() -> float:
-    """By how much limits are raised. Raises `UserError`: the variable is not a number of at least 1."""
+    """Factor of all limits. Raises `UserError`: the variable is not a number of at least 1."""
     text = os.environ.get(VARIABLE, "1")
     result = 0.0
     with suppress(ValueError):
@@ -23,10 +23,10 @@ def factor() -> float:
 
 
 def raised(most: float) -> int:
-    """A limit as the user has raised it."""
+    """A limit multiplied by the factor of the user."""
     return int(most * factor())
 
 
 def at_most(size: float, most: float, form: str = "d") -> str:
-    """The end of a sentence on what is beyond a limit, with what would raise it. `form`: of the number."""
+    """The end of a sentence on a size above a limit, with the factor that would allow it. `form`: of the number."""
     return f"at most {format(raised(most), form)} (or {VARIABLE}={math.ceil(size / most)} set)"

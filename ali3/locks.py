@@ -12,12 +12,12 @@ from ali3.files import make_folder
 
 @contextmanager
 def locked(folder: str | os.PathLike[str], busy: str = "") -> Iterator[None]:
-    """A folder, made if it is not there, that no other program has locked.
+    """Context that locks a folder, which is made if it does not exist.
 
-    The lock goes with the process that holds it, however it ends.
+    The lock is released when the process ends in any way.
 
-    `busy`: what is said where another program has locked it; by default its end is waited for. Raises `FileError`:
-    another program has locked it, or it cannot be written.
+    `busy`: message if another program has locked the folder; by default this waits for it. Raises `FileError`: another
+    program has locked the folder, or it cannot be written.
     """
     lock = FileLock(make_folder(folder) / ".lock", timeout=0 if busy else -1)
     try:

@@ -6,18 +6,18 @@ from scipy.signal import butter, sosfiltfilt
 
 
 def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, poles: int = 12) -> NDArray[np.float64]:
-    """Butterworth filter forward and back, so that nothing is shifted in time.
+    """Apply a Butterworth filter forward and backward, which shifts nothing in time.
 
     Parameters
     ----------
     values : array_like, shape (n,)
-        At even times.
+        At equal time intervals.
     interval : float
-        Between samples, s.
+        Sampling interval, s.
     frequency : float
         Cut-off of each direction, Hz: both together leave half of the amplitude there.
     poles : int
-        Of both directions together, even; 12 as in 49 CFR 571.126.
+        Number of both directions together, even; 12 in 49 CFR 571.126.
 
     Returns
     -------
@@ -27,12 +27,12 @@ def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, pol
     Raises
     ------
     ValueError
-        If samples are too far apart for the cut-off, or poles are odd.
+        The sampling frequency is too low for the cut-off, or the number of poles is odd.
 
     Notes
     -----
-    A "12-pole phaseless" filter is read as six poles in each direction. Its square of six poles at the same frequency
-    leaves 1/2 of the amplitude (-6 dB) at the cut-off, not 1/sqrt(2).
+    A "12-pole phaseless" filter is interpreted as six poles in each direction. Both directions together leave 1/2 of
+    the amplitude (-6 dB) at the cut-off, not 1/sqrt(2).
     """
     if not 0.0 < frequency < 0.5 / interval:
         raise ValueError(
@@ -47,9 +47,9 @@ def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, pol
 
 
 def low_pass(values: ArrayLike, interval: float, frequency: float = 10.0) -> NDArray[np.float64]:
-    """Butterworth filter of second order, forward and back, as measured signals are filtered before they are compared.
+    """Apply a Butterworth filter of second order forward and backward, as for measured signals before a comparison.
 
-    `values`: shape (n,); `interval`: time between samples, s; `frequency`: where half of the power is left in each
-    direction, Hz; below half the sampling frequency.
+    `values`: shape (n,); `interval`: sampling interval, s; `frequency`: cut-off at half of the power in each direction,
+    below half the sampling frequency, Hz.
     """
     return phaseless_low_pass(values, interval, frequency, poles=4)

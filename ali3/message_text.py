@@ -6,29 +6,29 @@ import re
 from collections.abc import Iterable, Mapping
 
 VALUE = 60  # characters of a value in a sentence
-SENTENCE = 400  # characters of a sentence with texts of a file in it
-_WORD = 240  # longest word that is shown as it is
-_MESSAGE = 2000  # longest message that is shown as it is
-_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")  # by XML
+SENTENCE = 400  # characters of a sentence that quotes a file
+_LONGEST_WORD = 240  # longest word that is not shortened
+_LONGEST_MESSAGE = 2000  # longest message that is not shortened
+_FORBIDDEN_IN_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 
 
 def brief(value: object) -> str:
-    """A value in a sentence: text in quotes, control characters escaped, and the beginning of what is long."""
+    """A value for a sentence: text in quotes with escaped control characters, and only the first `VALUE` characters."""
     if isinstance(value, str):
-        value = value[: VALUE + 1]  # the rest of a large text need not be escaped
+        value = value[: VALUE + 1]  # escaping the rest of a large text would take long
     elif isinstance(value, int) and value.bit_length() > 64:
-        return "a whole number of more than 19 digits"  # Python refuses to write a very long one
-    text = re.sub(r"\n\s*", " ", repr(value))  # of an array in one line
+        return "a whole number of more than 19 digits"  # Python does not print very long ones
+    text = re.sub(r"\n\s*", " ", repr(value))  # an array in one line
     return text if len(text) <= VALUE else f"{text[:VALUE]}..."
 
 
 def clean(text: str) -> str:
-    """Text without characters that a document cannot have."""
-    return _FORBIDDEN.sub("\ufffd", text)
+    """Text without characters that XML forbids."""
+    return _FORBIDDEN_IN_XML.sub("\ufffd", text)
 
 
 def value_text(value: object) -> str:
-    """A value of a file in a sentence: tables and lists of lists not at all, for they may be deep."""
+    """A value of a file for a sentence; tables and nested lists, which may be deep, only by their kind."""
     if isinstance(value, Mapping):
         return "a table"
     if isinstance(value, (list, tuple)):
@@ -43,48 +43,50 @@ def value_text(value: object) -> str:
 
 
 def shortened(sentence: str) -> str:
-    """A sentence in which texts without a blank, such as values and paths, and the whole have an end, and nothing tells
-    a terminal what to do.
-    """
+    """A sentence with a limited length of each word and of the whole, without control characters for terminals."""
     sentence = "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in sentence)
-    sentence = re.sub(rf"\S{{{_WORD},}}", lambda match: f"{match[0][:100]}...{match[0][-60:]}", sentence)
-    return sentence if len(sentence) <= _MESSAGE else f"{sentence[: _MESSAGE // 2]} ... {sentence[-_MESSAGE // 2 :]}"
+    sentence = re.sub(rf"\S{{{_LONGEST_WORD},}}", lambda match: f"{match[0][:100]}...{match[0][-60:]}", sentence)
+    return (
+        sentence
+        if len(sentence) <= _LONGEST_MESSAGE
+        else f"{sentence[: _LONGEST_MESSAGE // 2]} ... {sentence[-_LONGEST_MESSAGE // 2 :]}"
+    )
 
 
 def one_line(sentence: str, most: int = SENTENCE) -> str:
-    """A sentence whose names and values, which may be any text, neither break the line nor make it endless."""
+    """A sentence without line breaks and of limited length, whatever texts it quotes."""
     if len(sentence) > most:
         sentence = f"{sentence[: most // 2]} ... {sentence[-most // 2 :]}"
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
 
 
 def sentence_of(message: str) -> str:
-    """Words that are the end of a sentence as a whole one: with a capital and a full stop; nothing of nothing."""
+    """The end of a sentence as a whole one, with a capital and a full stop; empty stays empty."""
     return f"{message[0].upper()}{message[1:]}." if message else ""
 
 
 def place_text(path: Iterable[int | str]) -> str:
-    """Keys and places from 0 in lists as a path, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
+    """Keys and list indices from 0 as a path, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
     text = ""
-    for part in path:
-        if isinstance(part, int):
-            text += f"[{part}]"
-        elif part.replace("-", "_").isidentifier():
-            text += f".{part}" if text else part
+    for key in path:
+        if isinstance(key, int):
+            text += f"[{key}]"
+        elif key.replace("-", "_").isidentifier():
+            text += f".{key}" if text else key
         else:
-            text += f"[{brief(part)}]"
+            text += f"[{brief(key)}]"
     return text
 
 
 def unit_text(unit: str) -> str:
-    """A unit behind a number: nothing for pure numbers."""
+    """A unit with a blank before it; empty for numbers without a unit."""
     return "" if unit in ("", "1") else f" {unit}"
 
 
 def range_text(low: float, high: float, unit: str) -> str:
-    """A range for a person, empty where both ends are open.
+    """A range in words; empty if both ends are open.
 
-    `low`, `high`: infinite where open; `unit`: "1" where there is none.
+    `low`, `high`: infinite if open; `unit`: "1" if there is none.
     """
     unit_suffix = unit_text(unit)
     if math.isinf(low):

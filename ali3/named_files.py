@@ -1,4 +1,4 @@
-"""Opens files that another file names, if they lie below a given folder, up to a largest number of them."""
+"""Checks files that another file names: they lie below one folder, and their number and size are limited."""
 
 import os
 from pathlib import Path
@@ -8,27 +8,27 @@ from ali3.message_text import brief
 from ali3.reading import Error, check_file
 
 MOST_FILES = 1000
-"""That one file names, those that are named by them included."""
+"""Largest number of files that one file names directly or through others."""
 
 
 class NamedFiles:
-    """Files that a file names, and those that they name.
+    """Files that a file names directly or through others.
 
-    `folder`: below which they lie; `largest`: bytes of all; `error`: what is raised, with one sentence.
+    `folder`: must contain the files; `largest`: size of all, bytes; `error`: raised with one sentence.
     """
 
     def __init__(self, folder: str | os.PathLike[str], largest: int, error: Error) -> None:
         self._folder, self._error = Path(folder), error
-        self._left, self._count = largest, 0
+        self._remaining_bytes, self._count = largest, 0
 
     def file(self, name: str, beside: Path, where: str = "") -> Path:
-        """A regular file by its name in a file of the folder `beside`; `where`: file and line that name it."""
+        """Path of a regular file that a file of the folder `beside` names; `where`: file and line of the name."""
         location = f"{where}: " if where else ""
         try:
             path = beside / name
             if not path.resolve().is_relative_to(self._folder.resolve()):
                 raise self._error(f"{location}{brief(name)} is not below the folder {self._folder}.")
-        except (OSError, ValueError, RuntimeError) as fault:  # a circle of links is a RuntimeError
+        except (OSError, ValueError, RuntimeError) as fault:  # RuntimeError: a cycle of links
             if isinstance(fault, self._error):
                 raise
             raise self._error(f"{location}{brief(name)} is not a file name.") from None
@@ -37,6 +37,6 @@ class NamedFiles:
             raise self._error(
                 f"{location}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
             )
-        check_file(path, self._left, self._error, f"{location}{brief(name)}")
-        self._left -= int(path.stat().st_size / factor())
+        check_file(path, self._remaining_bytes, self._error, f"{location}{brief(name)}")
+        self._remaining_bytes -= int(path.stat().st_size / factor())
         return path

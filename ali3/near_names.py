@@ -4,20 +4,19 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 MOST = 3  # names in a sentence
-_LONGEST = 200  # characters of a name that are compared
-_SHORTEST = 3  # characters of a part of a name that names it
+_LONGEST_NAME = 200  # characters of a name that are compared
+_SHORTEST_PART = 3  # characters of a part that matches the whole name
 
 
 def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: float = 0.65) -> list[str]:
-    """The names that one is like, the nearest first; capitals do not count.
+    """Known names that are similar to an unknown one, the nearest first.
 
-    Those that are the same but for capitals; else those that are spelt like it; else those with the same last part,
-    as ``spring.damping`` for ``car.damping``; else those of which it is a part.
+    They are equal in small letters; else similar in spelling; else they have the same last part, such as
+    ``spring.damping`` for ``car.damping``; else they contain the name.
 
-    `name`: which is not among them; `closeness`: least share of characters that two spellings have in common, see
-    `difflib.get_close_matches`; 0 to 1.
+    `closeness`: least similarity of two spellings, 0 to 1, see `difflib.get_close_matches`.
     """
-    requested = name[:_LONGEST].lower()
+    requested = name[:_LONGEST_NAME].lower()
     spellings: dict[str, list[str]] = {}
     for known_name in known:
         spellings.setdefault(known_name.lower(), []).append(known_name)
@@ -25,7 +24,7 @@ def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: flo
     near = near or [
         known_name for known_name in spellings if known_name.rpartition(".")[2] == requested.rpartition(".")[2]
     ]
-    if not near and len(requested) >= _SHORTEST:
+    if not near and len(requested) >= _SHORTEST_PART:
         near = [known_name for known_name in spellings if requested in known_name]
     return [known_name for key in near for known_name in spellings[key]][:most]
 
@@ -35,8 +34,8 @@ def did_you_mean(
 ) -> str:
     """The end of a sentence on a name that is not known: ``; did you mean 'a' or 'b'?``.
 
-    `name`, `known`, `most`, `closeness`: see `near_names`; `otherwise`: what the sentence ends with where no name is
-    near, without a full stop.
+    `name`, `known`, `most`, `closeness`: see `near_names`; `otherwise`: end of the sentence without a full stop if no
+    name is near.
     """
     near = near_names(name, known, most, closeness)
     if near:

@@ -14,31 +14,31 @@ from ali3.units import quantity
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of a command line whose messages shorten long words and whose descriptions keep their lines."""
+    """A parser of a command line that shortens long words in messages and retains the lines of descriptions."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**{"formatter_class": argparse.RawDescriptionHelpFormatter} | options)
-        # values with a minus sign, such as -30mm, -1e3 or -1:1, of which argparse knows plain decimals only
+        # argparse knows no negative values other than plain decimals, such as -30mm, -1e3 or -1:1
         self._negative_number_matcher = re.compile(rf"-{DECIMAL}")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As `argparse.ArgumentParser` does; a long option with one minus sign is none of one letter with its value."""
+        """Parse as `argparse.ArgumentParser` does, but refuse a long option with only one minus sign."""
         words = list(sys.argv[1:] if args is None else args)
         for word in words[: words.index("--")] if "--" in words else words:
-            if re.fullmatch(r"-[A-Za-z][A-Za-z-]{2,}(=.*)?", word) and self._near(f"-{word}"):
+            if re.fullmatch(r"-[A-Za-z][A-Za-z-]{2,}(=.*)?", word) and self._near_options(f"-{word}"):
                 self.error(f"unrecognized arguments: {word}")
         return super().parse_known_args(words, namespace)
 
-    def _near(self, word: str) -> list[str]:
-        """Long options that a word is like."""
+    def _near_options(self, word: str) -> list[str]:
+        """Long options with a spelling similar to a word."""
         options = [name for name in self._option_string_actions if name.startswith("--")]
         return near_names(word.partition("=")[0], options, 1, 0.7)
 
     def error(self, message: str) -> NoReturn:
-        """End the program with a message."""
+        """Exit the program with a message."""
         if message.startswith("unrecognized arguments: "):
             word = message.split()[2]
-            if word.startswith("-") and (near := self._near(f"--{word.lstrip('-')}")):
+            if word.startswith("-") and (near := self._near_options(f"--{word.lstrip('-')}")):
                 message += f"; did you mean {near[0]!r}?"
         super().error(shortened(message))
 
@@ -47,18 +47,18 @@ class Option(NamedTuple):
     """Form and meaning of an option, the same in all commands."""
 
     metavar: str
-    """Of its value in the help; empty for one without a value."""
+    """Placeholder of the value in the help; empty for an option without a value."""
     help: str
-    """Without the default."""
+    """Text of the help without the default."""
     type: Callable[[str], Any] = str
-    """Makes the value of the text."""
+    """Converts the text to the value."""
     other_names: tuple[str, ...] = ()
 
 
 def folder(text: str) -> Path:
-    """A folder to be written to; `argparse.ArgumentTypeError` for a name that has the suffix of a file."""
+    """Path of an output folder. Raises `argparse.ArgumentTypeError`: the name has the suffix of a file."""
     path = Path(text)
-    if path.suffix.lower() in _SUFFIXES:
+    if path.suffix.lower() in _FILE_SUFFIXES:
         raise argparse.ArgumentTypeError(f"{text} is the name of a file; --out names the output folder")
     return path
 
@@ -71,7 +71,7 @@ def count(text: str) -> int:
 
 
 def name_and_text(text: str) -> tuple[str, str]:
-    """``NAME=VALUE``, whose value the FMU's variable reads."""
+    """Name and value of ``NAME=VALUE``; the type of the variable of the FMU determines that of the value."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
         raise argparse.ArgumentTypeError(f"{short(text)} is not of the form NAME=VALUE")
@@ -79,12 +79,12 @@ def name_and_text(text: str) -> tuple[str, str]:
 
 
 def assignment(text: str) -> tuple[str, float]:
-    """``NAME=VALUE`` with a number."""
+    """Name and number of ``NAME=VALUE``."""
     name, value = name_and_text(text)
     return name, number(value)
 
 
-_SUFFIXES = (
+_FILE_SUFFIXES = (
     *(".html", ".htm", ".csv", ".json", ".toml", ".ssv", ".fmu", ".ssp", ".zip", ".so", ".dll", ".dylib", ".wasm"),
     *(".png", ".svg", ".pdf", ".mp4", ".glb", ".gltf"),
 )
@@ -139,8 +139,8 @@ SHARED: dict[str, Option] = {
 def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", **more: Any) -> None:
     """Add an option of `SHARED`.
 
-    `name`: key of `SHARED`; `usual`: what happens without it, for the help; `more`: for ``add_argument``: ``default``,
-    ``action``, ``dest``.
+    `name`: key of `SHARED`; `usual`: description of the default for the help; `more`: ``default``, ``action`` and
+    ``dest`` for ``add_argument``.
     """
     option = SHARED[name]
     message = option.help + (f"; default: {usual}" if usual else "")
@@ -155,10 +155,7 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
 
 
 def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:
-    """Those of these arguments that differ from their defaults, as the user writes them.
-
-    `names`: of attributes of `options`.
-    """
+    """Arguments that differ from their defaults, as the user writes them. `names`: of attributes of `options`."""
     differing = [name for name in names if getattr(options, name) != parser.get_default(name)]
     actions = {action.dest: action for action in parser._actions}
     return [next(iter(actions[name].option_strings), name.upper()) for name in differing]

@@ -1,4 +1,4 @@
-"""Parameter sets: what SSV files of the SSP standard hold."""
+"""Parameter sets: the content of SSV files of the SSP standard."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ class Entry:
     kind: str
     """``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration`` or ``Binary``."""
     value: str
-    """As the file has it; for numbers the text that reads back as the same double."""
+    """Text in the file; for numbers it gives exactly the same double."""
     unit: str | None = None
     """Of a real value."""
     description: str = ""
@@ -34,19 +34,19 @@ class ParameterSet:
     entries: Sequence[Entry]
     units: Mapping[str, UnitDefinition] = field(default_factory=dict)
     version: str = ""
-    """Of the content, empty where there is none."""
+    """Version of the content; empty if there is none."""
 
     @property
     def digest(self) -> str:
-        """Hash of the values: the version of a file as built, which an edited one no longer fits."""
+        """Hash of the values, which is the version of a file as built; an edited file differs from it."""
         text = repr([(e.name, e.kind, e.value, e.unit) for e in self.entries])
         units = repr(sorted((n, sorted(u.exponents.items()), u.factor, u.offset) for n, u in self.units.items()))
         return sha256((text + units).encode()).hexdigest()[:16]
 
 
 def parameter_text(description: str, bounds: str, variability: str) -> str:
-    """Description of a parameter for those who edit the file: what it is, its range, and when it may change.
+    """Description, range and variability of a parameter, for editors of the file.
 
-    `bounds`: the range in words; empty where it is open; `variability`: ``fixed`` or ``tunable``.
+    `bounds`: the range in words; empty if it is open; `variability`: ``fixed`` or ``tunable``.
     """
     return "; ".join(text for text in (description, bounds, variability) if text)

@@ -1,6 +1,6 @@
-"""The supervisor of a process that may do anything: it ends with all that it has started.
+"""The supervisor of a process, which ends the process together with all processes that it has started.
 
-On Linux the process is forked from its supervisor, to which all that it starts is given when what has started it ends.
+On Linux the process is forked from its supervisor, which becomes the parent of its orphaned descendants.
 """
 
 import ctypes
@@ -14,36 +14,37 @@ from contextlib import suppress
 from pathlib import Path
 
 LEFT = "left"
-"""File of the folder with the number of processes that were still there at the end."""
-# of prctl
+"""File in the folder of the process with the number of its descendants that were alive at its end."""
+# options of prctl
 _SUBREAPER = 36
 _PARENT_DEATH = 1
-_PATIENCE = 5.0  # s until processes are gone that were killed
+_END_TIMEOUT = 5.0  # s until killed processes have ended
 
 
-def begin_supervisor(life: int, folder: Path) -> None:
-    """Go on in a new process; the old one stays as its supervisor, ends with it, and as it did.
+def begin_supervisor(life_pipe: int, folder: Path) -> None:
+    """Continue in a new process; the old one becomes its supervisor and ends with the same status.
 
-    `life`: a pipe that says a word, or ends, when the process is to end; `folder`: of the process, which goes where
-    nobody else removes it.
-    Elsewhere than on Linux the process goes on without a supervisor.
+    On systems other than Linux the process continues without a supervisor.
+
+    `life_pipe`: has a byte, or is closed, when the process shall end; `folder`: of the process, removed if its parent
+    has ended.
     """
     if sys.platform != "linux":
         return
-    control = ctypes.CDLL(None).prctl
-    control(_SUBREAPER, 1, 0, 0, 0)
+    prctl = ctypes.CDLL(None).prctl
+    prctl(_SUBREAPER, 1, 0, 0, 0)
     supervisor = os.getpid()
     process = os.fork()
     if process == 0:
-        control(_PARENT_DEATH, signal.SIGKILL, 0, 0, 0)
+        prctl(_PARENT_DEATH, signal.SIGKILL, 0, 0, 0)
         if os.getppid() != supervisor:
             os._exit(1)
-        os.close(life)
+        os.close(life_pipe)
         os.setsid()
         return
     for number in (0, 1, 2):
         os.close(number)
-    _wait(process, life)
+    _wait_for_end(process, life_pipe)
     with suppress(ProcessLookupError):
         os.kill(process, signal.SIGKILL)
     status = os.waitpid(process, 0)[1]
@@ -51,7 +52,7 @@ def begin_supervisor(life: int, folder: Path) -> None:
     if survivors:
         with suppress(OSError):
             (folder / LEFT).write_text(str(survivors), encoding="ascii")
-    if _is_orphan(life):
+    if _is_orphan(life_pipe):
         shutil.rmtree(folder, ignore_errors=True)
     code = os.waitstatus_to_exitcode(status)
     if code < 0:
@@ -60,32 +61,32 @@ def begin_supervisor(life: int, folder: Path) -> None:
     os._exit(code)
 
 
-def _is_orphan(life: int) -> bool:
-    """Whether the pipe has ended without the word that is written before it is closed."""
-    return bool(select.select([life], [], [], 0.0)[0]) and not os.read(life, 1)
+def _is_orphan(life_pipe: int) -> bool:
+    """Whether the pipe was closed without a byte, because the process that holds it has ended."""
+    return bool(select.select([life_pipe], [], [], 0.0)[0]) and not os.read(life_pipe, 1)
 
 
-def _wait(process: int, life: int) -> None:
-    """Until the process has ended or is to end."""
+def _wait_for_end(process: int, life_pipe: int) -> None:
+    """Wait until the process has ended or shall end."""
     events = select.poll()
-    events.register(life, select.POLLIN)
+    events.register(life_pipe, select.POLLIN)
     try:
         events.register(os.pidfd_open(process), select.POLLIN)
-        patience = None
-    except OSError:  # a kernel without them
-        patience = 20  # ms
-    while not events.poll(patience):
+        poll_timeout = None
+    except OSError:  # an old kernel has no pidfd
+        poll_timeout = 20  # ms
+    while not events.poll(poll_timeout):
         if os.waitid(os.P_PID, process, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None:
             return
 
 
 def _end_children() -> int:
-    """End all processes that are below this one; how many were alive."""
-    ended: set[int] = set()
-    deadline = time.monotonic() + _PATIENCE
+    """End all descendants of this process; returns how many were alive."""
+    killed: set[int] = set()
+    deadline = time.monotonic() + _END_TIMEOUT
     while time.monotonic() < deadline:
-        for child in _children():
-            ended.add(child)
+        for child in _live_children():
+            killed.add(child)
             with suppress(ProcessLookupError, PermissionError):
                 os.kill(child, signal.SIGKILL)
         try:
@@ -94,10 +95,10 @@ def _end_children() -> int:
         except ChildProcessError:
             break
         time.sleep(0.001)
-    return len(ended)
+    return len(killed)
 
 
-def _children() -> list[int]:
+def _live_children() -> list[int]:
     """Children of this process that are alive."""
     results = []
     for entry in os.scandir("/proc"):

@@ -1,4 +1,4 @@
-"""Reads parameter sets, checked by the XML schema of the standard."""
+"""Reads parameter sets and checks them by the XML schema of the standard."""
 
 import os
 import re
@@ -11,7 +11,7 @@ from ali3.unit_definition import KINDS, UnitDefinition
 from ali3.xml_memory import is_lack_of_memory
 
 LARGEST = 10_000_000
-"""Bytes that a file may have."""
+"""Largest size of a file, bytes."""
 
 _SCHEMAS = {"1": "ssv", "2": "ssv2"}
 
@@ -19,16 +19,16 @@ _SCHEMAS = {"1": "ssv", "2": "ssv2"}
 def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
     """Read an SSV file of SSP 1.0 or 2.0, checked against the standard's XML schema.
 
-    Returns entries in the order of the file. Types of SSP 2.0 are given as those of 1.0. Raises `ParameterSetError`: it
-    is no such file; a name occurs twice; a value is a list. Raises `FileError`: it cannot be read.
+    Entries are in the order of the file, with the types of SSP 1.0. Raises `ParameterSetError`: the file has another
+    format; a name occurs twice; a value is a list. Raises `FileError`: the file cannot be read.
     """
     from pyssp_standard.ssv import SSVElem
 
-    root = _parsed(file)
+    root = _document_root(file)
     schema = _schema(root, file)
     if not schema.validate(root):
         problem = schema.error_log[0]
-        raise ParameterSetError(f"{file}, line {problem.line}: {_words(problem.message)}.")
+        raise ParameterSetError(f"{file}, line {problem.line}: {_plain_message(problem.message)}.")
     _check_units(root, SSVElem.namespaces, file)
     content = SSVElem.from_xml(root)
     elements = root.iterfind("ssv:Parameters/ssv:Parameter", SSVElem.namespaces)
@@ -36,9 +36,9 @@ def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
         _entry(parameter["name"], parameter["type_name"], element, f"{file}, line {element.sourceline}")
         for parameter, element in zip(content.parameters, elements, strict=True)
     ]
-    _check_once((e.name for e in entries), f"{file}: the parameter", "a set gives each one once")
+    _check_unique((e.name for e in entries), f"{file}: the parameter", "a set gives each one once")
     units = list(root.iterfind("ssv:Units/ssc:Unit", SSVElem.namespaces))
-    _check_once((u.get("name") for u in units), f"{file}: the unit", "a file defines each one once")
+    _check_unique((u.get("name") for u in units), f"{file}: the unit", "a file defines each one once")
     definitions = {u.name: UnitDefinition.of(u.base_unit.to_dict()) for u in content.units or ()}
     for name, unit in definitions.items():
         if not (unit.factor > 0.0 and abs(unit.factor) + abs(unit.offset) < float("inf")):
@@ -50,26 +50,28 @@ def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
     return ParameterSet(content.name, entries, definitions, root.get("fileversion", ""))
 
 
-def _parsed(file: str | os.PathLike[str]) -> Any:
-    """The root of the document; entities, which a parameter set has no use for, are refused."""
+def _document_root(file: str | os.PathLike[str]) -> Any:
+    """Root of the document; a document type declaration, and thus entities, are refused."""
     from lxml import etree
 
     data = read_bytes(file, LARGEST, name=f"The parameter set {file}")
     try:
-        # the library takes a comment for an element
+        # the library would treat a comment as an element
         parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
         if is_lack_of_memory(error):
             raise MemoryError from None
-        raise ParameterSetError(f"{file} is not an XML document: {_words(error.msg or 'it is empty')}.") from None
+        raise ParameterSetError(
+            f"{file} is not an XML document: {_plain_message(error.msg or 'it is empty')}."
+        ) from None
     if root.getroottree().docinfo.doctype:
         raise ParameterSetError(f"{file} has a document type declaration; a parameter set has none.")
     return root
 
 
 def _schema(root: Any, file: object) -> Any:
-    """The schema of the version that the document says it is of."""
+    """Schema of the version that the document declares."""
     from lxml import etree
     from pyssp_standard.standard import ModelicaStandard
 
@@ -78,29 +80,29 @@ def _schema(root: Any, file: object) -> Any:
         raise ParameterSetError(
             f"{file} is not an SSV file: its root is '{root_name}' where ParameterSet of the SSP standard must be."
         )
-    form = root.get("version", "")
-    if form[:1] not in _SCHEMAS:
-        raise ParameterSetError(f"{file} is of SSP '{form}'; 1.0 and 2.0 can be read.")
-    return etree.XMLSchema(file=str(ModelicaStandard.schemas[_SCHEMAS[form[:1]]]))
+    version = root.get("version", "")
+    if version[:1] not in _SCHEMAS:
+        raise ParameterSetError(f"{file} is of SSP '{version}'; 1.0 and 2.0 can be read.")
+    return etree.XMLSchema(file=str(ModelicaStandard.schemas[_SCHEMAS[version[:1]]]))
 
 
 def _check_units(root: Any, namespaces: dict[str, str], file: object) -> None:
-    """The library names neither file nor unit of a number that it cannot read."""
+    """Check the numbers of units, since errors of the library name neither file nor unit."""
     for unit in root.iterfind("ssv:Units/ssc:Unit", namespaces):
         for name, value in ((n, v) for base in unit for n, v in base.attrib.items()):
             _check_number(value, f"{file}, line {unit.sourceline}: the unit '{unit.get('name')}' has {name} =")
 
 
-def _check_number(text: str, what: str) -> None:
-    """Against Python, as the schema's reader (libxml2) takes "1e" for a number."""
+def _check_number(text: str, prefix: str) -> None:
+    """Check a number by Python, because libxml2 accepts "1e"."""
     try:
         float(text)
     except ValueError:
-        raise ParameterSetError(f"{what} '{text}'; a number is needed.") from None
+        raise ParameterSetError(f"{prefix} '{text}'; a number is needed.") from None
 
 
 def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
-    """An entry from its element; the library does not know the types of SSP 2.0."""
+    """The entry of an element, whose type may be one of SSP 2.0."""
     value_element = element[0]
     value = value_element.get("value")
     if value is None:
@@ -118,14 +120,15 @@ def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
     return Entry(name, kind, value, value_element.get("unit"), element.get("description", ""))
 
 
-def _check_once(names: Iterable[str], what: str, rule: str) -> None:
-    visited: set[str] = set()
+def _check_unique(names: Iterable[str], prefix: str, rule: str) -> None:
+    """Refuse a name that occurs twice, by a sentence with the prefix and the rule."""
+    known_names: set[str] = set()
     for name in names:
-        if name in visited:
-            raise ParameterSetError(f"{what} '{name}' occurs twice; {rule}.")
-        visited.add(name)
+        if name in known_names:
+            raise ParameterSetError(f"{prefix} '{name}' occurs twice; {rule}.")
+        known_names.add(name)
 
 
-def _words(message: str) -> str:
-    """A message of the schema without namespaces, as the rest of a sentence."""
+def _plain_message(message: str) -> str:
+    """A message of the schema without namespaces and full stop."""
     return " ".join(re.sub(r"\{[^{}]*\}", "", message).split()).rstrip(".")

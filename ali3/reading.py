@@ -1,7 +1,7 @@
-"""Reads files that others wrote: regular ones of a limited size, each fault one sentence that names the file.
+"""Reads untrusted files: regular files of limited size; each fault is one sentence that names the file.
 
-A pipe or a device would be waited for or read without end, and lists that are nested deep, very long numbers and keys
-of very many parts stop the parsers or the programs behind them.
+Pipes and devices could block, and deeply nested lists, very long numbers and keys of very many parts could stop the
+parsers or the programs that use the content.
 """
 
 import codecs
@@ -20,26 +20,26 @@ from ali3.message_text import brief, one_line, place_text
 Error = type[Exception]
 
 LARGEST_TOML = 1_000_000
-"""Bytes; the parser takes a second for them."""
+"""Bytes; parsing them takes a second."""
 LARGEST_TEXT = 10_000_000
 LARGEST_STATE = 100_000_000
 """Largest saved state of an FMU, bytes."""
 LARGEST_IN_PARTS = 2**40
-"""Bytes of a file of which parts are read."""
+"""Largest size of a file that is read in parts, bytes."""
 LONGEST_LINE = 10_000_000
 """Bytes or characters."""
 DEEPEST = 100
 LARGEST_WHOLE = 2**63 - 1
 """As TOML has it."""
-_LONGEST_NAME = 1000  # of a file that is not there, in a sentence
-_MOST_DOTS = 200  # of a key: the time of the parser grows with their square
+_LONGEST_NAME = 1000  # characters of the name of a missing file in a sentence
+_MOST_DOTS = 200  # of a key: the time of the parser is proportional to their square
 
 
 def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
-    """Refuse what is not a regular file, or too large, before it is opened.
+    """Check before a file is opened that it is regular and not too large.
 
-    `largest`: bytes, which `ali3.limits` raises; `error`: what is raised, with one sentence; `name`: how the sentence
-    calls the file; by default its path.
+    `largest`: bytes, multiplied by the factor of `ali3.limits`; `error`: raised with one sentence; `name`: of the file
+    in the sentence, by default its path.
     """
     name = name or str(file)
     try:
@@ -51,35 +51,35 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     except ValueError as fault:
         raise error(f"{brief(name)} is not a file name: {fault}.") from None
     if not stat.S_ISREG(status.st_mode):
-        raise error(_no_regular(name, status.st_mode))
+        raise error(_not_regular(name, status.st_mode))
     if status.st_size > raised(largest):
         raise error(f"{name} has {status.st_size} bytes; it must have {at_most(status.st_size, largest)}.")
     return Path(file)
 
 
 def no_file(file: str | os.PathLike[str], hint: str = "") -> str:
-    """What is wrong where a regular file should be, in a sentence; `hint` follows where there is nothing."""
+    """A sentence on a path that is not a regular file; `hint` is appended if nothing exists there."""
     try:
-        return _no_regular(str(file), Path(file).stat().st_mode)
+        return _not_regular(str(file), Path(file).stat().st_mode)
     except (OSError, ValueError):
         return f"There is no file {brief(str(file)) if len(str(file)) > _LONGEST_NAME else one_line(str(file))}.{hint}"
 
 
-def _no_regular(name: str, mode: int) -> str:
+def _not_regular(name: str, mode: int) -> str:
     return f"{name} is {'a folder' if stat.S_ISDIR(mode) else 'a pipe or device'}; it must be a file."
 
 
 def is_file(file: str | os.PathLike[str]) -> bool:
-    """Whether there is a regular file; a name that no file can have, with a zero byte or too long, is that of none."""
-    return stat.S_ISREG(_mode(file))
+    """Whether a path is a regular file; false for invalid names, with a zero byte or too long."""
+    return stat.S_ISREG(_file_mode(file))
 
 
 def is_folder(file: str | os.PathLike[str]) -> bool:
-    """Whether there is a folder; see `is_file`."""
-    return stat.S_ISDIR(_mode(file))
+    """Whether a path is a folder; see `is_file`."""
+    return stat.S_ISDIR(_file_mode(file))
 
 
-def _mode(file: str | os.PathLike[str]) -> int:
+def _file_mode(file: str | os.PathLike[str]) -> int:
     try:
         return Path(file).stat().st_mode
     except (OSError, ValueError):
@@ -87,7 +87,7 @@ def _mode(file: str | os.PathLike[str]) -> int:
 
 
 def open_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> BinaryIO:
-    """The bytes of a file, to be read piece by piece; see `check_file`."""
+    """Open a file to read its bytes in parts; see `check_file`."""
     path, name = check_file(file, largest, error, name), name or str(file)
     try:
         return path.open("rb")
@@ -101,8 +101,8 @@ def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     try:
         with open_file(file, largest, error, name) as stream:
             size, limit = os.fstat(stream.fileno()).st_size, raised(largest)
-            data = stream.read(min(size, limit) + 1)  # as much memory as it asks for is taken
-            if size < len(data) <= limit:  # files of the system have more than they say
+            data = stream.read(min(size, limit) + 1)  # `read` allocates as much memory as it is asked for
+            if size < len(data) <= limit:  # files of /proc are larger than their stated size
                 data += stream.read(limit + 1 - len(data))
     except OSError as fault:
         if isinstance(fault, error):
@@ -126,19 +126,19 @@ def read_toml(
 
 
 def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
-    """Tables of the content of a TOML file: numbers are finite, whole ones have 64 bits.
+    """Tables of the content of a TOML file: numbers are finite, whole numbers have 64 bits.
 
-    `data`: at most `LARGEST_TOML`; `error`: what is raised, with one sentence; `name`: how the sentence calls the file.
+    `data`: at most `LARGEST_TOML` bytes; `error`: raised with one sentence; `name`: of the file in the sentence.
     """
     text = file_text(data, error, name)
-    bare = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without texts and comments
-    if any(part.count(".") > _MOST_DOTS for part in re.split(r"[,=\[\]{}\n]", bare)):
+    text_of_keys = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without strings and comments
+    if any(part.count(".") > _MOST_DOTS for part in re.split(r"[,=\[\]{}\n]", text_of_keys)):
         raise error(f"{name} is not a readable TOML file: a key has more than {_MOST_DOTS} parts.")
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as fault:
         raise error(f"{name} is not a TOML file: {one_line(str(fault)).rstrip('.')}.") from None
-    except ValueError:  # of `int`, which has a limit of its own
+    except ValueError:  # of `int`, which limits the number of digits
         raise error(f"{name} is not a readable TOML file: a whole number has more than 19 digits.") from None
     except RecursionError:
         too_deep(error, name)
@@ -157,7 +157,7 @@ def file_text(data: bytes, error: Error, name: str) -> str:
 
 
 def other_encoding(data: bytes) -> str:
-    """Words for a text in UTF-16 or UTF-32, by its byte order mark or its zero bytes; empty for others."""
+    """Predicate for a text in UTF-16 or UTF-32, by its byte order mark or its zero bytes; empty for other texts."""
     is_utf_32 = data.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE))
     is_utf_16 = len(data) > 3 and data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     if not is_utf_32 and not is_utf_16:
@@ -172,7 +172,7 @@ def too_deep(error: Error, name: str) -> NoReturn:
 
 
 def check_content(content: Any, error: Error, name: str, finite: bool) -> None:
-    """Refuse what the programs behind a parser cannot take."""
+    """Check nesting and numbers of parsed content."""
     stack: list[tuple[Any, tuple[Any, ...], int]] = [([content], (), 0)]
     while stack:
         content_part, key_chain, depth = stack.pop()
@@ -183,15 +183,15 @@ def check_content(content: Any, error: Error, name: str, finite: bool) -> None:
                 stack.append((value, (key_chain, key), depth + 1))
             elif isinstance(value, int):
                 if abs(value) > LARGEST_WHOLE:
-                    raise error(f"{name}: {_words((key_chain, key))} is a whole number of more than 19 digits.")
+                    raise error(f"{name}: {_location((key_chain, key))} is a whole number of more than 19 digits.")
             elif finite and isinstance(value, float) and not math.isfinite(value):
-                raise error(f"{name}: {_words((key_chain, key))} is {value}; it must be a finite number.")
+                raise error(f"{name}: {_location((key_chain, key))} is {value}; it must be a finite number.")
 
 
-def _words(place: tuple[Any, ...]) -> str:
-    """A place from the links of `check_content`."""
+def _location(key_chain: tuple[Any, ...]) -> str:
+    """A location from the chain of keys of `check_content`."""
     parts: list[int | str] = []
-    while place:
-        place, key = place
+    while key_chain:
+        key_chain, key = key_chain
         parts.append(key)
     return one_line(place_text(parts[-2::-1])) or "the content"  # without the list around it

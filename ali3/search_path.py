@@ -5,15 +5,15 @@ import sys
 
 
 def forget_current_folder() -> None:
-    """Take the current folder out of the search path: files of the user there may have any name.
+    """Remove the current folder from the search path, because files of the user may have any name.
 
-    ``python -m`` and empty entries of PYTHONPATH put it there, before the standard library. It stays where PYTHONPATH
-    names it, where it is searched after the standard library as an installed project of the user, and where it holds
-    this package. This runs before anything else is imported, so it uses only what Python itself has imported.
+    ``python -m`` and empty entries of PYTHONPATH add it before the standard library. It stays if PYTHONPATH names it,
+    if it is after the standard library, as an installed project of the user, or if it contains this package. This runs
+    before other imports and therefore uses only modules that Python itself has imported.
     """
     try:
         current = os.path.realpath(os.getcwd())
-    except OSError:  # the folder is gone
+    except OSError:  # the folder was removed
         return
     library = os.path.dirname(os.path.realpath(os.__file__))
     python_path = [os.path.realpath(entry) for entry in os.environ.get("PYTHONPATH", "").split(os.pathsep) if entry]

@@ -12,7 +12,7 @@ STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP
 """Signals that ask a program to end."""
 
 _terminals: list[int] = []
-"""Standard output and error, where they were a terminal at first: one that was closed cannot be asked."""
+"""Those of standard output and error that were a terminal at the start; a closed one cannot be recognised."""
 
 
 class Stopped(KeyboardInterrupt):
@@ -24,18 +24,18 @@ class Stopped(KeyboardInterrupt):
 
 
 def heeded() -> list[signal.Signals]:
-    """Those of `STOPPING` that this program does not ignore, as under `nohup`."""
+    """Signals of `STOPPING` that this program does not ignore, as it does under `nohup`."""
     return [number for number in STOPPING if signal.getsignal(number) is not signal.SIG_IGN]
 
 
 @contextmanager
 def handled(stop: Callable[[signal.Signals, Any], None], numbers: Collection[signal.Signals]) -> Iterator[None]:
-    """A context in which signals call `stop`, with what handled them before, which comes back at its end."""
+    """Context in which signals call `stop` with their number and previous handler, which is restored at its end."""
     previous_handlers = {number: signal.getsignal(number) for number in numbers}
 
     def handle(number: int, _: FrameType | None) -> None:
         if number == getattr(signal, "SIGHUP", None):
-            _lose_terminals()
+            _replace_terminals()
         stop(signal.Signals(number), previous_handlers[signal.Signals(number)])
 
     try:
@@ -49,8 +49,8 @@ def handled(stop: Callable[[signal.Signals, Any], None], numbers: Collection[sig
 
 @contextmanager
 def stopped_by_signals() -> Iterator[None]:
-    """A context in which signals that end programs raise an exception, as Ctrl-C does, so that what is done is kept."""
-    if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
+    """Context in which signals that end programs raise an exception, as Ctrl-C does, so that results can be stored."""
+    if threading.current_thread() is not threading.main_thread():  # Python handles signals only in the main thread
         yield
         return
     _terminals[:] = [descriptor for descriptor in (1, 2) if os.isatty(descriptor)]
@@ -62,8 +62,8 @@ def stopped_by_signals() -> Iterator[None]:
         yield
 
 
-def _lose_terminals() -> None:
-    """After SIGHUP: a terminal that was closed can be written to no more, and tells so more than once."""
+def _replace_terminals() -> None:
+    """Redirect output to a closed terminal to the null device, and ignore further SIGHUP."""
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     for descriptor in _terminals:
         os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)

@@ -1,4 +1,4 @@
-"""Reads tables of text (CSV) that other programs wrote; defines what their lines, cells and numbers are."""
+"""Reads tables of text (CSV) of other programs: lines, cells, headings and numbers."""
 
 import csv
 import math
@@ -18,11 +18,11 @@ from ali3.message_text import brief
 from ali3.reading import LONGEST_LINE, Error, open_file, other_encoding
 
 LARGEST = 4_000_000_000
-"""Bytes of a table that is read as a stream."""
+"""Largest size of a table, which is read as a stream, bytes."""
 HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 """A name with its unit, such as ``speed [m/s]``."""
 _WORD = re.compile(r"[^\W\d]\w*")
-_MARKS = (";", "\t", ",")
+_SEPARATORS = (";", "\t", ",")
 _LONGEST_CELL = 1000
 
 
@@ -48,9 +48,9 @@ class TextTable:
     file : path
         A regular file in UTF-8.
     error : type of exception
-        What is raised, with one sentence that names file and line.
+        Raised with one sentence that names file and line.
     name : str
-        The file in sentences; by default its path.
+        Name of the file in sentences; by default its path.
     headed : bool, optional
         Whether the table must have a heading: its first line, or a comment above it if the first line has numbers;
         None: it may have one. Columns without names are identified by their order.
@@ -93,29 +93,31 @@ class TextTable:
         self.names: list[str] = []
         self.units: dict[str, str] = {}
         self._lines = self._read(file, largest, whole)
-        self._first = next(self._lines, None)
-        if self._first is None:
+        self._first_line = next(self._lines, None)
+        if self._first_line is None:
             raise error(f"{self.name} contains no values; it needs a heading and at least one row.")
-        bare = re.sub(r'"[^"]*"', "", self._first[1])  # a name in quotation marks may have any mark
-        mark = next((mark for mark in _MARKS if mark in bare), None)
-        self._mark = mark if mark is not None or headed is not False else " "
-        self.decimal = "," if self._mark in (";", "\t") else ""
-        cells = self._cells(*self._first)
+        bare = re.sub(r'"[^"]*"', "", self._first_line[1])  # a name in quotation marks may contain any separator
+        separator = next((separator for separator in _SEPARATORS if separator in bare), None)
+        self._separator = separator if separator is not None or headed is not False else " "
+        self.decimal = "," if self._separator in (";", "\t") else ""
+        cells = self._cells(*self._first_line)
         self.width = len(cells)
         heading = self._heading(cells, headed, known)
         if heading:
-            self._first = None if heading is cells else self._first
-            self._take_names(heading, units)
+            self._first_line = None if heading is cells else self._first_line
+            self._set_names(heading, units)
 
     def rows(self, every: int = 1) -> Iterator[Row]:
         """Lines below the heading: the first and each `every`-th after it."""
-        lines = self._lines if self._first is None else chain([self._first], self._lines)
+        lines = self._lines if self._first_line is None else chain([self._first_line], self._lines)
         for k, (line, text) in enumerate(lines):
             if k % every == 0:
                 cells = self._cells(line, text)
                 if len(cells) != self.width:
                     line_name = "heading" if self.names else "first line"
-                    hint = "; decimal marks must be points." if self._mark == "," and len(cells) > self.width else "."
+                    hint = (
+                        "; decimal marks must be points." if self._separator == "," and len(cells) > self.width else "."
+                    )
                     fault_text = f"{len(cells)} values where the {line_name} has {self.width} columns"
                     raise self.error(f"{self.name}, line {line}: {fault_text}{hint}")
                 yield Row(line, cells)
@@ -133,7 +135,7 @@ class TextTable:
             results = list(map(float, cells))
         except ValueError:
             results = []
-        # `float` takes 1_0 and digits of other scripts too.
+        # `float` also accepts 1_0 and digits of other scripts.
         if results and text.isascii() and "_" not in text and (not finite or all(map(math.isfinite, results))):
             return results
         k = next(k for k, cell in enumerate(row.cells) if k >= first and not is_number(cell, self.decimal, finite))
@@ -176,10 +178,10 @@ class TextTable:
             raise self.error(f"{self.name} cannot be read: {reason(fault)}.") from None
 
     def _cells(self, line: int, text: str) -> list[str]:
-        if self._mark == " ":
+        if self._separator == " ":
             return text.split()
         try:
-            return cells_of(text, self._mark or ",")
+            return cells_of(text, self._separator or ",")
         except ValueError as fault:
             raise self.error(f"{self.name}, line {line}: {fault}.") from None
 
@@ -192,20 +194,24 @@ class TextTable:
         for line, cells in self.comment_cells():
             if any(map(is_number, cells)):
                 continue
-            if not known or any(plain_name(cell) in known for cell in cells) or self._names_columns(line, cells):
+            if not known or any(plain_name(cell) in known for cell in cells) or self._is_heading(line, cells):
                 return cells
         if not is_number(first[0], self.decimal):
             return first
         if headed:
             raise self.error(
-                f"{self.name}, line {self._first[0] if self._first else 1}: {brief(first[0])} is a number; above the "
-                "first values there must be a heading with a name for each column."
+                f"{self.name}, line {self._first_line[0] if self._first_line else 1}: {brief(first[0])} is a number; "
+                "above the first values there must be a heading with a name for each column."
             )
         return []
 
-    def _names_columns(self, line: int, cells: list[str]) -> bool:
-        """Whether a comment is right above the first values, divided as they are, and each of its cells is one word."""
-        if self._first is None or line != self._first[0] - 1 or (self._mark or ",") not in dict(self.comments)[line]:
+    def _is_heading(self, line: int, cells: list[str]) -> bool:
+        """Whether a comment is right above the first values, has their separator, and each of its cells is one word."""
+        if (
+            self._first_line is None
+            or line != self._first_line[0] - 1
+            or (self._separator or ",") not in dict(self.comments)[line]
+        ):
             return False
         return all(_WORD.fullmatch(plain_name(cell)) for cell in cells)
 
@@ -214,38 +220,38 @@ class TextTable:
         results = []
         for line, comment in self.comments:
             text = comment.lstrip("# \t")
-            for mark in (self._mark or ",", *_MARKS, " "):
+            for separator in (self._separator or ",", *_SEPARATORS, " "):
                 try:
-                    cells = text.split() if mark == " " else cells_of(text, mark)
-                except ValueError:  # no line of a table
+                    cells = text.split() if separator == " " else cells_of(text, separator)
+                except ValueError:  # not a line of a table
                     continue
                 if len(cells) == self.width:
                     results.append((line, cells))
                     break
         return results
 
-    def _take_names(self, cells: list[str], units: bool) -> None:
-        visited = set[str]()  # a table may have a million columns
+    def _set_names(self, cells: list[str], units: bool) -> None:
+        known_names = set[str]()  # a table may have a million columns
         for cell in cells:
             match = HEADING.fullmatch(cell) if units else None
             name = match["name"] if match else cell
-            if name in visited:
+            if name in known_names:
                 raise self.error(f"{self.name} has the column {brief(name)} twice.")
-            visited.add(name)
+            known_names.add(name)
             self.names.append(name)
             if match:
                 self.units[name] = match["unit"]
 
 
-def cells_of(line: str, mark: str) -> list[str]:
+def cells_of(line: str, separator: str) -> list[str]:
     """Cells of a line, stripped of blanks. Raises `ValueError` with the end of a sentence that says what is wrong."""
     if '"' in line:
         try:
-            cells = next(csv.reader([line], delimiter=mark, skipinitialspace=True, strict=True), [])
+            cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True), [])
         except csv.Error as fault:
             raise ValueError(f"this is not a line of a CSV file: {fault}") from None
     else:
-        cells = line.split(mark)
+        cells = line.split(separator)
     if len(line) > _LONGEST_CELL and (longest := max(map(len, cells))) > _LONGEST_CELL:
         raise ValueError(f"a cell has {longest} characters; a number or a name has at most {_LONGEST_CELL}")
     return [cell.strip() for cell in cells]

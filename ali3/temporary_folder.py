@@ -1,4 +1,4 @@
-"""Temporary folders that are removed with the program that made them, however it ends."""
+"""Temporary folders that are removed after the end of the program that made them, also after a crash."""
 
 import os
 import shutil
@@ -13,33 +13,35 @@ if sys.platform != "win32":
 
 PREFIX = ".ali3-"
 _cleared: set[Path] = set()
+"""Parents from which abandoned folders were removed."""
 
 
 @contextmanager
 def temporary_folder(parent: str | os.PathLike[str] | None = None) -> Iterator[Path]:
-    """A folder that is there while the block runs.
+    """Context with a folder that is removed at its end.
 
-    Its program holds a lock of it, which goes with the program. Where one was killed, the next that makes a folder
-    beside it removes it; not on Windows, nor where the file system has no locks.
+    The program locks the folder. If it is killed, the next program that makes a folder in the same parent removes it;
+    not on Windows, nor on file systems without locks.
 
-    `parent`: by default where temporary files go. Raises `OSError`: none can be made there.
+    `parent`: by default the folder of the system for temporary files. Raises `OSError`: no folder can be made there.
     """
     parent_folder = Path(tempfile.gettempdir() if parent is None else parent).absolute()
     if parent_folder not in _cleared:
         _cleared.add(parent_folder)
-        _clear(parent_folder)
+        _remove_abandoned(parent_folder)
     folder, lock = _locked_folder(parent_folder)
     owner = os.getpid()
     try:
         yield folder
     finally:
-        if os.getpid() == owner:  # a process that was forked from it may end with the block open
+        if os.getpid() == owner:  # a forked process may end within the context
             shutil.rmtree(folder, ignore_errors=True)
             if lock >= 0:
                 os.close(lock)
 
 
 def _locked_folder(parent: Path) -> tuple[Path, int]:
+    """A new folder, and the descriptor of its lock; -1 on Windows, where folders cannot be locked."""
     while True:
         folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent))
         if sys.platform == "win32":
@@ -47,13 +49,13 @@ def _locked_folder(parent: Path) -> tuple[Path, int]:
         lock = os.open(folder, os.O_RDONLY)
         with suppress(OSError):
             fcntl.flock(lock, fcntl.LOCK_EX)
-        if folder.exists():  # else another program took it for one of the dead before it was locked
+        if folder.exists():  # else another program removed it before it was locked
             return folder, lock
         os.close(lock)
 
 
-def _clear(parent: Path) -> None:
-    """Remove the folders of programs that are dead."""
+def _remove_abandoned(parent: Path) -> None:
+    """Remove the folders of programs that have ended."""
     if sys.platform == "win32":
         return
     with suppress(OSError), os.scandir(parent) as entries:

@@ -1,4 +1,4 @@
-"""Finds the type and limits of a key path in the types of a typed file."""
+"""Finds the type and limits of the value at a key path in the types of a file."""
 
 import types
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,13 +18,13 @@ def keys_of(table: Table) -> dict[str, FieldInfo]:
 
 
 def annotation_of(field: FieldInfo) -> Any:
-    """Type of a field with what is annotated to it."""
+    """Type of a field with its annotations."""
     metadata = [*field.metadata, *([field] if field.title else [])]
     return Annotated[(field.annotation, *metadata)] if metadata else field.annotation
 
 
 def templates(annotation: Any) -> list[Table]:
-    """Tables that may stand at a key; several where templates are chosen by `kind`."""
+    """Possible tables of a type; several if `kind` chooses a template."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
     if get_origin(annotation) in (Annotated, Union, types.UnionType):
@@ -39,7 +39,7 @@ def value_type_of(annotation: Any) -> Any | None:
 
 
 def key_type_of(annotation: Any) -> Any:
-    """Type of the keys of such a table; text for any other type."""
+    """Type of the keys of a table whose keys the user chooses; text for any other type."""
     type_arguments = _dict_of(annotation)
     return str if type_arguments is None else type_arguments[0]
 
@@ -53,15 +53,15 @@ def _dict_of(annotation: Any) -> tuple[Any, ...] | None:
 
 
 def kinds_of(table: Table) -> tuple[str, ...]:
-    """Values of `kind` that name a template; empty where it has none."""
+    """Values of `kind` that choose a template; empty without that key."""
     return get_args(table.model_fields["kind"].annotation) if "kind" in table.model_fields else ()
 
 
 def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
-    """Type of what stands at a key path, None where the types have nothing there.
+    """Type of the value at a key path; None if there is no such key.
 
     `top`: the whole file: a model, or several of which the key ``kind`` chooses one; `path`: keys from the top; `data`:
-    the file's content, which says the kinds of templates.
+    content of the file, which determines the kinds of templates.
     """
     annotation: Any = top
     for key in path:
@@ -76,7 +76,7 @@ def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
                 return None
             annotation = annotation_of(field)
         else:
-            annotation = _element(annotation, key)
+            annotation = _element_type(annotation, key)
             if annotation is None:
                 return None
         data = item_of(data, key)
@@ -84,7 +84,7 @@ def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
 
 
 def chosen(annotation: Any, data: Any) -> Table | None:
-    """The table among those of a type that the data name by `kind`."""
+    """The table of a type that the key `kind` of the data chooses."""
     tables = templates(annotation)
     if len(tables) == 1:
         return tables[0]
@@ -93,10 +93,10 @@ def chosen(annotation: Any, data: Any) -> Table | None:
 
 
 def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
-    """Table at a key path, None where there is none.
+    """Table at a key path; None if there is none.
 
     `top`: the whole file: a model, or several of which the key ``kind`` chooses one; `path`: keys from the top; `data`:
-    the file's content, which says the kinds of templates.
+    content of the file, which determines the kinds of templates.
     """
     node = data
     for key in path:
@@ -105,29 +105,29 @@ def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
 
 
 def all_keys(table: Table, path: str = "") -> Iterator[str]:
-    """Key paths of a table and all in it, of all templates. `path`: where it stands."""
+    """Key paths of a table and of the tables in it, for all templates. `path`: of the table."""
     for key, field in keys_of(table).items():
         key_path = f"{path}.{key}" if path else key
         yield key_path
         inner = value_type_of(field.annotation)
         value_type = field.annotation if inner is None else inner
-        for template in templates(_element(value_type, "0") or value_type):
+        for template in templates(_element_type(value_type, "0") or value_type):
             yield from all_keys(template, key_path if inner is None else f"{key_path}.NAME")
 
 
 def title_of(annotation: Any) -> str:
-    """What the title of a field says that a value must be; empty without one."""
+    """Description of the allowed values in the title of a field; empty without one."""
     return next((f.title for f in _metadata(annotation) if isinstance(f, FieldInfo) and f.title), "")
 
 
 def holds_keys(top: Any, path: Sequence[str], data: Any) -> bool:
-    """Whether a table, or one whose keys the user chooses, is to stand at a key path."""
+    """Whether the type at a key path is a table, including tables with keys of the user."""
     annotation = annotation_at(top, path, data)
     return bool(templates(annotation)) or value_type_of(annotation) is not None
 
 
 def words(annotation: Any) -> str:
-    """A description of the values of a type, in words."""
+    """Description of the values of a type."""
     title = title_of(annotation)
     if title:
         return title
@@ -154,7 +154,7 @@ def words(annotation: Any) -> str:
 
 
 def _limit_text(limits: Sequence[Any]) -> str:
-    """The ends of a range."""
+    """Limits of a number, with a blank before them."""
     words_of = {"ge": "from", "gt": "above", "le": "up to", "lt": "below"}
     ends = {name: getattr(item, name) for item in limits for name in words_of if isinstance(item, Ge | Gt | Le | Lt)
             and hasattr(item, name)}  # fmt: skip
@@ -181,10 +181,7 @@ def _metadata(annotation: Any) -> tuple[Any, ...]:
 
 
 def item_of(data: Any, key: str) -> Any:
-    """The item under a key of a table or at an index of a list; None without one.
-
-    `key`: key, or place from 0.
-    """
+    """The item at a key of a table or an index, from 0, of a list; None without one."""
     if isinstance(data, Mapping):
         return data.get(key)
     if isinstance(data, (list, tuple)) and key.isdigit() and int(key) < len(data):
@@ -192,7 +189,7 @@ def item_of(data: Any, key: str) -> Any:
     return None
 
 
-def _element(annotation: Any, key: str) -> Any | None:
+def _element_type(annotation: Any, key: str) -> Any | None:
     """Type of an element of a list."""
     origin, inner = get_origin(annotation), get_args(annotation)
     if origin is list and key.isdigit():
@@ -200,5 +197,5 @@ def _element(annotation: Any, key: str) -> Any | None:
     if origin is tuple and key.isdigit():
         return inner[0] if inner[-1] is Ellipsis else inner[int(key)] if int(key) < len(inner) else None
     if origin in (Annotated, Union, types.UnionType):
-        return next((result for item in inner if (result := _element(item, key)) is not None), None)
+        return next((result for item in inner if (result := _element_type(item, key)) is not None), None)
     return None

@@ -22,7 +22,7 @@ from ali3.typed_paths import (
     words,
 )
 
-ELSEWHERE = 3  # places of a key that a sentence names
+ELSEWHERE = 3  # locations of a key that a sentence names
 UNKNOWN = "extra_forbidden"
 MISSING = "missing"
 Loc = Sequence["int | str"]
@@ -30,23 +30,23 @@ NOTHING: Mapping[str, str] = {}
 
 
 def dotted(path: Sequence[str]) -> str:
-    """A key path as in TOML: keys that are not bare in quotation marks, places in lists from 0."""
+    """A key path as in TOML: keys that are not bare in quotation marks, list indices from 0."""
     return ".".join(part if part.replace("-", "_").isidentifier() or part.isdigit() else f"'{part}'" for part in path)
 
 
 class Sentences:
-    """Says what is wrong with the content of a file.
+    """Writes sentences on the faults of the content of a file.
 
     Parameters
     ----------
     top : type
         The whole file: a model, or several of which the key ``kind`` chooses one.
     forms : mapping of str to str
-        Patterns of texts in words.
+        Descriptions of texts by pattern.
     names : str
-        What a name that the user chooses is, in words.
+        Description of names that the user chooses.
     place : callable
-        Gives the words for a key path, whose parts are keys, and places in lists from 0 as text.
+        Text of a key path, whose parts are keys, and list indices from 0 as text.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class Sentences:
         return self._words_of(path) or "the file"
 
     def of(self, error: ValidationError) -> list[str]:
-        """A sentence for each fault; a misspelt key is not told as missing too."""
+        """A sentence for each fault; the right key of a misspelt one is not reported as missing too."""
         items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
         missing = [self._path(item["loc"]) for item in items if item["type"] == MISSING]
         sentences, misspelt_paths = [], []
@@ -112,7 +112,7 @@ class Sentences:
         return f"{self._coordinate(path)} is {value_text(value)}; it must be {requirement}{limits}."
 
     def _form(self, item: Any) -> str:
-        """The form that a text with a pattern must have."""
+        """Description of the texts that match a pattern."""
         pattern = item["ctx"]["pattern"]
         annotation = annotation_at(self.top, self._path(item["loc"]), self.data)
         return self.forms.get(pattern) or title_of(annotation) or f"text of the form {pattern}"
@@ -138,12 +138,12 @@ class Sentences:
         return f"{self.place(path)} {fault}; the keys of {self.place(path[:-1])} are {known_names}."
 
     def _places(self, path: Sequence[str]) -> list[str]:
-        """Where a key of that name stands, in all templates."""
+        """Key paths with the same last key, in all templates."""
         keys = (key for table in templates(self.top) for key in all_keys(table))
         return list(dict.fromkeys(key for key in keys if key.split(".")[-1] == path[-1]))
 
     def _kind(self, path: Sequence[str]) -> Any:
-        """Kind of the innermost template that a key is in."""
+        """Kind of the innermost template that contains a key."""
         node: Any = self.data
         kind = None
         for part in path[:-1]:
@@ -152,17 +152,17 @@ class Sentences:
         return kind
 
     def _near(self, path: Sequence[str], missing: Sequence[str]) -> str | None:
-        """The key that is meant, first among those that are missing."""
+        """The intended key, if possible one of the missing keys."""
         table = table_at(self.top, path[:-1], self.data)
         known_names = list(keys_of(table)) if table else []
         near = near_names(path[-1], missing, 1) or near_names(path[-1], known_names, 1)
         return near[0] if near else None
 
     def _path(self, loc: Loc) -> list[str]:
-        """Key path of an error, without the names of templates and types that stand in it."""
+        """Key path of an error, without the names of templates and types that pydantic adds."""
         path: list[str] = []
         node: Any = self.data
-        template: Any = None  # the table whose template stood in the path last
+        template: Any = None  # the last table whose template was in the path
         for part in loc:
             if isinstance(node, Mapping) and part == node.get("kind") and node is not template:
                 template = node  # a table may have a key of the same name as its template
@@ -178,7 +178,7 @@ class Sentences:
         return path
 
     def _coordinate(self, path: Sequence[str]) -> str:
-        """A key path; the coordinates of a point with their axes."""
+        """A key path; for a coordinate of a point with its axis."""
         if path and path[-1].isdigit() and int(path[-1]) < 3:
             list_type = annotation_at(self.top, path[:-1], self.data)
             if list_type is not None and words(list_type).startswith("a list of 3 numbers, between -"):
@@ -187,12 +187,12 @@ class Sentences:
 
 
 def _in_table(paths: Sequence[Sequence[str]], path: Sequence[str]) -> list[str]:
-    """Keys of those paths that lie in the same table as a path."""
+    """Last keys of those paths that are in the same table as a path."""
     return [other[-1] for other in paths if other[:-1] == path[:-1]]
 
 
 def _tag(item: Any) -> Any:
-    """The value given as the kind of a template."""
+    """The faulty kind of a template."""
     entry = item["input"]
     return entry.get("kind") if isinstance(entry, Mapping) else item["ctx"]["tag"]
 

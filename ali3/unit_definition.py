@@ -18,7 +18,7 @@ class UnitDefinition:
     """A unit by its base units: value in base units = factor * value + offset."""
 
     exponents: Mapping[str, int]
-    """By name of the base unit; those that are zero left out."""
+    """Exponents other than zero by base unit."""
     factor: float = 1.0
     offset: float = 0.0
 
@@ -26,7 +26,7 @@ class UnitDefinition:
     def of(cls, attributes: Mapping[str, Any]) -> UnitDefinition:
         """A definition from the attributes of an element ``BaseUnit`` of SSP or FMI.
 
-        `attributes`: exponents by base unit, ``factor`` and ``offset``; what is missing has its default.
+        `attributes`: exponents by base unit, ``factor`` and ``offset``; all are optional.
         """
         exponents = {base: int(attributes.get(base) or 0) for base in BASE_UNITS}
         factor, offset = attributes.get("factor"), attributes.get("offset")
@@ -39,5 +39,5 @@ class UnitDefinition:
     def convert(self, value: float, other: UnitDefinition) -> float:
         """A value in this unit as one in another of the same base units."""
         if (self.factor, self.offset) == (other.factor, other.offset):
-            return value  # to the last bit
+            return value  # exactly
         return (self.factor * value + self.offset - other.offset) / other.factor

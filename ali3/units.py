@@ -1,7 +1,6 @@
-"""Units as data loggers, engineers and programs write them, in SI base units; how they are read, printed and mistaken.
+"""Units as data loggers, engineers and programs write them, their definitions in SI base units, and usual confusions.
 
-Files of ours and of FMI have them as in `UNITS`, such as ``m/s2`` and ``N.m``; what people read is made of that by
-`typeset`.
+Files have units as in `UNITS`, such as ``m/s2`` and ``N.m``; `typeset` converts them for readers.
 """
 
 import argparse
@@ -89,7 +88,7 @@ OTHER_NAMES = {
     "m/s/s": "m/s2", "m/sec2": "m/s2", "ms-2": "m/s2", "G": "g", "Nm": "N.m", "kNm": "kN.m",
     "g's": "g", "mbar": "hPa", "°C": "degC", "C": "degC", "sec": "s", "rad/sec": "rad/s", "kmph": "km/h",
 }  # fmt: skip
-_MISTAKEN = (
+_CONFUSED = (
     ("m/s", "km/h", "mph", "kn", "ft/s", "mm/s"),
     ("rad/s", "deg/s", "rpm", "r/s"),
     ("m/s2", "g", "mm/s2", "mg", "ft/s2"),
@@ -103,31 +102,31 @@ _MISTAKEN = (
     ("J", "kJ"),
     ("1", "%", "deg"),
 )
-"""Units that are taken for each other: that of the SI, the most usual other one, others."""
-_SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+"""Units that are confused with each other: that of the SI, the most usual other one, others."""
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _EXPONENT = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
 
 
 class Misread(NamedTuple):
-    """Values that are in one unit and were taken for values in another: times `factor` they are what they should be."""
+    """Values in one unit that were read as values in another one; `factor` corrects them."""
 
     factor: float
     unit: str
     taken: str
     usual: bool
-    """Whether it is the mistake of that quantity that is made most, one way or the other."""
+    """Whether the two units are the most usual confusion of the quantity."""
 
     @property
     def words(self) -> str:
-        """Such as "km/h in place of m/s"."""
+        """Description, such as "km/h in place of m/s"."""
         return f"{typeset(self.unit) or '1'} in place of {typeset(self.taken) or '1'}"
 
 
 def misread(unit: str) -> list[Misread]:
-    """The mistakes that are made with values in a unit, the usual ones first; "" for one that is not known: all."""
+    """Possible confusions of values in a unit, the usual ones first; of all units if `unit` is empty."""
     results = []
-    for group in _MISTAKEN:
-        unit_name = _named(unit) if unit else group[0]
+    for group in _CONFUSED:
+        unit_name = _standard_name(unit) if unit else group[0]
         if unit_name not in group:
             continue
         si_unit = group[unit_name == group[0]]
@@ -138,11 +137,11 @@ def misread(unit: str) -> list[Misread]:
         ]
         results += [Misread(_scale(a) / _scale(b), a, b, si_unit in (a, b)) for a, b in pairs]
         if unit:
-            break  # a number in degrees is an angle first
+            break  # deg is primarily the unit of an angle
     return sorted(results, key=lambda one: not one.usual)
 
 
-def _named(unit: str) -> str:
+def _standard_name(unit: str) -> str:
     name = plain_unit(unit)
     return OTHER_NAMES.get(name, name)
 
@@ -154,16 +153,16 @@ def _scale(unit: str) -> float:
 
 
 def typeset(unit: str) -> str:
-    """A unit as it is printed, such as m/s² of ``m/s2``; empty where there is none."""
+    """A unit for readers, such as m/s² for ``m/s2``; empty for ratios."""
     if unit in ("1", ""):
         return ""
     text = re.sub(r"\.(?=[a-zA-Z])", "·", unit)
-    return _EXPONENT.sub(lambda match: f"^{match[0]}" if match[2] else match[0].translate(_SMALL), text)
+    return _EXPONENT.sub(lambda match: f"^{match[0]}" if match[2] else match[0].translate(_SUPERSCRIPTS), text)
 
 
 def known_unit(text: str) -> UnitDefinition | None:
-    """A unit as written, or None where it is not known."""
-    name = _named(text)
+    """Definition of a unit in any notation; None if it is not known."""
+    name = _standard_name(text)
     if name not in UNITS:
         return _compound(name)
     exponents, factor, offset = UNITS[name]
@@ -171,12 +170,12 @@ def known_unit(text: str) -> UnitDefinition | None:
 
 
 def _compound(text: str) -> UnitDefinition | None:
-    """Products and one quotient of known units, such as ``rad.s2/m``, ``deg/g`` or ``m/(s2.rad)``."""
-    above, slash, below = text.partition("/")
-    if slash and "." in below and not re.fullmatch(r"\([^()]*\)", below):
-        return None  # it could be meant either way
+    """Definition of products and one quotient of known units, such as ``rad.s2/m``, ``deg/g`` or ``m/(s2.rad)``."""
+    numerator, slash, denominator = text.partition("/")
+    if slash and "." in denominator and not re.fullmatch(r"\([^()]*\)", denominator):
+        return None  # ambiguous
     exponents, factor = Counter[str](), 1.0
-    for part, sign in ((above, 1), (below.strip("()"), -1)):
+    for part, sign in ((numerator, 1), (denominator.strip("()"), -1)):
         for word in part.split(".") if part else []:
             match = re.fullmatch(r"(.*?[^\d]|1)(\d?)", word)
             name = "" if match is None else OTHER_NAMES.get(match[1], match[1])
@@ -189,13 +188,13 @@ def _compound(text: str) -> UnitDefinition | None:
 
 
 def same_quantity(one: UnitDefinition, other: UnitDefinition) -> bool:
-    """Whether both measure the same; angles count as numbers."""
+    """Whether two units are of the same quantity; angles count as ratios."""
     first, second = ({b: n for b, n in unit.exponents.items() if b != "rad"} for unit in (one, other))
     return first == second
 
 
 def plain_unit(text: str) -> str:
-    """A unit without brackets, powers and products in one way."""
+    """A unit without brackets, with uniform notation of powers and products."""
     word = text.strip()
     while word[:1] + word[-1:] in ("[]", "()") and len(word) > 1:
         word = word[1:-1].strip()
@@ -205,10 +204,10 @@ def plain_unit(text: str) -> str:
 
 
 def number_with_unit(text: str, unit: str) -> float:
-    """A number of the command line in a unit.
+    """A number of the command line, converted to a unit.
 
-    `text`: a number in that unit, or one with another unit of the same quantity behind it, such as ``20kN/m`` where
-    the unit is N/m; `unit`: "" where it is not known. Raises `ValueError` with the text and what would be right, as the
+    `text`: a number in that unit, or one followed by another unit of the same quantity, such as ``20kN/m`` where
+    the unit is N/m; `unit`: empty if it is not known. Raises `ValueError` with the text and what would be right, as the
     rest of a sentence after a colon.
     """
     word = text.strip()
@@ -238,7 +237,7 @@ def _example(unit: str) -> str:
 def quantity(unit: str) -> Callable[[str], float]:
     """The type of an option whose value is in a unit, for ``add_argument``; see `number_with_unit`."""
 
-    def converted(text: str) -> float:
+    def parsed(text: str) -> float:
         try:
             return number(text)
         except argparse.ArgumentTypeError:
@@ -247,4 +246,4 @@ def quantity(unit: str) -> Callable[[str], float]:
             except ValueError as error:
                 raise argparse.ArgumentTypeError(str(error)) from None
 
-    return converted
+    return parsed

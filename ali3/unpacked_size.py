@@ -1,4 +1,4 @@
-"""Checks the unpacked size of a compressed file before or while it is read into memory."""
+"""Limits the memory that reading a file takes, also for compressed files."""
 
 import gzip
 import io
@@ -11,13 +11,13 @@ from ali3.limits import at_most, raised
 from ali3.reading import LONGEST_LINE, Error, open_file
 
 MOST_MEMORY = 4_000_000_000
-"""Bytes that a reader may take."""
-_CELL = 24
-"""Bytes that a table takes for each of its cells, beside its text: its number, and where its text is."""
+"""Limit of the memory of a reader, bytes."""
+_BYTES_PER_CELL = 24
+"""Memory of a cell of a table besides its text: its number and the address of its text."""
 
 
 def check_memory(needed: float, error: Error, name: str, most: int = MOST_MEMORY) -> None:
-    """Refuse what would take too much memory. `needed`: estimated, bytes; `error`, `name`: as of `check_file`."""
+    """Check the memory that reading would take. `needed`: estimated, bytes; `error`, `name`: as of `check_file`."""
     if needed > most and needed > raised(most):
         raise error(
             f"{name} would take about {needed:.3g} bytes of memory; it must take {at_most(needed, most, '.3g')}."
@@ -25,26 +25,26 @@ def check_memory(needed: float, error: Error, name: str, most: int = MOST_MEMORY
 
 
 class Unpacked(io.RawIOBase):
-    """The bytes of a text file, unpacked where its name ends in ``.gz``, within bounds.
+    """A limited stream of the bytes of a text file, which is unpacked if its name ends in ``.gz``.
 
-    Wherever it is read, it raises `error` with one sentence: the file cannot be unpacked, has a zero byte, a line of
-    more than `LONGEST_LINE`, or would take more memory than a reader may.
+    Reading raises `error` with one sentence if the file cannot be unpacked, has a zero byte, has a line of more than
+    `LONGEST_LINE`, or would take too much memory.
 
     Parameters
     ----------
     file, largest, error, name
-        As of `check_file`; `largest`: bytes of the file as it is.
+        As of `check_file`; `largest`: size of the file itself, bytes.
     mark : bytes
-        What divides cells: each takes memory beside its text.
+        Separator of cells, each of which takes memory besides its text.
     zeros : bool
-        Whether zero bytes may be in it: who reads says what it is.
+        Whether zero bytes are allowed, because the caller checks them.
     most : int
-        Bytes of memory.
+        Limit of the memory, bytes.
 
     Attributes
     ----------
     taken : int
-        Bytes that came out so far.
+        Bytes read so far.
     """
 
     def __init__(
@@ -60,10 +60,10 @@ class Unpacked(io.RawIOBase):
         super().__init__()
         self._name, self._error = name or str(file), error
         self._mark, self._zeros, self._most = mark, zeros, most
-        self.taken = self._cells = self._line = 0
+        self.taken = self._cells = self._line_length = 0
         self._file = open_file(file, largest, error, self._name)
-        packed = Path(file).suffix.lower() == ".gz"
-        self._source = gzip.GzipFile(fileobj=self._file) if packed else self._file
+        is_compressed = Path(file).suffix.lower() == ".gz"
+        self._source = gzip.GzipFile(fileobj=self._file) if is_compressed else self._file
 
     def readable(self) -> bool:
         return True
@@ -84,10 +84,10 @@ class Unpacked(io.RawIOBase):
         if b"\0" in data and not self._zeros:
             raise self._error(f"{self._name} is not text: there is a zero byte in it.")
         self._cells += data.count(self._mark) if self._mark else 0
-        check_memory(self.taken + _CELL * self._cells, self._error, self._name, self._most)
+        check_memory(self.taken + _BYTES_PER_CELL * self._cells, self._error, self._name, self._most)
         end = data.rfind(b"\n")
-        self._line = self._line + len(data) if end < 0 else len(data) - end - 1
-        if self._line > LONGEST_LINE:
+        self._line_length = self._line_length + len(data) if end < 0 else len(data) - end - 1
+        if self._line_length > LONGEST_LINE:
             raise self._error(f"{self._name} has a line of more than {LONGEST_LINE} characters.")
 
     def close(self) -> None:

@@ -10,9 +10,9 @@ from ali3.message_text import shortened
 
 @contextmanager
 def warning_lines() -> Iterator[list[str]]:
-    """A context in which warnings for a user are lines like errors are, without the place in the source.
+    """Context in which warnings for a user are printed as lines without the location in the source.
 
-    Gives the list of what was told so far.
+    Yields the list of the warnings so far.
     """
     lines: list[str] = []
 

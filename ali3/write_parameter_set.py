@@ -10,21 +10,21 @@ from ali3.read_parameter_set import read_parameter_set
 
 
 def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], as_built: bool) -> None:
-    """Write an SSV file of SSP 1.0, which readers of 2.0 take too.
+    """Write an SSV file of SSP 1.0, which readers of 2.0 accept too.
 
     Parameters
     ----------
     parameters : ParameterSet
         Its version is not written.
     file : path
-        An older one is replaced when the new one is whole. The same content gives the same bytes.
+        An older file is replaced when the new one is complete. The same content gives the same bytes.
     as_built : bool
-        Whether the values are those of the FMU; the file then carries their hash, by which `is_as_built` knows it.
+        Whether the values are those of the FMU; the file then has their hash as version, see `is_as_built`.
 
     Raises
     ------
     FileError
-        It cannot be written.
+        The file cannot be written.
     """
     data = parameter_set_bytes(parameters, as_built)
     with atomic_file(file) as temporary:
@@ -44,12 +44,12 @@ def parameter_set_bytes(parameters: ParameterSet, as_built: bool) -> bytes:
         content.parameters.append(
             Parameter(name=entry.name, type_name=entry.kind, type_value=ParameterType(entry.kind, attributes))
         )
-        # the library keeps what it knows of a kind and gives None to the rest
-        attributes_of_kind = content.parameters[-1]["type_value"].parameter
-        content.parameters[-1]["type_value"].parameter = {k: v for k, v in attributes_of_kind.items() if v is not None}
+        # the library sets attributes of other types to None
+        all_attributes = content.parameters[-1]["type_value"].parameter
+        content.parameters[-1]["type_value"].parameter = {k: v for k, v in all_attributes.items() if v is not None}
     for name, unit in parameters.units.items():
-        numbers = {"factor": unit.factor} | ({"offset": unit.offset} if unit.offset else {})
-        content.units.add_unit(Unit(name, BaseUnit(dict(unit.exponents) | numbers)))
+        factors = {"factor": unit.factor} | ({"offset": unit.offset} if unit.offset else {})
+        content.units.add_unit(Unit(name, BaseUnit(dict(unit.exponents) | factors)))
     root = content.to_xml()
     head = TopLevelMetaData(generationTool=f"ALi3 {version('ali3')}", generationDateAndTime="")
     head.fileversion = parameters.digest if as_built else ""
@@ -61,7 +61,7 @@ def parameter_set_bytes(parameters: ParameterSet, as_built: bool) -> bytes:
 
 
 def is_as_built(file: str | os.PathLike[str]) -> bool:
-    """Whether a file holds the values that a build has written; False for one that a person has changed."""
+    """Whether a file has the values that a build has written; False if they were edited."""
     try:
         parameters = read_parameter_set(file)
     except UserError:

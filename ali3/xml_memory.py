@@ -1,6 +1,6 @@
-"""Recognises errors of lxml that mean that memory was not enough."""
+"""Recognises errors of lxml that are caused by lack of memory."""
 
 
 def is_lack_of_memory(error: Exception) -> bool:
-    """Whether a failed reading of XML is a failed allocation: lxml knows neither the fault nor the line then."""
+    """Whether an error of lxml is a failed allocation, which it reports without fault and line."""
     return str(error).startswith("unknown error") and getattr(error, "lineno", None) == 0

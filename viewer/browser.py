@@ -1,4 +1,4 @@
-"""A Chromium without a window, which makes pictures of a page."""
+"""Takes pictures of a page with a headless Chromium."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NAMES = (
     *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "chrome-headless-shell"),
     *("microsoft-edge", "microsoft-edge-stable", "msedge", "brave-browser"),
 )
-_PLACES = (
+_PATHS = (
     "/usr/lib/chromium/chromium",
     "/snap/bin/chromium",
     "/opt/google/chrome/chrome",
@@ -28,12 +28,12 @@ _PLACES = (
     "/Applications/Chromium.app/Contents/MacOS/Chromium",
     "/Applications/Microsoft Edge.app/Contents/MacOS/Microsoft Edge",
 )
-_WINDOWS = (
+_WINDOWS_PATHS = (
     r"Google\Chrome\Application\chrome.exe",
     r"Chromium\Application\chrome.exe",
     r"Microsoft\Edge\Application\msedge.exe",
 )
-# A picture is the same on every machine: drawn by the processor. As root, Chromium has no sandbox.
+# Drawing on the processor gives the same picture on every machine.
 _ARGUMENTS = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
@@ -43,7 +43,7 @@ _ARGUMENTS = (
 
 
 class BrowserError(UserError, RuntimeError):
-    """There is no browser for a picture, or it does not run; the message says what would help."""
+    """There is no browser, or it fails; the message gives the remedy."""
 
 
 def find_chromium() -> Path:
@@ -67,7 +67,7 @@ def find_chromium() -> Path:
         path = shutil.which(name)
         if path is not None:
             return Path(path)
-    for candidate in _places():
+    for candidate in _usual_paths():
         if candidate.is_file() and os.access(candidate, os.X_OK):
             return candidate
     raise BrowserError(
@@ -113,9 +113,9 @@ def screenshot(
         from playwright.sync_api import Error, sync_playwright
     except ModuleNotFoundError:
         raise BrowserError(missing_package("playwright")) from None
-    with sync_playwright() as play:
+    with sync_playwright() as playwright:
         try:
-            browser = play.chromium.launch(executable_path=executable, args=launch_arguments(), timeout=60_000)
+            browser = playwright.chromium.launch(executable_path=executable, args=launch_arguments(), timeout=60_000)
         except Error as error:
             reason = str(error).strip().splitlines()[0]
             raise BrowserError(f"{executable} does not start: {reason}") from None
@@ -131,16 +131,16 @@ def screenshot(
 
 
 def launch_arguments() -> list[str]:
-    """Arguments of a Chromium that makes pictures."""
-    root = hasattr(os, "geteuid") and os.geteuid() == 0
-    return [*_ARGUMENTS, *(["--no-sandbox"] if root else [])]
+    """Arguments of a Chromium that takes pictures; as root it has no sandbox."""
+    is_root = hasattr(os, "geteuid") and os.geteuid() == 0
+    return [*_ARGUMENTS, *(["--no-sandbox"] if is_root else [])]
 
 
-def _places() -> Iterator[Path]:
-    yield from map(Path, _PLACES)
+def _usual_paths() -> Iterator[Path]:
+    yield from map(Path, _PATHS)
     for folder in ("PROGRAMFILES", "PROGRAMFILES(X86)", "LOCALAPPDATA"):
         if os.environ.get(folder):
-            yield from (Path(os.environ[folder], *path.split("\\")) for path in _WINDOWS)
+            yield from (Path(os.environ[folder], *path.split("\\")) for path in _WINDOWS_PATHS)
 
 
 def _pictures(view: Page, file: Path, times: Iterable[float], camera: str | None) -> Iterator[bytes]:

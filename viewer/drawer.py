@@ -1,4 +1,4 @@
-"""What draws recordings for the engine, which finds it by the entry point ``page`` of ``ali3.drawers``."""
+"""The drawer of recordings, which the engine finds by the entry point ``page`` of ``ali3.drawers``."""
 
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -18,9 +18,9 @@ __all__ = ["check_options", "html_of", "show", "write_gltf", "write_mp4", "write
 
 
 def show(recordings: Sequence[Recording], options: Mapping[str, Any]) -> Path:
-    """Write a page into the folder for temporary files and open it in the user's browser.
+    """Write a page to a temporary folder and open it in the browser of the user.
 
-    Raises `BrowserError`: there is no browser, or no screen; `ViewerError`: the script of the page is not there.
+    Raises `BrowserError`: there is no browser, or no screen; `ViewerError`: the script of the page is missing.
     """
     page = Path(tempfile.mkdtemp(prefix="ali3-animation-"), "animation.html")
     path = write_page(page, recordings, options=options).path

@@ -1,4 +1,4 @@
-"""Recordings as glTF 2.0 animations, which Blender, three.js, Windows and macOS show."""
+"""Writes recordings as glTF 2.0 animations, which Blender, three.js, Windows and macOS show."""
 
 import json
 import math
@@ -28,8 +28,8 @@ from viewer.page_build import node
 
 SUFFIXES = (".glb", ".gltf")
 MOST_RATE = 240.0
-_ERROR = re.compile(r"\s*(Uncaught )?\w*Error\b")
-_LOOKED_AT = 20_000  # times of a recording that errors are found at, at least two for each that is written
+_ERROR_LINE = re.compile(r"\s*(Uncaught )?\w*Error\b")
+_MOST_SAMPLES = 20_000  # times at which errors are computed; at least two for each written time
 
 
 def write_gltf(
@@ -78,13 +78,15 @@ def write_gltf(
         The file cannot be written; an older one is then unchanged.
     """
     target = Path(path)
-    scene = _checked(target, recording, rate, speed, deformation)
+    scene = _checked_scene(target, recording, rate, speed, deformation)
     check_writable(path)
     begin, span = float(recording.t[0]), float(recording.t[-1] - recording.t[0]) / speed
-    indices = chosen_times(recording.t, max(_LOOKED_AT, math.ceil(2.0 * rate * span)), recording.epoch)
+    indices = chosen_times(recording.t, max(_MOST_SAMPLES, math.ceil(2.0 * rate * span)), recording.epoch)
     columns = {name: recording.columns[name][indices] for name in pose_columns(scene)}
-    scene["flexible"] = [_bent(part, number, columns) for number, part in enumerate(scene.get("flexible") or [])]
-    question = {
+    scene["flexible"] = [
+        _with_morph_targets(part, number, columns) for number, part in enumerate(scene.get("flexible") or [])
+    ]
+    request = {
         "scene": scene,
         "names": list(columns),
         "count": len(indices),
@@ -96,11 +98,11 @@ def write_gltf(
         "ground": bool(road),
     }
     numbers = [(recording.t[indices] - begin) / speed, recording.epoch[indices], *columns.values()]
-    answer, content = _answer(question, np.array(numbers))
+    answer, content = _run_writer(request, np.array(numbers))
     if not content:
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
     if target.suffix.lower() == ".gltf":
-        content = _as_text(content)
+        content = _gltf_text(content)
     with atomic_file(path) as temporary:
         temporary.write_bytes(content)
     notes = list(recording.notes)
@@ -116,7 +118,7 @@ def write_gltf(
     return WrittenGltf(target, len(content), answer["times"], 1000.0 * distance, math.degrees(angle), notes)
 
 
-def _checked(target: Path, recording: Recording, rate: float, speed: float, deformation: float) -> dict[str, Any]:
+def _checked_scene(target: Path, recording: Recording, rate: float, speed: float, deformation: float) -> dict[str, Any]:
     if target.suffix.lower() not in SUFFIXES:
         raise ViewerError(f"{target} must end with .glb or .gltf.")
     if not isinstance(recording, Recording):
@@ -131,16 +133,18 @@ def _checked(target: Path, recording: Recording, rate: float, speed: float, defo
     return dict(recording.scene)
 
 
-def _bent(part: Mapping[str, Any], number: int, columns: dict[str, NDArray[np.float64]]) -> dict[str, Any]:
-    """A flexible part with its morph targets; their weights become columns."""
+def _with_morph_targets(
+    part: Mapping[str, Any], number: int, columns: dict[str, NDArray[np.float64]]
+) -> dict[str, Any]:
+    """A flexible part with its morph targets, whose weights are added to the columns."""
     shapes, weights, error = morph_targets(part, columns)
     names = [f"weight {k} of the flexible part {number}" for k in range(len(shapes))]
     columns |= dict(zip(names, weights.T, strict=True))
     return {**part, "targets": [encoded(shape) for shape in shapes], "weights": names, "reduction": error}
 
 
-def _as_text(binary: bytes) -> bytes:
-    """A binary file as JSON with its numbers in it: not by Node, whose strings end at 512 MiB."""
+def _gltf_text(binary: bytes) -> bytes:
+    """Content of a ``.gltf`` file from that of a ``.glb`` file; not by Node, whose strings are limited to 512 MiB."""
     length = int.from_bytes(binary[12:16], "little")
     description = json.loads(binary[20 : 20 + length])
     (buffer,) = description["buffers"]
@@ -149,21 +153,21 @@ def _as_text(binary: bytes) -> bytes:
     return json.dumps(description, ensure_ascii=False, separators=(",", ":")).encode()
 
 
-def _answer(question: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[dict[str, Any], bytes]:
-    """What the program of Node tells of a file, and its content; empty where nothing is drawn."""
+def _run_writer(request: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[dict[str, Any], bytes]:
+    """Answer of the program of Node, and the content of its file; empty if nothing is drawn."""
     try:
         command = [node()[0], str(bundle().with_name(GLTF))]
     except RuntimeError as error:
         raise ViewerError(f"A glTF file cannot be written. {error}") from None
     with temporary_folder() as folder:
-        question_file, gltf_file = folder / "question", folder / "written"
-        question_file.write_bytes(json.dumps(question).encode() + b"\n" + numbers.astype("<f8").tobytes())
+        request_file, gltf_file = folder / "question", folder / "written"
+        request_file.write_bytes(json.dumps(request).encode() + b"\n" + numbers.astype("<f8").tobytes())
         try:
-            process = subprocess.run([*command, str(question_file), str(gltf_file)], capture_output=True, check=False)
+            process = subprocess.run([*command, str(request_file), str(gltf_file)], capture_output=True, check=False)
         except OSError as error:
             raise ViewerError(f"A glTF file cannot be written: {command[0]} does not start: {reason(error)}.") from None
         if process.returncode != 0:
-            lines = process.stderr.decode(errors="replace").splitlines()  # the message stands before Node's stack
-            fault = next((line.strip() for line in lines if _ERROR.match(line)), " ".join(lines)[:400])
+            lines = process.stderr.decode(errors="replace").splitlines()  # the message is before the stack
+            fault = next((line.strip() for line in lines if _ERROR_LINE.match(line)), " ".join(lines)[:400])
             raise ViewerError(f"A glTF file cannot be written: the program that writes it failed ({fault}).")
         return json.loads(process.stdout), gltf_file.read_bytes() if gltf_file.exists() else b""

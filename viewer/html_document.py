@@ -1,4 +1,4 @@
-"""Writes an HTML file that contains the script of the viewer and data."""
+"""Composes HTML pages of the script of the viewer and data."""
 
 import json
 from html import escape
@@ -7,35 +7,35 @@ from ali3 import html
 from ali3.scene.errors import ViewerError
 from viewer.bundle import bundle
 
-# FMUs are WebAssembly and run in a worker that is made from the script of the page.
+# FMUs are WebAssembly and run in a worker made of the script of the page.
 _SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:"}
 
 _STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
 _HEADING = "h1{position:absolute;width:1px;height:1px;margin:-1px;overflow:hidden;clip-path:inset(50%)}"
-"""For screen readers."""
+"""Style that shows the heading only to screen readers."""
 
 
 def html_document(title: str, data: object, function: str, connect: str = "") -> str:
-    """One HTML file with the script of the viewer and data, on which it calls a function.
+    """An HTML page with the script of the viewer, which calls a function with data.
 
     Parameters
     ----------
     title : str
         Of the page; any text.
     data : object
-        JSON; any texts may stand in it.
+        Content for `json.dumps`, with any texts.
     function : str
-        Of the script, called with the element that is to be filled and the data; what it returns is
+        Name in the script; it is called with the element to fill and the data, and its result becomes
         ``window.player``.
     connect : str
-        Sources of a content security policy that the page may talk to; by default none.
+        Addresses of the content security policy to which the page may connect; by default none.
 
     Raises
     ------
     ViewerError
-        The script is not there and cannot be built.
+        The script is missing and cannot be built.
     """
-    # The page says what is wrong in place of a picture, for whoever opens it where it cannot run.
+    # The page shows the error where it cannot run.
     start = (
         "(function(){var view=document.getElementById('view');"
         "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
@@ -53,7 +53,7 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
 def script() -> str:
     """The script of the viewer, which defines ``window.ALi3Viewer``.
 
-    Raises `ViewerError`: it is not there and cannot be built.
+    Raises `ViewerError`: it is missing and cannot be built.
     """
     try:
         return bundle().read_text(encoding="utf-8")
@@ -62,7 +62,7 @@ def script() -> str:
 
 
 def json_in_html(data: object) -> str:
-    """JSON that may stand in a script element: no text in it can end the element or begin a comment.
+    """JSON for a script element: no text in it can end the element or begin a comment.
 
     `data`: as `json.dumps` takes it; numbers must be finite.
     """

@@ -1,4 +1,4 @@
-"""Colours and sizes of shapes, shared with the page."""
+"""Colours and other constants of drawings, shared with the page."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Morph targets of flexible parts: their modes, or few combinations of them."""
+"""Morph targets of flexible parts: their modes, or a few combinations of them."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -10,24 +10,24 @@ from ali3.scene.base64_numbers import decoded
 
 MOST = 8
 """Largest number of morph targets that every reader of glTF animates."""
-_SAMPLES = 400  # times at which the error is looked for
+_SAMPLES = 400  # times at which the error is computed
 
 
 class MorphTargets(NamedTuple):
-    """How the nodes of a part move."""
+    """Motion of the nodes of a part as weighted displacements."""
 
     shapes: NDArray[np.float64]
-    """Displacements of nodes, m, shape (targets, nodes, 3)."""
+    """Displacements of the nodes, m, shape (targets, nodes, 3)."""
     weights: NDArray[np.float64]
-    """By which they are multiplied, within -1 and 1, shape (times, targets)."""
+    """Factors of the displacements, from -1 to 1, shape (times, targets)."""
     error: float
-    """Largest distance of a node from where all modes put it, m."""
+    """Largest distance of a node from its position by all modes, m."""
 
 
 def morph_targets(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> MorphTargets:
-    """The modes of a flexible part, or the eight combinations of them that move most.
+    """The modes of a flexible part, or the eight combinations of modes with the largest motion.
 
-    `part`: of a scene; `columns`: arrays of shape (n,) by name, with its amplitudes.
+    `part`: of a scene; `columns`: with the amplitudes of the part, shape (n,), by name.
     """
     modes = decoded(part["modes"], "f").reshape(3 * len(part["nodes"]), -1).astype(float)
     amplitudes = np.column_stack([np.nan_to_num(columns[name]) for name in part["amplitudes"]])

@@ -1,4 +1,4 @@
-"""Recordings in a notebook: the page in a frame of the cell."""
+"""Shows recordings in a notebook: the page in a frame of the output cell."""
 
 import html
 from collections.abc import Mapping, Sequence

@@ -10,12 +10,12 @@ from ali3 import html
 
 
 def open_in_browser(path: str | os.PathLike[str]) -> bool:
-    """Show a page in the user's browser. Returns whether there is one: on a machine without a screen there is none."""
+    """Show a page in the browser of the user. Returns whether there is one; a machine without a screen has none."""
     return open_address(Path(path).resolve().as_uri())
 
 
 def open_address(address: str) -> bool:
-    """Show what is at an address in the user's browser; whether there is one, as for `open_in_browser`."""
+    """Show an address in the browser of the user. Returns whether there is one, see `open_in_browser`."""
     if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         return False  # a browser in the terminal would draw nothing
     try:
@@ -25,11 +25,11 @@ def open_address(address: str) -> bool:
 
 
 def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
-    """Show what is at an address that nobody else may know; see `open_address`.
+    """Show an address that must remain secret; see `open_address`.
 
-    The command line of a browser is seen by all users of a machine; it names a page that redirects to the address.
+    All users of a machine can see the command line of a browser; it names a page that redirects to the address.
 
-    `folder`: that only this user can read; it must stay until the browser has read the page.
+    `folder`: readable only for this user; it must exist until the browser has read the page.
     """
     target = escape(address, quote=True)
     page = html.page(

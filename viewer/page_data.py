@@ -1,4 +1,4 @@
-"""Recordings as the JSON of a page: scenes once each, columns as compressed blocks of numbers."""
+"""Encodes recordings as JSON of a page: each scene once, columns as compressed blocks of numbers."""
 
 import base64
 import gzip
@@ -16,10 +16,10 @@ _LARGEST_FLOAT32 = 3e38
 
 
 def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> dict[str, Any]:
-    """The data that the script of the page reads.
+    """The data of a page for `json.dumps`.
 
-    Result: as `json.dumps` takes it. A block of columns is the base64 of the gzip of their bytes: all first bytes of
-    the numbers, then all second ones and so on, since these are alike and become small.
+    A block of columns is the base64 of the gzip of their bytes: first all first bytes of the numbers, then all second
+    bytes and so on, which are similar and therefore compress well.
     """
     scenes: list[Any] = []
     runs = []
@@ -31,14 +31,7 @@ def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> di
 
 
 def block(columns: Mapping[str, NDArray[np.float64]], kind: str) -> dict[str, Any]:
-    """Columns of one kind of number.
-
-    Parameters
-    ----------
-    columns : mapping of str to array of shape (n,)
-    kind : str
-        ``"f8"`` or ``"f4"``.
-    """
+    """A block of columns, each of shape (n,), as numbers of the type `kind`: ``"f8"`` or ``"f4"``."""
     numbers = np.array(list(columns.values()), dtype=f"<{kind}").reshape(-1)
     planes = np.frombuffer(numbers.tobytes(), np.uint8).reshape(-1, numbers.itemsize).T
     packed = gzip.compress(planes.tobytes(), 6, mtime=0)
@@ -46,16 +39,18 @@ def block(columns: Mapping[str, NDArray[np.float64]], kind: str) -> dict[str, An
 
 
 def _run(recording: Recording, scene: int | None) -> dict[str, Any]:
-    exact = set() if recording.scene is None else set(pose_columns(recording.scene))
-    exact |= {name for name, values in recording.columns.items() if _large(values)}
-    rough = {name: values for name, values in recording.columns.items() if name not in exact}
-    fine = {name: values for name, values in recording.columns.items() if name in exact}
+    double_names = set() if recording.scene is None else set(pose_columns(recording.scene))
+    double_names |= {name for name, values in recording.columns.items() if _exceeds_float32(values)}
+    single_columns = {name: values for name, values in recording.columns.items() if name not in double_names}
+    double_columns = {name: values for name, values in recording.columns.items() if name in double_names}
     return {
         "name": recording.name,
         "scene": scene,
         "count": len(recording.t),
         "time": block({"time": recording.t, "epoch": recording.epoch}, "f8"),
-        "blocks": [block(columns, kind) for columns, kind in ((fine, "f8"), (rough, "f4")) if columns],
+        "blocks": [
+            block(columns, kind) for columns, kind in ((double_columns, "f8"), (single_columns, "f4")) if columns
+        ],
         "units": recording.units,
         "order": list(recording.columns),
         "notes": recording.notes,
@@ -63,7 +58,7 @@ def _run(recording: Recording, scene: int | None) -> dict[str, Any]:
     }
 
 
-def _large(values: NDArray[np.float64]) -> bool:
-    """Whether single precision would turn numbers into infinity."""
+def _exceeds_float32(values: NDArray[np.float64]) -> bool:
+    """Whether numbers are too large for single precision."""
     with np.errstate(invalid="ignore"):
         return bool((np.abs(values[np.isfinite(values)]) > _LARGEST_FLOAT32).any())

@@ -1,4 +1,4 @@
-"""Writes recordings as one HTML file that opens from disk and needs nothing else."""
+"""Writes recordings as one self-contained HTML file."""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -62,24 +62,23 @@ def page_html(
     title: str | None = None,
     options: Mapping[str, Any] | None = None,
 ) -> str:
-    """The text of the page that `write_page` writes, with all times; see there."""
+    """Text of the page that `write_page` writes, without thinning; see there."""
     recording_list = _listed(recordings)
-    checked = check_options(options or {})
+    checked_options = check_options(options or {})
     known_names = dict.fromkeys(name for recording in recording_list for name in recording.columns)
-    for name in checked.get("plots", ()):
+    for name in checked_options.get("plots", ()):
         if name not in known_names:
             near = near_names(name, known_names, closeness=0.4) or list(known_names)[:3]
             raise ViewerError(f"There is no signal {name!r} to be plotted; there is {', '.join(near) or 'none'}.")
-    data = page_data(recording_list, checked)
-    heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in recording_list))
-    return html_document(heading, data, "ALi3Viewer.playPage")
+    data = page_data(recording_list, checked_options)
+    page_title = (
+        title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in recording_list))
+    )
+    return html_document(page_title, data, "ALi3Viewer.playPage")
 
 
 def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:
-    """Recordings with as many times as a page of one file carries.
-
-    Raises `ViewerError`: there is none, or something else stands in their place.
-    """
+    """Recordings with at most so many times. Raises `ViewerError`: there are none, or an object is no recording."""
     return [recording.thinned(most) for recording in _listed(recordings)]
 
 
@@ -94,10 +93,10 @@ def _listed(recordings: Recording | Sequence[Recording]) -> list[Recording]:
 
 
 def notes_of(recordings: Sequence[Recording]) -> list[str]:
-    """What there is to say of recordings, with their names where there are several."""
+    """Notes of recordings, with their names if there are several."""
     notes = []
     for recording in recordings:
-        head = f"{recording.name}: " if len(recordings) > 1 else ""
-        notes += [head + note for note in recording.notes]
-        notes += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
+        prefix = f"{recording.name}: " if len(recordings) > 1 else ""
+        notes += [prefix + note for note in recording.notes]
+        notes += [f"{prefix}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
     return notes

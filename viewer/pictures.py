@@ -1,4 +1,4 @@
-"""Pictures of recordings: PNG files at single times."""
+"""Takes pictures of recordings at single times, as PNG files."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike

@@ -1,4 +1,4 @@
-"""What the player of a page starts with."""
+"""The options of the player of a page, and their check."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -12,48 +12,50 @@ class Option(NamedTuple):
     """An option of the player."""
 
     good: Callable[[Any], bool]
-    """Whether a value is one."""
+    """Whether a value is allowed."""
     words: str
+    """Description of the allowed values."""
     text: str
+    """Meaning of the option."""
 
 
-def _number(low: float, high: float) -> Callable[[Any], bool]:
+def _is_number_between(low: float, high: float) -> Callable[[Any], bool]:
     def good(value: Any) -> bool:
         return isinstance(value, (int, float)) and not isinstance(value, bool) and low <= value <= high
 
     return good
 
 
-def _texts(value: Any) -> bool:
+def _is_list_of_texts(value: Any) -> bool:
     return isinstance(value, (list, tuple)) and all(isinstance(item, str) for item in value)
 
 
-def _bool(value: Any) -> bool:
+def _is_bool(value: Any) -> bool:
     return isinstance(value, bool)
 
 
 OPTIONS: dict[str, Option] = {
     "camera": Option(lambda v: isinstance(v, str), "the name of a camera", "camera at the start"),
-    "time": Option(_number(-math.inf, math.inf), "a time in s", "where the slider stands at the start"),
-    "speed": Option(_number(0.05, 10.0), "a number from 0.05 to 10", "of playing; 1 is real time"),
-    "play": Option(_bool, "True or False", "whether it plays when the page is opened"),
-    "loop": Option(_bool, "True or False", "whether it begins again at the end"),
-    "plots": Option(_texts, "a list of names of columns", "signals that are plotted at the start"),
-    "arrows": Option(_bool, "True or False", "whether forces are drawn"),
-    "arrow_scale": Option(_number(1e-3, 1e3), "a number from 0.001 to 1000", "length of the arrows"),
-    "stress": Option(_bool, "True or False", "whether flexible parts have the colours of their stress"),
-    "closed": Option(_bool, "True or False", "whether bodies hide the frame in them"),
-    "deformation": Option(_number(0.0, 1e6), "a number from 0 on", "factor of the drawn deformation"),
+    "time": Option(_is_number_between(-math.inf, math.inf), "a time in s", "where the slider stands at the start"),
+    "speed": Option(_is_number_between(0.05, 10.0), "a number from 0.05 to 10", "of playing; 1 is real time"),
+    "play": Option(_is_bool, "True or False", "whether it plays when the page is opened"),
+    "loop": Option(_is_bool, "True or False", "whether it begins again at the end"),
+    "plots": Option(_is_list_of_texts, "a list of names of columns", "signals that are plotted at the start"),
+    "arrows": Option(_is_bool, "True or False", "whether forces are drawn"),
+    "arrow_scale": Option(_is_number_between(1e-3, 1e3), "a number from 0.001 to 1000", "length of the arrows"),
+    "stress": Option(_is_bool, "True or False", "whether flexible parts have the colours of their stress"),
+    "closed": Option(_is_bool, "True or False", "whether bodies hide the frame in them"),
+    "deformation": Option(_is_number_between(0.0, 1e6), "a number from 0 on", "factor of the drawn deformation"),
     "theme": Option(lambda v: v in ("auto", "light", "dark"), "'auto', 'light' or 'dark'", "colours of the page"),
-    "controls": Option(_bool, "True or False", "whether there is anything but the drawing"),
+    "controls": Option(_is_bool, "True or False", "whether there is anything but the drawing"),
 }
 """Options of a page by name."""
 
 
 def check_options(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options that are what they must be. `options`: by the names of `OPTIONS`.
+    """Check options, by the names of `OPTIONS`, and return them for JSON.
 
-    Raises `ViewerError` with the name, the value and what would be right.
+    Raises `ViewerError` with the name, the value and the allowed values.
     """
     for name, value in options.items():
         if name not in OPTIONS:

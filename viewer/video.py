@@ -1,4 +1,4 @@
-"""Films of recordings: pictures of the page, one after the other, as MP4, or as an animated WebP or GIF."""
+"""Writes films of recordings: pictures of the page as MP4, animated WebP or animated GIF."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
 SUFFIXES = (".mp4", ".webp", ".gif")
 MOST_FRAMES = 20_000
 Progress = Callable[[float], None]
-_QUALITY = "12"  # of MP4, as x264 counts it: 0 is without loss
+_QUALITY = "12"  # constant rate factor of x264; 0 is lossless
 _WEBP = {"quality": 50, "method": 4, "allow_mixed": True}
 
 
 class FilmError(UserError, RuntimeError):
-    """A package that makes films is not installed, or fails; the message says what would help."""
+    """A package that makes films is not installed, or fails; the message gives the remedy."""
 
 
 def write_mp4(
@@ -105,7 +105,7 @@ def write_mp4(
         page = Path(folder, "page.html")
         player_options = {**(options or {}), "controls": False, "play": False}
         write_page(page, thinned_recordings, options=player_options)
-        pictures = _told(screenshot(page, times, size, camera), len(times), progress)
+        pictures = _decoded(screenshot(page, times, size, camera), len(times), progress)
         with closing(pictures), atomic_file(path) as temporary:
             encode(temporary, pictures)
             file_size = temporary.stat().st_size
@@ -159,25 +159,28 @@ def _check_size(target: Path, size: Any) -> None:
         raise ViewerError(f"The size of the film is {size!r}; both numbers must be even for an MP4 file.")
 
 
-def _told(
+def _decoded(
     pictures: Generator[bytes, None, None], count: int, progress: bool | Progress | None
 ) -> Generator[Image, None, None]:
-    """Pictures as they come, with a bar."""
+    """Decode PNG files to pictures one by one, with a progress bar."""
     try:
         from PIL import Image
     except ModuleNotFoundError:
         raise FilmError(f"A film cannot be written. {missing_package('PIL', 'pictures')}") from None
-    tell, close = _teller(count, progress)
+    report, close = _progress_functions(count, progress)
     try:
-        with closing(pictures):  # else an error would hold the browser as long as somebody holds the error
+        with closing(pictures):  # otherwise an error would keep the browser open as long as the error exists
             for number, data in enumerate(pictures):
                 yield Image.open(io.BytesIO(data)).convert("RGB")
-                tell(number + 1)
+                report(number + 1)
     finally:
         close()
 
 
-def _teller(count: int, progress: bool | Progress | None) -> tuple[Callable[[int], None], Callable[[], None]]:
+def _progress_functions(
+    count: int, progress: bool | Progress | None
+) -> tuple[Callable[[int], None], Callable[[], None]]:
+    """Functions that report the number of finished pictures, and that close the bar."""
     if callable(progress):
         return lambda number: progress(number / count), lambda: None
     if progress is False:
@@ -216,7 +219,6 @@ def _animation_encoder(target: Path, fps: float) -> Callable[[Path, Iterator[Ima
     def encode(path: Path, pictures: Iterator[Image]) -> None:
         first_picture = next(pictures)
         options: dict[str, Any] = dict(_WEBP) if kind == "webp" else {"optimize": False, "disposal": 1}
-        # Whole milliseconds whose sum is that of the film; a GIF has hundredths of a second.
         first_picture.save(
             path,
             format=kind.upper(),
@@ -231,5 +233,6 @@ def _animation_encoder(target: Path, fps: float) -> Callable[[Path, Iterator[Ima
 
 
 def _milliseconds(fps: float, kind: str) -> int:
+    """Duration of a picture: at least two steps, of 10 ms for GIF and 1 ms for WebP."""
     step = 10 if kind == "gif" else 1
     return max(2 * step, step * round(1000.0 / fps / step))

@@ -1,9 +1,8 @@
-"""Plausibility of a file, in the terms of the field: one table of quantities, one comparison, one sentence.
+"""Plausibility of files: quantities of their content are compared with usual ranges of the field.
 
-A reader gives a `Plausibility`: values of its quantities of the table (`quantities.csv`, a line each), each with the
-keys that it follows from, and the common mistakes of its kind of file with what the values are without each.
-`Plausibility.warnings` compares, `Plausibility.text` prints. What a reader returns is `Summarised`: its `summary()` is
-the table.
+A reader makes a `Plausibility`: values of quantities of the table `quantities.csv`, each with the keys that it follows
+from, and common mistakes of the kind of file, each with the values without it. `Plausibility.warnings` compares the
+values with the ranges, `Plausibility.text` prints them. The object that a reader returns is `Summarised`.
 """
 
 from ali3.plausibility.quantity import WIDEST, Quantity, Range, quantities_of

@@ -1,4 +1,4 @@
-"""A quantity of an object (such as the mass of a car): its name, unit and usual ranges for each kind of object."""
+"""Quantities of objects, such as the mass of a car: name, unit and usual ranges for each kind of object."""
 
 import csv
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ from ali3.units import typeset
 Range: TypeAlias = tuple[float, float]
 TABLE = Path(__file__).with_name("quantities.csv")
 WIDEST = ""
-"""The kind of a thing whose file names none: the range is the widest of all kinds."""
+"""Kind of an object whose file names none: its range is the widest of all kinds."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,24 +20,24 @@ class Quantity:
     """A row of the table of quantities."""
 
     name: str
-    """As the field has it, as "bounce frequency"."""
+    """Term of the field, such as "bounce frequency"."""
     symbol: str
-    """In formulas; may be empty."""
+    """Symbol in formulas; may be empty."""
     unit: str
-    """In which values and ranges are; "1" for a ratio."""
+    """Unit of values and ranges; "1" for a ratio."""
     follows: str
-    """How it follows from the file, in words."""
+    """How the quantity follows from the file, in words."""
     ranges: Mapping[str, Range]
-    """By kind of thing, both ends included; empty: it is shown and not judged."""
+    """Closed ranges by kind of object; empty: values are shown and not compared."""
     source: str
-    """Where the range is from."""
+    """Source of the ranges."""
     near: Range | None = None
-    """What undoing a mistake must reach, where that is narrower than the range of the warning."""
+    """Range that the correction of a mistake must reach; None: that of `ranges`."""
     shown_outside: bool = False
-    """Whether tables of text show it only where it is outside of its range."""
+    """Whether tables of text show the quantity only if it is outside its range."""
 
     def range(self, kind: str = WIDEST) -> Range | None:
-        """Least and largest usual value; of an unknown kind the widest. `kind`: key of `ranges`."""
+        """Usual range of a kind of object; of an unknown kind the widest one; None without ranges."""
         if not self.ranges:
             return None
         if kind in self.ranges:
@@ -45,16 +45,16 @@ class Quantity:
         return min(low for low, _ in self.ranges.values()), max(high for _, high in self.ranges.values())
 
     def shown(self, value: float) -> str:
-        """A value with the unit."""
+        """Text of a value with its unit."""
         return f"{value:.4g} {typeset(self.unit)}".rstrip()
 
 
 @cache
 def quantities_of(thing: str) -> Mapping[str, Quantity]:
-    """Quantities of a kind of thing by short keys, from the table beside this file. `thing`: as "car"."""
+    """Quantities of the objects `thing`, such as "car", by the keys of the table."""
     with TABLE.open(encoding="utf-8", newline="") as file:
-        results = [row for row in csv.DictReader(file) if row["thing"] == thing]
-    return {row["key"]: _quantity(row) for row in results}
+        rows = [row for row in csv.DictReader(file) if row["thing"] == thing]
+    return {row["key"]: _quantity(row) for row in rows}
 
 
 def _quantity(row: Mapping[str, str]) -> Quantity:
@@ -64,9 +64,9 @@ def _quantity(row: Mapping[str, str]) -> Quantity:
 
 
 def _ranges(text: str) -> dict[str, Range]:
-    """Ranges of kinds as the table has them: ``KIND LOW HIGH, ...``, or ``LOW HIGH`` of all."""
-    results = {}
-    for part in filter(None, text.split(", ")):
-        *kind, low, high = part.split()
-        results["".join(kind)] = float(low), float(high)
-    return results
+    """Ranges by kind from a cell of the table: ``KIND LOW HIGH, ...``, or ``LOW HIGH`` for all kinds."""
+    ranges = {}
+    for entry in filter(None, text.split(", ")):
+        *kind, low, high = entry.split()
+        ranges["".join(kind)] = float(low), float(high)
+    return ranges

@@ -15,29 +15,30 @@ from ali3.plausibility.quantity import WIDEST, Quantity, Range
 from ali3.units import typeset
 
 ROUNDING = 1e-9  # of the range
-FEWEST_OTHERS = 10
+FEWEST_OTHERS = 10  # values beside a far one
+# In a sentence:
 MOST_KEYS = 3
 MOST_CAUSES = 4
 MOST_OTHERS = 1
-LONGEST = 4
-MOST_SHOWN = 10
+LONGEST_LIST = 4
+MOST_SHOWN = 10  # values in a cell of the table
 
 
 @dataclass(frozen=True)
 class Value:
-    """A quantity of something in the file."""
+    """Value of a quantity of a part of the file."""
 
     quantity: Quantity
     value: float
     """In the unit of the quantity."""
     keys: Mapping[str, Any] = field(default_factory=dict)
-    """What it follows from: key path in the file, and what stands there."""
+    """Values in the file that it follows from, by key path."""
     of: str = ""
-    """Of what, where there are several, as "front"."""
+    """Part of the object if there are several, such as "front"."""
 
     @property
     def name(self) -> str:
-        """With what it belongs to."""
+        """Part and quantity."""
         return f"{self.of} {self.quantity.name}".strip()
 
     def inside(self, kind: str = WIDEST) -> bool:
@@ -45,14 +46,14 @@ class Value:
         return self._within(self.quantity.range(kind))
 
     def mended(self, kind: str = WIDEST) -> bool:
-        """Whether a value lies where the correction of a mistake must bring it."""
+        """Whether the value lies in the range that the correction of a mistake must reach."""
         return self._within(self.quantity.near or self.quantity.range(kind))
 
     def _within(self, bounds: Range | None) -> bool:
         if bounds is None:
             return True
-        slack = ROUNDING * (bounds[1] - bounds[0]) if math.isfinite(bounds[1] - bounds[0]) else 0.0
-        return bool(bounds[0] - slack <= self.value <= bounds[1] + slack)
+        tolerance = ROUNDING * (bounds[1] - bounds[0]) if math.isfinite(bounds[1] - bounds[0]) else 0.0
+        return bool(bounds[0] - tolerance <= self.value <= bounds[1] + tolerance)
 
 
 Undo: TypeAlias = Callable[[], "Sequence[Value] | None"]
@@ -63,32 +64,32 @@ class Mistake:
     """A common mistake that a file may have."""
 
     words: str
-    """As "degrees in place of radians in front.alignment.toe_left"."""
+    """Such as "degrees in place of radians in front.alignment.toe_left"."""
     keys: frozenset[str]
-    """What it would have changed; it is tried where a value outside its range follows from one of them."""
+    """Keys that it changes; it is tried if a value outside its range follows from one of them."""
     undo: Undo
-    """The values of the file without it; None where there is no such thing."""
+    """Computes the values of the file without the mistake; None if the mistake is not possible."""
     guessed: bool = False
-    """Whether it is fitted to the values, as a factor: it is named only if no mistake with a name explains the same."""
+    """Whether it is fitted to the values, such as a factor: it is named only if no other mistake explains the same."""
 
 
 @dataclass(frozen=True)
 class Plausibility:
     """Quantities of a file compared with their usual ranges.
 
-    `values` in the order in which they are shown; `mistakes` with the commonest first.
+    `values` are in the order of the table; the most common `mistakes` are first.
     """
 
     what: str
-    """The file, for messages."""
+    """Name of the file in messages."""
     values: Sequence[Value]
     mistakes: Sequence[Mistake] = ()
     kind: str = WIDEST
     """Key of the ranges."""
     title: str = ""
-    """Of its table, where a file has several."""
+    """Title of the table if a file has several."""
     columns: Sequence[str] = ()
-    """First words of `Value.of` that have a column each, as front and rear."""
+    """First words of `Value.of` that have their own column, such as front and rear."""
 
     @property
     def outside(self) -> list[Value]:
@@ -96,9 +97,9 @@ class Plausibility:
         return [v for v in self.values if not v.inside(self.kind)]
 
     def text(self) -> str:
-        """The table: a row for each quantity, with its values, of many the ends, usual range, and a mark outside.
+        """The table: a row for each quantity, with values, usual range, and a mark if a value is outside.
 
-        Quantities of `columns` are below those of the whole.
+        Quantities in `columns` are below those of the whole object.
         """
         n = max(len(self.columns), 1)
         rows, column_rows = [], []
@@ -107,7 +108,7 @@ class Plausibility:
             is_inside = all(v.inside(self.kind) for v in row_values)
             if q.shown_outside and is_inside:
                 continue
-            range_cells = (_range(q, self.kind), "" if is_inside else "<- outside")
+            range_cells = (_range_text(q, self.kind), "" if is_inside else "<- outside")
             cells = [_cell([v for v in row_values if v.of.startswith(side)], side) for side in self.columns]
             if any(cells):
                 column_rows.append((q.name, *cells, *range_cells))
@@ -128,7 +129,7 @@ class Plausibility:
                 "symbol": v.quantity.symbol,
                 "unit": v.quantity.unit,
                 "value": float(v.value) if math.isfinite(v.value) else None,
-                "range": _ends(v.quantity.range(self.kind)),
+                "range": _json_range(v.quantity.range(self.kind)),
                 "inside": v.inside(self.kind),
                 "follows": v.quantity.follows,
                 "keys": {
@@ -142,69 +143,71 @@ class Plausibility:
     def warnings(self) -> list[str]:
         """A sentence for each cause.
 
-        A mistake is named where undoing it brings inside all values that follow from what it changes, and none
-        outside; of several the one that mends most, and of those that mend the same at most two. What no mistake
-        explains is told once for what shares a key.
+        A mistake is named if its correction brings all values that follow from its keys into their ranges, and no
+        value out of its range; of several mistakes those that correct most values. The remaining values have one
+        sentence for each group with common keys.
         """
         outside, sentences = self.outside, []
-        undone = _undone(self.mistakes, outside)
+        corrections = _corrected(self.mistakes, outside)
         while outside:
             names = {v.name for v in outside}
-            mended = [(m, corrected, self._mended(names, corrected, m.keys)) for m, corrected in undone]
-            best_names = max((names for *_, names in mended), key=len, default=frozenset())
+            corrected_names = [
+                (m, corrected, self._corrected_names(names, corrected, m.keys)) for m, corrected in corrections
+            ]
+            best_names = max((names for *_, names in corrected_names), key=len, default=frozenset())
             if not best_names:
                 break
-            results = [(m, corrected) for m, corrected, names in mended if names == best_names]
-            candidates = [(m, corrected) for m, corrected in results if not m.guessed] or results
+            explanations = [(m, corrected) for m, corrected, names in corrected_names if names == best_names]
+            candidates = [(m, corrected) for m, corrected in explanations if not m.guessed] or explanations
             causes, corrected = [m.words for m, _ in candidates][:MOST_CAUSES], candidates[0][1]
             first_value = next(v for v in outside if v.name in best_names)
             value = next(v for v in corrected if v.name == first_value.name)
             cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
             sentences.append(self._sentence([v for v in outside if v.name in best_names], cause))
             outside = [v for v in outside if v.name not in best_names]
-        for group in _sharing(outside):  # what follows from the fewest names says most of the cause
+        for group in _groups_with_common_keys(outside):  # values that follow from the fewest keys are the most specific
             sentences.append(self._sentence(sorted(group, key=lambda v: len(v.keys)), ""))
         return sentences
 
     def warn(self, category: type[Warning], stacklevel: int = 2) -> None:
-        """Warn with each of the sentences. `stacklevel`: 1 is who calls this."""
+        """Warn with each of the sentences. `stacklevel`: 1 is the caller."""
         for sentence in self.warnings():
             warnings.warn(sentence, category, stacklevel=stacklevel + 1)
 
-    def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
-        """Which of some values it brings inside; none where one that follows from what it changes is outside.
+    def _corrected_names(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
+        """Names of values outside their ranges that a mistake explains: they are inside after its correction.
 
-        Nor where one comes to lie less near than it was, nor what a key that it does not change has in common with
-        one that stays outside.
+        None, if a value that follows from the changed keys is outside afterwards or leaves the range of corrections,
+        or if another value leaves its range. Values that share an unchanged key with one still outside are left out.
         """
         outside_before = {v.name for v in self.outside}
         outside_after = {v.name for v in after if not v.inside(self.kind)}
         affected = {v.name for v in self.values if changed & set(v.keys)}
         marginal = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
         outside_after |= {v.name for v in after if v.name in affected - marginal and not v.mended(self.kind)}
-        mended = (names & {v.name for v in after}) - outside_after
-        outside_keys = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
-        mended -= {v.name for v in self.outside if outside_keys & set(v.keys)}
-        return frozenset() if outside_after & affected or outside_after - outside_before else frozenset(mended)
+        corrected_names = (names & {v.name for v in after}) - outside_after
+        outside_keys = {key for v in self.outside if v.name not in corrected_names for key in v.keys} - changed
+        corrected_names -= {v.name for v in self.outside if outside_keys & set(v.keys)}
+        return frozenset() if outside_after & affected or outside_after - outside_before else frozenset(corrected_names)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity
         keys = {key: value for v in group for key, value in v.keys.items()}
-        shown = [f"{key} = {_given(value)}" for key, value in list(keys.items())[:MOST_KEYS]]
-        more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
-        sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range(q, self.kind)}"
+        key_texts = [f"{key} = {_value_text(value)}" for key, value in list(keys.items())[:MOST_KEYS]]
+        more_keys = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
+        sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range_text(q, self.kind)}"
         sentence += f"; {cause}" if cause else ""
         if len(group) > 1:
-            others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
+            others = (f"{v.name} {v.quantity.shown(v.value)} ({_range_text(v.quantity, self.kind)})" for v in group[1:])
             and_others = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
             sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{and_others}"
         sentence += "."
-        sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
+        sentence += f" It follows from {', '.join(key_texts)}{more_keys}." if key_texts else ""
         return (f"{self.what}: " if self.what else "") + sentence
 
 
 def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which of some values are the one that lies farther from the others than ten times their range."""
+    """Mark values, shape (n,), that equal one value farther from all others than ten times the range of these."""
     levels = np.unique(values)
     for level, remaining in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
         if len(remaining) >= FEWEST_OTHERS and np.abs(level - remaining).min() > 10.0 * np.ptp(remaining) > 0.0:
@@ -212,14 +215,14 @@ def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     return np.zeros(values.shape, bool)
 
 
-def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
+def _corrected(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
     keys = {key for v in outside for key in v.keys}
-    corrections = ((m, m.undo()) for m in mistakes if m.keys & keys)
-    return [(m, corrected) for m, corrected in corrections if corrected is not None]
+    pairs = ((m, m.undo()) for m in mistakes if m.keys & keys)
+    return [(m, corrected) for m, corrected in pairs if corrected is not None]
 
 
-def _sharing(values: Sequence[Value]) -> list[list[Value]]:
-    """Values in groups, each with those that share a key with its first; of one quantity, all."""
+def _groups_with_common_keys(values: Sequence[Value]) -> list[list[Value]]:
+    """Groups of values that share a key with the first value of the group, or have its quantity."""
     repeated = {q for q, times in Counter(v.quantity for v in values).items() if times > 1}
     groups: list[list[Value]] = []
     for v in values:
@@ -233,21 +236,21 @@ def _sharing(values: Sequence[Value]) -> list[list[Value]]:
 
 
 def _cell(values: Sequence[Value], column: str = "") -> str:
-    """What a table shows of some values of one quantity, of many the ends. `column`: first word of their `of`."""
+    """Cell of the table for values of one quantity; of many only the ends. `column`: first word of their `of`."""
     if not values:
         return ""
     unit = f" {typeset(values[0].quantity.unit)}".rstrip()
     if len(values) > MOST_SHOWN:
-        ends = (pick(values, key=lambda v: v.value) for pick in (min, max))
+        ends = (choose(values, key=lambda v: v.value) for choose in (min, max))
         return f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(values)}"
     return ", ".join(f"{v.of.removeprefix(column).strip()} {v.value:.4g}".strip() for v in values) + unit
 
 
-def _ends(limits: Range | None) -> list[float | None] | None:
+def _json_range(limits: Range | None) -> list[float | None] | None:
     return None if limits is None else [end if math.isfinite(end) else None for end in limits]
 
 
-def _range(quantity: Quantity, kind: str) -> str:
+def _range_text(quantity: Quantity, kind: str) -> str:
     bounds = quantity.range(kind)
     if bounds is None:
         return ""
@@ -258,9 +261,9 @@ def _range(quantity: Quantity, kind: str) -> str:
     return f"{high:g}{unit} or less" if math.isinf(low) else f"{low:g} to {high:g}{unit}"
 
 
-def _given(value: Any) -> str:
+def _value_text(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.6g}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join([*map(_given, value[:LONGEST]), *["..."] * (len(value) > LONGEST)]) + "]"
+        return "[" + ", ".join([*map(_value_text, value[:LONGEST_LIST]), *["..."] * (len(value) > LONGEST_LIST)]) + "]"
     return str(value)

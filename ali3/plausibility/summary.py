@@ -1,4 +1,4 @@
-"""The summary that each reader returns: how the content of a file was interpreted."""
+"""Summaries of files that were read, as tables of their quantities."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ali3.plausibility.range_check import Plausibility
 
 @singledispatch
 def plausibility_of(thing: Any) -> Sequence[Plausibility]:
-    """What was understood of a thing; each room registers this for what its readers return.
+    """Plausibility of an object that a reader returns; each package registers this for its types.
 
-    Raises `TypeError`: the room that reads such things was not imported.
+    Raises `TypeError`: the package that reads such files was not imported.
     """
     raise TypeError(f"There is no summary for a {type(thing).__name__}; import the package that reads such files.")
 
 
 class Summarised:
-    """An object that a reader returns, with a plausibility summary."""
+    """An object that a reader returns, with a summary."""
 
     def summary(self) -> str:
         """What was understood of it: quantities that are known of such things, and where they usually lie.
@@ -35,15 +35,16 @@ class Summarised:
 
 
 def summary_of(plausibilities: Sequence[Plausibility]) -> str:
-    """Tables of text, each below its title; those of the same quantities are columns of one."""
+    """Tables of text below their titles; tables of the same quantities are joined as columns."""
     groups: dict[frozenset[Quantity], list[Plausibility]] = {}
     for plausibility in plausibilities:
         if plausibility.values:
             groups.setdefault(frozenset(v.quantity for v in plausibility.values), []).append(plausibility)
-    return "\n\n".join(f"{group.title}\n{group.text()}".lstrip("\n") for group in map(_beside, groups.values()))
+    return "\n\n".join(f"{group.title}\n{group.text()}".lstrip("\n") for group in map(_joined, groups.values()))
 
 
-def _beside(plausibilities: Sequence[Plausibility]) -> Plausibility:
+def _joined(plausibilities: Sequence[Plausibility]) -> Plausibility:
+    """Values of several tables as columns of one."""
     first, *others = plausibilities
     if not others:
         return first
@@ -56,5 +57,5 @@ def _beside(plausibilities: Sequence[Plausibility]) -> Plausibility:
 
 
 def tables_of(plausibilities: Sequence[Plausibility]) -> dict[str, list[dict[str, Any]]]:
-    """The same for JSON: records by title, its blanks as underscores."""
+    """Records for JSON by title, whose blanks become underscores."""
     return {plausibility.title.replace(" ", "_"): plausibility.to_json() for plausibility in plausibilities}

@@ -9,18 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def encoded(values: ArrayLike, kind: str = "f") -> str:
-    """Base64 of numbers.
-
-    `values`: of any shape; `kind`: ``"f"``: float32, or ``"u"``: uint32.
-    """
+    """Base64 of numbers of any shape. `kind`: ``"f"`` for float32, ``"u"`` for uint32."""
     return base64.b64encode(np.ascontiguousarray(values, dtype=f"<{kind}4").tobytes()).decode("ascii")
 
 
 def decoded(text: str, kind: str) -> NDArray[Any]:
-    """Numbers of a text in base64; `ValueError` if the text is not base64.
-
-    `text`: base64 of little-endian numbers of 4 bytes; `kind`: ``"f"`` or ``"u"``.
-    """
+    """Numbers of a text that `encoded` wrote. Raises `ValueError` with the end of a sentence: it is not such a text."""
     data = _bytes(text)
     if len(data) % 4:
         raise ValueError(f"has {len(data)} bytes, which is not a multiple of 4")
@@ -33,7 +27,7 @@ def encoded_octets(values: ArrayLike) -> str:
 
 
 def octets(text: str) -> NDArray[np.uint8]:
-    """Whole numbers from 0 to 255 of a text in base64; `ValueError` if the text is not base64."""
+    """Whole numbers from 0 to 255 of a text in base64. Raises `ValueError`: the text is not base64."""
     return np.frombuffer(_bytes(text), np.uint8)
 
 

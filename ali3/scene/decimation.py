@@ -1,4 +1,4 @@
-"""Thins the times of a recording, and measures the error of the motion interpolated between the remaining ones."""
+"""Thins the times of a recording, and computes the error of the motion interpolated between the remaining times."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -6,19 +6,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_LOOKED_AT = 200_000  # times that the poses are compared at
-_FAR = 1e-3  # of the size of the scene: what a reader would see
-_TURNED = np.radians(1.0)
+_MOST_SAMPLES = 200_000  # times at which poses are compared
+_VISIBLE_DISTANCE = 1e-3  # of the size of the scene
+_VISIBLE_ANGLE = np.radians(1.0)
 
 
 def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Indices of at most so many times, the nearest to a uniform grid; the first and the last are among them.
+    """Indices of at most `most` times: the first, the last, and the nearest to a uniform grid.
 
-    Both sides of a step are kept too, unless steps alone would be more than half of the times: between them nothing
-    moves, the values jump.
+    Both sides of discontinuities are retained, unless they would be more than half of the times.
 
-    `t`: in s, not decreasing, shape (n,); a time that stands twice is a step; `most`: 2 or more; `epoch`: shape (n,);
-    where it changes is a step.
+    `t`: not decreasing, s, shape (n,), with a discontinuity where a time occurs twice; `most`: 2 or more; `epoch`:
+    shape (n,), with a discontinuity where it changes.
     """
     if len(t) <= most:
         return np.arange(len(t))
@@ -37,67 +36,65 @@ def largest_gap_of_motion(
     scene: Mapping[str, Any],
     t: NDArray[np.float64],
     columns: Mapping[str, NDArray[np.float64]],
-    kept: NDArray[np.intp],
+    indices: NDArray[np.intp],
     epoch: NDArray[np.float64],
 ) -> str:
-    """A sentence on how far the motion between the kept times is from the recorded one; empty if nobody would see it.
+    """A sentence on the error of the motion interpolated between the retained times; empty if it is not visible.
 
     Parameters
     ----------
     scene : mapping
-        That is drawn.
+        The scene that is drawn.
     t : array of shape (n,)
         All times, s.
     columns : mapping of str to array of shape (n,)
-        All values.
-    kept : array of int
-        Indices of the times that are kept.
+        Values at all times.
+    indices : array of int
+        Of the retained times.
     epoch : array of shape (n,)
-        Where it changes between two kept times, the drawing stands still.
+        The drawing does not move between two retained times of different epochs.
     """
-    samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _LOOKED_AT)).astype(np.intp))
-    intervals = np.clip(np.searchsorted(kept, samples, side="right") - 1, 0, len(kept) - 2)
-    a, b = kept[intervals], kept[intervals + 1]
+    samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _MOST_SAMPLES)).astype(np.intp))
+    intervals = np.clip(np.searchsorted(indices, samples, side="right") - 1, 0, len(indices) - 2)
+    a, b = indices[intervals], indices[intervals + 1]
     durations = t[b] - t[a]
     share = np.divide(
         t[samples] - t[a], durations, out=np.zeros(len(samples)), where=(durations > 0.0) & (epoch[a] == epoch[b])
     )
     largest_distance, largest_angle, distance_frame, angle_frame = 0.0, 0.0, "", ""
     for name, frame in scene["frames"].items():
+        distance = angle = 0.0
         if "position" in frame:
             squared_distance = np.zeros(len(samples))
             for column in frame["position"]:
                 x = columns[column]
                 squared_distance += (x[samples] - (x[a] + share * (x[b] - x[a]))) ** 2
             distance = float(np.sqrt(_largest(squared_distance)))
-            largest_distance, distance_frame = (
-                (distance, name) if distance > largest_distance else (largest_distance, distance_frame)
-            )
             q = np.stack([columns[column] for column in frame["quaternion"]])
-            angle = _turn_off(q[:, a], q[:, b], q[:, samples], share)
+            angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], share)
         elif "angle" in frame or "way" in frame:
             x = columns[frame.get("angle", frame.get("way"))]
-            angle = distance = _largest(np.abs(x[samples] - (x[a] + share * (x[b] - x[a]))))
-            if "way" in frame:
-                angle = 0.0
-                largest_distance, distance_frame = (
-                    (distance, name) if distance > largest_distance else (largest_distance, distance_frame)
-                )
-        else:
-            continue
-        largest_angle, angle_frame = (angle, name) if angle > largest_angle else (largest_angle, angle_frame)
+            error = _largest(np.abs(x[samples] - (x[a] + share * (x[b] - x[a]))))
+            distance, angle = (error, 0.0) if "way" in frame else (0.0, error)
+        if distance > largest_distance:
+            largest_distance, distance_frame = distance, name
+        if angle > largest_angle:
+            largest_angle, angle_frame = angle, name
     notes = []
-    if largest_distance > _FAR * scene["extent"]:
+    if largest_distance > _VISIBLE_DISTANCE * scene["extent"]:
         notes.append(f"the place of {distance_frame!r} by up to {largest_distance:.2g} m")
-    if largest_angle > _TURNED:
+    if largest_angle > _VISIBLE_ANGLE:
         notes.append(f"the direction of {angle_frame!r} by up to {np.degrees(largest_angle):.2g} deg")
     return f" Between them the drawing differs from the record: {', '.join(notes)}." if notes else ""
 
 
-def _turn_off(
+def _largest_angle_error(
     a: NDArray[np.float64], b: NDArray[np.float64], q: NDArray[np.float64], share: NDArray[np.float64]
 ) -> float:
-    """Largest angle between recorded orientations and those interpolated by great arcs, rad."""
+    """Largest angle between orientations `q` and those interpolated from `a` to `b` by great arcs, rad.
+
+    `a`, `b`, `q`: quaternions, shape (4, n); `share`: position from `a` to `b`, 0 to 1, shape (n,).
+    """
     with np.errstate(invalid="ignore", divide="ignore"):
         a, b, q = (x / np.linalg.norm(x, axis=0) for x in (a, b, q))
         dot = np.einsum("in,in->n", a, b)
@@ -109,7 +106,7 @@ def _turn_off(
         weight_b = np.where(small, share, np.sin(share * half_angle) / sine)
         interpolated = weight_a * a + weight_b * b
         interpolated /= np.linalg.norm(interpolated, axis=0)
-        # The chord keeps what the arc cosine of a number near 1 loses.
+        # The chord is more accurate than the arc cosine of a number near 1.
         chord = np.minimum(np.linalg.norm(interpolated - q, axis=0), np.linalg.norm(interpolated + q, axis=0))
         return _largest(4.0 * np.arcsin(np.clip(0.5 * chord, 0.0, 1.0)))
 

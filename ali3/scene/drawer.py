@@ -1,4 +1,4 @@
-"""The interface of what draws recordings as pages, notebooks, glTF files and films."""
+"""The interface of modules that draw recordings as pages, in notebooks, as glTF files and films."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -11,11 +11,11 @@ from ali3.scene.recording import Recording
 from ali3.scene.written_file import WrittenFilm, WrittenGltf, WrittenPage
 
 GROUP = "ali3.drawers"
-"""Of entry points; each names a module with the functions of `Drawer`."""
+"""Group of entry points that name modules with the functions of `Drawer`."""
 
 
 class Drawer(Protocol):
-    """A module that draws; `viewer.drawer` says what its functions do and raise."""
+    """A module that draws recordings; its functions are documented in `viewer.drawer`."""
 
     def check_options(self, options: Mapping[str, Any], /) -> dict[str, Any]: ...
 
@@ -35,7 +35,7 @@ class Drawer(Protocol):
 
 
 def drawer() -> Drawer:
-    """The drawer that is installed. Raises `ViewerError`: there is none."""
+    """The installed drawer. Raises `ViewerError`: there is none."""
     for point in entry_points(group=GROUP):
         return cast(Drawer, point.load())
     raise ViewerError('No viewer is installed; pip install "ali3[viewer]" in the folder of its source.')

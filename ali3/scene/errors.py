@@ -4,8 +4,8 @@ from ali3.errors import UserError
 
 
 class ViewerError(UserError, ValueError):
-    """Something cannot be drawn or shown; the message says what, and what would be right."""
+    """Something cannot be drawn; the message says why, and what would be right."""
 
 
 class SceneError(ViewerError):
-    """A scene is not of the format; the message names the place, the value and what would be right."""
+    """A scene has another format; the message names the location, the value and what would be right."""

@@ -1,4 +1,4 @@
-"""Meshes from files: STL, OBJ, PLY, OFF, glTF."""
+"""Reads meshes from files: STL, OBJ, PLY, OFF, glTF."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ Positions = NDArray[np.float32]
 Triangles = NDArray[np.uint32]
 
 SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
-_LARGEST = 1_000_000_000  # bytes of a file, and of those that it names
+_LARGEST = 1_000_000_000  # bytes of a file, and of all files that it names
 MOST_TRIANGLES = 100_000
-"""Of a mesh that is drawn: 1.8 MB of a page."""
-_OF_POINT = 64  # bytes of memory, or of an index
-# m, sizes of a mesh beyond which its unit is doubted
+"""Of a drawn mesh, which takes 1.8 MB of a page."""
+_BYTES_PER_ELEMENT = 64  # bytes of memory for a point, an attribute or an index
+# sizes beyond which the unit of a mesh is doubtful, m
 _LEAST_SIZE = 1e-3
 _MOST_SIZE = 500.0
 
 
 class MeshError(ViewerError):
-    """A file that gives no mesh; the message names it and says why."""
+    """A file that is not a readable mesh; the message names it and the reason."""
 
 
 def read_mesh(
@@ -62,24 +62,25 @@ def read_mesh(
     triangles : (m, 3) uint32
         Numbers of their points, counterclockwise as seen from outside.
     """
-    points, triangles = _merged(read_corners(path, scale).reshape(-1, 3))
+    points, triangles = _merge_equal_points(read_corners(path, scale).reshape(-1, 3))
     if not len(triangles):
         raise MeshError(f"{path} is not a mesh: none of its triangles has an area.")
     if len(triangles) > most_triangles:
-        points, triangles = _thinned(path, points, triangles, most_triangles)
+        points, triangles = _merge_by_grid(path, points, triangles, most_triangles)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     if not _LEAST_SIZE <= size <= _MOST_SIZE:
-        large = "in a file in millimetres, scale=0.001 is needed"
-        advice = large if size > _MOST_SIZE else "scale is given in metres per unit"
+        scale_hint = "in a file in millimetres, scale=0.001 is needed"
+        advice = scale_hint if size > _MOST_SIZE else "scale is given in metres per unit"
         warnings.warn(f"The mesh {path} is {size:.3g} m across; {advice}.", UserWarning, stacklevel=2)
     return points.astype(np.float32), triangles.astype(np.uint32)
 
 
 def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = "pictures") -> NDArray[np.float64]:
-    """Corners of the triangles of a mesh, as its file has them.
+    """Corners of the triangles of a mesh in the order of the file.
 
-    `path`, `scale :`: as of `read_mesh`; `extra`: of the installation, named where the package that reads is missing.
-    Returns an array of shape (n, 3, 3): corners of n triangles, m. Raises `MeshError` or `FileError` as of `read_mesh`.
+    `path`, `scale`: as of `read_mesh`; `extra`: of the installation, named if the package that reads is missing.
+    Returns coordinates of the corners of n triangles, m, shape (n, 3, 3). Raises `MeshError` or `FileError` as of
+    `read_mesh`.
     """
     file = Path(path)
     factor = _checked_scale(path, scale)
@@ -119,56 +120,60 @@ def _load(file: Path, extra: str) -> trimesh.Trimesh:
 
         if suffix in (".gltf", ".glb"):
             check_memory(_gltf_memory(content, str(file)), MeshError, str(file))
-        # `process` would remove what is not finite without a word.
+        # `process` would remove points that are not finite without a warning.
         return trimesh.load_mesh(
             BytesIO(content), file_type=suffix[1:], resolver=_NamedBytes(file), process=False, **options
         )
 
 
 class _NamedBytes(dict[str, bytes]):
-    """Content of the files that a mesh names, below its folder."""
+    """Contents of the files below its folder that a mesh names."""
 
     def __init__(self, file: Path) -> None:
         super().__init__()
-        self._file, self._named = file, NamedFiles(file.parent, _LARGEST, MeshError)
+        self._file, self._named_files = file, NamedFiles(file.parent, _LARGEST, MeshError)
 
     def __missing__(self, name: str) -> bytes:
-        return read_bytes(self._named.file(unquote(name), self._file.parent, str(self._file)), _LARGEST, MeshError)
+        return read_bytes(
+            self._named_files.file(unquote(name), self._file.parent, str(self._file)), _LARGEST, MeshError
+        )
 
     def get(self, name: str, default: object = None) -> bytes:
         return self[name]
 
 
 def _gltf_memory(content: bytes, name: str) -> int:
-    """Bytes of the points and triangles of a glTF file, each mesh as often as it is placed."""
+    """Estimated memory in bytes of the arrays of a glTF file and of its meshes, each as often as nodes refer to it."""
     if content.startswith(b"glTF"):
         content = content[20 : 20 + int.from_bytes(content[12:16], "little")]
     document = json_of(content, MeshError, f"{name} cannot be read as a mesh: its description")
     counts: list[int] = [int(accessor["count"]) for accessor in document.get("accessors", [])]
     sizes: list[int] = []
     for mesh in document.get("meshes", []):
-        accessors = [k for part in mesh["primitives"] for k in (part.get("indices"), *part["attributes"].values())]
+        accessors = [
+            k for primitive in mesh["primitives"] for k in (primitive.get("indices"), *primitive["attributes"].values())
+        ]
         sizes.append(sum(counts[k] for k in accessors if k is not None))
-    placed: list[int] = [sizes[node["mesh"]] for node in document.get("nodes", []) if "mesh" in node]
-    return _OF_POINT * (sum(counts) + sum(placed))
+    placed_sizes: list[int] = [sizes[node["mesh"]] for node in document.get("nodes", []) if "mesh" in node]
+    return _BYTES_PER_ELEMENT * (sum(counts) + sum(placed_sizes))
 
 
-def _merged(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Points that are different as float32, and triangles with three different ones, of 3 m corners."""
+def _merge_equal_points(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Points that differ as float32, shape (n, 3), and triangles with three of them, of 3 m corners, shape (3 m, 3)."""
     points, index = np.unique(corners.astype(np.float32), axis=0, return_inverse=True)
-    return points.astype(float), _proper(index.reshape(-1, 3))
+    return points.astype(float), _not_degenerate(index.reshape(-1, 3))
 
 
-def _proper(triangles: NDArray[np.int64]) -> NDArray[np.int64]:
+def _not_degenerate(triangles: NDArray[np.int64]) -> NDArray[np.int64]:
     a, b, c = triangles.T
-    proper: NDArray[np.int64] = triangles[(a != b) & (b != c) & (c != a)]
-    return proper
+    not_degenerate: NDArray[np.int64] = triangles[(a != b) & (b != c) & (c != a)]
+    return not_degenerate
 
 
-def _thinned(
+def _merge_by_grid(
     path: str | os.PathLike[str], points: NDArray[np.float64], triangles: NDArray[np.int64], most: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Merge the points of each cube of a grid, which is made coarser until few enough triangles are left."""
+    """Merge the points of each cube of a grid that is made coarser until at most `most` triangles are left."""
     lower, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
     cells = math.sqrt(most)
     while True:
@@ -177,8 +182,8 @@ def _thinned(
         index = index.ravel()
         count = np.bincount(index)
         merged = np.column_stack([np.bincount(index, points[:, k]) / count for k in range(3)])
-        proper = _proper(index[triangles])
-        _, retained = np.unique(np.sort(proper, axis=1), axis=0, return_index=True)
+        not_degenerate = _not_degenerate(index[triangles])
+        _, retained = np.unique(np.sort(not_degenerate, axis=1), axis=0, return_index=True)
         if len(retained) <= most:
             break
         cells *= 0.8
@@ -189,4 +194,4 @@ def _thinned(
         UserWarning,
         stacklevel=3,
     )
-    return merged, proper[np.sort(retained)]
+    return merged, not_degenerate[np.sort(retained)]

@@ -14,9 +14,9 @@ from ali3.scene.scene import check_scene, plain_scene
 from ali3.scene.scene_columns import drawable, pose_columns
 
 MOST_TIMES = 5001  # 10 s in steps of 2 ms
-_TURN = 2.0 * np.pi
-_NAMED = 4  # columns with the same gaps; the others are counted
-_LARGEST = 1e30  # of a pose; pictures and glTF hold floats of 32 bits
+_FULL_TURN = 2.0 * np.pi
+_MOST_NAMED = 4  # columns with the same gaps that a note names
+_LARGEST_POSE = 1e30  # coordinate; pictures and glTF have floats of 32 bits
 
 
 class Recording:
@@ -78,7 +78,7 @@ class Recording:
         if scene is None:
             self._note_gaps(self.columns)
         else:
-            self._take(plain_scene(scene))
+            self._set_scene(plain_scene(scene))
 
     def thinned(self, most: int = MOST_TIMES) -> Recording:
         """This recording with at most so many times, uniform in time.
@@ -150,8 +150,8 @@ class Recording:
         notes_text += "".join(f"\n  not drawn: {item['name']}: {item['why']}" for item in self.missing)
         return f"Recording({self.name!r}, {span}, {len(self.columns)} columns){notes_text}"
 
-    def _take(self, scene: dict[str, Any]) -> None:
-        """Take out of the scene what the columns do not move, and say so."""
+    def _set_scene(self, scene: dict[str, Any]) -> None:
+        """Set the scene without parts whose columns are missing, and note which."""
         needed_columns = pose_columns(scene)
         if needed_columns and not any(name in self.columns for name in needed_columns):
             self.notes.append(
@@ -161,26 +161,26 @@ class Recording:
             self._note_gaps(self.columns)
             return
         for name in needed_columns:
-            self._cut(name)
-        empty = {name for name in needed_columns if name in self.columns and not _any_number(self.columns[name])}
+            self._remove_large_values(name)
+        empty = {name for name in needed_columns if name in self.columns and not _has_finite_value(self.columns[name])}
 
-        def fault(name: str) -> str | None:
+        def column_fault(name: str) -> str | None:
             if name not in self.columns:
                 return f"the result has no column '{name}'"
             return f"the column '{name}' holds no number" if name in empty else None
 
-        drawable_scene, why = drawable(scene, fault)
+        drawable_scene, reasons = drawable(scene, column_fault)
         self.missing = [dict(item) for item in scene.get("missing", [])]
-        self.missing += [{"name": name, "why": reason} for name, reason in why.items()]
-        frames = {key: self._started(frame) for key, frame in drawable_scene["frames"].items()}
+        self.missing += [{"name": name, "why": reason} for name, reason in reasons.items()]
+        frames = {key: self._with_start(frame) for key, frame in drawable_scene["frames"].items()}
         self.scene = drawable_scene | {"frames": frames, "missing": self.missing}
         self._note_gaps(name for name in pose_columns(drawable_scene))
         for frame in drawable_scene["frames"].values():
             if "angle" in frame:
                 self._unwrap(frame["angle"])
 
-    def _started(self, frame: dict[str, Any]) -> dict[str, Any]:
-        """A frame with a pose as drawn: where the scene has none, the first that was recorded."""
+    def _with_start(self, frame: dict[str, Any]) -> dict[str, Any]:
+        """A frame with a pose as drawn: that of the scene, or else the first recorded one."""
         if "start" in frame or "position" not in frame:
             return frame
         names = [*frame["position"], *frame["quaternion"]]
@@ -197,36 +197,36 @@ class Recording:
                 gaps.setdefault(is_gap.tobytes(), []).append(name)
         for mask, column_names in gaps.items():
             is_gap = np.frombuffer(mask, bool)
-            more = f" and {len(column_names) - _NAMED} more" if len(column_names) > _NAMED else ""
-            names_text = ", ".join(f"'{name}'" for name in column_names[:_NAMED]) + more
+            more = f" and {len(column_names) - _MOST_NAMED} more" if len(column_names) > _MOST_NAMED else ""
+            names_text = ", ".join(f"'{name}'" for name in column_names[:_MOST_NAMED]) + more
             self.notes.append(
                 f"The column{'s' * (len(column_names) > 1)} {names_text} "
                 f"{'have each' if len(column_names) > 1 else 'has'} {is_gap.sum()} of {len(self.t)} values that are "
                 f"not numbers, the first at {self.t[is_gap.argmax()]:g} s; there is nothing drawn for them."
             )
 
-    def _cut(self, name: str) -> None:
-        """Take out numbers of poses that no picture can hold, and say so."""
+    def _remove_large_values(self, name: str) -> None:
+        """Replace numbers that are too large for a pose by NaN, and note how many."""
         values = self.columns.get(name)
-        if values is None or not (is_too_large := np.abs(values) > _LARGEST).any():
+        if values is None or not (is_too_large := np.abs(values) > _LARGEST_POSE).any():
             return
         self.columns[name] = np.where(is_too_large, np.nan, values)
         self.notes.append(
-            f"The column '{name}' has {int(is_too_large.sum())} of {len(is_too_large)} values beyond {_LARGEST:g}."
+            f"The column '{name}' has {int(is_too_large.sum())} of {len(is_too_large)} values beyond {_LARGEST_POSE:g}."
         )
 
     def _unwrap(self, name: str) -> None:
-        """An angle that was given within one turn becomes continuous, so that it can be interpolated and thinned."""
+        """Make an angle within one turn continuous, so that it can be interpolated and thinned."""
         angle = self.columns[name]
         is_finite = np.isfinite(angle)
         if not is_finite.any():
             return
         low, high = float(angle[is_finite].min()), float(angle[is_finite].max())
-        is_within_turn = (low >= -0.5 * _TURN - 1e-6 and high <= 0.5 * _TURN + 1e-6) or (
-            low >= -1e-6 and high <= _TURN + 1e-6
+        is_within_turn = (low >= -0.5 * _FULL_TURN - 1e-6 and high <= 0.5 * _FULL_TURN + 1e-6) or (
+            low >= -1e-6 and high <= _FULL_TURN + 1e-6
         )
         values = angle[is_finite]
-        if is_within_turn and np.abs(np.diff(values)).max(initial=0.0) > 0.5 * _TURN:
+        if is_within_turn and np.abs(np.diff(values)).max(initial=0.0) > 0.5 * _FULL_TURN:
             self.columns[name] = angle.copy()
             self.columns[name][is_finite] = np.unwrap(values)
             self.notes.append(f"The column '{name}' was given within one turn; it is shown as a continuous angle.")
@@ -262,5 +262,5 @@ def _column(name: str, values: ArrayLike, count: int) -> NDArray[np.float64]:
     return array.astype(np.float64, copy=False)
 
 
-def _any_number(values: NDArray[np.float64]) -> bool:
+def _has_finite_value(values: NDArray[np.float64]) -> bool:
     return bool(np.isfinite(values).any())

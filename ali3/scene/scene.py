@@ -16,9 +16,9 @@ from ali3.scene.scene_types import Scene
 
 
 def scene_errors(scene: Any) -> list[str]:
-    """What is wrong with a scene. `scene`: as `json.loads` gives it.
+    """Sentences on the faults of a scene, each with location, value and what would be right.
 
-    Returns a sentence for each fault, with its place, the value and what would be right; empty if there is none.
+    `scene`: as `json.loads` gives it.
     """
     if not isinstance(scene, Mapping):
         return ["A scene is a table with the keys format, version, name, extent, frames and shapes."]
@@ -81,18 +81,18 @@ def read_scene(source: str | bytes | PathLike[str], name: str = "") -> dict[str,
 
 
 def plain_scene(scene: Any) -> Any:
-    """A scene as JSON gives it, without keys whose value is null: they stand for keys that are left out.
-
-    `scene`: with any mappings, lists and tuples in it.
-    """
-    return _plain(scene, False)
+    """A scene of plain dicts and lists, without keys whose value is null, which mean missing keys."""
+    return _without_nulls(scene, False)
 
 
-def _plain(value: Any, by_name: bool) -> Any:
-    """Tables whose keys are names of the user's keep them all."""
+def _without_nulls(value: Any, has_user_keys: bool) -> Any:
+    """Content without null; tables with keys of the user retain all keys."""
     if isinstance(value, Mapping):
-        entries = {key: item for key, item in value.items() if by_name or item is not None}
-        return {key: _plain(item, not by_name and key in ("frames", "meshes")) for key, item in entries.items()}
+        entries = {key: item for key, item in value.items() if has_user_keys or item is not None}
+        return {
+            key: _without_nulls(item, not has_user_keys and key in ("frames", "meshes"))
+            for key, item in entries.items()
+        }
     if isinstance(value, (list, tuple)):
-        return [_plain(item, False) for item in value]
+        return [_without_nulls(item, False) for item in value]
     return value

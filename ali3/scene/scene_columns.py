@@ -1,4 +1,4 @@
-"""The columns that the parts of a scene read, and a scene without the parts whose columns are missing."""
+"""Finds the columns that the parts of a scene read, and removes parts whose columns are missing."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -7,10 +7,7 @@ from ali3.scene.scene_parts import GROUND, frames_of
 
 
 def columns_of(part: Mapping[str, Any]) -> list[str]:
-    """Columns that a frame, an arrow, a gauge or a flexible part without its gauges reads.
-
-    `part`: of a scene that was checked.
-    """
+    """Columns that a frame, an arrow, a gauge, or a flexible part without its gauges reads."""
     columns = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
     columns += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
     columns += [name for name in part.get("vector", ()) if name is not None]
@@ -33,56 +30,56 @@ def all_columns(scene: Mapping[str, Any]) -> list[str]:
 
 
 def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tuple[dict[str, Any], dict[str, str]]:
-    """A scene without what cannot be drawn: parts whose columns are faulty, and what stands on them.
+    """A scene without parts whose columns are faulty, and without parts attached to these.
 
     `fault`: why a column cannot be used, as the end of a sentence; None if it can.
 
     Returns
     -------
     scene : dict
-        With the rest.
-    why : dict
-        By the name of a frame, a body, an arrow or a flexible part, why it is not drawn.
+        The remaining scene.
+    reasons : dict
+        Why a frame, a body, an arrow or a flexible part is not drawn, by its name.
     """
-    why: dict[str, str] = {}
+    reasons: dict[str, str] = {}
 
-    def lacks(part: Mapping[str, Any]) -> str | None:
+    def column_fault(part: Mapping[str, Any]) -> str | None:
         return next((reason for name in columns_of(part) if (reason := fault(name)) is not None), None)
 
     faulty_frames: dict[str, str] = {}
     undecided_frames = dict(scene["frames"])
-    while undecided_frames:  # a frame stands on others that are decided before it
+    while undecided_frames:  # frames that others depend on are decided first
         for name, frame in list(undecided_frames.items()):
             if any(parent in undecided_frames for parent in frames_of(frame)):
                 continue
             del undecided_frames[name]
             faulty_parent = next((parent for parent in frames_of(frame) if parent in faulty_frames), None)
-            reason = lacks(frame) or (faulty_frames[faulty_parent] if faulty_parent is not None else None)
+            reason = column_fault(frame) or (faulty_frames[faulty_parent] if faulty_parent is not None else None)
             if reason is not None:
                 faulty_frames[name] = reason
-                why[name] = reason
+                reasons[name] = reason
 
-    def stands(part: Mapping[str, Any]) -> bool:
+    def is_attached(part: Mapping[str, Any]) -> bool:
         return not any(parent in faulty_frames for parent in frames_of(part))
 
     drawable_scene: dict[str, Any] = dict(scene)
     drawable_scene["frames"] = {name: frame for name, frame in scene["frames"].items() if name not in faulty_frames}
     drawable_scene["shapes"] = []
     for shape in scene["shapes"]:
-        if stands(shape):
+        if is_attached(shape):
             drawable_scene["shapes"].append(shape)
             continue
         body = shape.get("body") or shape.get("name")
-        if body is not None and body not in why:
-            why[body] = next(faulty_frames[parent] for parent in frames_of(shape) if parent in faulty_frames)
-    for key, noun in (("flexible", "deformation of"), ("arrows", "arrow")):
+        if body is not None and body not in reasons:
+            reasons[body] = next(faulty_frames[parent] for parent in frames_of(shape) if parent in faulty_frames)
+    for key, label in (("flexible", "deformation of"), ("arrows", "arrow")):
         drawable_scene[key] = []
         for part in scene.get(key) or []:
-            reason = lacks(part)
-            if reason is None and stands(part):
+            reason = column_fault(part)
+            if reason is None and is_attached(part):
                 drawable_scene[key].append(part)
             elif reason is not None:
-                why[f"{noun} {part.get('name') or part.get('frame', '')}"] = reason
+                reasons[f"{label} {part.get('name') or part.get('frame', '')}"] = reason
     if drawable_scene.get("focus", "") not in ("", GROUND, *drawable_scene["frames"]):
         drawable_scene["focus"] = ""
-    return drawable_scene, why
+    return drawable_scene, reasons

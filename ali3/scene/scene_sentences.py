@@ -1,4 +1,4 @@
-"""A sentence for each error that pydantic finds in a scene: path, value, and what would be right."""
+"""Writes a sentence for each error that pydantic finds in a scene: path, value, and what would be right."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -24,14 +24,14 @@ _MODELS: dict[str, type[BaseModel]] = {
     for name, model in vars(module).items()
     if isinstance(model, type) and issubclass(model, Part)
 }
-# A shape, a road: the types whose key `kind` chooses them.
+# Types that the key `kind` chooses, such as those of shapes and roads.
 _KINDS: dict[str, type[BaseModel]] = {
     model.model_fields["kind"].annotation.__args__[0]: model  # type: ignore[union-attr]
     for model in _MODELS.values()
     if "kind" in model.model_fields
 }
-# The tables of a key, where no tag names them.
-_OF_KEY: dict[str, type[BaseModel]] = {
+# Types of tables by key, where no tag names them.
+_MODEL_OF_KEY: dict[str, type[BaseModel]] = {
     "meshes": types.Mesh,
     "flexible": types.Flexible,
     "missing": types.Missing,
@@ -41,13 +41,13 @@ _OF_KEY: dict[str, type[BaseModel]] = {
     "patches": road_types.Patch,
     "surface": road_types.SurfaceMap,
 }
-# What a table that could be of several types must have.
+# Keys that determine the type of a table.
 _CHOICES: dict[tuple[str | int, ...], str] = {
     ("frames",): "the keys 'position' and 'quaternion', 'parent' with 'axis' and 'angle' or with 'direction' "
     "and 'way', or 'points' and 'on'",
     ("arrows",): "the keys 'value' and 'between', 'vector' and 'at', or 'tyre'",
 }
-# What pydantic says of a value, as regular expressions, and how a sentence says it.
+# Texts of pydantic as regular expressions, and their replacements.
 _REPLACEMENTS = (
     ("Input should be ", ""),
     ("greater than or equal to", "at least"),
@@ -64,7 +64,7 @@ _REPLACEMENTS = (
 
 
 def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
-    """A sentence for each error; where a key is misspelt, the key that was meant is not reported as missing too."""
+    """A sentence for each error; the right key of a misspelt one is not reported as missing too."""
     items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
     lengths: dict[tuple[str | int, ...], int] = {}
     for item in items:
@@ -77,7 +77,7 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
         path = _path(scene, item["loc"])
         if item["type"] == UNKNOWN:
             keys = [other[-1] for other in missing_paths if other[:-1] == path[:-1]]
-            near = _near(str(path[-1]), keys) or _near(str(path[-1]), _keys(item["loc"]))
+            near = _near_name(str(path[-1]), keys) or _near_name(str(path[-1]), _keys(item["loc"]))
             if near is not None:
                 missing_paths.discard((*path[:-1], near))
                 results.append(f"{place(path)} is not known; did you mean '{near}'?")
@@ -90,7 +90,7 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
 
 
 def place(path: Sequence[str | int]) -> str:
-    """A place in a scene, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
+    """A location in a scene, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
     return place_text(path) or "the scene"
 
 
@@ -121,7 +121,7 @@ def _sentence(
 
 
 def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
-    """Of a table whose keys, or whose key `kind`, choose none of the types that it could be."""
+    """Sentence for a table whose keys, or whose key `kind`, choose none of the possible types."""
     entry = item["input"]
     by_keys = path[:1] in _CHOICES and item["type"] == "union_tag_not_found"
     if not isinstance(entry, Mapping):
@@ -135,30 +135,30 @@ def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
     location = place((*path, "kind"))
     if "kind" in entry:
         return f"{location} is {value_text(entry['kind'])}; it must be one of {kinds_text}."
-    near = _near("kind", list(map(str, entry)))
+    near = _near_name("kind", list(map(str, entry)))
     return f"{location} is missing{f' ({near!r} is not known)' if near else ''}; it is one of {kinds_text}."
 
 
 def _length_sentence(
     scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...], lengths: Mapping[tuple[str | int, ...], int]
 ) -> str:
-    """Of a list with too few or too many entries."""
+    """Sentence for a list with too few or too many entries."""
     path = path[:-1] if item["type"] == MISSING else path
     limits = item.get("ctx", {})
     count = limits.get("max_length", limits.get("min_length", lengths.get(path)))
     at_least = "at least " if item["type"] == "too_short" and "min_length" in limits else ""
     requirement = ", too few" if count is None else f"; it must have {at_least}{count}"
-    return f"{place(path)} has {len(_at(scene, path))} entries{requirement}."
+    return f"{place(path)} has {len(_value_at(scene, path))} entries{requirement}."
 
 
-def _at(scene: Any, path: Sequence[str | int]) -> Any:
+def _value_at(scene: Any, path: Sequence[str | int]) -> Any:
     for part in path:
         scene = scene[part]
     return scene
 
 
 def _path(scene: Any, loc: Sequence[str | int]) -> tuple[str | int, ...]:
-    """Place of an error, without the names of types that pydantic puts into it."""
+    """Path of an error, without the names of types that pydantic adds."""
     path: list[str | int] = []
     node: Any = scene
     for k, part in enumerate(loc):
@@ -175,9 +175,9 @@ def _path(scene: Any, loc: Sequence[str | int]) -> tuple[str | int, ...]:
     return tuple(path)
 
 
-def _is_tag(here: Mapping[str, Any], loc: Sequence[str | int], k: int) -> bool:
-    """Whether a part that is also a key of the table stands for its kind: it follows the table's own number."""
-    return isinstance(loc[k - 1], int) and loc[k] == here.get("kind")
+def _is_tag(table: Mapping[str, Any], loc: Sequence[str | int], k: int) -> bool:
+    """Whether element `k`, which is also a key of the table, is its kind: it follows the index of the table."""
+    return isinstance(loc[k - 1], int) and loc[k] == table.get("kind")
 
 
 def _model(loc: Sequence[str | int]) -> type[BaseModel]:
@@ -185,7 +185,7 @@ def _model(loc: Sequence[str | int]) -> type[BaseModel]:
     model: type[BaseModel] = types.Scene
     for part in loc[:-1]:
         if isinstance(part, str):
-            model = _MODELS.get(part) or _KINDS.get(part) or _OF_KEY.get(part) or model
+            model = _MODELS.get(part) or _KINDS.get(part) or _MODEL_OF_KEY.get(part) or model
     return model
 
 
@@ -200,11 +200,11 @@ def _description(loc: Sequence[str | int]) -> str:
 
 
 def _kinds_at(path: Sequence[str | int]) -> list[str]:
-    """Kinds of the tables at a place: of shapes, or of roads."""
+    """Possible kinds of a table at a path: of shapes or of roads."""
     shapes = path[:1] == ("shapes",)
     return [kind for kind, model in _KINDS.items() if issubclass(model, types.Shape) == shapes]
 
 
-def _near(word: str, known: Sequence[str | int]) -> str | None:
+def _near_name(word: str, known: Sequence[str | int]) -> str | None:
     near = near_names(word, [str(k) for k in known], 1)
     return near[0] if near else None

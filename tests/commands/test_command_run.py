@@ -54,7 +54,7 @@ def test_errors_are_one_line(
 def test_missing_memory_is_named_as_the_cause(
     error: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(processes, "_SPARE", 1 << 60)
+    monkeypatch.setattr(processes, "_SPARE_MEMORY", 1 << 60)
     assert run_command(lambda: raiser(error)) == 2
     assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
 

@@ -70,7 +70,7 @@ def worker() -> Any:
 def test_a_process_that_does_not_begin_is_reported_as_such(
     worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ali3.isolated_processes._START", 1e-3)
+    monkeypatch.setattr("ali3.isolated_processes._START_TIMEOUT", 1e-3)
     assert worker.do("") == Lost("had not begun after 0.001 s", late=True)
 
 

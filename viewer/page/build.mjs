@@ -1,5 +1,5 @@
-// Makes the bundle: node build.mjs OUT writes ali3-viewer.js (one script, window.ALi3Viewer), ali3-gltf.mjs (a program
-// of Node) and their licences into OUT.
+// Builds the bundle: node build.mjs OUT writes ali3-viewer.js (a script that defines window.ALi3Viewer), ali3-gltf.mjs
+// (a program of Node) and their licences to OUT.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -18,8 +18,8 @@ const options = {
   bundle: true,
   minify: true,
   target: ["es2022"],
-  charset: "ascii", // the same in a page of any encoding
-  legalComments: "none", // the whole licences follow the code
+  charset: "ascii", // independent of the encoding of the page
+  legalComments: "none", // the complete licences follow the code
   loader: { ".css": "text" },
   metafile: true,
   write: false,
@@ -29,8 +29,8 @@ const gltf = await esbuild.build({ ...options, entryPoints: ["src/gltf/index.js"
 
 const packages = new Set();
 for (const input of [result, gltf].flatMap(({ metafile }) => Object.keys(metafile.inputs))) {
-  const found = /(?:^|\/)node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
-  if (found) packages.add(found[1]);
+  const match = /(?:^|\/)node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
+  if (match) packages.add(match[1]);
 }
 const licences = [...packages].sort().map((name) => {
   const folder = join(page, "node_modules", name);
@@ -41,7 +41,7 @@ const licences = [...packages].sort().map((name) => {
 const notice = `Third-party software in this bundle\n\n${licences.join("\n" + "-".repeat(80) + "\n\n")}`;
 
 mkdirSync(out, { recursive: true });
-// Inside <script> nothing may look like the end of it.
+// The code must not contain the end of a script element.
 const code = result.outputFiles[0].text.replace(/<\/script/gi, "<\\/script").replace(/<!--/g, "<\\!--");
 writeFileSync(join(out, "THIRD_PARTY_LICENSES.txt"), notice);
 const comment = notice.replace(/\*\//g, "* /").replace(/\u00a9/g, "(c)").replace(/[^\0-\x7f]/g, "?");

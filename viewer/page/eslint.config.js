@@ -1,9 +1,9 @@
-// Faults that can be seen in the source: `npm run check`, which also checks types (tsconfig.json).
+// Rules of ESLint for `npm run check`, which also checks types (tsconfig.json).
 import js from "@eslint/js";
 import globals from "globals";
 
-const MARKUP = "Text becomes markup here, and scenes and FMUs come from others; make elements and set textContent.";
-const STYLE = "A page without inline styles refuses it; set element.style.";
+const MARKUP = "Texts of untrusted scenes and FMUs would become markup; make elements and set textContent.";
+const STYLE = "The content security policy forbids inline styles; set element.style.";
 
 export default [
   js.configs.recommended,
@@ -12,7 +12,7 @@ export default [
     linterOptions: { reportUnusedDisableDirectives: "error", reportUnusedInlineConfigs: "error" },
     rules: {
       "array-callback-return": "error",
-      "no-control-regex": "off", // names are refused for them
+      "no-control-regex": "off", // patterns of names exclude them
       "consistent-return": "error",
       "default-case-last": "error",
       eqeqeq: ["error", "always", { null: "ignore" }],

@@ -1,6 +1,6 @@
-// Decodes bytes that a page carries as base64 text, compressed or not.
+// Decodes bytes that a page contains as base64 text, compressed or not.
 
-/** @param {string} text base64 @returns {Uint8Array<ArrayBuffer>} */
+/** Bytes of a text in base64. @param {string} text @returns {Uint8Array<ArrayBuffer>} */
 export function bytesOf(text) {
   const raw = atob(text);
   const bytes = new Uint8Array(raw.length);
@@ -8,15 +8,15 @@ export function bytesOf(text) {
   return bytes;
 }
 
-/** @param {Uint8Array<ArrayBuffer>} bytes gzip @returns {Promise<Uint8Array<ArrayBuffer>>} */
+/** Decompressed bytes. @param {Uint8Array<ArrayBuffer>} bytes gzip @returns {Promise<Uint8Array<ArrayBuffer>>} */
 export async function gunzipped(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /**
- * Bytes of base64, unpacked where they are gzip.
- * @param {string | ArrayBuffer | Uint8Array<ArrayBuffer>} data - Bytes stay as they are.
+ * Bytes of a text in base64, decompressed if they are gzip.
+ * @param {string | ArrayBuffer | Uint8Array<ArrayBuffer>} data - Bytes are returned unchanged.
  * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
 export async function unpack(data) {
@@ -25,12 +25,12 @@ export async function unpack(data) {
   return bytes[0] === 0x1f && bytes[1] === 0x8b ? gunzipped(bytes) : bytes;
 }
 
-/** JSON of base64, packed. @param {string} data @returns {Promise<Data>} */
+/** Content of compressed JSON in base64. @param {string} data @returns {Promise<Data>} */
 export async function unpackedJson(data) {
   return JSON.parse(new TextDecoder().decode(await unpack(data)));
 }
 
-/** What this browser lacks, as one sentence; empty if nothing. @param {Data} [scope] @param {boolean} [runs] whether the page runs FMUs */
+/** A sentence on what this browser lacks; empty if nothing. @param {Data} [scope] @param {boolean} [runs] whether the page runs FMUs */
 export function missingParts(scope = globalThis, runs = true) {
   if (runs && typeof scope.WebAssembly !== "object") {
     return "This browser has no WebAssembly, in which the FMU runs; use a current Chrome, Edge, Firefox or Safari.";

@@ -1,12 +1,13 @@
-// Entry points of the script for pages: pictures of a scene, recordings.
+// Entry points of the script of the page.
+// Pictures of scenes, and recordings.
 export { playPage } from "./player/play.js";
 export { SceneView } from "./scene/scene_view.js";
-// An FMU that runs in the page; `serve` is its other side, in the worker.
+// An FMU that runs in the page; `serve` runs in its worker.
 export { drive } from "./live/drive.js";
 export { serve } from "./live/worker.js";
-// A car that another program drives, in its simulator.
+// The driving simulator.
 export { simulate } from "./simulator/simulate.js";
-// Devices of the host, for the page of the simulator.
+// Calibration of devices of the driving simulator.
 export { CalibrationPanel } from "./simulator/calibration.js";
 // Marks, dust and sound of a driven car.
 export { CarSound, Dust, TyreMarks } from "./effects/index.js";

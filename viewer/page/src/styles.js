@@ -1,11 +1,11 @@
-// Styles of the parts of a page.
+// Adds style sheets to the page.
 
-const known = new Set();
+const added = new Set();
 
-/** Put CSS into the page, once; its policy takes no style elements but its own. @param {string} css */
+/** Add CSS to the page, once; by a sheet, since the page's security policy forbids new style elements. @param {string} css */
 export function styled(css) {
-  if (known.has(css)) return;
-  known.add(css);
+  if (added.has(css)) return;
+  added.add(css);
   const sheet = new CSSStyleSheet();
   sheet.replaceSync(css);
   document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];

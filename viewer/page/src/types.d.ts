@@ -1,6 +1,6 @@
-// Types that JavaScript has no words for; read by the type check only.
+// Types that JavaScript cannot declare; read by the type check only.
 
-/** JSON from outside or options, with keys that are not checked here. */
+/** JSON or options whose keys are not checked. */
 type Data = Record<string, any>;
 
 /** The class of an element that `el` makes: the tag's name is before the first dot. */

@@ -1,19 +1,19 @@
-// Elements of the page.
+// Makes HTML and SVG elements, and formats numbers.
 
 /**
- * An element.
+ * Makes an element.
  * @template {string} Tag
  * @param {Tag} tag - Name, with classes after dots.
- * @param {Data} [set] - Properties, listeners as `onclick`; names with a hyphen and `role` become attributes, and `data`
- *   the attribute data-a3, by which programs find it.
+ * @param {Data} [properties] - Properties, listeners as `onclick`; names with a hyphen and `role` become attributes, and `data`
+ *   the attribute data-a3, which identifies it to programs.
  * @param {...(Node | string | number)} children
  * @returns {ElementOf<Tag>}
  */
-export function el(tag, set = {}, ...children) {
+export function el(tag, properties = {}, ...children) {
   const [name, ...classes] = tag.split(".");
   const element = /** @type {ElementOf<Tag>} */ (document.createElement(name));
   if (classes.length) element.className = classes.join(" ");
-  for (const [key, value] of Object.entries(set)) {
+  for (const [key, value] of Object.entries(properties)) {
     if (key === "data") element.setAttribute("data-a3", value);
     else if (key === "role" || key.includes("-")) element.setAttribute(key, value);
     else element[key] = value;
@@ -24,15 +24,15 @@ export function el(tag, set = {}, ...children) {
 }
 
 /**
- * A button that gives the focus back where it was clicked, so that the keys go on driving.
+ * A button that releases the focus after a click, so that keys still drive the car.
  * @param {string} data - See `el`.
  * @param {string} text
- * @param {() => void} work
+ * @param {() => void} action
  * @param {string} [title]
  */
-export function button(data, text, work, title = "") {
+export function button(data, text, action, title = "") {
   const onclick = () => {
-    work();
+    action();
     if (!element.matches(":focus-visible")) element.blur();
   };
   const element = el("button", { type: "button", title, data, onclick }, text);
@@ -40,37 +40,37 @@ export function button(data, text, work, title = "") {
 }
 
 /**
- * A choice that gives the focus back, unless it was made by keys.
+ * A drop-down list that releases the focus, unless keys were used.
  * @param {string} data
  * @param {string} title
- * @param {(string | number)[][]} options - Values and their words.
- * @param {(value: string) => void} work
- * @param {string | number} [value] - Chosen at first.
+ * @param {(string | number)[][]} options - Values and their labels.
+ * @param {(value: string) => void} action
+ * @param {string | number} [value] - Initial choice.
  */
-export function select(data, title, options, work, value) {
+export function select(data, title, options, action, value) {
   const element = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));
   if (value !== undefined) element.value = String(value);
   element.addEventListener("change", () => {
-    work(element.value);
+    action(element.value);
     if (!element.matches(":focus-visible")) element.blur();
   });
   return element;
 }
 
-/** Options of `select` whose words are their values. @param {string[]} names */
+/** Options of `select` whose labels are their values. @param {string[]} names */
 export function named(names) {
   return names.map((name) => [name, name]);
 }
 
-/** Write a text, where it is another one. @param {Element} element @param {string} text */
+/** Sets the text of an element, if it differs. @param {Element} element @param {string} text */
 export function write(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** An element of a drawing. @param {string} tag @param {Object<string, string | number>} [set] @param {...Node} children */
-export function svg(tag, set = {}, ...children) {
+/** Makes an element of SVG. @param {string} tag @param {Object<string, string | number>} [properties] @param {...Node} children */
+export function svg(tag, properties = {}, ...children) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(set)) element.setAttribute(name, String(value));
+  for (const [name, value] of Object.entries(properties)) element.setAttribute(name, String(value));
   element.append(...children);
   return element;
 }
@@ -87,15 +87,15 @@ const ICONS = {
   full: "M1 1h5v2H3v3H1zM8 1h5v5h-2V3H8zM1 8h2v3h3v2H1zM11 8h2v5H8v-2h3z",
 };
 
-/** @param {keyof typeof ICONS} name */
+/** Makes an icon. @param {keyof typeof ICONS} name */
 export function icon(name) {
   return svg("svg", { viewBox: "0 0 14 14", "aria-hidden": "true" }, svg("path", { d: ICONS[name] }));
 }
 
-/** A number for a person, without digits behind the point, and never -0. @param {number} value */
+/** Text of a number rounded to an integer, never -0. @param {number} value */
 export const whole = (value) => String(Math.round(value));
 
-/** A number for a person: four digits. */
+/** Text of a number with four digits. */
 export function short(value) {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";

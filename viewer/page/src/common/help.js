@@ -1,12 +1,11 @@
-// The list of the keys of a page, shown over it.
+// The list of keys, shown over a page.
 import { el } from "./dom.js";
 import { ROWS } from "./key_table.js";
 import { styled } from "../styles.js";
 import style from "./help.css";
 
-/** A list of the keys. */
 export class Help {
-  /** @param {string[]} acts what the page can do @param {boolean} [drives] whether keys drive a car */
+  /** @param {string[]} acts names of actions of the page @param {boolean} [drives] whether keys drive a car */
   constructor(acts, drives = false) {
     styled(style);
     const rows = ROWS.filter(({ act, codes }) => (codes ? drives : acts.includes(act)));

@@ -1,36 +1,36 @@
-// The one table of the keys of all pages, viewer/keys.json: what a key does, its help, its words on a button.
+// The table of the keys of all pages (viewer/keys.json): actions of keys, and their texts in help and on buttons.
 import rows from "../../../keys.json" with { type: "json" };
 
 /**
- * What a person can do with a key: its name, its keys as in `KeyboardEvent.key` in small letters, or, of what drives,
- * as in `KeyboardEvent.code`, so that they lie at one place on every keyboard.
+ * An action: its name, and its keys as `KeyboardEvent.key` in small letters, or for driving as `KeyboardEvent.code`, which
+ * is a position on any keyboard.
  * @typedef {{act: string, keys?: string[], codes?: string[], shown: string, words: string, where?: string}} Row
  */
 
 /** @type {Row[]} */
 export const ROWS = rows;
 
-/** Keys that drive, by their codes, with `Shift+` where that is held. */
+/** Actions of driving by the code of their key, with the prefix `Shift+` if that is pressed too. */
 export const DRIVING = Object.fromEntries(ROWS.flatMap(({ act, codes = [] }) => codes.map((code) => [code, act])));
 
-/** One line of the keys that drive. */
+/** A line of text on the keys for driving. */
 export const DRIVING_WORDS = ROWS.filter(({ codes }) => codes)
   .map(({ shown, words }) => `${shown}: ${words}`)
   .join(", ");
 
-/** @param {string} act @returns {string} its words with its key, for a button */
+/** Text of an action with its key, for a button. @param {string} act @returns {string} */
 export function hint(act) {
   const { words, shown } = ROWS.find((row) => row.act === act);
   return `${words} (${shown})`;
 }
 
 /**
- * What a key does in a page.
+ * Name of the action of a key; undefined if the page has none.
  * @param {{key: string, code: string}} event
- * @param {Object<string, unknown>} acts what the page can do, by their names
+ * @param {Object<string, unknown>} acts actions of the page by name
  * @returns {string | undefined}
  */
 export function actOf({ key, code }, acts) {
-  const names = [key.toLowerCase(), code.replace(/^Digit/, "")]; // digits also where they need Shift
-  return ROWS.find(({ act, keys }) => act in acts && keys?.some((one) => names.includes(one.toLowerCase())))?.act;
+  const names = [key.toLowerCase(), code.replace(/^Digit/, "")]; // also digits that need Shift
+  return ROWS.find(({ act, keys }) => act in acts && keys?.some((candidate) => names.includes(candidate.toLowerCase())))?.act;
 }

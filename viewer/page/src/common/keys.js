@@ -1,14 +1,14 @@
-// Dispatches keys of a page: first to the focused element, then to driving, then to actions by name.
+// Dispatches key events of a page: to the focused element, else to driving, else to an action.
 import { actOf } from "./key_table.js";
 
-/** Whether the focus came by the keyboard: a box that was clicked leaves the keys to the page. */
-let tabbed = false;
+/** Whether the focus was moved by the keyboard; a clicked check box does not take keys. */
+let focusedByKeyboard = false;
 
 /**
  * Whether an element needs a key itself.
  * @param {Partial<HTMLInputElement>} target
  * @param {string} key - As in `KeyboardEvent.key`.
- * @param {boolean} byKeyboard - Whether the keyboard has brought the focus there.
+ * @param {boolean} byKeyboard - Whether the keyboard has moved the focus to it.
  */
 export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
   if (tagName === "SELECT" || tagName === "TEXTAREA" || isContentEditable) return true;
@@ -19,28 +19,28 @@ export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
 }
 
 /**
- * Listen to the keys of a page until a signal ends it.
+ * Handles the keys of a page until a signal ends it.
  * @param {object} options
- * @param {Object<string, (event: KeyboardEvent) => void>} options.acts - By their names in the table of keys.
- * @param {(event: KeyboardEvent) => boolean} [options.first] - Takes what drives, down and up, whatever has the focus
- *   when a key goes up; says whether it did.
+ * @param {Object<string, (event: KeyboardEvent) => void>} options.acts - Actions by their names in the table of keys.
+ * @param {(event: KeyboardEvent) => boolean} [options.first] - Handles key events of driving, those of release with
+ *   any focus; returns whether it did.
  * @param {AbortSignal} options.signal
  */
 export function keys({ acts, first = () => false, signal }) {
-  const focused = ({ target }) => (tabbed = target.matches?.(":focus-visible") ?? false);
+  const noteFocus = ({ target }) => (focusedByKeyboard = target.matches?.(":focus-visible") ?? false);
   const listener = (/** @type {KeyboardEvent} */ event) => {
     const down = event.type === "keydown";
     const { key, code, ctrlKey, altKey, metaKey, repeat } = event;
-    const own = needed(/** @type {HTMLElement} */ (event.target), key, tabbed);
-    if (down && (own || ctrlKey || altKey || metaKey)) return; // a key that was down is let go in any case
+    const isNeeded = needed(/** @type {HTMLElement} */ (event.target), key, focusedByKeyboard);
+    if (down && (isNeeded || ctrlKey || altKey || metaKey)) return; // releases are handled in any case
     const driven = first(event);
     const act = acts[actOf(event, acts)];
-    if (own || !(driven || act)) return;
+    if (isNeeded || !(driven || act)) return;
     event.preventDefault();
     if (down && !driven && (!repeat || code.startsWith("Arrow"))) act(event);
   };
   const options = { capture: true, signal };
-  window.addEventListener("focusin", focused, options);
+  window.addEventListener("focusin", noteFocus, options);
   window.addEventListener("keydown", listener, options);
   window.addEventListener("keyup", listener, options);
 }

@@ -1,15 +1,15 @@
-// Notices over pictures, the same on all pages: states that hold, events, which fade, and notes, which stay.
+// Notices over pictures of all pages: current states, events, which disappear, and permanent notes.
 import { el } from "./dom.js";
 import { styled } from "../styles.js";
 import style from "./notices.css";
 
-/** Events and notes on the screen, and how long events stay, s. */
-const [EVENTS, NOTES, LASTS] = [4, 4, 7];
+/** Largest numbers of events and notes on the screen, and duration of events, s. */
+const [MAX_EVENTS, MAX_NOTES, DURATION] = [4, 4, 7];
 
 /** A sentence without its numbers. @param {string} text */
 const wordsOf = (text) => text.replace(/[\d.]+/g, "");
 
-/** Sentences over a picture; programs that read pages aloud say them as they come. */
+/** Sentences over a picture; screen readers read new ones aloud. */
 export class Notices {
   /** All notes. @type {string[]} */
   noted = [];
@@ -17,7 +17,7 @@ export class Notices {
   constructor() {
     styled(style);
     this._flags = new Map();
-    this._ends = new WeakMap(); // timers by line
+    this._ends = new WeakMap(); // timers by element
     this._list = el("div.a3-flags", { data: "flags" });
     this._notes = el("div.a3-noted", { data: "notes", role: "log" });
     this._events = el("div.a3-events", { data: "events", role: "log" });
@@ -25,15 +25,15 @@ export class Notices {
   }
 
   /**
-   * A state: it stands there while its text is not empty.
+   * Shows a state while its text is not empty.
    * @param {string} name @param {string} text
-   * @param {{bad?: boolean, choices?: HTMLElement[]}} [how] `choices`: buttons behind the sentence
+   * @param {{bad?: boolean, choices?: HTMLElement[]}} [how] `choices`: buttons after the sentence
    */
   flag(name, text, { bad = false, choices = [] } = {}) {
     let line = this._flags.get(name);
     if ((line?.text ?? "") === text) return;
     if (line === undefined) {
-      // Its numbers may change all the time, which nobody wants to hear: they are no addition.
+      // Changing numbers are no additions, so that screen readers do not read them aloud.
       const box = el("div", { data: `flag ${name}`, role: bad ? "alert" : "status", "aria-relevant": "additions" });
       line = { box, text: "" };
       this._flags.set(name, line);
@@ -47,35 +47,35 @@ export class Notices {
     else line.box.replaceChildren(text, ...choices);
   }
 
-  /** States are over. @param {Iterable<string>} [names] by default all */
+  /** Hides states. @param {Iterable<string>} [names] by default all */
   lower(names = this._flags.keys()) {
     for (const name of names) this.flag(name, "");
   }
 
-  /** Something has happened. @param {string} text */
+  /** Shows an event. @param {string} text */
   tell(text) {
     if (!text) return;
     const last = this._events.lastElementChild;
     const line = last?.textContent === text ? last : el("div", {}, text);
     this._events.append(line);
-    while (this._events.childElementCount > EVENTS) this._events.firstElementChild.remove();
+    while (this._events.childElementCount > MAX_EVENTS) this._events.firstElementChild.remove();
     clearTimeout(this._ends.get(line));
-    this._ends.set(line, setTimeout(() => line.remove(), 1000 * LASTS));
+    this._ends.set(line, setTimeout(() => line.remove(), 1000 * DURATION));
   }
 
-  /** Something that stays as it is; said once. @param {string} text */
+  /** Shows a permanent note once. @param {string} text */
   note(text) {
     if (this.noted.includes(text)) return;
     this.noted.push(text);
-    const more = this.noted.length - NOTES;
+    const more = this.noted.length - MAX_NOTES;
     if (more > 1) this._notes.lastElementChild.remove();
     this._notes.append(el("div", {}, more > 0 ? `${more} more ${more > 1 ? "notes stand" : "note stands"} in the settings.` : text));
   }
 }
 
 /**
- * A sentence in place of what cannot be shown, or not yet.
- * @param {HTMLElement} box takes it @param {string} data name for programs @param {string} sentence empty takes it away
+ * Shows a sentence in place of a picture that is missing or not ready.
+ * @param {HTMLElement} box parent element @param {string} data name for programs @param {string} sentence empty: none
  */
 export function instead(box, data, sentence) {
   styled(style);

@@ -1,4 +1,4 @@
-// Pseudo-random numbers that are the same on every machine.
+// Pseudo-random numbers, the same on every machine.
 
 /** Generator mulberry32 (T. Ettinger). @param {number} seed whole @returns {() => number} the next number, from 0 to below 1 */
 export function randomNumbers(seed) {

@@ -1,24 +1,24 @@
-// Chooses the camera for a key: by its name, the wheels in turn, or the next one.
+// Actions of keys that choose a camera: one by name, the wheels in turn, or the next one.
 
-/** Names by which the table of keys asks for cameras. */
-const ASKED = ["driver", "chase", "wheel", "orbit", "top"];
+/** Names of cameras in the table of keys. */
+const KEY_NAMES = ["driver", "chase", "wheel", "orbit", "top"];
 
 /**
- * Acts of the keys that choose a camera.
- * @param {object} given
- * @param {() => string[]} given.names - That there are.
- * @param {string[]} [given.all] - The same, where they are known already: keys of others then do nothing.
- * @param {() => string} given.now - That is chosen.
- * @param {(name: string) => void} given.choose - Told one of the names, or what was asked for where there is none of it.
+ * Actions of the keys that choose a camera.
+ * @param {object} options
+ * @param {() => string[]} options.names - Names of the cameras.
+ * @param {string[]} [options.all] - The same, if they are known already: other keys then have no action.
+ * @param {() => string} options.now - The current camera.
+ * @param {(name: string) => void} options.choose - Receives a name of a camera, or that of the key if there is none.
  */
 export function cameraActs({ names, all, now, choose }) {
-  const following = (some) => some[(some.indexOf(now()) + 1) % some.length];
-  const named = (asked) => {
-    if (asked === "wheel") return following(names().filter((name) => name.startsWith("wheel"))) ?? asked;
-    return asked === "top" && names().includes("map") ? "map" : asked;
+  const nextOf = (cycle) => cycle[(cycle.indexOf(now()) + 1) % cycle.length];
+  const nameOf = (keyName) => {
+    if (keyName === "wheel") return nextOf(names().filter((name) => name.startsWith("wheel"))) ?? keyName;
+    return keyName === "top" && names().includes("map") ? "map" : keyName;
   };
-  const known = ASKED.filter((asked) => all?.some((name) => name.startsWith(asked)) ?? true);
-  const keyed = known.map((asked) => [`camera ${asked}`, () => choose(named(asked))]);
-  const next = all && all.length < 2 ? {} : { "next camera": () => choose(following(names())) };
+  const known = KEY_NAMES.filter((keyName) => all?.some((name) => name.startsWith(keyName)) ?? true);
+  const keyed = known.map((keyName) => [`camera ${keyName}`, () => choose(nameOf(keyName))]);
+  const next = all && all.length < 2 ? {} : { "next camera": () => choose(nextOf(names())) };
   return { ...next, ...Object.fromEntries(keyed) };
 }

@@ -8,7 +8,7 @@ export class Effects {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
    * @param {{columns: string[], constants: Object<string, number>}} car
-   * @param {(sentence: string) => void} tell - Told what cannot be had.
+   * @param {(sentence: string) => void} tell - Receives problems.
    */
   constructor(view, car, tell) {
     this._tell = tell;
@@ -16,13 +16,13 @@ export class Effects {
     this.sound = new CarSound(car);
   }
 
-  /** Sound may begin: a hand has touched the page. */
+  /** Starts the sound, after a click or key as browsers require. */
   async start() {
     await this.sound.start();
     if (this.sound.problem) this._tell(this.sound.problem);
   }
 
-  /** After the picture has its numbers, before it is drawn. @param {(name: string) => number} lookup @param {number} time - s. @param {number} epoch */
+  /** Updates the effects; called after the view is updated and before it is drawn. @param {(name: string) => number} lookup @param {number} time - s. @param {number} epoch */
   update(lookup, time, epoch) {
     for (const effect of this.drawn) effect.update(lookup, time, epoch);
     this.sound.update(lookup, time);

@@ -1,7 +1,7 @@
-// Particles that fly, slow down, grow and fade, in a buffer of fixed size; pure numbers.
+// Motion of particles that slow down, grow and fade, in a buffer of fixed size.
 import { randomNumbers } from "../common/random.js";
 
-/** What flies up: seconds of life, size at the beginning and at the end in metres, colour, share that is seen, fall in m/s2. */
+/** Kinds of particles: life, s; sizes at begin and end, m; linear colour; opacity; downward acceleration, m/s2. */
 export const KINDS = {
   grass: { life: 0.9, sizes: [0.15, 0.7], colour: [0.16, 0.13, 0.07], seen: 0.55, fall: 5 },
   dust: { life: 2.2, sizes: [0.3, 2.4], colour: [0.42, 0.37, 0.3], seen: 0.42, fall: 0.4 },
@@ -10,9 +10,9 @@ export const KINDS = {
 };
 
 /**
- * Particles that a wheel throws up a second, and of what kind.
+ * Kind of the particles that a wheel throws up, and their number per second.
  * @param {import("./wheels.js").Contact} contact
- * @returns {{kind: string, rate: number}} rate 0: none
+ * @returns {{kind: string, rate: number}}
  */
 export function thrown({ touching, surface, speed, sliding, use, load }) {
   const none = { kind: "dust", rate: 0 };
@@ -25,12 +25,12 @@ export function thrown({ touching, surface, speed, sliding, use, load }) {
   return none;
 }
 
-/** A ring of particles. */
+/** A ring buffer of particles. */
 export class Cloud {
-  /** @param {number} wheels @param {number} most */
+  /** @param {number} wheels number of wheels @param {number} most largest number of particles */
   constructor(wheels, most) {
     this.most = most;
-    /** A particle: earth position, velocity, age; beside it its kind. Age beyond its life: none. */
+    /** Rows of position, velocity and age in earth axes; an age beyond the life means no particle. */
     this.rows = new Float64Array(7 * most).fill(Infinity);
     this.kinds = new Array(most).fill("dust");
     this.next = 0;
@@ -41,7 +41,7 @@ export class Cloud {
     this.draw = randomNumbers(99);
   }
 
-  /** Particles in the air. */
+  /** Number of particles in the air. */
   get count() {
     let sum = 0;
     for (let k = 0; k < this.most; k++) if (this.rows[7 * k + 6] < KINDS[this.kinds[k]].life) sum++;
@@ -49,8 +49,8 @@ export class Cloud {
   }
 
   /**
-   * @param {import("./wheels.js").Contact[]} contacts one a wheel @param {number[]} up
-   * @param {number} time a time that goes back, and another epoch, clear the air
+   * @param {import("./wheels.js").Contact[]} contacts of each wheel @param {number[]} up
+   * @param {number} time an earlier time, or another epoch, removes all particles
    * @param {number} epoch
    */
   update(contacts, up, time, epoch) {
@@ -63,12 +63,12 @@ export class Cloud {
     this.epoch = epoch;
     const step = Math.min(time - this.time, 0.1);
     this.time = time;
-    if (!(step > 0)) return; // paused: it hangs in the air
-    this._fly(step, up);
-    contacts.forEach((contact, k) => this._throw(contact, k, step, up));
+    if (!(step > 0)) return; // paused
+    this._move(step, up);
+    contacts.forEach((contact, k) => this._emit(contact, k, step, up));
   }
 
-  _fly(step, up) {
+  _move(step, up) {
     const { rows } = this;
     for (let k = 0; k < this.most; k++) {
       const i = 7 * k;
@@ -79,15 +79,15 @@ export class Cloud {
         rows[i + 6] = Infinity;
         continue;
       }
-      const slow = Math.exp(-1.6 * step);
+      const decay = Math.exp(-1.6 * step);
       for (let axis = 0; axis < 3; axis++) {
-        rows[i + 3 + axis] = rows[i + 3 + axis] * slow - fall * step * up[axis];
+        rows[i + 3 + axis] = rows[i + 3 + axis] * decay - fall * step * up[axis];
         rows[i + axis] += step * rows[i + 3 + axis];
       }
     }
   }
 
-  _throw(contact, wheel, step, up) {
+  _emit(contact, wheel, step, up) {
     const before = this.last[wheel];
     this.last[wheel] = contact.touching ? [...contact.at] : null;
     const { kind, rate } = thrown(contact);
@@ -98,11 +98,11 @@ export class Cloud {
       const share = this.draw();
       const spread = () => this.draw() - 0.5;
       const slide = kind === "spray" ? 0.45 : 0.22;
-      const lively = 0.6 + 0.05 * contact.speed;
+      const agitation = 0.6 + 0.05 * contact.speed;
       const i = 7 * this.next;
       for (let axis = 0; axis < 3; axis++) {
         this.rows[i + axis] = contact.at[axis] - share * step * travel[axis] + contact.side[axis] * contact.width * spread() + 0.06 * up[axis];
-        this.rows[i + 3 + axis] = slide * travel[axis] + lively * ((0.5 + this.draw()) * up[axis] + 1.2 * spread());
+        this.rows[i + 3 + axis] = slide * travel[axis] + agitation * ((0.5 + this.draw()) * up[axis] + 1.2 * spread());
       }
       this.rows[i + 6] = 0;
       this.kinds[this.next] = kind;

@@ -5,8 +5,8 @@ import { subtract } from "../scene/math.js";
 import { Cloud, KINDS } from "./cloud.js";
 import { Wheels } from "./wheels.js";
 
-/** Particles that are in the air at once. */
-const MOST = 700;
+/** Largest number of particles in the air. */
+const MAX_PARTICLES = 700;
 
 const VERTEX = /* glsl */ `
 attribute vec4 tint;
@@ -35,18 +35,18 @@ void main() {
   #include <fog_fragment>
 }`;
 
-/** What wheels throw up; bounded: the oldest particles go. */
+/** Particles that wheels throw up; new particles replace the oldest. */
 export class Dust {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number, surface?: (x: number, y: number) => string, columns?: string[]}} [options] most: particles in the air
-   *   at once; the others are those of Wheels
+   * @param {{most?: number, surface?: (x: number, y: number) => string, columns?: string[]}} [options] most: largest number of
+   *   particles in the air; the others are those of Wheels
    */
   constructor(view, options = {}) {
     this.view = view;
-    this.most = options.most ?? MOST;
+    this.most = options.most ?? MAX_PARTICLES;
     this.wheels = new Wheels(view.scene, options);
-    /** One sentence where there can be no dust, else empty. */
+    /** Reason why there is no dust; empty if there is. */
     this.problem = this.wheels.problem;
     this.cloud = new Cloud(this.wheels.list.length, this.most);
     if (this.problem || view.problem) return;
@@ -70,13 +70,13 @@ export class Dust {
     view.world.add(this.points);
   }
 
-  /** Particles in the air now. */
+  /** Number of particles in the air. */
   get count() {
     return this.cloud.count;
   }
 
   /**
-   * To be called after the view has been updated to the same numbers.
+   * Updates the particles; called after the view is updated to the same values.
    * @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch
    */
   update(lookup, time, epoch) {

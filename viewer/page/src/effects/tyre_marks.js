@@ -7,32 +7,32 @@ import { subtract } from "../scene/math.js";
 import { Tracks } from "./tracks.js";
 import { Wheels } from "./wheels.js";
 
-/** Sections of a wheel that are kept: 500 m of marks of each. */
-const MOST = 4096;
-/** One of so many sections within a mark is drawn in a draft. */
-const FEW = 4;
-/** Metres that the focus may be from where the marks are counted from. */
-const FAR = 500;
+/** Largest number of sections of a wheel, for 500 m of marks. */
+const MAX_SECTIONS = 4096;
+/** Stride of the sections that are drawn in a draft. */
+const DRAFT_STRIDE = 4;
+/** Largest distance of the focus from the base point of the marks, m. */
+const MAX_DISTANCE = 500;
 
 const RUBBER = /* glsl */ `
 float soft = max(fwidth(vMark.y), 1e-3);
 float rib = 1.0 - 0.3 * smoothstep(0.4, 0.9, 0.5 + 0.5 * cos(vMark.y * 15.7)) * clamp(1.0 - 3.0 * soft, 0.0, 1.0);
 diffuseColor.a *= vMark.x * rib * (1.0 - smoothstep(0.78, 1.0, abs(vMark.y)));`;
 
-/** Dark strips where tyres slide on what is hard; bounded: the oldest go. */
+/** Dark strips on hard ground where tyres slide; new strips replace the oldest. */
 export class TyreMarks {
   _base = null;
   _drawn = "";
 
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number, columns?: string[]}} [options] most: sections of a wheel that are kept; columns: see Wheels
+   * @param {{most?: number, columns?: string[]}} [options] most: largest number of sections of a wheel; columns: see Wheels
    */
   constructor(view, options = {}) {
     this.view = view;
-    this.most = options.most ?? MOST;
+    this.most = options.most ?? MAX_SECTIONS;
     this.wheels = new Wheels(view.scene, options);
-    /** One sentence where there can be no marks, else empty. */
+    /** Reason why there are no marks; empty if there are. */
     this.problem = this.wheels.problem;
     if (this.problem && this.wheels.list.length > 0) view.notes.tell(this.problem);
     this.tracks = new Tracks(this.wheels.list.length, this.most);
@@ -45,41 +45,41 @@ export class TyreMarks {
     this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(6 * count), 1).setUsage(THREE.DynamicDrawUsage));
     this.geometry.setDrawRange(0, 0);
     this.mesh = new THREE.Mesh(this.geometry, material());
-    this.mesh.frustumCulled = false; // it lies about the focus, all in one call
+    this.mesh.frustumCulled = false; // it lies around the focus
     this.mesh.renderOrder = 1;
     view.world.add(this.mesh);
   }
 
-  /** Sections that are drawn now. */
+  /** Number of sections. */
   get count() {
     return this.tracks.count;
   }
 
   /**
-   * To be called after the view has been updated to the same numbers.
+   * Updates the marks; called after the view is updated to the same values.
    * @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch
    */
   update(lookup, time, epoch) {
     this.take(lookup, time, epoch);
     if (this.mesh === undefined) return;
     const { origin } = this.view;
-    if (this._base === null || Math.hypot(...subtract(origin, this._base)) > FAR) {
+    if (this._base === null || Math.hypot(...subtract(origin, this._base)) > MAX_DISTANCE) {
       this._base = [...origin];
       this._drawn = "";
     }
-    const every = this.view.look.quality === "draft" ? FEW : 1;
+    const every = this.view.look.quality === "draft" ? DRAFT_STRIDE : 1;
     const state = `${this.tracks.changes} ${every}`;
     if (this._drawn !== state) this._draw(every);
     this._drawn = state;
     this.mesh.position.fromArray(subtract(this._base, origin));
   }
 
-  /** Take the numbers of an instant that is not drawn. @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch */
+  /** Adds sections of a time that is not drawn. @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch */
   take(lookup, time, epoch) {
     if (!this.problem) this.tracks.update(this.wheels.contacts(lookup), time, epoch);
   }
 
-  /** @param {number} every one of so many sections, beside the ends of marks */
+  /** @param {number} every stride of the sections within a mark */
   _draw(every) {
     const { position, mark } = /** @type {Record<string, THREE.BufferAttribute>} */ (this.geometry.attributes);
     const index = this.geometry.index;
@@ -114,7 +114,7 @@ export class TyreMarks {
   }
 }
 
-/** Rubber: black, see-through, with the ribs of a tread. */
+/** Material of rubber: black, transparent, with the ribs of a tread. */
 const material = () =>
   laid("tyre-marks", MARKS, { color: "#08080a" }, (shader) => {
     atEachPoint(shader, "attribute vec2 mark;\nvarying vec2 vMark;", "vMark = mark;");

@@ -5,7 +5,7 @@ import * as THREE from "three";
 import { GLTFExporter } from "three/addons/exporters/GLTFExporter.js";
 import { largestErrors, thinned } from "./motion.js";
 
-/** What the exporter needs of a browser's. */
+/** The method of FileReader in browsers that the exporter uses. */
 class FileReader {
   readAsArrayBuffer = async (/** @type {Blob} */ blob) => {
     Object.assign(this, { result: await blob.arrayBuffer() });
@@ -13,9 +13,9 @@ class FileReader {
   };
 }
 
-/** Nodes, and the largest errors of their motion. */
+/** A glTF file: nodes, their motion, and the largest errors of it. */
 export class File {
-  /** @param {string} name @param {Float64Array} t s @param {number} rate times a second that are kept */
+  /** @param {string} name @param {Float64Array} t s @param {number} rate retained times per second */
   constructor(name, t, rate) {
     this.t = t;
     this.rate = rate;
@@ -23,11 +23,11 @@ export class File {
     this.scene.name = name;
     this.tracks = [];
     this.names = new Map();
-    /** m, rad */
+    /** Largest errors of position, m, and rotation, rad. */
     this.error = [0, 0];
   }
 
-  /** Adds a node; a second one of a name has a number behind it. @template {THREE.Object3D} T @param {T} object @param {string} name @param {THREE.Object3D} [parent] */
+  /** Adds a node; further nodes of the same name get a number. @template {THREE.Object3D} T @param {T} object @param {string} name @param {THREE.Object3D} [parent] */
   add(object, name, parent = this.scene) {
     const number = (this.names.get(name) ?? 0) + 1;
     this.names.set(name, number);
@@ -36,8 +36,8 @@ export class File {
     return object;
   }
 
-  /** Gives a node its motion; what does not change is written once. @param {THREE.Object3D} node @param {import("./motion.js").Motion} motion @param {number[]} [before] errors of what it hangs on */
-  animate(node, motion, before = [0, 0]) {
+  /** Adds the motion of a node; constant values are written once. @param {THREE.Object3D} node @param {import("./motion.js").Motion} motion @param {number[]} [parentErrors] errors of its parent */
+  animate(node, motion, parentErrors = [0, 0]) {
     const track = thinned(motion, this.t, this.rate);
     for (const [path, values] of Object.entries({ position: track.position, quaternion: track.quaternion, scale: track.scale })) {
       if (values === undefined) continue;
@@ -45,12 +45,12 @@ export class File {
       const size = values.length / track.times.length;
       if (values.some((value, i) => value !== values[i % size])) this._track(node, path, track.times, values);
     }
-    return this.count(largestErrors(motion, track, this.t).map((off, k) => off + before[k]));
+    return this.count(largestErrors(motion, track, this.t).map((errors, k) => errors + parentErrors[k]));
   }
 
-  /** Weights of the targets of a mesh. @param {THREE.Mesh} mesh @param {number[]} kept times @param {number[]} values */
-  bend(mesh, kept, values) {
-    if (kept.length > 1) this._track(mesh, "morphTargetInfluences", kept.map((k) => this.t[k]), values);
+  /** Adds the weights of the morph targets of a mesh. @param {THREE.Mesh} mesh @param {number[]} indices of times @param {number[]} values */
+  bend(mesh, indices, values) {
+    if (indices.length > 1) this._track(mesh, "morphTargetInfluences", indices.map((k) => this.t[k]), values);
     else mesh.morphTargetInfluences = values;
   }
 
@@ -59,32 +59,32 @@ export class File {
     this.tracks.push(new Track(`${node.uuid}.${path}`, times, values));
   }
 
-  /** @param {number[]} off m, rad */
-  count(off) {
-    this.error = this.error.map((most, k) => Math.max(most, off[k]));
-    return off;
+  /** Includes errors in the largest ones. @param {number[]} errors m, rad @returns {number[]} errors */
+  count(errors) {
+    this.error = this.error.map((most, k) => Math.max(most, errors[k]));
+    return errors;
   }
 
-  /** @param {string} path */
+  /** Writes the binary file. @param {string} path */
   async write(path) {
     Object.assign(globalThis, { FileReader });
     const animations = this.tracks.length > 0 ? [new THREE.AnimationClip(this.scene.name, -1, this.tracks)] : [];
-    const glb = await new GLTFExporter().register(once).parseAsync(this.scene, { binary: true, trs: true, animations });
+    const glb = await new GLTFExporter().register(deduplicating).parseAsync(this.scene, { binary: true, trs: true, animations });
     fs.writeFileSync(path, Buffer.from(/** @type {ArrayBuffer} */ (glb)));
   }
 }
 
-/** Equal numbers stand once in a file, and its meshes have names. @param {Data} writer of the exporter */
-function once(writer) {
+/** Plugin that writes equal arrays once, and names of meshes. @param {Data} writer of the exporter */
+function deduplicating(writer) {
   const known = new Map();
-  const written = writer.processAccessor.bind(writer);
+  const process = writer.processAccessor.bind(writer);
   writer.processAccessor = (attribute, geometry, start = 0, count = Infinity) => {
     const { array, itemSize } = attribute;
     const last = Math.min(array.length, (start + count) * itemSize);
     const { buffer, byteOffset, byteLength } = array.subarray(start * itemSize, last);
-    const use = geometry === undefined ? "motion" : attribute === geometry.index ? "index" : "points";
-    const key = [use, array.constructor.name, itemSize, Buffer.from(buffer, byteOffset, byteLength).toString("base64")].join();
-    if (!known.has(key)) known.set(key, written(attribute, geometry, start, count));
+    const purpose = geometry === undefined ? "motion" : attribute === geometry.index ? "index" : "points";
+    const key = [purpose, array.constructor.name, itemSize, Buffer.from(buffer, byteOffset, byteLength).toString("base64")].join();
+    if (!known.has(key)) known.set(key, process(attribute, geometry, start, count));
     return known.get(key);
   };
   return { writeMesh: (mesh, node) => Object.assign(node, { name: mesh.name }) };

@@ -1,4 +1,4 @@
-// Meshes of the page's shapes, one for each frame and material, and the motion of shapes between two frames.
+// Meshes of shapes, one for each frame and material, and the motion of shapes between frames.
 import * as THREE from "three";
 import { mergeGeometries, mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { length, rotate, subtract, transpose } from "../scene/math.js";
@@ -6,20 +6,20 @@ import { plain } from "../shapes/merged_meshes.js";
 import { continuous, leastTwist } from "./motion.js";
 import { row } from "./run.js";
 
-/** Points nearer than this are one, m; what stays so near to a place in a frame, beside the way to it, is fixed there. */
-const [SAME, STILL] = [1e-7, 1e-9];
+/** Distance of points that are merged, m; relative deviation of a point that is fixed in a frame. */
+const [MERGE_DISTANCE, FIXED_DEVIATION] = [1e-7, 1e-9];
 
 /** A mesh, with the frame that it is fixed in or its motion in the earth. @typedef {{mesh: THREE.Mesh, frame?: string, motion?: import("./motion.js").Motion, bent?: number}} Piece */
 
-/** What triangles share stands once; triangles without an area are left out. @param {THREE.BufferGeometry} geometry */
+/** Geometry with equal points merged, without degenerate triangles and unused attributes. @param {THREE.BufferGeometry} geometry */
 export function lean(geometry) {
   for (const name of Object.keys(geometry.attributes)) if (!["position", "normal", "color"].includes(name)) geometry.deleteAttribute(name);
-  const merged = mergeVertices(geometry, SAME);
+  const merged = mergeVertices(geometry, MERGE_DISTANCE);
   const [kept, triangle] = [[], new THREE.Triangle()];
   for (let i = 0; i < merged.index.count; i += 3) {
-    const three = [0, 1, 2].map((k) => merged.index.getX(i + k));
-    triangle.setFromAttributeAndIndices(merged.getAttribute("position"), three[0], three[1], three[2]);
-    if (triangle.getArea() > 0) kept.push(...three);
+    const corners = [0, 1, 2].map((k) => merged.index.getX(i + k));
+    triangle.setFromAttributeAndIndices(merged.getAttribute("position"), corners[0], corners[1], corners[2]);
+    if (triangle.getArea() > 0) kept.push(...corners);
   }
   merged.setIndex(kept);
   const { array = [] } = merged.getAttribute("normal") ?? {};
@@ -27,7 +27,7 @@ export function lean(geometry) {
   return merged;
 }
 
-/** Geometries of a material each as one mesh; none where there is no triangle. @param {Map<THREE.Material, THREE.BufferGeometry>} parts @returns {THREE.Mesh | null} */
+/** One mesh of geometries by material; null without triangles. @param {Map<THREE.Material, THREE.BufferGeometry>} parts @returns {THREE.Mesh | null} */
 export function meshOf(parts) {
   const found = [...parts].map(([material, geometry]) => ({ material, geometry: lean(geometry) })).filter(({ geometry }) => geometry.index.count > 0);
   if (found.length === 0) return null;
@@ -37,7 +37,7 @@ export function meshOf(parts) {
   return new THREE.Mesh(mergeGeometries(geometries, true), materials);
 }
 
-/** @param {THREE.Object3D} object @returns {Data[]} */
+/** Meshes of an object. @param {THREE.Object3D} object @returns {Data[]} */
 function meshesIn(object) {
   const found = [];
   object.updateMatrixWorld(true);
@@ -45,10 +45,10 @@ function meshesIn(object) {
   return found;
 }
 
-/** A picture on a material is left out. @param {Data} material @param {Data} materials */
-const bare = (material, materials) => (material.map ? materials.named(material.name) : material);
+/** A material without texture. @param {Data} material @param {Data} materials */
+const untextured = (material, materials) => (material.map ? materials.named(material.name) : material);
 
-/** What stands in one frame, relative to its first mesh. @param {THREE.Object3D} object @param {string} frame @param {Data} materials @returns {Piece[]} */
+/** Mesh of an object that is fixed in a frame, relative to its first mesh. @param {THREE.Object3D} object @param {string} frame @param {Data} materials @returns {Piece[]} */
 export function fixed(object, frame, materials) {
   const meshes = meshesIn(object);
   const base = new THREE.Vector3().setFromMatrixPosition(meshes[0].matrixWorld);
@@ -56,7 +56,7 @@ export function fixed(object, frame, materials) {
   const parts = new Map();
   for (const material of new Set(meshes.map((mesh) => mesh.material))) {
     const same = meshes.filter((mesh) => mesh.material === material);
-    parts.set(bare(material, materials), mergeGeometries(same.map((mesh) => plain(mesh, place(mesh)))));
+    parts.set(untextured(material, materials), mergeGeometries(same.map((mesh) => plain(mesh, place(mesh)))));
   }
   const mesh = meshOf(parts);
   mesh?.position.copy(base);
@@ -64,7 +64,7 @@ export function fixed(object, frame, materials) {
 }
 
 /**
- * Meshes that `update` places: with their motion, or in the frame in which they stand still.
+ * Meshes that `update` moves: with their motion, or fixed in a frame if they do not move in it.
  * @param {Data} made of `makeShape` @param {import("./run.js").Run} run @param {Data} materials @returns {Piece[]}
  */
 export function moving({ object, update, frames: known }, run, materials) {
@@ -82,15 +82,15 @@ export function moving({ object, update, frames: known }, run, materials) {
     });
   }
   const pieces = meshes.map((whole, n) => {
-    if (first[n] === count) return null; // it has no direction at any time
+    if (first[n] === count) return null; // never visible
     for (const [path, size] of Object.entries(sizes)) for (let k = 0; k < first[n]; k++) tracks[n][path].copyWithin(size * k, size * first[n], size * (first[n] + 1));
     const { round = false, bent = 0 } = whole.userData;
-    const mesh = meshOf(new Map([[bare(whole.material, materials), plain(whole, new THREE.Matrix4())]]));
+    const mesh = meshOf(new Map([[untextured(whole.material, materials), plain(whole, new THREE.Matrix4())]]));
     if (mesh === null) return null;
-    const home = round || whole.quaternion.w !== 1 ? null : homeOf(tracks[n].position, known, run);
-    if (home !== null) {
-      mesh.position.fromArray(home.place);
-      return { mesh, frame: home.frame };
+    const fixture = round || whole.quaternion.w !== 1 ? null : fixtureOf(tracks[n].position, known, run);
+    if (fixture !== null) {
+      mesh.position.fromArray(fixture.place);
+      return { mesh, frame: fixture.frame };
     }
     (round ? leastTwist : continuous)(tracks[n].quaternion);
     return { mesh, motion: /** @type {any} */ (tracks[n]), bent };
@@ -98,17 +98,17 @@ export function moving({ object, update, frames: known }, run, materials) {
   return pieces.filter((piece) => piece !== null);
 }
 
-/** A frame in which a point does not move, and its place there. @param {Float64Array} positions @param {string[]} known @param {import("./run.js").Run} run */
-function homeOf(positions, known, run) {
+/** A frame in which a point does not move, and its position in it; null if there is none. @param {Float64Array} positions @param {string[]} known @param {import("./run.js").Run} run */
+function fixtureOf(positions, known, run) {
   const within = (name, k) => {
     const { position, rotation } = run.pose(name, k);
     return rotate(transpose(rotation), subtract(row(positions, k, 3), position));
   };
   for (const frame of known) {
     const place = within(frame, 0);
-    let still = true;
-    for (let k = 0; k < run.count && still; k++) still = length(subtract(within(frame, k), place)) <= STILL * (1 + length(row(positions, k, 3)));
-    if (still) return { frame, place };
+    let isFixed = true;
+    for (let k = 0; k < run.count && isFixed; k++) isFixed = length(subtract(within(frame, k), place)) <= FIXED_DEVIATION * (1 + length(row(positions, k, 3)));
+    if (isFixed) return { frame, place };
   }
   return null;
 }

@@ -1,15 +1,15 @@
-// The frames of a scene over a run: their poses at all of its times, in double precision.
+// Poses of the frames of a scene at all times of a run, in double precision.
 import { Quaternion, Vector3 } from "three";
 import { Frames } from "../scene/frames.js";
 import { IDENTITY, add, dot, fromQuaternion, scale, toQuaternion, unit } from "../scene/math.js";
 import { continuous } from "./motion.js";
 
-/** @param {Float64Array} values @param {number} k @param {number} size numbers of a row */
+/** Row `k` of an array. @param {Float64Array} values @param {number} k @param {number} size of a row */
 export const row = (values, k, size) => values.subarray(size * k, size * (k + 1));
 
-/** Frames over a run; where a number is missing, a frame stays where it was the time before, or is the first after. */
+/** Frames over a run; missing poses are replaced by the previous one, or at the start by the next one. */
 export class Run {
-  /** @param {{scene: Data, t: Float64Array, epoch: Float64Array, columns: Object<string, Float64Array>}} recorded t: of the file, s */
+  /** @param {{scene: Data, t: Float64Array, epoch: Float64Array, columns: Object<string, Float64Array>}} recorded t: times of the file, s */
   constructor({ scene, t, epoch, columns }) {
     this.scene = scene;
     this.epoch = epoch;
@@ -17,11 +17,11 @@ export class Run {
     this.count = t.length;
     this.frames = new Frames(scene);
     /** @type {Map<string, {position: Float64Array, quaternion: Float64Array, hidden: number}>} quaternion: x, y, z, w */
-    this.ways = new Map(Object.keys(scene.frames).map((name) => [name, this._still()]));
+    this.ways = new Map(Object.keys(scene.frames).map((name) => [name, this._fixedPoses()]));
     const firsts = new Map();
     for (let k = 0; k < this.count; k++) {
       this.frames.update(this.lookup(k));
-      for (const [name, poses] of this.ways) this._take(k, this.frames.pose(name), poses, () => firsts.has(name) || firsts.set(name, k));
+      for (const [name, poses] of this.ways) this._store(k, this.frames.pose(name), poses, () => firsts.has(name) || firsts.set(name, k));
     }
     for (const [name, { position, quaternion }] of this.ways) {
       for (let k = firsts.get(name) ?? 0, i = 0; i < k; i++) {
@@ -30,21 +30,21 @@ export class Run {
       }
       continuous(quaternion);
     }
-    this.ways.set("ground", this._still());
+    this.ways.set("ground", this._fixedPoses());
   }
 
-  _still() {
+  _fixedPoses() {
     const quaternion = new Float64Array(4 * this.count);
     for (let k = 0; k < this.count; k++) quaternion[4 * k + 3] = 1;
     return { position: new Float64Array(3 * this.count), quaternion, hidden: 0 };
   }
 
-  _take(k, { position, rotation, shown }, poses, found) {
+  _store(k, { position, rotation, shown }, poses, noteFirst) {
     if (shown) {
       const [w, x, y, z] = toQuaternion(rotation);
       poses.position.set(position, 3 * k);
       poses.quaternion.set([x, y, z, w], 4 * k);
-      found();
+      noteFirst();
       return;
     }
     poses.hidden++;
@@ -53,7 +53,7 @@ export class Run {
     poses.quaternion.copyWithin(4 * k, 4 * k - 4, 4 * k);
   }
 
-  /** Numbers of a time by column. @param {number} k @returns {(name: string) => number | undefined} */
+  /** Values of columns at a time. @param {number} k @returns {(name: string) => number | undefined} */
   lookup(k) {
     return (name) => this.columns[name]?.[k];
   }
@@ -65,7 +65,7 @@ export class Run {
     return { position: [...row(position, k, 3)], rotation: fromQuaternion([w, x, y, z]) ?? IDENTITY, shown: true, why: "" };
   }
 
-  /** Puts frames where they are at a time. @param {number} k @param {Iterable<string>} [names] */
+  /** Sets frames to their poses at a time. @param {number} k @param {Iterable<string>} [names] */
   move(k, names = this.ways.keys()) {
     for (const name of names) this.frames.poses.set(name, this.pose(name, k));
   }
@@ -75,7 +75,7 @@ export class Run {
     const { parent, at = [0, 0, 0], axis, angle, direction, way } = this.scene.frames[name] ?? {};
     const { position, quaternion } = this.ways.get(name);
     if (parent === undefined) return { position: position.slice(), quaternion };
-    const poses = this._still();
+    const poses = this._fixedPoses();
     const values = filled(this.columns[way ?? angle]);
     const about = angle === undefined ? null : new Vector3(...unit(axis));
     for (let k = 0; k < this.count; k++) {
@@ -85,7 +85,7 @@ export class Run {
     return about === null ? poses : { ...poses, turn: { axis: about, angle: values } };
   }
 
-  /** How far the frames go along a direction, m. @param {number[]} direction @returns {[number, number]} */
+  /** Range of the frames along a direction, m. @param {number[]} direction @returns {[number, number]} */
   extentAlong(direction) {
     let [low, high] = [Infinity, -Infinity];
     for (const [name, { position }] of this.ways) {
@@ -99,7 +99,7 @@ export class Run {
   }
 }
 
-/** Values with those that are not numbers as the one before, or the first after. @param {Float64Array} values */
+/** Values with missing ones replaced by the previous, or at the start by the next. @param {Float64Array} values */
 function filled(values) {
   let last = values.find(Number.isFinite) ?? 0;
   return values.map((value) => (last = Number.isFinite(value) ? value : last));

@@ -2,14 +2,14 @@
 import { el, whole, write } from "../common/dom.js";
 import { Gauge } from "./gauges.js";
 
-/** Outputs of the speed of what drives, the first that there is. */
-const TURNS = ["engine_speed", "motor_speed"];
+/** Outputs of the speed of the engine or motor; the first existing one is shown. */
+const SPEEDS = ["engine_speed", "motor_speed"];
 const RPM = 30 / Math.PI;
-/** Revolutions at the end of the bar before more was seen, rpm; and the share from which on it is red. */
-const [REVOLUTIONS, RED] = [6000, 0.92];
+/** Initial end of the bar of the engine speed, rpm, and share from which it is red. */
+const [INITIAL_RPM, RED_SHARE] = [6000, 0.92];
 const BARS = { brake: "#ff5a4d", throttle: "#59d07a", hand_brake: "#ffb03b" };
 
-/** Instruments of a car; what an FMU has no output for is left out. */
+/** Instruments of a car, as far as the FMU has outputs for them. */
 export class Cluster {
   /** @param {Set<string>} names - Columns of the FMU. */
   constructor(names) {
@@ -17,9 +17,9 @@ export class Cluster {
     this._names = names;
     this._speed = el("b", { data: "speed" });
     this._gear = el("span.a3-gear", { data: "gear" });
-    this._turns = TURNS.find((name) => names.has(name));
+    this._turns = SPEEDS.find((name) => names.has(name));
     this._revolutions = new Gauge({ data: "revolutions", colour: "#7fc4ff" });
-    this._most = REVOLUTIONS;
+    this._most = INITIAL_RPM;
     this._pedals = Object.entries(BARS)
       .map(([name, colour]) => ({ column: used(name), gauge: new Gauge({ data: `pedal ${name}`, label: name.replace("_", " "), way: "up", colour }) }))
       .filter(({ column }) => column);
@@ -42,7 +42,7 @@ export class Cluster {
     if (this._turns) {
       const turns = RPM * Math.abs(lookup(this._turns));
       if (turns > this._most) this._most = 1000 * Math.ceil(turns / 1000);
-      this._revolutions.show(turns / this._most, turns > RED * this._most ? "#ff5a4d" : undefined);
+      this._revolutions.show(turns / this._most, turns > RED_SHARE * this._most ? "#ff5a4d" : undefined);
       this._revolutions.words(`${turns.toFixed(0)} rpm`);
     }
     if (this._used) {
@@ -56,7 +56,7 @@ export class Cluster {
 }
 
 /**
- * The gear in a word: R, N, or its number.
+ * Text of the gear: R, N, or its number.
  * @param {(name: string) => number} lookup
  * @param {{selector?: string, gear?: string}} columns - Those that the FMU has.
  */

@@ -1,13 +1,13 @@
-// Bars of the head-up display: pedals, steering, revolutions, time of a step.
+// Bars of the instruments: pedals, steering, engine speed, computing time of a step.
 import { el, write } from "../common/dom.js";
 
-/** A bar from 0 to 1, across or upright, or from -1 to 1 from its middle. */
+/** A horizontal or vertical bar from 0 to 1, or a bar from -1 to 1 about its middle. */
 export class Gauge {
   /**
    * @param {object} options
    * @param {string} options.data - Name for programs.
    * @param {string} [options.label]
-   * @param {"across" | "up" | "middle"} [options.way] - middle: -1 at the right, +1 at the left, as steering is.
+   * @param {"across" | "up" | "middle"} [options.way] - middle: -1 at the right, +1 at the left, as for steering.
    * @param {string} [options.colour]
    */
   constructor({ data, label = "", way = "across", colour = "#e8eef4" }) {
@@ -20,7 +20,7 @@ export class Gauge {
     this.show(0);
   }
 
-  /** @param {number} value @param {string} [colour] */
+  /** Shows a value, limited to the range of the bar. @param {number} value @param {string} [colour] */
   show(value, colour = this._colour) {
     const low = this._way === "middle" ? -1 : 0;
     const x = Math.max(low, Math.min(1, Number.isFinite(value) ? value : 0));
@@ -31,7 +31,7 @@ export class Gauge {
     if (style.background !== colour) style.background = colour;
   }
 
-  /** The words in the bar. @param {string} text */
+  /** Sets the text in the bar. @param {string} text */
   words(text) {
     write(this._label, text);
   }

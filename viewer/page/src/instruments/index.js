@@ -1,4 +1,4 @@
-// The instruments of a car, the same on every page: speed, gear, pedals, the four tyres, a map.
+// The instruments of a car on all pages: speed, gear, pedals, the four tyres, a map.
 import { el } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Cluster } from "./cluster.js";
@@ -8,16 +8,16 @@ import { frictionOf } from "./surfaces.js";
 import { Tyres, wheelsOf } from "./tyres.js";
 
 /** Least time between two drawings of the small map, s. */
-const MAP_EVERY = 0.1;
+const MAP_INTERVAL = 0.1;
 
-/** The instruments over the picture of a car; those without a number to show are left out. */
+/** The instruments over the picture of a car, as far as there are signals for them. */
 export class Instruments {
   /**
-   * @param {Set<string>} names - Of the numbers that there are.
-   * @param {object} given
-   * @param {Data} given.scene - With roads and scenery.
-   * @param {Data} [given.world] - Name, places and bounds.
-   * @param {(name: string) => unknown} [given.fixed] - Constants and parameters; undefined: not known.
+   * @param {Set<string>} names - Of the signals.
+   * @param {object} options
+   * @param {Data} options.scene - With roads and scenery.
+   * @param {Data} [options.world] - Name, places and bounds.
+   * @param {(name: string) => unknown} [options.fixed] - Values of constants and parameters; undefined: not known.
    */
   constructor(names, { scene, world, fixed = () => undefined }) {
     styled(style);
@@ -28,43 +28,43 @@ export class Instruments {
     const { position, quaternion } = scene.frames?.[scene.focus] ?? {};
     this._place = position ?? ["chassis.x", "chassis.y"];
     this._quaternion = quaternion;
-    this._mapped = -Infinity; // when the small map was drawn, s
-    this._off = false;
+    this._mapTime = -Infinity; // time of the last drawing of the small map, s
+    this._hidden = false;
   }
 
-  /** Whether numbers are those of a car. @param {Set<string>} names */
+  /** Whether signals are those of a car. @param {Set<string>} names */
   static of(names) {
     return names.has("speed") && wheelsOf(names).length > 0;
   }
 
-  /** All of them in a layer over a picture. @returns {HTMLElement} */
+  /** Layer with all instruments for a picture. @returns {HTMLElement} */
   layer() {
     const { pictures, scenery } = this.plan;
-    const map = pictures.length + scenery.length > 0 ? [this.inset.element] : []; // of a bare road there is nothing to see
+    const map = pictures.length + scenery.length > 0 ? [this.inset.element] : []; // a map of a plain road would be empty
     return el("div.a3-instruments", { data: "instruments" }, ...map, this.tyres.element, this.cluster.element);
   }
 
-  /** Place and heading of the car on a map, m and rad. @param {(name: string) => number} lookup */
+  /** Position, m, and heading, rad, of the car on a map. @param {(name: string) => number} lookup */
   car(lookup) {
     const [x, y] = this._place.slice(0, 2).map(lookup);
     return { x, y, yaw: this._heading(lookup) };
   }
 
-  /** @param {(name: string) => number} lookup @param {{x: number, y: number, yaw: number}} [car] its place, where it is known already */
+  /** @param {(name: string) => number} lookup @param {{x: number, y: number, yaw: number}} [car] its position, if already known */
   show(lookup, car = this.car(lookup)) {
     this.cluster.show(lookup);
     this.tyres.show(lookup);
     this.plan.trail.add(car.x, car.y);
     const now = performance.now() / 1000;
-    if (now - this._mapped < MAP_EVERY || this.inset.element.hidden) return;
-    this._mapped = now;
+    if (now - this._mapTime < MAP_INTERVAL || this.inset.element.hidden) return;
+    this._mapTime = now;
     this.inset.show(car);
   }
 
-  /** Show or hide them. */
+  /** Shows or hides the instruments. */
   toggle() {
-    this._off = !this._off;
-    for (const { element } of [this.cluster, this.tyres, this.inset]) element.style.visibility = this._off ? "hidden" : "";
+    this._hidden = !this._hidden;
+    for (const { element } of [this.cluster, this.tyres, this.inset]) element.style.visibility = this._hidden ? "hidden" : "";
   }
 
   _heading(lookup) {

@@ -3,23 +3,23 @@ import { el } from "../common/dom.js";
 import { besides } from "../common/labels.js";
 import { Surfaces } from "./surfaces.js";
 
-/** Metres between points of the trail, and how many are kept. */
-const [APART, KEPT] = [1.5, 4000];
-/** Metres from the car to the border of the small map. */
-const AROUND = 110;
-/** Pixels around a place that count as it. */
-const NEAR = 18;
-/** How far beyond each side of a map its ground is drawn ahead, as a share of that side. */
-const AHEAD = 0.5;
-/** Height of a line of words, pixels. */
-const WORDS = 14;
+/** Distance of points of the trail, m, and their largest number. */
+const [SPACING, MAX_POINTS] = [1.5, 4000];
+/** Distance of the car from the border of the small map, m. */
+const MAP_DISTANCE = 110;
+/** Radius of the clickable area of a place, pixels. */
+const CLICK_RADIUS = 18;
+/** Margin of the drawn ground beyond each side of a map, as a share of that side. */
+const MARGIN = 0.5;
+/** Height of a line of text, pixels. */
+const LINE_HEIGHT = 14;
 const BACKGROUND = "#3d4a36";
 const PAINTS = { white: "#f2f2ee", yellow: "#f0c84a", red: "#d8503f", blue: "#4a7fd8" };
 
-/** The places of the car, thinned; a break where it was put somewhere else. */
+/** The thinned path of the car, interrupted where it was moved to another position. */
 export class Trail {
   constructor() {
-    this.points = []; // [x, y], or null for a break
+    this.points = []; // [x, y], or null for an interruption
     /** @type {{time: number, epoch: number} | undefined} */
     this.now = undefined;
   }
@@ -27,13 +27,13 @@ export class Trail {
   /** @param {number} x @param {number} y */
   add(x, y) {
     const last = this.points[this.points.length - 1];
-    if (!Number.isFinite(x + y) || (last && Math.hypot(x - last[0], y - last[1]) < APART)) return;
+    if (!Number.isFinite(x + y) || (last && Math.hypot(x - last[0], y - last[1]) < SPACING)) return;
     this.points.push([x, y]);
-    if (this.points.length > KEPT) this.points.splice(0, KEPT / 10);
+    if (this.points.length > MAX_POINTS) this.points.splice(0, MAX_POINTS / 10);
   }
 
   /**
-   * What follows is of this time: it does not hang on what was if that is later, of another epoch, or long ago.
+   * Sets the time of the next point; the trail is interrupted if time goes back, jumps, or the epoch changes.
    * @param {number} time - s. @param {number} epoch @param {number} longest - s.
    */
   at(time, epoch, longest) {
@@ -42,13 +42,13 @@ export class Trail {
     this.now = { time, epoch };
   }
 
-  /** What follows does not hang on what was. */
+  /** Interrupts the trail. */
   lift() {
     if (this.points.length && this.points[this.points.length - 1]) this.points.push(null);
   }
 }
 
-/** What all maps of a world show. */
+/** The content of all maps of a world. */
 export class WorldPlan {
   /** @param {Data} scene - With roads and scenery. @param {{name?: string, places?: Data[], bounds?: number[]}} world */
   constructor(scene, world = {}) {
@@ -62,21 +62,21 @@ export class WorldPlan {
     this.trail = new Trail();
   }
 
-  /** Whether a place is in the world; without bounds it has no end. @param {{x: number, y: number}} car */
+  /** Whether a position is in the bounds of the world, if it has any. @param {{x: number, y: number}} car */
   holds({ x, y }) {
     if (!this._bounded || !Number.isFinite(x + y)) return true;
     const [x0, y0, x1, y1] = this.bounds;
     return x >= x0 && x <= x1 && y >= y0 && y <= y1;
   }
 
-  /** What does not change. @param {CanvasRenderingContext2D} context - Whose units are metres, x to the right, y up. @param {number} pixel - m. */
+  /** Draws the constant part. @param {CanvasRenderingContext2D} context - In metres, x to the right, y up. @param {number} pixel - m. */
   drawGround(context, pixel) {
     const [x0, y0, x1, y1] = this.bounds;
     for (const { image, box } of this.pictures) {
       context.save();
       if (this._bounded) {
         context.beginPath();
-        context.rect(x0, y0, x1 - x0, y1 - y0); // not the halves of cells beyond the outer points
+        context.rect(x0, y0, x1 - x0, y1 - y0); // without the outer halves of border cells
         context.clip();
       }
       context.translate(box[0], box[3]);
@@ -96,14 +96,14 @@ export class WorldPlan {
     context.strokeRect(x0, y0, x1 - x0, y1 - y0);
   }
 
-  /** Where the car has been. @param {CanvasRenderingContext2D} context - As for the ground. @param {number} pixel - m. */
+  /** Draws the path of the car. @param {CanvasRenderingContext2D} context - As for the ground. @param {number} pixel - m. */
   drawTrail(context, pixel) {
-    let part = [];
+    let stretch = [];
     for (const point of [...this.trail.points, null]) {
-      if (point) part.push(point);
+      if (point) stretch.push(point);
       else {
-        stroke(context, part, "#ffd23f", 2 * pixel);
-        part = [];
+        stroke(context, stretch, "#ffd23f", 2 * pixel);
+        stretch = [];
       }
     }
   }
@@ -140,37 +140,37 @@ function drawThing(context, { kind, at, points, width, colour, dash, height = 1,
   }
 }
 
-/** The ground of a map and somewhat around it, drawn once for as many pictures as it serves. */
+/** The ground of a map with a margin, redrawn only if the map moves beyond it. */
 class Ground {
   /** @param {WorldPlan} plan */
   constructor(plan) {
     this.plan = plan;
     this.canvas = el("canvas");
-    /** Pixels a metre and the place in the middle of what is drawn; 0: nothing yet. */
+    /** Pixels per metre and centre of the drawn ground; 0: not drawn yet. */
     this.scale = this.x = this.y = 0;
   }
 
   /**
    * @param {CanvasRenderingContext2D} context - Of the map, in its pixels.
-   * @param {{scale: number, x: number, y: number, pixel: number}} view - Pixels a metre, the place in the middle, and
-   *   the metres of a line's least width.
-   * @param {boolean} moves - The place in the middle goes along with the car.
+   * @param {{scale: number, x: number, y: number, pixel: number}} view - Pixels per metre, centre, and
+   *   least width of lines, m.
+   * @param {boolean} moves - Whether the centre follows the car.
    */
   draw(context, view, moves) {
     const { width, height } = context.canvas;
-    const [aside, along] = [width, height].map((side) => (moves ? Math.round(AHEAD * side) : 0));
+    const [marginX, marginY] = [width, height].map((side) => (moves ? Math.round(MARGIN * side) : 0));
     const shift = () => [this.scale * (this.x - view.x), this.scale * (view.y - this.y)].map(Math.round);
-    const fits = this.scale === view.scale && this.canvas.width === width + 2 * aside && this.canvas.height === height + 2 * along;
-    if (!fits || shift().some((pixels, k) => Math.abs(pixels) > [aside, along][k])) this._make(view, width + 2 * aside, height + 2 * along);
+    const fits = this.scale === view.scale && this.canvas.width === width + 2 * marginX && this.canvas.height === height + 2 * marginY;
+    if (!fits || shift().some((pixels, k) => Math.abs(pixels) > [marginX, marginY][k])) this._redraw(view, width + 2 * marginX, height + 2 * marginY);
     const [right, down] = shift();
-    context.drawImage(this.canvas, right - aside, down - along);
+    context.drawImage(this.canvas, right - marginX, down - marginY);
   }
 
-  _make({ scale, x, y, pixel }, w, h) {
+  _redraw({ scale, x, y, pixel }, w, h) {
     this.scale = scale;
     this.x = x;
     this.y = y;
-    Object.assign(this.canvas, { width: w, height: h }); // empties it
+    Object.assign(this.canvas, { width: w, height: h }); // clears the canvas
     const context = this.canvas.getContext("2d");
     context.fillStyle = BACKGROUND;
     context.fillRect(0, 0, w, h);
@@ -179,15 +179,15 @@ class Ground {
   }
 }
 
-/** A map in an element: of the whole world, or of what is around the car. */
+/** A map of the whole world or of the surroundings of the car. */
 export class WorldMap {
   /**
    * @param {WorldPlan} plan
    * @param {object} [options]
    * @param {boolean} [options.whole] - Of the whole world.
-   * @param {(place: Data) => void} [options.go] - A place was clicked at.
-   * @param {() => number[]} [options.free] - Left, top, right and bottom of what nothing stands before, pixels of the
-   *   element; by default all of it. The world is put there.
+   * @param {(place: Data) => void} [options.go] - Called with a clicked place.
+   * @param {() => number[]} [options.free] - Left, top, right and bottom of the free area for the world, pixels of the
+   *   element; by default all of it.
    */
   constructor(plan, { whole = false, go, free } = {}) {
     this.plan = plan;
@@ -216,11 +216,11 @@ export class WorldMap {
     context.setTransform(ratio * scale, 0, 0, -ratio * scale, w / 2 - ratio * scale * x, h / 2 + ratio * scale * y);
     this.plan.drawTrail(context, 1 / scale);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this._words(context, width, height);
+    this._drawNames(context, width, height);
     this._drawCar(context, this.pixel([car.x, car.y]), car.yaw);
   }
 
-  /** Where a place of the earth is, pixels of the element. @param {number[]} point */
+  /** Position of a point of the earth in the element, pixels. @param {number[]} point */
   pixel([px, py]) {
     const { clientWidth: width, clientHeight: height } = this.element;
     const { scale, x, y } = this._view(width, height);
@@ -229,7 +229,7 @@ export class WorldMap {
 
   _view(width, height) {
     const car = this._car ?? { x: 0, y: 0 };
-    if (!this._whole) return { scale: (this.zoom * Math.min(width, height)) / (2 * AROUND), x: car.x, y: car.y };
+    if (!this._whole) return { scale: (this.zoom * Math.min(width, height)) / (2 * MAP_DISTANCE), x: car.x, y: car.y };
     const [x0, y0, x1, y1] = this.plan.bounds;
     const [left, top, right, bottom] = this._free?.() ?? [0, 0, width, height];
     const scale = this.zoom * 0.95 * Math.min((right - left) / Math.max(1, x1 - x0), (bottom - top) / Math.max(1, y1 - y0));
@@ -237,15 +237,15 @@ export class WorldMap {
     return { scale, x: middle.x - (left + right - width) / 2 / scale, y: middle.y + (top + bottom - height) / 2 / scale };
   }
 
-  _words(context, width, height) {
+  _drawNames(context, width, height) {
     if (!this._whole) return;
     context.font = "12px system-ui, sans-serif";
     context.textBaseline = "middle";
-    const seen = this.plan.places
+    const labels = this.plan.places
       .map((place) => ({ words: place.name.replaceAll("_", " "), at: this.pixel([place.x, place.y]) }))
       .filter(({ at: [x, y] }) => x >= 0 && y >= 0 && x <= width && y <= height);
-    const spots = besides(seen.map(({ words, at }) => ({ at, size: [context.measureText(words).width, WORDS] })), [width, height]);
-    for (const [k, { words, at }] of seen.entries()) {
+    const spots = besides(labels.map(({ words, at }) => ({ at, size: [context.measureText(words).width, LINE_HEIGHT] })), [width, height]);
+    for (const [k, { words, at }] of labels.entries()) {
       const [[x, y], { left, top }] = [at, spots[k]];
       context.fillStyle = "#ffffff";
       context.beginPath();
@@ -253,8 +253,8 @@ export class WorldMap {
       context.fill();
       context.strokeStyle = "#10161c";
       context.lineWidth = 3;
-      context.strokeText(words, left, top + WORDS / 2);
-      context.fillText(words, left, top + WORDS / 2);
+      context.strokeText(words, left, top + LINE_HEIGHT / 2);
+      context.fillText(words, left, top + LINE_HEIGHT / 2);
     }
   }
 
@@ -286,7 +286,7 @@ export class WorldMap {
   _click(event, go) {
     const place = this.plan.places.find(({ x, y }) => {
       const [px, py] = this.pixel([x, y]);
-      return Math.hypot(px - event.offsetX, py - event.offsetY) < NEAR;
+      return Math.hypot(px - event.offsetX, py - event.offsetY) < CLICK_RADIUS;
     });
     if (place) go(place);
   }

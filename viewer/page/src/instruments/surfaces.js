@@ -1,4 +1,4 @@
-// The surface of a world at a point, and its colour on the map.
+// Surfaces of a world: friction at a point, and pictures for the map.
 import { el } from "../common/dom.js";
 import { floats } from "../scene/data.js";
 import { SurfaceRaster, gripOf, nearest, slickness } from "../looks/heights.js";
@@ -8,18 +8,18 @@ const COLOURS = {
   asphalt: [92, 96, 102], concrete: [150, 150, 146], grass: [86, 112, 66], gravel: [140, 124, 98],
   dirt: [120, 98, 74], wet: [58, 84, 116], ice: [176, 208, 226], paint: [214, 214, 210],
 }; // prettier-ignore
-const OTHER = [128, 118, 128];
-/** Friction of a road that tells none, under a car without that parameter. */
-const FRICTION = 1.0;
+const OTHER_COLOUR = [128, 118, 128];
+/** Friction of a road without a value, for a car without that parameter. */
+const DEFAULT_FRICTION = 1.0;
 
-/** The surfaces of the roads of a scene, as they lie in it. */
+/** The surfaces of the roads of a scene. */
 export class Surfaces {
   /** @param {Data[]} roads - Of a scene. */
   constructor(roads = []) {
     this.grids = roads.map(gridOf).filter(Boolean);
   }
 
-  /** Coefficient of friction at a place; NaN where the roads tell none. @param {number} x @param {number} y */
+  /** Coefficient of friction at a point; NaN if the roads have none. @param {number} x @param {number} y */
   friction(x, y) {
     const { grid, frictions } = this.grids.find((one) => one.frictions) ?? {};
     return frictions && Number.isFinite(x + y) ? frictions(nearest(grid, x, y)) : NaN;
@@ -27,33 +27,32 @@ export class Surfaces {
 
   /**
    * Pictures of the ground from above: x to the right, y up.
-   * @returns {{image: HTMLCanvasElement, box: number[]}[]} With the box of the earth that each fills: x0, y0, x1, y1.
+   * @returns {{image: HTMLCanvasElement, box: number[]}[]} With the covered rectangle: x0, y0, x1, y1, m.
    */
   pictures() {
-    return this.grids.map(({ grid, colour }) => ({ image: painted(grid, colour), box: boxOf(grid) }));
+    return this.grids.map(({ grid, colour }) => ({ image: imageOf(grid, colour), box: boxOf(grid) }));
   }
 }
 
 /**
- * Largest longitudinal force of a wheel's tyre over its load on the road at a place of the earth; NaN where the car tells
- * none.
+ * Largest longitudinal force of a tyre over its load on the road at a point; NaN if the car has no value.
  * @param {Surfaces} surfaces @param {(name: string) => unknown} fixed constants and parameters of the car
- * @param {number[]} at x and y @param {string} wheel its name, which ends as in wheel_FL
+ * @param {number[]} at x and y @param {string} wheel name that ends as in wheel_FL
  */
 export function frictionOf(surfaces, fixed, [x, y], wheel) {
   const axle = wheel.at(-2) === "R" ? "rear" : "front";
   const number = (/** @type {string} */ name, /** @type {number} */ other) => Number(fixed(name) ?? other);
-  const there = surfaces.friction(x, y);
-  const road = Number.isFinite(there) ? there : number("road.friction", FRICTION);
+  const local = surfaces.friction(x, y);
+  const road = Number.isFinite(local) ? local : number("road.friction", DEFAULT_FRICTION);
   return road * number("road.friction_factor", 1) * number(`vehicle.tyre_friction_${axle}`, NaN) * number(`${axle}.tyre.grip`, 1);
 }
 
 function gridOf(road) {
   if (road.kind === "terrain" && road.surface) {
     const { names, classes, ...grid } = new SurfaceRaster(road.surface);
-    const colours = names.map((name) => COLOURS[name] ?? OTHER);
+    const colours = names.map((name) => COLOURS[name] ?? OTHER_COLOUR);
     const frictions = (index) => road.surface.frictions[classes[index]];
-    return { grid, frictions, colour: (index) => colours[classes[index]] ?? OTHER };
+    return { grid, frictions, colour: (index) => colours[classes[index]] ?? OTHER_COLOUR };
   }
   if (road.kind !== "grid") return null;
   const heights = floats(road.heights);
@@ -74,12 +73,12 @@ function boxOf({ origin, spacing, shape }) {
   return [origin[0] - half[0], origin[1] - half[1], origin[0] + (shape[0] - 1) * spacing[0] + half[0], origin[1] + (shape[1] - 1) * spacing[1] + half[1]];
 }
 
-/** Pixels of the longer side of a picture of the ground, at most. */
-const MOST = 1400;
+/** Largest number of pixels of a side of a picture of the ground. */
+const MAX_PIXELS = 1400;
 
-function painted(grid, colour) {
+function imageOf(grid, colour) {
   const [n, m] = grid.shape;
-  const every = Math.max(1, Math.ceil(Math.max(n, m) / MOST));
+  const every = Math.max(1, Math.ceil(Math.max(n, m) / MAX_PIXELS));
   const image = el("canvas");
   [image.width, image.height] = [Math.ceil(n / every), Math.ceil(m / every)];
   const context = image.getContext("2d");

@@ -1,13 +1,14 @@
-// Time of a run and its real-time factor; a key shows the cost of steps and the frame rate.
+// Shows time and real-time factor of a run and, on a key, computing time of steps and frame rate.
 import { el, write } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Gauge } from "./gauges.js";
 import { realTimeText } from "./real_time_factor.js";
 import style from "./style.css";
 
-const micro = (seconds) => (seconds < 9.995e-4 ? `${(1e6 * seconds).toFixed(0)} µs` : `${(1e3 * seconds).toFixed(seconds < 0.01 ? 2 : 0)} ms`);
+/** Text of a duration. */
+const durationText = (seconds) => (seconds < 9.995e-4 ? `${(1e6 * seconds).toFixed(0)} µs` : `${(1e3 * seconds).toFixed(seconds < 0.01 ? 2 : 0)} ms`);
 
-/** Figures of time. */
+/** Display of times. */
 export class Timing {
   /** @param {string} [title] of the run */
   constructor(title = "") {
@@ -23,16 +24,16 @@ export class Timing {
     this.element = el("div.a3-timing", { data: "timing" }, el("b", {}, title), this._time, this._pace, this._costs);
   }
 
-  /** Show or hide what steps cost. */
+  /** Shows or hides the computing times. */
   toggle() {
     this._costs.hidden = !this._costs.hidden;
   }
 
   /**
    * @param {number} time s
-   * @param {Data | null} pace as `realTimeText` has it, with `cost` and `deadline` of a step, s; of a simulator also `worst`,
-   *   `missed`, `lateness` and the `flow` of pictures; null: of a recording
-   * @returns {string} a warning where the machine does not keep up
+   * @param {Data | null} pace as for `realTimeText`, with `cost` and `deadline` of a step, s; of a simulator also `worst`,
+   *   `missed`, `lateness` and the `flow` of pictures; null for a recording
+   * @returns {string} a warning if the machine is too slow
    */
   show(time, pace) {
     write(this._time, `${time.toFixed(2)} s`);
@@ -47,10 +48,10 @@ export class Timing {
   _show({ cost, deadline, worst = 0, missed, lateness, flow }) {
     const [share, most] = deadline > 0 ? [cost / deadline, worst / deadline] : [0, 0];
     this._bar.show(share, share > 1 ? "#ff5a4d" : share > 0.5 ? "#ffb03b" : undefined);
-    this._bar.words(`step ${micro(cost)} of ${micro(deadline)}`);
+    this._bar.words(`step ${durationText(cost)} of ${durationText(deadline)}`);
     this._worst.style.left = `${(100 * Math.min(1, most)).toFixed(1)}%`;
     if (flow === undefined) return;
-    write(this._missed, `worst ${micro(worst)} · missed ${missed} · late ${micro(Math.max(0, lateness))}`);
+    write(this._missed, `worst ${durationText(worst)} · missed ${missed} · late ${durationText(Math.max(0, lateness))}`);
     this._missed.classList.toggle("a3-bad", most > 1);
     const { drawn, size, longest, received, delay, stalled } = flow;
     const wait = stalled ? ` · no frame for ${stalled.toFixed(1)} s` : ` · ${(1e3 * delay).toFixed(0)} ms behind`;

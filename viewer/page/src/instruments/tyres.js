@@ -1,16 +1,15 @@
-// The four tyres from above: load as the size of a circle, forces in the plane as an arrow, use of friction as colour.
+// Diagram of the four tyres from above: load as a circle, horizontal force as an arrow, use of friction as colour.
 import { svg, whole, write } from "../common/dom.js";
 
-/** Half the side of the drawing, and radius of a circle at the mean load of a wheel at rest, in its units. */
-const [HALF, RADIUS] = [50, 13];
-/** Places by the last letters of a wheel's name; ahead is up. */
+/** Half the side of the drawing, and radius of the circle of the mean load, in units of the drawing. */
+const [HALF_SIDE, MEAN_LOAD_RADIUS] = [50, 13];
+/** Positions by the last letters of the name of a wheel; forward is up. */
 const PLACES = { FL: [-26, -29], FR: [26, -29], RL: [-26, 19], RR: [26, 19] };
-/** From no use of friction to all of it. */
-/** @type {[number, number[]][]} */
+/** Colours by the use of friction, 0 to 1. @type {[number, number[]][]} */
 const COLOURS = [[0, [64, 150, 90]], [0.5, [110, 190, 90]], [0.8, [245, 190, 60]], [1, [232, 60, 45]]]; // prettier-ignore
 
 /** Colour where the friction is not known. */
-const UNKNOWN = "#9aa4ad";
+const UNKNOWN_COLOUR = "#9aa4ad";
 
 /** Colour of a share of the friction. @param {number} use */
 export function useColour(use) {
@@ -22,7 +21,7 @@ export function useColour(use) {
   return `rgb(${a.map((part, i) => Math.round(part + s * (b[i] - part))).join(",")})`;
 }
 
-/** Wheels of an FMU: what is before `.Fz` in the names of its outputs. @param {Iterable<string>} names */
+/** Names of the wheels of an FMU, which has outputs `<wheel>.Fz`. @param {Iterable<string>} names */
 export function wheelsOf(names) {
   return [...names].map((name) => /^(.*)\.Fz$/.exec(name)?.[1]).filter(Boolean);
 }
@@ -31,28 +30,28 @@ export function wheelsOf(names) {
 export class Tyres {
   /**
    * @param {string[]} wheels - Their names.
-   * @param {(at: number[], wheel: string) => number} friction - Largest force over the load of a wheel at a place of the earth.
+   * @param {(at: number[], wheel: string) => number} friction - Largest force over the load of a wheel at a point.
    */
   constructor(wheels, friction) {
     this._friction = friction;
-    this._mean = 0; // N, load of a wheel; follows slowly
+    this._mean = 0; // smoothed mean load of a wheel, N
     this._items = wheels.slice(0, 4).map((name, k) => {
       const [x, y] = PLACES[name.slice(-2)] ?? PLACES[Object.keys(PLACES)[k]];
       const circle = svg("circle", { cx: x, cy: y, r: 0, "fill-opacity": 0.85, stroke: "#fff", "stroke-width": 0.8 });
       const arrow = svg("path", { stroke: "#fff", "stroke-width": 2.2, fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" });
-      const ahead = `M${x - 4} ${y - RADIUS}v${2 * RADIUS}M${x + 4} ${y - RADIUS}v${2 * RADIUS}`;
+      const ahead = `M${x - 4} ${y - MEAN_LOAD_RADIUS}v${2 * MEAN_LOAD_RADIUS}M${x + 4} ${y - MEAN_LOAD_RADIUS}v${2 * MEAN_LOAD_RADIUS}`;
       const tyre = svg("path", { d: ahead, stroke: "#fff6", "stroke-width": 1 });
-      const words = [0, 7].map((down) => svg("text", { x, y: y + RADIUS + 7 + down, "text-anchor": "middle", "font-size": 7, fill: "#fff", stroke: "#0d1318", "stroke-width": 1.6, "paint-order": "stroke" }));
+      const words = [0, 7].map((down) => svg("text", { x, y: y + MEAN_LOAD_RADIUS + 7 + down, "text-anchor": "middle", "font-size": 7, fill: "#fff", stroke: "#0d1318", "stroke-width": 1.6, "paint-order": "stroke" }));
       return { name, x, y, circle, arrow, tyre, words, use: 0 };
     });
     const title = svg("title");
     title.textContent = "tyres: size is load in kN, arrow is force in the road's plane, colour is use of friction (grey: not known), below is slip";
     const drawn = this._items.flatMap(({ tyre, circle, arrow, words }) => [tyre, circle, arrow, ...words]);
-    this.element = svg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, class: "a3-tyres", "data-a3": "tyres" }, title, ...drawn);
+    this.element = svg("svg", { viewBox: `${-HALF_SIDE} ${-HALF_SIDE} ${2 * HALF_SIDE} ${2 * HALF_SIDE}`, class: "a3-tyres", "data-a3": "tyres" }, title, ...drawn);
     this.element.style.display = wheels.length ? "" : "none";
   }
 
-  /** Share of the friction that each wheel uses. @returns {Object<string, number>} */
+  /** Used share of friction by wheel. @returns {Object<string, number>} */
   get uses() {
     return Object.fromEntries(this._items.map(({ name, use }) => [name, use]));
   }
@@ -73,18 +72,18 @@ export class Tyres {
     const most = load * this._friction(at, name);
     item.use = most > 0 ? size / most : 0;
     const ratio = this._mean > 0 ? load / this._mean : 0;
-    circle.setAttribute("r", (RADIUS * Math.sqrt(Math.min(ratio, 3))).toFixed(1));
-    circle.setAttribute("fill", Number.isFinite(most) ? useColour(item.use) : UNKNOWN);
+    circle.setAttribute("r", (MEAN_LOAD_RADIUS * Math.sqrt(Math.min(ratio, 3))).toFixed(1));
+    circle.setAttribute("fill", Number.isFinite(most) ? useColour(item.use) : UNKNOWN_COLOUR);
     const slip = lookup(`${name}.slip`);
     write(words[0], `${(load / 1e3).toFixed(1)} kN`);
     write(words[1], Number.isFinite(slip) ? `${whole(100 * slip)} %` : "");
-    const scale = this._mean > 0 ? (1.6 * RADIUS) / this._mean : 0;
+    const scale = this._mean > 0 ? (1.6 * MEAN_LOAD_RADIUS) / this._mean : 0;
     const [dx, dy] = turned([-fy * scale, -fx * scale], lookup(`${name}.steer`) || 0);
     arrow.setAttribute("d", Math.hypot(dx, dy) < 1.5 ? "" : arrowPath(x, y, dx, dy));
   }
 }
 
-/** From the axes of a wheel, which is steered to the left, to those of the car; on the screen y goes down. */
+/** Vector in axes of the car from that in axes of a wheel steered to the left; y is down on the screen. */
 function turned([x, y], steer) {
   const [c, s] = [Math.cos(steer), Math.sin(steer)];
   return [c * x + s * y, -s * x + c * y];

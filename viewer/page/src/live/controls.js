@@ -1,19 +1,20 @@
-// A line of the panel for one variable: slider and number, steps, choice or switch, with unit, range and description.
+// Makes a control for a variable: slider and number field, drop-down list or check box, with unit, range and description.
 import { el, select, short } from "../common/dom.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "./ranges.js";
 
 const POSITIONS = 1000;
 
 /**
+ * Makes the control of a variable.
  * @param {Data} variable - Of the description of the FMU.
  * @param {object} options
  * @param {(value: number|boolean|string) => void} options.change - Called with a value that fits the variable.
- * @param {string} [options.note] - Behind the name, such as what a change does.
- * @param {string[][]} [options.texts] - Values of a text and their words.
+ * @param {string} [options.note] - Text after the name.
+ * @param {string[][]} [options.texts] - Values of a string and their labels.
  * @returns {{element: HTMLElement, show: (value: number|boolean|string) => void}}
  */
 export function control(variable, { change, note = "", texts = [] }) {
-  const make = variable.type === "String" ? chooser : variable.type === "Boolean" ? toggle : number;
+  const make = variable.type === "String" ? choiceControl : variable.type === "Boolean" ? switchControl : numberControl;
   const { body, show, range = "" } = make(variable, change, texts);
   const title = [variable.description, range].filter(Boolean).join(" ");
   const head = el("div.a3-caption", { title }, variable.name, el("em", {}, [note, range].filter(Boolean).join(" · ")));
@@ -23,14 +24,14 @@ export function control(variable, { change, note = "", texts = [] }) {
   return { element, show };
 }
 
-function number(variable, change) {
+function numberControl(variable, change) {
   const choices = choicesOf(variable);
-  if (choices) return chooser(variable, (text) => change(Number(text)), choices);
+  if (choices) return choiceControl(variable, (text) => change(Number(text)), choices);
   const range = rangeOf(variable);
   const unit = variable.unit && variable.unit !== "1" ? ` ${variable.unit}` : "";
   const slider = el("input", { type: "range", min: 0, max: POSITIONS, step: range.whole ? "any" : 1, data: "slider" });
   const field = el("input", { type: "number", step: range.whole ? 1 : "any", data: "number" });
-  let dragged = false; // while a hand is on it, the run does not move it
+  let dragged = false; // the run does not move a dragged slider
   const show = (value) => {
     if (dragged || document.activeElement === field) return;
     slider.value = String(POSITIONS * toSlider(range, value));
@@ -57,12 +58,12 @@ function number(variable, change) {
   return { body: [slider, field, el("span.a3-unit", {}, unit)], show, range: words };
 }
 
-function chooser(variable, change, choices) {
+function choiceControl(variable, change, choices) {
   const choice = select("choice", "", choices, change);
   return { body: [choice], show: (value) => (choice.value = String(value)) };
 }
 
-function toggle(variable, change) {
+function switchControl(variable, change) {
   const box = el("input", { type: "checkbox", data: "switch" });
   box.addEventListener("change", () => change(box.checked));
   return { body: [box], show: (value) => (box.checked = Boolean(Number(value))) };

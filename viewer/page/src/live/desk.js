@@ -1,13 +1,13 @@
-// The side of the worker in the main thread; the worker starts from the script of the page, so that one file is enough.
+// Runs FMUs in a worker, which starts from the script of the page, or in the page itself.
 import { Runner } from "./worker.js";
 
-// While the script of the page runs; later it is no longer known.
+// `currentScript` is defined only while the script of the page runs.
 const script = typeof document === "undefined" ? null : /** @type {HTMLScriptElement | null} */ (document.currentScript);
 
-/** Where the FMUs run: a worker, or, where there can be none, the page itself. */
+/** Connection to the worker of the FMUs; without workers the FMUs run in the page. */
 export class Desk {
   /**
-   * @param {(message: Data) => void} take - What the worker tells.
+   * @param {(message: Data) => void} take - Receives messages of the worker.
    * @param {{worker?: boolean}} [options] - `worker: false`: in the page.
    */
   constructor(take, { worker = true } = {}) {
@@ -15,7 +15,7 @@ export class Desk {
     try {
       if (worker) this._worker = startWorker();
     } catch {
-      this._worker = null; // told by `threaded`
+      this._worker = null; // `threaded` is then false
     }
     if (this._worker) {
       this.threaded = true;
@@ -26,13 +26,13 @@ export class Desk {
     }
   }
 
-  /** @param {Data} message - As `Runner.take` has it. */
+  /** @param {Data} message - As for `Runner.take`. */
   send(message) {
     if (this._worker) this._worker.postMessage(message);
     else if (this._runner) this._runner.take(message);
   }
 
-  /** End the worker. */
+  /** Ends the worker. */
   close() {
     this._worker?.terminate();
     this._runner?.take({ do: "pause" });

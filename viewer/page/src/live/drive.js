@@ -1,4 +1,4 @@
-// An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
+// The page of an FMU that runs in it: inputs by keys, gamepads, touch and sliders; pictures, plots and a record.
 import { button, el, short } from "../common/dom.js";
 import { DRIVING_WORDS } from "../common/key_table.js";
 import { instead } from "../common/notices.js";
@@ -13,16 +13,16 @@ import { Sampler } from "../sources/sampler.js";
 import { missingParts, unpack, unpackedJson } from "../bytes.js";
 
 const ACTS = ["steering", "throttle", "brake"];
-const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
+const PLOTTED_NAMES = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
 const PANEL_MS = 100;
 const RESTART_MS = 250;
 
 /**
- * Fill an element with an FMU that runs.
+ * Fills an element with the page of an FMU.
  * @param {HTMLElement} container
  * @param {Data} given - `{scene, description, wasm, resources, title}` of one FMU, or `fmus`: several of them side by
- *   side; `beside`: a page of recordings (viewer/page_data.py) that go along, `ends`: a sentence for the end of each;
- *   `script`: inputs over time, packed JSON `{t, columns}`; `options`.
+ *   side; `beside`: recordings to be shown beside (viewer/page_data.py), `ends`: a sentence for the end of each;
+ *   `script`: inputs over time, compressed JSON `{t, columns}`; `options`.
  * @returns {Drive}
  */
 export function drive(container, given) {
@@ -38,11 +38,11 @@ class Drive extends Shell {
     this.options = options;
     this.quality = options.view?.quality ?? "auto";
     const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
-    const lacking = missingParts();
-    if (lacking) {
-      instead(this.viewBox, "problem", lacking);
-      this.problem = lacking;
-      this.ready = Promise.reject(new Error(lacking));
+    const missing = missingParts();
+    if (missing) {
+      instead(this.viewBox, "problem", missing);
+      this.problem = missing;
+      this.ready = Promise.reject(new Error(missing));
       this.ready.catch(() => {});
       return;
     }
@@ -59,48 +59,48 @@ class Drive extends Shell {
     return this.session.end;
   }
 
-  /** Whether time runs. */
+  /** Whether the run is running. */
   get running() {
     return this.session.running;
   }
 
-  /** Simulated seconds per second of the clock over the last second, null if unknown. */
+  /** Real-time factor over the last second; null if unknown. */
   get factor() {
     return this.session.pace.factor;
   }
 
-  /** Show an instant that was; `run` drives on from there. */
+  /** Shows an earlier time, from which `run` continues. */
   seek(time) {
     this.session.scrub(time);
     this.draw();
   }
 
-  /** Let time run. @param {number} [speed] - Simulated seconds per second of the clock. */
+  /** Starts or continues the run. @param {number} [speed] - Simulated seconds per second of the clock. */
   run(speed) {
     return this.session.run(speed);
   }
 
-  /** Let time stand. */
+  /** Pauses the run. */
   pause() {
     return this.session.pause();
   }
 
-  /** Communication steps, then stand. */
+  /** Makes communication steps, then pauses. */
   advance(count = 1) {
     return this.session.advance(count);
   }
 
-  /** Begin again. */
+  /** Restarts the run. */
   reset() {
     return this.session.again();
   }
 
-  /** Go back, and run on if it ran. @param {number} seconds - Of the run. */
+  /** Goes back; a running run continues from there. @param {number} seconds - Of the run. */
   back(seconds = 2) {
     return this.session.rewind(seconds);
   }
 
-  /** Set an input or parameter; a fixed one begins the run again. */
+  /** Sets an input or parameter; a fixed one restarts the run. */
   async set(name, value) {
     if (this.inputs.some((v) => v.name === name)) {
       this.hands.hold(name);
@@ -117,14 +117,14 @@ class Drive extends Shell {
     return this.session.csv().join("");
   }
 
-  /** Numbers of the run now, by name. */
+  /** Last value of a signal of an FMU. */
   get(name, which = 0) {
     const column = this.session.record.column(this.session.prefixes[which] + name);
     const { record } = this.session;
     return record.row(record.end - 1)[column >= 0 ? column : record.column(name)];
   }
 
-  /** Draw what is shown now. */
+  /** Draws the current time. */
   draw() {
     const { session } = this;
     const { running, speed, step, pace } = session;
@@ -134,7 +134,7 @@ class Drive extends Shell {
     this._showPanel();
   }
 
-  /** Take everything out of the page. */
+  /** Removes everything from the page. */
   dispose() {
     this._ended = true;
     this.session?.close();
@@ -153,17 +153,17 @@ class Drive extends Shell {
     const fmus = [];
     for (const part of parts) {
       const resources = {};
-      for (const [path, packed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(packed);
+      for (const [path, compressed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(compressed);
       fmus.push({ ...part, scene: await unpackedJson(part.scene), wasm: await unpack(part.wasm), resources });
     }
     const pictures = [];
-    for (const [k, { title, scene, roads, world: packed, description }] of fmus.entries()) {
+    for (const [k, { title, scene, roads, world: compressed, description }] of fmus.entries()) {
       const choices = roads ? await unpackedJson(roads) : {};
-      const world = packed ? await unpackedJson(packed) : null;
+      const world = compressed ? await unpackedJson(compressed) : null;
       const drawn = world ? { ...scene, roads: choices[world.road], scenery: world.scenery } : scene;
       pictures.push({ title, scene: drawn, sample: (time) => this.session.sample(time)[k], roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
     }
-    // Nothing is awaited from here until the page hears: the first answer finds everything in its place.
+    // No `await` before the listeners exist, so that the first answer is not lost.
     this.session = new Session(fmus, { ...this.options, script: table }, {
       started: () => this._started(),
       ran: () => this.notices.lower(["problem", "hidden"]),
@@ -180,10 +180,10 @@ class Drive extends Shell {
     this._controls();
     await this.session.ready;
     this.draw();
-    this._drawn = NaN; // what the last picture showed
+    this._drawn = NaN; // time of the last picture
     this._ran = false;
-    const pads = this.driven(this.hands, this.inputs.map((v) => v.name));
-    if (this.inputs.length) this.parameters.element.after(pads);
+    const padPanel = this.driven(this.hands, this.inputs.map((v) => v.name));
+    if (this.inputs.length) this.parameters.element.after(padPanel);
     this._frame();
     if (this.options.run !== false) await this.run(this.options.speed ?? 1);
   }
@@ -222,7 +222,7 @@ class Drive extends Shell {
     const { session } = this;
     const steps = stepChoices(session.step).map((h) => [h, `${Number((1e3 * h).toPrecision(6))} ms`]);
     for (const { holder } of this.stage.parts) this.watch(holder);
-    for (const what of ["arrows", "stress", "deformation", "closed"]) this.has[what] = this.views.some((view) => view.has[what]);
+    for (const effect of ["arrows", "stress", "deformation", "closed"]) this.has[effect] = this.views.some((view) => view.has[effect]);
     this.cameras = this.view.cameraNames;
     this.cameraName = this.view.cameras?.name;
     const instruments = this.stage.parts.map((part) => part.instruments).filter(Boolean);
@@ -235,9 +235,9 @@ class Drive extends Shell {
     this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
     if (this.cameras.includes(camera)) this.camera(camera);
-    const wished = this.options.plots ?? PLOTTED.filter((name) => session.columns.has(name));
+    const requested = this.options.plots ?? PLOTTED_NAMES.filter((name) => session.columns.has(name));
     const names = [...session.columns.keys()];
-    const first = wished.length ? wished : names.slice(this.inputs.length, this.inputs.length + 3);
+    const first = requested.length ? requested : names.slice(this.inputs.length, this.inputs.length + 3);
     this.plotted = first.slice(0, 4);
     this.side(true);
   }
@@ -271,11 +271,11 @@ class Drive extends Shell {
     const { title } = this.stage.parts[which];
     const choices = [button("begin again", "Begin again", () => this.reset()), button("go back", "2 s back", () => this.back())];
     const time = this.session.time.toFixed(3);
-    const who = this.stage.parts.length > 1 ? `${title}: ` : "";
-    this.notices.flag(`stopped ${which}`, `${who}Stopped at ${time} s. ${text}`, { bad: true, choices: alive ? [] : choices });
+    const prefix = this.stage.parts.length > 1 ? `${title}: ` : "";
+    this.notices.flag(`stopped ${which}`, `${prefix}Stopped at ${time} s. ${text}`, { bad: true, choices: alive ? [] : choices });
   }
 
-  /** What cannot be done stands there until time runs. @param {string} sentence */
+  /** Shows a problem until the run continues. @param {string} sentence */
   _wrong(sentence) {
     this.notices.flag("problem", sentence, { bad: true });
   }
@@ -288,7 +288,7 @@ class Drive extends Shell {
     this.stage.sound();
   }
 
-  /** A page that is not seen does not run: it says so when it is seen again. */
+  /** Pauses the run of a hidden page, with a notice. */
   unseen() {
     if (!this.session.running) return;
     this.pause();
@@ -312,8 +312,8 @@ class Drive extends Shell {
     const now = performance.now();
     const { running, time } = session;
     this.bar.show(session);
-    if (now - (this._panelled ?? -Infinity) > PANEL_MS || !running) {
-      this._panelled = now;
+    if (now - (this._panelTime ?? -Infinity) > PANEL_MS || !running) {
+      this._panelTime = now;
       const row = session.record.row(Math.round(time / session.step));
       session.held.forEach((v, i) => (v.causality === "input" ? this.inputPanel : this.parameters).show(v.name, row[i]));
     }
@@ -332,7 +332,7 @@ class Drive extends Shell {
   }
 }
 
-/** Communication steps to choose from: that of the FMU, shorter and longer ones. */
+/** Selectable communication steps: that of the FMU, shorter and longer ones. */
 function stepChoices(step) {
   return [0.1, 0.2, 0.5, 1, 2, 5].map((factor) => Number((factor * step).toPrecision(6)));
 }

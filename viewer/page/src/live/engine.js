@@ -1,32 +1,33 @@
-// FMUs of one page, stepped side by side with the same inputs; saved states to rewind to. It has no access to the page.
+// Steps the FMUs of a page side by side with the same inputs, and saves states for rewinding; used in the worker.
 import { place } from "../sources/sampler.js";
 import { LimitedInputs } from "./input_rates.js";
 
-/** Simulated time between saved states, s. */
-const SAVE_EVERY = 0.25;
-/** How far back one can go, s. */
-const BACK = 30;
+/** Interval of saved states, s. */
+const SAVE_INTERVAL = 0.25;
+/** Longest time to go back, s. */
+const MAX_REWIND = 30;
 
-const NUMBERS = ["Real", "Integer", "Boolean"];
+const NUMBER_TYPES = ["Real", "Integer", "Boolean"];
 
-/** Inputs and tunable parameters of some FMUs, by name, each once. */
+/** Inputs, then tunable parameters, of FMUs, each name once. */
 export function heldVariables(descriptions) {
   const found = new Map();
   for (const { variables } of descriptions) {
     for (const v of variables) {
       const settable = v.causality === "input" || (v.causality === "parameter" && v.variability === "tunable");
-      if (settable && NUMBERS.includes(v.type) && !found.has(v.name)) found.set(v.name, v);
+      if (settable && NUMBER_TYPES.includes(v.type) && !found.has(v.name)) found.set(v.name, v);
     }
   }
   const all = [...found.values()];
   return [...all.filter((v) => v.causality === "input"), ...all.filter((v) => v.causality !== "input")];
 }
 
-/** Names of the outputs of an FMU that are numbers. */
+/** Names of the numeric outputs of an FMU. */
 export function outputNames({ variables }) {
   return variables.filter((v) => v.causality === "output" && /^(Real|Integer)$/.test(v.type)).map((v) => v.name);
 }
 
+/** Function that sets a variable of an instance. */
 function writer(slave, { name, type }) {
   if (type === "Boolean") return (value) => slave.setBoolean(name, value !== 0);
   const write = slave.writer([name]);
@@ -34,11 +35,11 @@ function writer(slave, { name, type }) {
 }
 
 /**
- * Inputs of a table at a time: straight between its rows, whole numbers as in the row before; at a time that stands twice
- * the later row, outside the table its ends.
+ * Inputs of a table at a time: interpolated linearly, integers held; of equal times the last row counts, and the table is
+ * constant beyond its ends.
  * @param {{t: number[], columns: Object<string, number[]>}} script
  * @param {number} time - s.
- * @param {Set<string>} [whole] - Names of whole numbers.
+ * @param {Set<string>} [whole] - Names of integers.
  * @returns {Object<string, number>}
  */
 export function scriptAt({ t, columns }, time, whole = new Set()) {
@@ -56,7 +57,7 @@ export function scriptAt({ t, columns }, time, whole = new Set()) {
 /** The run of one or more FMUs. */
 export class Engine {
   /**
-   * @param {Data[]} fmus - As `loadFmu` gives them.
+   * @param {Data[]} fmus - Of `loadFmu`.
    * @param {number} step - Communication step, s.
    */
   constructor(fmus, step) {
@@ -70,22 +71,22 @@ export class Engine {
     this.outputs = descriptions.map(outputNames);
     this.rows = new Float64Array(this.outputs.reduce((sum, names) => sum + names.length, 0));
     this.script = null;
-    this._taken = new Set();
+    this._requested = new Set();
     this.runs = [];
-    this._states = []; // [k, a state of each FMU, what was set in each], oldest first
+    this._states = []; // [k, state of each FMU, last inputs of each FMU], oldest first
   }
 
   /**
-   * Begin again.
-   * @param {Object<string, number|boolean|string>} start - Values that differ from those of the FMUs, by name.
-   * @throws {Error} With the FMU's words; the old run is then over too.
+   * Restarts the run.
+   * @param {Object<string, number|boolean|string>} start - Start values that differ from those of the FMUs, by name.
+   * @throws {Error} Message of the FMU; the old run has ended too.
    */
   restart(start) {
-    this._forget();
+    this._freeStates();
     this.start = { ...(this.script ? scriptAt(this.script, 0, this._wholeNames) : {}), ...start };
     this.k = 0;
-    this._taken.clear();
-    this._past = new Map(); // what was held in step k, as far back as the states reach
+    this._requested.clear();
+    this._past = new Map(); // inputs of step k, as far back as the states
     this.hand = new LimitedInputs(this.heldNames.map((name) => this._startOf(name)));
     if (!this.runs.length) this.runs = this._instances();
     else for (const run of this.runs) run.slave.reset();
@@ -102,9 +103,9 @@ export class Engine {
     this._save();
   }
 
-  /** Give the memory of the instances back. */
+  /** Frees the instances. */
   free() {
-    this._forget();
+    this._freeStates();
     for (const run of this.runs) run.slave.free();
     this.runs = [];
   }
@@ -114,51 +115,51 @@ export class Engine {
     return this.k * this.step;
   }
 
-  /** The oldest step one can go back to. */
+  /** The oldest step to which one can go back. */
   get oldest() {
     return this._states.length ? this._states[0][0] : 0;
   }
 
-  /** Whether an FMU still runs. */
+  /** Whether any FMU has not failed. */
   get alive() {
     return this.runs.some((run) => run.failed === null);
   }
 
   /**
-   * One communication step of all FMUs that still run.
-   * @returns {{which: number, text: string}[]} FMUs that refused this step; each stays where it is.
+   * Makes a communication step of all FMUs that have not failed.
+   * @returns {{which: number, text: string}[]} FMUs that failed in this step.
    */
   advance() {
-    this._follow();
-    // The first step has the values of the start: so a run that sets the same table from the start is the same.
+    this._followScript();
+    // The first step has the start values, so that a run with the same table of inputs is identical.
     const hand = this.k === 0 ? this.hand.values : this.hand.move(this.step);
     const values = hand.map((value, i) => (this._whole[i] ? Math.round(value) : value));
     this.held = values;
     const refused = this._stepWith(values);
-    if (!this.alive) return refused; // a step that all refuse is none
+    if (!this.alive) return refused; // a step in which all fail is not counted
     const before = this._past.get(this.k - 1);
     this._past.set(this.k, before && values.every((value, i) => Object.is(value, before[i])) ? before : values);
     this.k += 1;
     this._read();
-    if (this.k % Math.max(1, Math.round(SAVE_EVERY / this.step)) === 0) this._save();
+    if (this.k % Math.max(1, Math.round(SAVE_INTERVAL / this.step)) === 0) this._save();
     return refused;
   }
 
   /**
-   * What a hand wants of an input or parameter; the script no longer moves it.
+   * Requests a value of an input or parameter, which then no longer follows the script.
    * @param {string} name
    * @param {number} value
-   * @param {number} [rate] - As `Hand.want` has it.
+   * @param {number} [rate] - As for `LimitedInputs.want`.
    */
   want(name, value, rate) {
     const index = this.heldNames.indexOf(name);
     if (index < 0) return;
-    this._taken.add(name);
+    this._requested.add(name);
     this.hand.want(index, value, rate);
   }
 
   /**
-   * Go back to a step that was, bit for bit.
+   * Goes back to an earlier step, with bitwise identical states.
    * @param {number} k - Not before `oldest`.
    */
   back(k) {
@@ -166,17 +167,17 @@ export class Engine {
     while (this._states.length > 1 && this._states[this._states.length - 1][0] > target) {
       this._states.pop()[1].forEach((s) => s?.free());
     }
-    const [from, states, lasts] = this._states[this._states.length - 1];
+    const [from, states, lastInputs] = this._states[this._states.length - 1];
     this.runs.forEach((run, i) => {
-      if (states[i]) run.slave.setState(states[i]); // one that had failed before stays as it is
-      run.last.set(lasts[i]);
+      if (states[i]) run.slave.setState(states[i]); // null: it had failed before
+      run.last.set(lastInputs[i]);
       if (run.failed !== null && run.failed >= target) run.failed = null;
     });
     this.k = from;
     while (this.k < target) {
       const values = this._past.get(this.k);
-      const asleep = this.runs.filter((run) => run.failed !== null && run.failed <= this.k);
-      this._stepWith(values, asleep);
+      const failed = this.runs.filter((run) => run.failed !== null && run.failed <= this.k);
+      this._stepWith(values, failed);
       this.k += 1;
       this.hand.hold(values);
     }
@@ -185,7 +186,7 @@ export class Engine {
     this._read();
   }
 
-  /** FMUs that refused the last step may try it again, with other inputs or parameters. */
+  /** Lets FMUs that failed in the last step repeat it with other inputs or parameters. */
   retry() {
     if (!this.alive) for (const run of this.runs) if (run.failed === this.k) run.failed = null;
   }
@@ -193,20 +194,20 @@ export class Engine {
   /** Messages of the FMUs since the last call. */
   messages() {
     return this.runs.flatMap((run, which) => {
-      // A page reads all outputs, those too that are not computed: nobody has asked for these.
-      const asked = run.slave.messages.filter((m) => m.category !== "logNotComputed");
-      const found = asked.map((m) => ({ which, ...m }));
+      // A page reads all outputs, so messages on those that are not computed are irrelevant.
+      const relevant = run.slave.messages.filter((m) => m.category !== "logNotComputed");
+      const found = relevant.map((m) => ({ which, ...m }));
       run.slave.messages.length = 0;
       return found;
     });
   }
 
-  _stepWith(values, asleep = this.runs.filter((run) => run.failed !== null)) {
+  _stepWith(values, failed = this.runs.filter((run) => run.failed !== null)) {
     const refused = [];
     this.runs.forEach((run, which) => {
-      if (asleep.includes(run)) return;
+      if (failed.includes(run)) return;
       try {
-        // Only what has changed is set: setting one may be costly.
+        // Setting a variable may be expensive.
         run.indices.forEach((i, n) => {
           if (Object.is(run.last[n], values[i])) return;
           run.writers[n](values[i]);
@@ -222,11 +223,11 @@ export class Engine {
     return refused;
   }
 
-  /** Inputs that no hand has taken follow the script. */
-  _follow() {
+  /** Requests inputs of the script that were not requested otherwise. */
+  _followScript() {
     if (!this.script) return;
     for (const [name, value] of Object.entries(scriptAt(this.script, this.time, this._wholeNames))) {
-      if (!this._taken.has(name)) this.hand.want(this.heldNames.indexOf(name), value);
+      if (!this._requested.has(name)) this.hand.want(this.heldNames.indexOf(name), value);
     }
   }
 
@@ -244,7 +245,7 @@ export class Engine {
     });
   }
 
-  _forget() {
+  _freeStates() {
     for (const [, states] of this._states) states.forEach((s) => s?.free());
     this._states = [];
   }
@@ -256,7 +257,7 @@ export class Engine {
   _save() {
     const states = this.runs.map((run) => (run.failed === null ? run.slave.getState() : null));
     this._states.push([this.k, states, this.runs.map((run) => run.last.slice())]);
-    while (this._states.length > 1 && this.k - this._states[1][0] >= BACK / this.step) {
+    while (this._states.length > 1 && this.k - this._states[1][0] >= MAX_REWIND / this.step) {
       this._states.shift()[1].forEach((s) => s?.free());
       for (const step of this._past.keys()) {
         if (step >= this.oldest - 1) break;

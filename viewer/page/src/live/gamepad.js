@@ -1,15 +1,15 @@
-// Gamepads and wheels by the Gamepad API: found when they are plugged in, axes assigned, a dead zone.
+// Gamepads and steering wheels by the Gamepad API: detection, assignment of axes, dead zone.
 
-/** How a device drives a car: an axis or button for each input. */
+/** Axis or button of each input of a car, for gamepads with the standard layout. */
 export const STANDARD = { steering: "axis 0 inverted", throttle: "button 7", brake: "button 6", hand_brake: "button 0" };
-/** Wheels and other devices that the browser does not know. */
+/** The same for steering wheels and other devices with unknown layout. */
 export const OTHER = { steering: "axis 0 inverted", throttle: "none", brake: "none", hand_brake: "none" };
 
-/** Change of an axis or button from which on the device has the word. */
-const TOUCHED = 0.02;
+/** Change of an axis or button at which the device takes control. */
+const TAKEOVER_CHANGE = 0.02;
 
 /**
- * An axis with a dead zone in its middle; beyond it the value goes on from 0.
+ * Value of an axis with a dead zone in its middle, continuous at its ends.
  * @param {number} value - From -1 to 1.
  * @param {number} zone - Half-width.
  */
@@ -19,10 +19,10 @@ export function withDeadZone(value, zone) {
 }
 
 /**
- * What an assignment reads from a device.
+ * Value of an assigned axis or button of a device.
  * @param {{axes: number[], buttons: {value: number}[]}} pad
  * @param {string} source - "axis 2", "axis 2 inverted", "button 7" or "none".
- * @param {boolean} pedal - From 0 to 1: an axis is then read from its one end to the other.
+ * @param {boolean} pedal - Whether the range is 0 to 1 over the whole axis.
  * @param {number} zone
  */
 export function readSource(pad, source, pedal, zone) {
@@ -31,19 +31,19 @@ export function readSource(pad, source, pedal, zone) {
   if (kind !== "axis") return 0;
   const value = (inverted ? -1 : 1) * (pad.axes[Number(number)] ?? 0);
   if (!pedal) return withDeadZone(value, zone);
-  if (!pad.axes[Number(number)]) return 0; // browsers give 0 until an axis was moved
+  if (!pad.axes[Number(number)]) return 0; // browsers report 0 until an axis has moved
   return Math.min(1, Math.max(0, ((value + 1) / 2 - zone) / (1 - zone)));
 }
 
-/** All that a device can be assigned to. */
+/** All axes and buttons that can be assigned. */
 export function sourcesOf(pad) {
   const axes = Array.from(pad.axes, (_, k) => [`axis ${k}`, `axis ${k} inverted`]).flat();
   return ["none", ...axes, ...Array.from(pad.buttons, (_, k) => `button ${k}`)];
 }
 
-/** The device that drives. */
+/** The current device and its assignments. */
 export class Gamepad {
-  /** @param {() => (Data|null)[]} list - `navigator.getGamepads`, or one for a test. */
+  /** @param {() => (Data|null)[]} list - `navigator.getGamepads`. */
   constructor(list) {
     this._list = list;
     this.zone = 0.08;
@@ -54,8 +54,8 @@ export class Gamepad {
   }
 
   /**
-   * Look at the devices.
-   * @returns {{changed: boolean, touched: boolean}} Whether another device is there now, and whether it was moved.
+   * Reads the devices.
+   * @returns {{changed: boolean, touched: boolean}} Whether the device is another one, and whether it was moved.
    */
   poll() {
     const pads = [...(this._list() ?? [])].filter((pad) => pad && pad.connected !== false);
@@ -68,22 +68,22 @@ export class Gamepad {
     }
     if (!this.pad) return { changed, touched: false };
     const now = [...this.pad.axes, ...this.pad.buttons.map((b) => b.value)];
-    const touched = this._before !== null && now.some((v, k) => Math.abs(v - this._before[k]) > TOUCHED);
+    const touched = this._before !== null && now.some((v, k) => Math.abs(v - this._before[k]) > TAKEOVER_CHANGE);
     if (touched || this._before === null) this._before = now;
     return { changed, touched };
   }
 
-  /** Assign an axis or button to an input; kept for this device. */
+  /** Assigns an axis or button to an input, and stores it for this device. */
   assign(name, source) {
     this.assigned[name] = source;
     try {
       localStorage.setItem(`ali3 gamepad ${this._id}`, JSON.stringify(this.assigned));
     } catch {
-      // a page from a disk may have no storage: then it holds as long as the page
+      // a page from disk may have no storage
     }
   }
 
-  /** What is wanted now: input, value; at once. */
+  /** Requested values: input, value. */
   wants() {
     if (!this.pad) return [];
     return Object.entries(this.assigned)

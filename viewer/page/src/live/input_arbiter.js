@@ -2,15 +2,15 @@
 import { Keyboard, RATES } from "./keyboard.js";
 import { Gamepad } from "./gamepad.js";
 
-/** Hands are asked by a clock of their own, ms: a picture that takes long holds no pedal. */
+/** Interval of reading the devices, independent of pictures, ms. */
 export const ARBITER_MS = 16;
 
-/** Keys and gamepad of a page. */
+/** Arbiter of the keys and the gamepad of a page. */
 export class InputArbiter {
   /**
    * @param {object} options
-   * @param {string[]} options.inputs - Of the FMU; what is not an input is not asked for.
-   * @param {Object<string, number> | null} options.constants - Of a car; null: keys do nothing.
+   * @param {string[]} options.inputs - Inputs of the FMU; others are not requested.
+   * @param {Object<string, number> | null} options.constants - Of a car; null: keys have no effect.
    * @param {() => (Data | null)[]} [options.pads] - `navigator.getGamepads`.
    * @param {(source: string, wants: [string, number, number?][]) => void} options.want - Input, value, largest change
    *   per second (none: at once), of "keys" or "gamepad".
@@ -20,18 +20,18 @@ export class InputArbiter {
     this._want = want;
     this.keyboard = constants && new Keyboard(constants);
     this.gamepad = new Gamepad(pads);
-    this._slid = new Set();
-    this._keyed = false;
-    this._padded = false;
+    this._heldBySlider = new Set();
+    this._keysControl = false;
+    this._gamepadControls = false;
   }
 
-  /** A slider has the word for an input, until a key or the gamepad moves it. */
+  /** Gives a slider control of an input, until a key or the gamepad moves it. */
   hold(name) {
-    this._slid.add(name);
+    this._heldBySlider.add(name);
   }
 
   /**
-   * A key goes down or up.
+   * Handles a key press or release.
    * @param {{code: string, type: string, shiftKey?: boolean, repeat?: boolean}} event - Of the keyboard.
    * @param {number} speed - Of the car, m/s.
    * @returns {boolean} Whether it is a key for driving.
@@ -40,63 +40,63 @@ export class InputArbiter {
     const { used, selector } = this.keyboard?.key(event.code, event.type === "keydown", event.shiftKey) ?? { used: false };
     if (!used || event.repeat) return used;
     if (selector !== undefined && this._inputs.has("selector")) this._want("keys", [["selector", selector]]);
-    this._slid.clear();
+    this._heldBySlider.clear();
     this._wantKeys(speed);
     return true;
   }
 
-  /** Keys that are down count as up, as when the page loses the focus. */
+  /** Releases all keys, as when the page loses the focus. */
   letKeysGo() {
-    if (!this._keyed) return;
+    if (!this._keysControl) return;
     this.keyboard.clear();
     this._wantKeys(0);
   }
 
-  /** The gamepad is as if nobody touched it, as when its page is hidden or it is pulled out. */
+  /** Releases the gamepad, as when its page is hidden or it is unplugged. */
   letGamepadGo() {
-    if (!this._padded) return;
-    this._padded = false;
+    if (!this._gamepadControls) return;
+    this._gamepadControls = false;
     const moved = Object.entries(this.gamepad.assigned).filter(([name, source]) => source !== "none" && RATES[name]);
-    this._ask("gamepad", moved.map(([name]) => [name, 0, RATES[name][1]])); // prettier-ignore
+    this._request("gamepad", moved.map(([name]) => [name, 0, RATES[name][1]])); // prettier-ignore
   }
 
-  /** No key is down and no rate holds, as at a new start. */
+  /** Releases all keys without requests, as at a restart. */
   clear() {
     this.keyboard?.clear();
   }
 
   /**
-   * Look at the devices; called for each picture.
+   * Reads the devices.
    * @param {number} speed - Of the car, m/s.
-   * @returns {{changed: boolean, lost: boolean}} Whether another gamepad is there now, and whether one that drove went.
+   * @returns {{changed: boolean, lost: boolean}} Whether the gamepad is another one, and whether one in control was unplugged.
    */
   poll(speed) {
     const { assigned } = this.gamepad;
     const { changed, touched } = this.gamepad.poll();
-    const lost = changed && this._padded && !this.gamepad.pad;
+    const lost = changed && this._gamepadControls && !this.gamepad.pad;
     if (lost) {
       const now = this.gamepad.assigned;
       this.gamepad.assigned = assigned;
       this.letGamepadGo();
       this.gamepad.assigned = now;
     }
-    if (touched) this._slid.clear();
-    if (touched || (this._padded && this.gamepad.pad)) {
-      this._ask("gamepad", this.gamepad.wants());
-      this._padded = !this._keyed;
+    if (touched) this._heldBySlider.clear();
+    if (touched || (this._gamepadControls && this.gamepad.pad)) {
+      this._request("gamepad", this.gamepad.wants());
+      this._gamepadControls = !this._keysControl;
     }
-    if (this._keyed) this._wantKeys(speed); // the steering limit follows the speed
+    if (this._keysControl) this._wantKeys(speed); // the steering limit follows the speed
     return { changed, lost };
   }
 
   _wantKeys(speed) {
     const wants = this.keyboard.wants(Math.abs(speed) || 0);
-    this._keyed = wants.some(([, value]) => value !== 0);
-    this._ask("keys", wants);
+    this._keysControl = wants.some(([, value]) => value !== 0);
+    this._request("keys", wants);
   }
 
-  _ask(source, wants) {
-    const asked = wants.filter(([name]) => this._inputs.has(name) && !this._slid.has(name));
-    if (asked.length) this._want(source, asked);
+  _request(source, wants) {
+    const allowed = wants.filter(([name]) => this._inputs.has(name) && !this._heldBySlider.has(name));
+    if (allowed.length) this._want(source, allowed);
   }
 }

@@ -1,6 +1,6 @@
-// Rate-limited inputs: each approaches its requested value at a limited rate in simulated time.
+// Rate-limited inputs, which approach requested values at limited rates in simulated time.
 
-/** The values of inputs, step by step. */
+/** Values of inputs in each step. */
 export class LimitedInputs {
   /** @param {number[]} start - A value for each input. */
   constructor(start) {
@@ -11,21 +11,21 @@ export class LimitedInputs {
 
   /**
    * @param {number} index - Of the input.
-   * @param {number} value - Wanted.
-   * @param {number} [rate] - Largest change per second; infinite: at once.
+   * @param {number} value - Requested value.
+   * @param {number} [rate] - Largest change per second; infinite: immediate.
    */
   want(index, value, rate = Infinity) {
     this.wanted[index] = value;
     this._rates[index] = rate;
   }
 
-  /** The values hold as they are, as after a rewind. */
+  /** Sets the values, as after a rewind. */
   hold(values) {
     this.values.set(values);
   }
 
   /**
-   * Move on.
+   * Advances by a step.
    * @param {number} step - s.
    * @returns {Float64Array} The values for this step.
    */

@@ -1,18 +1,18 @@
-// Driving a car by keys: pedals and steering wheel move at limited rates and return when the key is let go.
+// Driving by keys: pedals and steering wheel move at limited rates and return when the key is released.
 import { DRIVING } from "../common/key_table.js";
 
-/** Largest change per second of the simulated time: to what is wanted, and back. */
+/** Largest changes per second of simulated time: with the key pressed, and released. */
 export const RATES = { steering: [1.6, 3.0], throttle: [2.5, 5.0], brake: [4.0, 8.0], hand_brake: [8.0, 8.0] };
-/** Lateral acceleration that full steering by a key may ask for, m/s2. */
-const LATERAL = 9.0;
-/** m and rad, where the FMU does not provide them. */
+/** Lateral acceleration of full steering by a key, m/s2. */
+const LATERAL_ACCELERATION = 9.0;
+/** Defaults for FMUs without these constants, m and rad. */
 const WHEELBASE = 2.5;
 const WHEEL_ANGLE = 0.55;
 
-/** Positions of the selector, by the names of their keys. */
+/** Positions of the selector by action. */
 const SELECTOR = { reverse: -1, neutral: 0, drive: 1 };
 
-/** What is asked for by the keys that are down. */
+/** Inputs requested by pressed keys. */
 export class Keyboard {
   /** @param {Object<string, number>} constants - Of the FMU, by name. */
   constructor(constants = {}) {
@@ -22,7 +22,7 @@ export class Keyboard {
   }
 
   /**
-   * A key goes down or up.
+   * Handles a key press or release.
    * @param {string} code - As in `KeyboardEvent.code`.
    * @param {boolean} down
    * @param {boolean} [shift]
@@ -36,19 +36,19 @@ export class Keyboard {
     return { used: true };
   }
 
-  /** All keys are up, as when the page loses the focus. */
+  /** Releases all keys, as when the page loses the focus. */
   clear() {
     this._down.clear();
   }
 
-  /** Share of full lock that a key asks for: as much as the tyres could follow at this speed. */
+  /** Share of full lock for a key, limited by the lateral acceleration at a speed, m/s. */
   steeringLimit(speed) {
-    const angle = (LATERAL * this._wheelbase) / Math.max(speed * speed, 1e-6);
+    const angle = (LATERAL_ACCELERATION * this._wheelbase) / Math.max(speed * speed, 1e-6);
     return Math.min(1, Math.max(0.02, angle / this._angle));
   }
 
   /**
-   * What is wanted now.
+   * Requested values.
    * @param {number} speed - Of the car, m/s.
    * @returns {[string, number, number][]} Input, value, rate.
    */

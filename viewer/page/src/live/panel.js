@@ -3,26 +3,27 @@ import { control } from "./controls.js";
 import { el, named, select, short } from "../common/dom.js";
 import { sourcesOf } from "./gamepad.js";
 
-/** A part of the panel that opens and closes. */
+/** Makes a collapsible section of the panel. */
 export function section(title, open, ...children) {
   return el("details.a3-section", { open, data: `section ${title}` }, el("summary", {}, title), ...children);
 }
 
 /**
- * Inputs as sliders.
+ * Makes a section with inputs as sliders.
  * @param {Data[]} variables
  * @param {(name: string, value: number) => void} want
+ * @param {string} hint
  * @returns {{element: HTMLElement, show: (name: string, value: number) => void}}
  */
-export function inputPanel(variables, want, said) {
+export function inputPanel(variables, want, hint) {
   const controls = new Map(variables.map((v) => [v.name, control(v, { change: (value) => want(v.name, Number(value)) })]));
   const children = [...controls.values()].map((c) => c.element);
-  if (said) children.unshift(el("p.a3-hint", {}, said));
+  if (hint) children.unshift(el("p.a3-hint", {}, hint));
   if (!variables.length) children.push(el("p.a3-hint", {}, "This FMU has no inputs."));
   return { element: section("Inputs", true, ...children), show: (name, value) => controls.get(name)?.show(value) };
 }
 
-/** The group that a parameter stands in: what is before its first dot. @param {Data} variable */
+/** Group of a parameter: the part of its name before the first dot. @param {Data} variable */
 function groupOf({ name }) {
   if (!name.includes(".")) return "run";
   const head = name.split(".")[0];
@@ -30,7 +31,7 @@ function groupOf({ name }) {
 }
 
 /**
- * Parameters by group.
+ * Makes a section with parameters by group.
  * @param {Data[]} variables
  * @param {object} options
  * @param {(variable: Data, value: number|boolean|string) => void} options.set
@@ -49,7 +50,7 @@ export function parameterPanel(variables, { set, roads }) {
   for (const [title, members] of groups) {
     const lines = [];
     for (const v of members) {
-      if (v.type === "String" && v.name !== "road.file") continue; // a text without choices
+      if (v.type === "String" && v.name !== "road.file") continue; // strings have no choices
       const texts = [["", "as built in"], ...roads.map((name) => [name, name])];
       const note = v.variability === "tunable" ? "" : "starts again";
       controls.set(v.name, control(v, { change: (value) => set(v, value), note, texts }));
@@ -57,15 +58,15 @@ export function parameterPanel(variables, { set, roads }) {
     }
     if (lines.length) parts.push(section(title, title === "start values" && lines.length < 8, ...lines));
   }
-  const said = "A change takes effect at once; where it says “starts again”, the run begins again with it.";
+  const hint = "A change takes effect at once; where it says “starts again”, the run begins again with it.";
   return {
-    element: section("Parameters", false, el("p.a3-hint", {}, said), ...parts),
+    element: section("Parameters", false, el("p.a3-hint", {}, hint), ...parts),
     show: (name, value) => controls.get(name)?.show(value),
   };
 }
 
 /**
- * The gamepad or wheel, with its axes and what they do.
+ * Makes a section with the gamepad or steering wheel and its assignments.
  * @param {import("./gamepad.js").Gamepad} gamepad
  * @param {string[]} inputs
  */

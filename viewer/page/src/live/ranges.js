@@ -1,45 +1,45 @@
-// Ranges of sliders: those of the variable, or a guess that is marked as one.
+// Ranges of sliders: those of the variables, or marked guesses.
 
 /** Guessed half-widths around 0 by unit, for variables that start at 0. */
 const GUESSES = { m: 10, "m/s": 40, "m/s2": 10, rad: Math.PI, "rad/s": 10, N: 1000, "N.m": 100, kg: 100, s: 10, "1": 1 };
-/** Quotient of the ends of a range from which on a slider is logarithmic. */
-const LOGARITHMIC = 50;
+/** Least ratio of the ends of a range of a logarithmic slider. */
+const LOGARITHMIC_RATIO = 50;
 
-/** A start value below this share of a guess is taken for 0. */
-const TINY = 1e-3;
+/** Share of a guess below which a start value counts as 0. */
+const ZERO_SHARE = 1e-3;
 
 /**
  * The range of a variable.
  * @param {{min?: number, max?: number, start?: number, unit?: string, type: string, largest?: number}} variable - With
- *   the largest absolute value that is known to occur, if any.
+ *   the largest known absolute value, if any.
  * @returns {{low: number, high: number, guessed: boolean, log: boolean, whole: boolean}}
  */
 export function rangeOf({ min, max, start, unit, type, largest = 0 }) {
   const whole = type === "Integer" || type === "Enumeration";
   const guess = whole ? 10 : (GUESSES[unit ?? "1"] ?? 10);
   const begin = Math.max(Math.abs(Number(start ?? 0)), largest);
-  const width = begin < TINY * guess && !largest ? guess : rounded(2 * begin);
+  const width = begin < ZERO_SHARE * guess && !largest ? guess : rounded(2 * begin);
   let low = min ?? Math.min(-width, max === undefined ? 0 : max - 2 * width);
   let high = max ?? Math.max(width, min === undefined ? 0 : min + 2 * width);
   if (whole) [low, high] = [Math.ceil(low), Math.floor(high)];
   const guessed = min === undefined || max === undefined;
-  return { low, high, guessed, log: !whole && low > 0 && high / low >= LOGARITHMIC, whole };
+  return { low, high, guessed, log: !whole && low > 0 && high / low >= LOGARITHMIC_RATIO, whole };
 }
 
-/** The next number of one digit that is not smaller. */
+/** The value rounded up to one digit. */
 function rounded(value) {
   const unit = 10 ** Math.floor(Math.log10(value));
   return Number((Math.ceil(value / unit - 1e-9) * unit).toPrecision(3));
 }
 
-/** Where a value is on a slider from 0 to 1. */
+/** Position of a value on a slider, 0 to 1. */
 export function toSlider(range, value) {
   const { low, high, log } = range;
   const x = log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low || 1);
   return Math.max(0, Math.min(1, x));
 }
 
-/** The value of a slider from 0 to 1; at its ends exactly those of the range. */
+/** Value at a position on a slider, 0 to 1; exactly the limits at its ends. */
 export function fromSlider(range, x) {
   const { low, high, log, whole } = range;
   if (x <= 0) return low;
@@ -51,7 +51,7 @@ export function fromSlider(range, x) {
 }
 
 /**
- * The choices of a whole-number variable of few values, with the words of its description, such as "0 neutral".
+ * Choices of an integer variable with few values, with labels from its description, such as "0 neutral"; null for others.
  * @param {Data} variable
  * @returns {[number, string][] | null}
  */

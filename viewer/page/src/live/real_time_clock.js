@@ -1,10 +1,10 @@
-// Holds a simulation to a clock by absolute deadlines: lateness is made up for, or reported if it cannot be.
+// Synchronises a simulation with a clock by absolute deadlines; lateness is caught up, or reported.
 import { Factor } from "../sources/factor.js";
 
-/** Lag beyond which it is not made up for, s of the clock. */
-const LAG_MOST = 0.25;
+/** Lateness above which steps are not caught up, s of the clock. */
+const MAX_LAG = 0.25;
 
-/** Steps that are due by a clock. */
+/** Computes the steps that are due by a clock. */
 export class RealTimeClock {
   /** @param {number} step - Communication step, s. */
   constructor(step) {
@@ -16,9 +16,9 @@ export class RealTimeClock {
   }
 
   /**
-   * Time runs from here.
+   * Starts the clock.
    * @param {number} now - Clock, s.
-   * @param {number} k - Steps that are done.
+   * @param {number} k - Number of completed steps.
    * @param {number} speed - Simulated seconds per second of the clock.
    */
   start(now, k, speed) {
@@ -30,39 +30,38 @@ export class RealTimeClock {
     this.slow = 0;
   }
 
-  /** Time stands. */
+  /** Stops the clock. */
   stop() {
     this.running = false;
     this._factor = null;
     this.slow = 0;
   }
 
-  /** Steps that should be done at this time of the clock. */
+  /** Number of steps that are due at a time of the clock, s. */
   due(now) {
     return this.running ? this._k + Math.floor(((now - this._now) * this.speed) / this.step + 1e-9) : 0;
   }
 
-  /** Time of the clock at which step k should be done. */
+  /** Time of the clock at which step k is due, s. */
   deadline(k) {
     return this._now + ((k - this._k) * this.step) / this.speed;
   }
 
   /**
-   * Tell how far the steps have come. If they are late by more than can be made up for, time runs on from here, and
-   * `slow` counts it.
+   * Reports completed steps. If they are too late, deadlines start again from here, which `slow` counts.
    * @param {number} now
-   * @param {number} k - Steps that are done.
+   * @param {number} k - Number of completed steps.
    */
   reached(now, k) {
     if (!this.running) return;
-    if (now - this.deadline(k + 1) > LAG_MOST) {
+    if (now - this.deadline(k + 1) > MAX_LAG) {
       this._anchor(now, k);
       this.slow += 1;
     }
     this._mark(now, k);
   }
 
-  /** Simulated seconds per second of the clock over the last second; null while it is too short to tell. */
+  /** Real-time factor over the last second; null at the start. */
   factor() {
     return this._factor ?? null;
   }

@@ -1,14 +1,14 @@
-// The record of a run: a row for each communication step, for plots, pictures between two steps, and a table.
+// The record of a run with a row for each communication step, for plots, interpolated pictures, and a table.
 
 const ROWS = 1024; // in a block
 
 /** Rows of numbers at the times k * step; row k has the inputs of the step that begins there. */
 export class Record {
   /**
-   * @param {string[]} inputs - Names of what is set: inputs and tunable parameters.
-   * @param {string[]} outputs - Names of what comes out, one for each instance's output.
+   * @param {string[]} inputs - Names of inputs and tunable parameters.
+   * @param {string[]} outputs - Names of the outputs of all instances.
    * @param {number} step - s.
-   * @param {number} [most] - Bytes; the oldest rows are forgotten beyond them.
+   * @param {number} [most] - Largest size, bytes; beyond it the oldest rows are removed.
    */
   constructor(inputs, outputs, step, most = 4e8) {
     this.held = inputs;
@@ -19,11 +19,11 @@ export class Record {
     this.clear();
   }
 
-  /** Forget everything. */
+  /** Removes all rows. */
   clear() {
     this._blocks = [];
     this.first = 0;
-    this.end = 0; // one beyond the last row
+    this.end = 0; // index after the last row
   }
 
   /** Time of the last row, s. */
@@ -32,8 +32,8 @@ export class Record {
   }
 
   /**
-   * A row after the last one.
-   * @param {ArrayLike<number>} inputs - Values of the step that ends there: they belong to the row before.
+   * Appends a row.
+   * @param {ArrayLike<number>} inputs - Values during the step that ends there, which belong to the previous row.
    * @param {ArrayLike<number>} outputs - At its end.
    */
   add(inputs, outputs) {
@@ -41,23 +41,23 @@ export class Record {
     if (this.end % ROWS === 0 || !this._blocks.length) this._grow();
     this.end += 1;
     const row = this._row(this.end - 1);
-    row.set(inputs, 0); // until the next step says what it has
+    row.set(inputs, 0); // preliminary, until the next step
     row.set(outputs, this.held.length);
   }
 
-  /** Forget the rows after k. */
+  /** Removes the rows after k. */
   cut(k) {
     this.end = Math.max(this.first, Math.min(this.end, k + 1));
     const keep = this.end === 0 ? 0 : Math.floor((this.end - 1) / ROWS) - this._base + 1;
     this._blocks.length = Math.min(this._blocks.length, keep);
   }
 
-  /** The numbers of row k: what is set, then outputs. */
+  /** Values of row k: inputs and parameters, then outputs. */
   row(k) {
     return this._row(Math.max(this.first, Math.min(this.end - 1, k)));
   }
 
-  /** Where a column is: its index in a row, -1 if there is none. */
+  /** Index of a column in a row; -1 if there is none. */
   column(name) {
     const column = this.held.indexOf(name);
     if (column >= 0) return column;
@@ -66,7 +66,7 @@ export class Record {
   }
 
   /**
-   * A column over rows, thinned.
+   * Every `stride`th value of a column.
    * @param {number} index - Of the column.
    * @param {number} from - First row.
    * @param {number} stride
@@ -85,8 +85,8 @@ export class Record {
 
   /**
    * The run as a table that `ali3 run --manoeuvre` and `ali3 view` read.
-   * @param {string[]} comments - Lines behind the numbers, where programs that know no comments do not meet them.
-   * @param {string[]} [kept] - Of what is set, which columns; by default all.
+   * @param {string[]} comments - Lines after the numbers, for programs that do not support comments.
+   * @param {string[]} [kept] - Names of columns of inputs and parameters; by default all.
    * @param {string[]} [outputs] - Names of columns of outputs; by default all.
    * @returns {string[]} Parts of the text.
    */
@@ -128,7 +128,7 @@ export class Record {
 }
 
 /**
- * A lookup between two rows, for a picture.
+ * Interpolated values between two rows.
  * @param {Record} record
  * @param {number} time - s.
  * @param {import("../sources/blend.js").Blend} blend

@@ -1,10 +1,10 @@
-// Roads of a picture that parameters choose and move.
+// Applies parameters of the FMU to the roads of a picture.
 
 /**
- * Roads as slick as parameters have them, with their kerbs where they do; the higher side stays where it is.
+ * Roads with the friction and kerbs that parameters set; the higher side of a kerb keeps its height.
  * @param {Data[]} roads - Of a scene; `variables` names the parameters.
  * @param {(name: string) => number | undefined} lookup
- * @returns {{roads: Data[], key: string}} `key` is another one when they look different.
+ * @returns {{roads: Data[], key: string}} `key` changes with the appearance.
  */
 export function movedRoads(roads, lookup) {
   const key = [];

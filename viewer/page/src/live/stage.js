@@ -1,4 +1,4 @@
-// The pictures side by side, each of an FMU that runs or of a recording played beside it.
+// Pictures side by side, each of a running FMU or of a recording.
 import { SceneView } from "../scene/scene_view.js";
 import { Effects } from "../effects/car_effects.js";
 import { el } from "../common/dom.js";
@@ -6,26 +6,25 @@ import { Instruments } from "../instruments/index.js";
 import { Timing } from "../instruments/timing.js";
 import { movedRoads } from "./roads.js";
 
-/** Instants of a run that are looked at. */
-const SURVEYED = 40;
-/** After this a camera stays where a person has put it, s of the run. */
-const SURVEYED_UNTIL = 20;
+/** Number of sampled times of a run. */
+const SAMPLE_COUNT = 40;
+/** Time of the run after which it is not sampled again, so that cameras stay, s. */
+const LAST_SURVEY = 20;
 
-/** Pictures side by side. */
 export class Stage {
   /**
    * @param {Data[]} items - `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
-   *   gives the numbers of a time.
+   *   returns the values at a time.
    * @param {Data} options - Of SceneView.
-   * @param {{look: Data, notices: import("../common/notices.js").Notices, box: HTMLElement}} page - What pictures show
-   *   now; where sentences stand; what takes the pictures.
+   * @param {{look: Data, notices: import("../common/notices.js").Notices, box: HTMLElement}} page - Current look;
+   *   notices; parent element of the pictures.
    */
   constructor(items, options, { look, notices, box }) {
     this._notices = notices;
     this._look = look;
     this._epoch = 0;
     this._surveyed = 0;
-    /** @type {Data[]} one for each item: what it has, the elements, and what is made of them */
+    /** @type {Data[]} items with their elements, views and effects */
     this.parts = items.map((item) => {
       const holder = el("div.a3-picture");
       const timing = new Timing(item.title);
@@ -39,36 +38,36 @@ export class Stage {
     this._options = { driven: !options.keep, onMessage: (sentence) => notices.note(sentence), ...options };
   }
 
-  /** Make the pictures, once the element stands in the page. */
+  /** Creates the views, once the element is in the page. */
   open() {
     for (const part of this.parts) {
       part.road ??= "";
       part.view = new SceneView(part.holder, part.scene, this._options);
       part.view.set(this._look);
     }
-    for (const part of this.parts) this._follow(part);
+    for (const part of this.parts) this._addEffects(part);
     this.problem = this.parts.map((part) => part.view.problem).find(Boolean) ?? "";
   }
 
-  /** Draw the roads that belong to a value of the parameter `road.file`, moved by other parameters. */
+  /** Chooses the roads of a value of the parameter `road.file`. */
   chooseRoads(name) {
     for (const part of this.parts) if (part.roads?.[name]) part.road = name;
   }
 
-  /** Marks, dust and sound of a car: of the first picture, so that one is heard. */
-  _follow(part) {
+  /** Creates marks, dust and sound of a car. */
+  _addEffects(part) {
     if (part.view.problem || !part.variables) return;
     part.effects?.dispose();
     const { variables } = part;
     const constants = [...variables.values()].filter((v) => v.variability === "constant").map((v) => [v.name, Number(v.start)]);
     part.effects = new Effects(part.view, { columns: [...variables.keys()], constants: Object.fromEntries(constants) }, (sentence) => this._notices.tell(sentence));
     part.effects.sound.mute(this._muted ?? false);
-    if (this._heard) this.sound();
+    if (this._soundOn) this.sound();
   }
 
-  /** Sound may begin: a hand has touched the page. */
+  /** Starts the sound of the first picture, after a click or key as browsers require. */
   sound() {
-    this._heard = true;
+    this._soundOn = true;
     this.parts[0].effects?.start();
   }
 
@@ -78,7 +77,7 @@ export class Stage {
     for (const { effects } of this.parts) effects?.sound.mute(on);
   }
 
-  /** Another run, or an earlier instant: nothing goes on across it. @param {boolean} [begun] another run */
+  /** Interrupts marks and trails, at another run or an earlier time. @param {boolean} [begun] another run */
   renew(begun = false) {
     if (begun) this._surveyed = 0;
     this._epoch += 1;
@@ -95,29 +94,28 @@ export class Stage {
     if (first) return;
     const camera = part.view.cameras?.name;
     part.view.dispose();
-    const away = part.world && part.road !== part.world.road;
-    part.view = new SceneView(part.holder, { ...part.scene, roads, ...(away ? { scenery: [] } : {}) }, this._options);
-    this._follow(part);
+    const isOtherRoad = part.world && part.road !== part.world.road;
+    part.view = new SceneView(part.holder, { ...part.scene, roads, ...(isOtherRoad ? { scenery: [] } : {}) }, this._options);
+    this._addEffects(part);
     if (camera && !part.view.problem) part.view.camera(camera);
     part.view.set(this._look);
   }
 
   /**
-   * Ranges of arrows and stress, and what a camera that stands must see, from what the run has been; each time the run
-   * is twice as long.
+   * Samples the run for the ranges of arrows and stress and the region of fixed cameras, each time it is twice as long.
    */
   survey([begin, end]) {
-    if (end < 2 * this._surveyed || this._surveyed > SURVEYED_UNTIL || !(end > begin)) return;
+    if (end < 2 * this._surveyed || this._surveyed > LAST_SURVEY || !(end > begin)) return;
     this._surveyed = Math.max(0.25, end);
-    const times = Array.from({ length: SURVEYED }, (_, i) => begin + (i / (SURVEYED - 1)) * (end - begin));
+    const times = Array.from({ length: SAMPLE_COUNT }, (_, i) => begin + (i / (SAMPLE_COUNT - 1)) * (end - begin));
     for (const part of this.parts) {
       const { recording: run } = part;
-      const instants = run ? times.map((_, i) => run.t[0] + (i / (SURVEYED - 1)) * (run.t.at(-1) - run.t[0])) : times;
-      part.view.scan((i) => part.sample(instants[i]), SURVEYED);
+      const instants = run ? times.map((_, i) => run.t[0] + (i / (SAMPLE_COUNT - 1)) * (run.t.at(-1) - run.t[0])) : times;
+      part.view.scan((i) => part.sample(instants[i]), SAMPLE_COUNT);
     }
   }
 
-  /** Draw the instant `time`. */
+  /** Updates the pictures to a time. */
   show(time, pace) {
     for (const part of this.parts) {
       const lookup = part.sample(time);
@@ -132,7 +130,7 @@ export class Stage {
     }
   }
 
-  /** Put the pictures on the screen. */
+  /** Draws the pictures. */
   render() {
     for (const part of this.parts) part.view.render();
   }

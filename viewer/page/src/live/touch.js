@@ -1,12 +1,12 @@
-// Driving by fingers: a lever for the steering and two for the pedals, which spring back.
+// Driving by touch: levers for steering and pedals, which spring back.
 import { el } from "../common/dom.js";
 
 /**
- * A lever over the picture.
+ * Makes a lever over the picture.
  * @param {object} options
  * @param {string} options.name - Of the input.
  * @param {string} options.label
- * @param {boolean} options.across - Left and right from its middle, +1 at the left; else up from its foot.
+ * @param {boolean} options.across - Horizontal, +1 at the left end and -1 at the right; else vertical, from 0 at the bottom to 1.
  * @param {(name: string, value: number) => void} options.want
  */
 function lever({ name, label, across, want }) {
@@ -42,7 +42,7 @@ function lever({ name, label, across, want }) {
   return element;
 }
 
-/** The levers of a car. */
+/** Makes the levers of a car. */
 export function levers(names, want) {
   const pads = el("div.a3-touch", { data: "touch" });
   if (names.includes("steering")) pads.append(lever({ name: "steering", label: "steer", across: true, want }));

@@ -1,29 +1,29 @@
-// Runs the FMUs in a thread of their own, so that drawing does not delay them. `Desk` is the other side.
+// Runs the FMUs in a separate thread, so that drawing does not delay them; `Desk` is its counterpart in the page.
 import { loadFmu } from "../wasm/fmu.js";
 import { Engine } from "./engine.js";
 import { RealTimeClock } from "./real_time_clock.js";
 
-/** Work between two looks at the messages of the page, s of the clock. */
-const SLICE = 0.012;
-/** Rows are sent to the page at most this often, s of the clock. */
-const POST_EVERY = 0.008;
+/** Longest computation between messages of the page, s of the clock. */
+const MAX_SLICE = 0.012;
+/** Least interval of sending rows to the page, s of the clock. */
+const POST_INTERVAL = 0.008;
 const WAKE_MS = 4;
 
-/** Seconds of a clock that page and worker share. */
+/** Time of a common clock of page and worker, s. */
 export function clock() {
   return (performance.timeOrigin + performance.now()) / 1000;
 }
 
-/** Answers the messages of a page. */
+/** Handles the messages of a page. */
 export class Runner {
-  /** @param {(message: Data, transfer?: ArrayBuffer[]) => void} post - To the page. */
+  /** @param {(message: Data, transfer?: ArrayBuffer[]) => void} post - Sends to the page. */
   constructor(post) {
     this._post = post;
     this._timer = null;
     this._rows = [];
     this._posted = 0;
-    this._cost = 0; // s a step, smoothed
-    /** Why the FMUs could not begin. @type {Data | null} */
+    this._cost = 0; // smoothed computing time of a step, s
+    /** Reason why the FMUs did not start. @type {Data | null} */
     this._refused = null;
   }
 
@@ -31,7 +31,7 @@ export class Runner {
   async take(message) {
     const begins = message.do === "open" || message.do === "restart";
     if (this._refused && !begins) {
-      if (message.do !== "want") this._post(this._refused); // there is no run
+      if (message.do !== "want") this._post(this._refused); // without a run there is no other answer
       return;
     }
     try {
@@ -46,13 +46,13 @@ export class Runner {
   }
 
   async _open({ fmus, step, start, script }) {
-    this._given = { fmus, script };
+    this._opened = { fmus, script };
     await this._load(step);
     await this._restart({ start, step });
   }
 
   async _load(step) {
-    const { fmus, script } = this._given;
+    const { fmus, script } = this._opened;
     const loaded = [];
     for (const fmu of fmus) loaded.push(await loadFmu(fmu));
     this.engine = new Engine(loaded, step);
@@ -66,7 +66,7 @@ export class Runner {
     this.pacer = new RealTimeClock(this.engine.step);
     this._rows = [];
     this.engine.restart(start);
-    this._tellMessages();
+    this._postMessages();
     const { step: used, held, rows } = this.engine;
     this._post({ is: "started", step: used, held, outputs: rows.slice() });
   }
@@ -85,7 +85,7 @@ export class Runner {
   _step({ count }) {
     this._halt();
     this.engine.retry();
-    for (let n = 0; n < count && this._one(); n++);
+    for (let n = 0; n < count && this._makeStep(); n++);
     this._send("paused");
   }
 
@@ -106,27 +106,27 @@ export class Runner {
     this.pacer?.stop();
   }
 
-  /** Do the steps that are due; then sleep until others are. */
+  /** Makes the steps that are due, and waits for the next. */
   _tick() {
     const begin = clock();
     const due = this.pacer.due(begin);
     let done = 0;
-    let going = true;
+    let isRunning = true;
     let now = begin;
-    while (going && this.engine.k < due && now - begin < SLICE) {
-      going = this._one();
-      if (going) done += 1;
+    while (isRunning && this.engine.k < due && now - begin < MAX_SLICE) {
+      isRunning = this._makeStep();
+      if (isRunning) done += 1;
       now = clock();
     }
     if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / 200);
-    if (!going) return;
+    if (!isRunning) return;
     this.pacer.reached(now, this.engine.k);
-    if (now - this._posted >= POST_EVERY) this._send("rows");
+    if (now - this._posted >= POST_INTERVAL) this._send("rows");
     const wait = 1000 * (this.pacer.deadline(this.engine.k + 1) - now);
     this._timer = setTimeout(() => this._tick(), Math.max(0, Math.min(WAKE_MS, wait)));
   }
 
-  _one() {
+  _makeStep() {
     const { engine } = this;
     const refused = engine.advance();
     if (engine.alive) this._rows.push(engine.held, engine.rows.slice());
@@ -135,11 +135,11 @@ export class Runner {
       this._send("rows");
       this._post({ is: "refused", which, text, k: engine.alive ? engine.k - 1 : engine.k, alive: engine.alive });
     }
-    if (engine.k % 50 === 0 || refused.length) this._tellMessages(refused.length > 0);
+    if (engine.k % 50 === 0 || refused.length) this._postMessages(refused.length > 0);
     return engine.alive;
   }
 
-  _tellMessages(quiet = false) {
+  _postMessages(quiet = false) {
     const messages = this.engine.messages();
     if (!quiet) for (const { which, text, status } of messages) this._post({ is: "message", which, text, status });
   }
@@ -160,7 +160,7 @@ export class Runner {
   }
 }
 
-/** Serve the page that started this worker. */
+/** Starts to serve the page that started this worker. */
 export function serve() {
   const runner = new Runner((message, transfer) => self.postMessage(message, { transfer: transfer ?? [] }));
   self.onmessage = (event) => runner.take(event.data);

@@ -1,4 +1,4 @@
-// A white board for planar mechanisms: a grid in metres behind them, even light.
+// The look for planar mechanisms: a white board with a grid in metres, and uniform light.
 import * as THREE from "three";
 import { niceStep } from "../scene/forces.js";
 import { discard } from "./discard.js";
@@ -6,7 +6,7 @@ import { gridSurface } from "./grid.js";
 import { reflecting } from "./environment_map.js";
 import { room } from "./room.js";
 
-/** @param {Data} view the SceneView @param {boolean} fine */
+/** Makes the look. @param {Data} view the SceneView @param {boolean} fine */
 export function board(view, fine) {
   const { world, renderer, extent } = view;
   world.background = new THREE.Color("#ffffff");

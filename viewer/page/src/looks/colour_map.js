@@ -4,7 +4,7 @@ import looks from "../../../looks.json" with { type: "json" };
 
 const STOPS = looks.stress;
 
-/** Colour of a level: three numbers 0 to 255. @param {number} level 0 to 1; outside, the end's colour */
+/** Colour of a level, three numbers from 0 to 255. @param {number} level 0 to 1, limited */
 export function colourAt(level) {
   const at = Math.min(Math.max(level, 0), 1) * (STOPS.length - 1);
   const i = Math.min(Math.floor(at), STOPS.length - 2);

@@ -1,4 +1,4 @@
-// Contact shadows: soft dark areas of the ground below the body and below each wheel, at every quality.
+// Contact shadows: soft dark areas on the ground below the body and each wheel.
 import * as THREE from "three";
 import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
 import { discard } from "./discard.js";
@@ -6,20 +6,20 @@ import { laid, LIFT } from "./ground_offset.js";
 import { groundHeight } from "./road_height.js";
 import { atEachPixel, atEachPoint } from "./vertex_code.js";
 
-/** How dark the middle of a shadow is, of the body and of a wheel, beside shadows of the sun and in place of them. */
-const [BESIDE, ALONE] = [[0.4, 0.6], [0.62, 0.62]]; // prettier-ignore
-/** Sides of the body's shadow beside those of the rectangle of its wheels, and of a wheel's beside its radius and width. */
-const [LONG, WIDE, TREAD, FLANK] = [1.42, 1.2, 1.3, 1.3];
-/** Share of the distance by which a shadow is drawn nearer: above paint, below tyre marks. */
-const NEARER = 0.005;
-/** Metres above the ground at which a body throws half of its shadow. */
-const FADE = 1;
+/** Darkness of the middle of shadows of body and wheel, with shadows of the sun and without. */
+const [DARKNESS_WITH_SUN, DARKNESS_WITHOUT_SUN] = [[0.4, 0.6], [0.62, 0.62]]; // prettier-ignore
+/** Size of the shadow of the body relative to the rectangle of its wheels, and of a wheel relative to its radius and width. */
+const [BODY_LENGTH, BODY_WIDTH, WHEEL_LENGTH, WHEEL_WIDTH] = [1.42, 1.2, 1.3, 1.3];
+/** Depth offset as a share of the distance, between those of paint and tyre marks. */
+const DEPTH_OFFSET = 0.005;
+/** Height of a body with half of the darkness, m. */
+const HALF_DARKNESS_HEIGHT = 1;
 
 const DARK = /* glsl */ `
 vec2 inside = 1.0 - vCorner * vCorner;
 diffuseColor.a *= vDark * smoothstep(0.0, 0.55, inside.x * inside.y);`;
 
-/** @param {Data} view the SceneView */
+/** Makes the shadows. @param {Data} view the SceneView */
 export function contactShadows(view) {
   const { scene, parts, up } = view;
   const wheels = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
@@ -41,14 +41,14 @@ export function contactShadows(view) {
       const level = groundHeight(view, corner) ?? least;
       const gap = Math.max(0, dot(middle, up) - level);
       places.array.set(subtract(add(corner, scale(up, level + LIFT - dot(corner, up))), origin), 12 * k + 3 * i);
-      darks.array[4 * k + i] = dark / (1 + (gap / FADE) ** 2);
+      darks.array[4 * k + i] = dark / (1 + (gap / HALF_DARKNESS_HEIGHT) ** 2);
     });
   };
   return {
     mesh,
-    /** @param {number[]} origin earth position of the picture's origin @param {boolean} alone no shadows of the sun */
+    /** @param {number[]} origin earth position of the origin of the picture, m @param {boolean} alone without shadows of the sun */
     follow(origin, alone) {
-      const [body, wheel] = alone ? ALONE : BESIDE;
+      const [body, wheel] = alone ? DARKNESS_WITHOUT_SUN : DARKNESS_WITH_SUN;
       const centres = wheels.map(({ frame, at }) => parts.frames.point(frame, at ?? [0, 0, 0]));
       mesh.visible = count > 0 && centres.every((centre) => centre !== null);
       if (!mesh.visible) return;
@@ -63,12 +63,12 @@ export function contactShadows(view) {
       });
       const middle = add(add(scale(forward, spread[0][0]), scale(left, spread[1][0])), scale(up, least));
       const radius = wheels[0].radius;
-      const long = spread[1][1] > radius ? LONG : 1; // what has its wheels in one line does not reach beyond them
-      put(0, middle, scale(forward, long * spread[0][1] + radius), scale(left, WIDE * spread[1][1] + 0.3 * radius), body, origin, least);
+      const long = spread[1][1] > radius ? BODY_LENGTH : 1; // a vehicle with wheels in one line does not extend beyond them
+      put(0, middle, scale(forward, long * spread[0][1] + radius), scale(left, BODY_WIDTH * spread[1][1] + 0.3 * radius), body, origin, least);
       centres.forEach((centre, k) => {
         const bottom = add(centre, scale(up, -wheels[k].radius));
         const axle = level(rotate(parts.frames.pose(wheels[k].frame).rotation, wheels[k].axis ?? [0, 1, 0]));
-        put(k + 1, bottom, scale(cross(axle, up), TREAD * wheels[k].radius), scale(axle, FLANK * wheels[k].width), wheel, origin, least);
+        put(k + 1, bottom, scale(cross(axle, up), WHEEL_LENGTH * wheels[k].radius), scale(axle, WHEEL_WIDTH * wheels[k].width), wheel, origin, least);
       });
       places.needsUpdate = darks.needsUpdate = true;
     },
@@ -77,7 +77,7 @@ export function contactShadows(view) {
 }
 
 const material = () =>
-  laid("contact-shadows", NEARER, { color: "#05060a" }, (shader) => {
+  laid("contact-shadows", DEPTH_OFFSET, { color: "#05060a" }, (shader) => {
     const head = "varying vec2 vCorner;\nvarying float vDark;";
     atEachPoint(shader, `attribute vec2 corner;\nattribute float dark;\n${head}`, "vCorner = corner;\nvDark = dark;");
     atEachPixel(shader, head, { color_fragment: DARK });

@@ -1,27 +1,27 @@
-// A texture with the share of each surface at each point of the ground: soft edges and no shimmer far away.
+// Makes a texture with the share of each surface at each point of the ground.
 import { SURFACES } from "./heights.js";
 import { smoothTexture } from "./noise.js";
 
-/** The picture has no more points a side; larger rasters are averaged. */
-const MOST = 4096;
-const LAST = SURFACES.length - 1;
+/** Largest number of points of a side of the texture; larger rasters are averaged. */
+const MAX_SIDE = 4096;
+const LAST_SURFACE = SURFACES.length - 1;
 
 /**
- * Shares of the surfaces. Two have one channel, 128 + 127 for all of the one and half as much below 128 for all of the
- * other: the first and the last of SURFACES, the second and the last but one, ... Such two seldom lie side by side; halves
- * of both, as mipmaps have them, are then not the 128 of neither.
+ * Shares of the surfaces. Two surfaces share a channel: 128 + 127 is all of one, and half as much below 128 is all of the
+ * other: the first and the last of SURFACES, the second and the last but one, ... Such pairs are seldom adjacent, and the
+ * mean of both, as in mipmaps, differs from the 128 of neither.
  * @param {import("./heights.js").SurfaceRaster} raster
- * @param {number} [most] points a side
- * @returns {{width: number, height: number, factor: number, pixels: Uint8Array}} rows along x; factor: averaged points
+ * @param {number} [most] largest number of points of a side
+ * @returns {{width: number, height: number, factor: number, pixels: Uint8Array}} rows along x; factor: number of averaged points in each direction
  */
-export function shares(raster, most = MOST) {
+export function shares(raster, most = MAX_SIDE) {
   const factor = Math.max(1, Math.ceil(Math.max(...raster.shape) / most));
   const [height, width] = raster.shape.map((n) => Math.ceil(n / factor));
   const { shape, classes } = raster;
   const one = 127 / (factor * factor);
   const places = Array.from({ length: 256 }, (_, k) => Math.max(0, SURFACES.indexOf(raster.names[k])));
-  const channels = Uint8Array.from(places, (place) => Math.min(place, LAST - place));
-  const amounts = Float32Array.from(places, (place) => (2 * place < LAST ? one : -0.5 * one));
+  const channels = Uint8Array.from(places, (place) => Math.min(place, LAST_SURFACE - place));
+  const amounts = Float32Array.from(places, (place) => (2 * place < LAST_SURFACE ? one : -0.5 * one));
   const sums = new Float32Array(4 * width * height).fill(128.5);
   for (let i = 0; i < height * factor; i++) {
     const row = Math.min(i, shape[0] - 1) * shape[1];
@@ -36,7 +36,7 @@ export function shares(raster, most = MOST) {
   return { width, height, factor, pixels };
 }
 
-/** A sixth of each neighbour: where the edge runs across the cells it has no stairs. @param {number} step 1: along a row; else from row to row */
+/** Smooths along one direction, which avoids stairs at oblique edges. @param {number} step 1: along rows; else distance of rows */
 function soften(picture, width, height, step) {
   const [along, lines] = step === 1 ? [width, height] : [height, width];
   const next = step === 1 ? width : 1;
@@ -56,10 +56,11 @@ function soften(picture, width, height, step) {
 }
 
 /**
+ * Texture of the shares of the surfaces.
  * @param {import("./heights.js").SurfaceRaster} raster
  * @param {number} anisotropy
- * @returns {{texture: import("three").DataTexture, size: number[], start: number[]}} size: metres of the picture along y and
- *   x; start: metres from the first point of the raster to its corner
+ * @returns {{texture: import("three").DataTexture, size: number[], start: number[]}} size: of the texture along y and
+ *   x, m; start: from the first point of the raster to the corner of the texture, m
  */
 export function coverage(raster, anisotropy) {
   const { width, height, factor, pixels } = shares(raster);

@@ -1,6 +1,6 @@
-/** Takes a thing out of the picture and frees what it is drawn with. @param {Data | undefined} thing a mesh, or points */
-export function discard(thing) {
-  thing?.removeFromParent();
-  thing?.geometry.dispose();
-  thing?.material.dispose();
+/** Removes an object from the picture and frees its geometry and material. @param {Data | undefined} object a mesh, or points */
+export function discard(object) {
+  object?.removeFromParent();
+  object?.geometry.dispose();
+  object?.material.dispose();
 }

@@ -1,4 +1,4 @@
-// A floor or wall with a grid in metres, fixed to the earth.
+// Makes a floor or wall with a grid in metres, fixed to the earth.
 import * as THREE from "three";
 import { dot, modulo } from "../scene/math.js";
 import { atEachPixel, onTheEarth } from "./vertex_code.js";
@@ -17,9 +17,10 @@ diffuseColor.a *= 1.0 - smoothstep(0.6, 1.0, far);
 `;
 
 /**
+ * Makes a square with a grid.
  * @param {{x: number[], y: number[], step: number, reach: number, color: string, ink: string, lit: boolean}} options
- *   x, y: unit vectors of the surface; step: metres between lines, every fifth is bold; reach: where it ends
- * @returns {{mesh: THREE.Mesh<THREE.PlaneGeometry, THREE.Material>, follow: (origin: number[]) => void}} a square of side 2 reach, to be turned and placed
+ *   x, y: unit vectors of the surface; step: distance of lines, m, every fifth is bold; reach: half the side, m
+ * @returns {{mesh: THREE.Mesh<THREE.PlaneGeometry, THREE.Material>, follow: (origin: number[]) => void}} to be rotated and moved by the caller
  */
 export function gridSurface({ x, y, step, reach, color, ink, lit }) {
   const uniforms = {
@@ -32,7 +33,7 @@ export function gridSurface({ x, y, step, reach, color, ink, lit }) {
   };
   const settings = { color, transparent: true, depthWrite: false };
   const material = lit
-    ? new THREE.MeshLambertMaterial(settings) // a floor fills the picture: it is lit the cheapest way
+    ? new THREE.MeshLambertMaterial(settings) // the least expensive lighting, because a floor fills the picture
     : new THREE.MeshBasicMaterial({ ...settings, toneMapped: false, fog: false });
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);

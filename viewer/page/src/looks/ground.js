@@ -1,4 +1,4 @@
-// The ground as a surface fixed to the earth: its pattern stands still while the picture's origin moves with the focus.
+// Material of roads and ground, whose pattern is fixed to the earth while the origin of the picture follows the focus.
 import * as THREE from "three";
 import { across, cross, dot, modulo } from "../scene/math.js";
 import { vertexLit } from "./draft/vertex_lighting.js";
@@ -6,7 +6,7 @@ import { oneLevel } from "./noise.js";
 import { SKYLIGHT } from "./skylight.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 
-/** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
+/** Periods of the layers of the pattern, m: grain, patches, tones, painted lines. */
 const PERIODS = [1.1, 7.3, 61, 10];
 
 const PARAMETERS = /* glsl */ `
@@ -44,13 +44,13 @@ stone = mix(stone * (1.0 - 0.58 * film), ice, vSlick.y);
 diffuseColor.rgb *= stone;
 `;
 
-/** Gloss: what is wet mirrors the sky. */
+/** Gloss: wet ground reflects the sky. */
 const ROUGHNESS = /* glsl */ `
 float wetGloss = smoothstep(0.3, 1.2, film + vSlick.y);
 roughnessFactor = mix(0.86 + 0.12 * patches - 0.1 * speck, 0.16 + 0.12 * patches, wetGloss);
 `;
 
-/** Grain as relief, where it is near enough to be seen. */
+/** Relief of the grain, where it is near enough to be visible. */
 const RELIEF = /* glsl */ `
 float fade = clamp(1.0 - 60.0 * max(fwidth(plane.x), fwidth(plane.y)), 0.0, 1.0);
 if (fade > 0.0) {
@@ -63,9 +63,9 @@ if (fade > 0.0) {
 `;
 
 /**
- * The material of roads and ground. `follow(origin)` keeps its pattern on the earth.
+ * Makes the material; `follow(origin)` keeps its pattern fixed to the earth.
  * @param {{noise: THREE.Texture, up: number[], paint?: number, grass?: boolean, fine?: boolean}} options
- *   fine: with relief and gloss; otherwise lit the cheapest way
+ *   fine: with relief and gloss, else the least expensive lighting
  */
 export function groundMaterial({ noise, up, paint = 0, grass = false, fine = false }) {
   const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? axisAcross(up, [1, 0, 0]) : across(up);
@@ -83,17 +83,17 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
   material.customProgramCacheKey = () => `ali3-ground-${grass}-${fine}`;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
-    patterned(shader);
+    addPattern(shader);
     atEachPixel(shader, "", fine ? { roughnessmap_fragment: ROUGHNESS, normal_fragment_maps: RELIEF } : { lights_fragment_end: SKYLIGHT });
   };
-  /** The same pattern, lit at its points only. @param {Data} light of `lightOf` */
+  /** The same pattern with lighting at points. @param {Data} light of `lightOf` */
   const drafted = (light) =>
     vertexLit(light, {}, `ground ${grass}`, (shader) => {
       Object.assign(shader.uniforms, uniforms, { aNoise: { value: oneLevel(noise) } });
-      patterned(shader);
+      addPattern(shader);
       if (grass) atEachPixel(shader, "#define A_GRASS", {});
     });
-  /** @param {number[]} origin earth position of the picture's origin */
+  /** @param {number[]} origin earth position of the origin of the picture, m */
   const follow = (origin) => {
     const [a, b] = [dot(origin, x), dot(origin, y)];
     PERIODS.forEach((period, i) => uniforms.aOffset.value[i].set(modulo(a, period), modulo(b, period)));
@@ -101,13 +101,14 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
   return { material, drafted, follow };
 }
 
-/** @param {Data} shader of a material of three.js */
-function patterned(shader) {
+/** Adds the pattern to a shader. @param {Data} shader of three.js */
+function addPattern(shader) {
   onTheEarth(shader);
   atEachPoint(shader, "attribute vec2 slick;\nvarying vec2 vSlick;", "vSlick = slick;");
   atEachPixel(shader, PARAMETERS, { map_fragment: ASPHALT });
 }
 
+/** Unit vector of the horizontal part of an axis. */
 function axisAcross(up, axis) {
   const rest = axis.map((a, i) => a - dot(up, axis) * up[i]);
   const size = Math.hypot(...rest);

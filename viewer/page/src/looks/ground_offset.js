@@ -1,18 +1,18 @@
-// Depth offset of things on the ground: at the same place in the picture, and never covered by the ground.
+// Depth offset of objects on the ground, which keeps their position in the picture and prevents hiding by the ground.
 import * as THREE from "three";
 import { atEachPixel, atEachPoint } from "./vertex_code.js";
 
-/** Shares of the distance by which paint, and what lies on paint, is drawn nearer. */
+/** Depth offsets of paint and of marks on paint, as shares of the distance. */
 export const [PAINT, MARKS] = [0.004, 0.006];
-/** Metres by which they lie above the ground. */
+/** Height of paint and marks above the ground, m. */
 export const LIFT = 0.004;
 
 /**
- * Lines thinner than some pixels are drawn as wide as that and so much fainter: the same light, and no dots instead of a
- * line. The attribute `aside` goes from the middle of a line to its edge.
+ * Widens thin lines in a shader to a least width and makes them fainter, so that they do not break into dots. The
+ * attribute `aside` is the vector from the middle of a line to its edge.
  * @param {Data} shader of three.js @param {{value: Data}} viewport pixels
- * @param {{up?: number[], least?: number, fainter?: boolean}} [options] up: unit vector across which lines lie; least:
- *   pixels; fainter: false for what is no paint and is to be found however far it is
+ * @param {{up?: number[], least?: number, fainter?: boolean}} [options] up: unit normal of lines; least: least width,
+ *   pixels; fainter: false for lines that stay visible at any distance
  */
 export function widen(shader, viewport, { up = [0, 0, 1], least = 1.2, fainter = true } = {}) {
   shader.uniforms.aViewport = viewport;
@@ -37,7 +37,7 @@ if (min(min(edgeSeen.w, middleSeen.w), aheadSeen.w) > 0.0) {
   atEachPixel(shader, "varying float vThin;", { color_fragment: "diffuseColor.a *= vThin;" });
 }
 
-/** @param {Data} shader of three.js @param {number} share of the distance */
+/** Adds a depth offset to a shader. @param {Data} shader of three.js @param {number} share of the distance */
 export function lift(shader, share) {
   shader.vertexShader = shader.vertexShader.replace(
     "#include <project_vertex>",
@@ -46,9 +46,9 @@ export function lift(shader, share) {
 }
 
 /**
- * A material of what is laid on the ground and lets it shine through.
- * @param {string} key of its program @param {number} share of the distance by which it is drawn nearer @param {Data} look
- * @param {(shader: Data) => void} change of its program
+ * Makes a transparent material of marks on the ground.
+ * @param {string} key of its program @param {number} share depth offset, of the distance @param {Data} look
+ * @param {(shader: Data) => void} change further changes of the shader
  */
 export function laid(key, share, look, change) {
   const material = new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true, ...look });

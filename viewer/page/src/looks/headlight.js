@@ -1,4 +1,4 @@
-// Materials lit from the camera: a surface that faces it has exactly its given colour.
+// Makes materials lit from the camera: a surface that faces it has exactly the given colour.
 import * as THREE from "three";
 
 const VERTEX = /* glsl */ `
@@ -27,7 +27,7 @@ void main() {
   gl_Position = projectionMatrix * seen;
 }`;
 
-// Of instances with colours three.js tells a vertex shader USE_INSTANCING_COLOR, a fragment shader USE_COLOR.
+// For instances with colours, three.js defines USE_INSTANCING_COLOR in the vertex shader, USE_COLOR in the fragment shader.
 const FRAGMENT = /* glsl */ `
 varying vec3 vNormal, vEye;
 varying float vLevel;
@@ -50,19 +50,20 @@ void main() {
 }`;
 
 /**
+ * Makes a material.
  * @param {{color?: string, map?: THREE.Texture, front?: boolean}} options
- *   map: colours by the attribute `level`; instances may have colours of their own; front: drawn over everything else
+ *   map: colours by the attribute `level`; instances may have their own colours; front: drawn over everything else
  */
 export function headlight({ color = "#ffffff", map = null, front = false }) {
   return new THREE.ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     uniforms: { colour: { value: new THREE.Color(color) }, map: { value: map } },
-    // A colour that is read as a number is the same on all tubes but those seen within 20 degrees of their axis.
+    // Colours of values are independent of the orientation of a tube, except within 20 degrees of its axis.
     defines: map === null ? { FULL: "0.75" } : { FULL: "0.34", BY_LEVEL: 1 },
     toneMapped: false,
     depthTest: !front,
     depthWrite: !front,
-    transparent: front, // drawn after what is solid
+    transparent: front, // drawn after solid parts
   });
 }

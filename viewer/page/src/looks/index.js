@@ -1,4 +1,4 @@
-// The look of a picture: light, sky and ground after the scene, and how finely it is drawn.
+// Chooses the look of a picture (light, sky and ground) and its quality.
 import { board } from "./board.js";
 import { outdoors } from "./outdoors.js";
 import { studio } from "./studio.js";
@@ -12,13 +12,13 @@ function lookOf(scene) {
   return (scene.roads ?? []).length > 0 ? "outdoors" : "studio";
 }
 
-/** Pixels of a draft, of which a processor draws more than 15 a second, and the least part of a side that is drawn. */
-const [DRAFT_PIXELS, LEAST] = [480 * 270, 0.5];
+/** Number of pixels of a draft, which processors draw more than 15 times a second, and least resolution by side. */
+const [DRAFT_PIXELS, MIN_RESOLUTION] = [480 * 270, 0.5];
 
-/** Pixels that a draft draws for each of the page, by side. @param {number} area of the picture in the page */
-const draftRatio = (area) => Math.min(1, Math.max(LEAST, Math.sqrt(DRAFT_PIXELS / area)));
+/** Resolution of a draft relative to the page, by side. @param {number} area of the picture in the page */
+const draftRatio = (area) => Math.min(1, Math.max(MIN_RESOLUTION, Math.sqrt(DRAFT_PIXELS / area)));
 
-/** @param {Data} view the SceneView */
+/** Makes the look of a picture. @param {Data} view the SceneView */
 export function makeLook(view) {
   const { options, scene, renderer, software } = view;
   const name = options.look ?? lookOf(scene);
@@ -39,7 +39,7 @@ export function makeLook(view) {
     name,
     caption: look.caption ?? "",
     height: look.height ?? null,
-    /** Pixels that are drawn for each of the page, by side. @param {number} area of the picture in the page */
+    /** Resolution of the picture relative to the page, by side. @param {number} area of the picture in the page */
     pixelRatio: (area) => {
       if (pace.level === "high") return Math.min(globalThis.devicePixelRatio || 1, 2);
       return pace.level === "draft" ? pace.share * draftRatio(area) : 1;

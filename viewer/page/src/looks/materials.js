@@ -1,27 +1,27 @@
-// Physically based materials by name; one object a look and colour, shared by all shapes that have it.
+// Physically based materials by name, shared by all shapes with the same look and colour.
 import * as THREE from "three";
 import looks from "../../../looks.json" with { type: "json" };
 
 /** @type {Object<string, Data>} */
 const KINDS = looks.materials;
 
-/** Opacity of open covers: of panels and of glass. */
-const OPEN = [0.3, 0.18];
+/** Opacities of open covers: panels, glass. */
+const OPEN_OPACITIES = [0.3, 0.18];
 
-/** Makes and keeps the materials of a scene. */
+/** Makes and stores the materials of a scene. */
 export class Materials {
   _made = new Map();
   _covers = new Map();
 
-  /** @param {{ghost?: boolean, tint?: string, opacity?: number}} [options] a ghost is see-through and of one tint */
+  /** @param {{ghost?: boolean, tint?: string, opacity?: number}} [options] a ghost is transparent and has one colour */
   constructor(options = {}) {
     this.options = options;
   }
 
   /**
-   * @param {{material?: string, color?: string, opacity?: number, cover?: boolean}} shape a cover hides what is within
-   * @param {string} [other] kind of material where the shape names none
-   * @param {{double?: boolean}} [sides] seen from both sides
+   * @param {{material?: string, color?: string, opacity?: number, cover?: boolean}} shape a cover hides parts inside
+   * @param {string} [other] kind of material if the shape has none
+   * @param {{double?: boolean}} [sides] visible from both sides
    */
   of(shape, other = "plastic", { double = false } = {}) {
     const kind = KINDS[shape.material] ? shape.material : other;
@@ -41,19 +41,19 @@ export class Materials {
       const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
       material.name = kind;
       material.side = double ? THREE.DoubleSide : THREE.FrontSide;
-      if (cover) this._covers.set(material, { solid, open: kind === "glass" ? OPEN[1] : OPEN[0] });
+      if (cover) this._covers.set(material, { solid, open: kind === "glass" ? OPEN_OPACITIES[1] : OPEN_OPACITIES[0] });
       if (solid < 1) Object.assign(material, { transparent: true, opacity: solid, depthWrite: false });
       this._made.set(key, material);
     }
     return this._made.get(key);
   }
 
-  /** Whether there is anything that hides what is within. */
+  /** Whether there are covers. */
   get covered() {
     return this._covers.size > 0;
   }
 
-  /** Covers are solid, or seen through. @param {boolean} closed */
+  /** Makes covers solid or transparent. @param {boolean} closed */
   cover(closed) {
     for (const [material, { solid, open }] of this._covers) {
       const opacity = closed ? solid : open;
@@ -62,7 +62,7 @@ export class Materials {
     }
   }
 
-  /** Through glass one sees better from within. @param {boolean} within */
+  /** Makes glass more transparent for cameras inside. @param {boolean} within */
   clear(within) {
     for (const [key, material] of this._made) {
       if (!key.startsWith("glass|")) continue;

@@ -1,9 +1,9 @@
-// A tile of noise that repeats without a seam, made once by code: four scales in the four channels.
+// Makes seamless textures of noise at several scales.
 import * as THREE from "three";
 
 const SIZE = 256;
 
-/** Pseudo-random number from 0 to below 1 of a whole one, the same on every machine. @param {number} n */
+/** Pseudo-random number from 0 to below 1 of an integer, the same on every machine. @param {number} n */
 function hash(n) {
   let x = Math.imul(n ^ 0x9e3779b9, 0x85ebca6b);
   x = Math.imul(x ^ (x >>> 13), 0xc2b2ae35);
@@ -12,7 +12,7 @@ function hash(n) {
 
 const smooth = (t) => t * t * (3 - 2 * t);
 
-/** Value noise with `cells` cells a side, repeating. */
+/** Periodic value noise with `cells` cells in each direction. */
 function valueNoise(x, y, cells, seed) {
   const [i, j] = [Math.floor(x * cells), Math.floor(y * cells)];
   const [u, v] = [smooth(x * cells - i), smooth(y * cells - j)];
@@ -32,13 +32,13 @@ function fractalNoise(x, y, cells, octaves, seed) {
   return sum / total;
 }
 
-/** One octave more for each halving of a level, so that cells of one size are the same at every level. */
+/** Seed of the tones; octaves of the same cell size have the same seed at all levels. */
 const SEED = 101;
 
 /**
- * Patches whose mipmaps keep their contrast: at each level, cells of 4 to 32 points, the larger ones those of the level
- * before. Looked up as usual, they are as wide as a few pixels are long, at every distance.
- * @param {number} n points a side, a power of two @returns {Uint8Array}
+ * A level of patches whose mipmaps have constant contrast: cells of 4 to 32 points at each level, so that they cover a few
+ * pixels at any distance.
+ * @param {number} n points of a side, a power of two @returns {Uint8Array}
  */
 function tonesOf(n) {
   const cells = Math.max(1, n / 32);
@@ -47,7 +47,7 @@ function tonesOf(n) {
   return Uint8Array.from({ length: n * n }, (_, k) => 255 * at(k));
 }
 
-/** The patches of drafts, which look up no other layer for far ground. @returns {THREE.DataTexture} */
+/** Texture of patches for drafts, which have no other layers. @returns {THREE.DataTexture} */
 export function tonesTexture() {
   const levels = Array.from({ length: Math.log2(SIZE) + 1 }, (_, k) => SIZE >> k);
   const texture = new THREE.DataTexture(null, SIZE, SIZE, THREE.RedFormat);
@@ -55,7 +55,7 @@ export function tonesTexture() {
   return repeated(sampled(texture, 1));
 }
 
-/** red: grain, green: patches, blue: clouds of tone, alpha: fine specks. @returns {THREE.DataTexture} */
+/** Texture with grain in red, patches in green, large tones in blue, fine specks in alpha. @returns {THREE.DataTexture} */
 export function noiseTexture(anisotropy = 1) {
   const pixels = new Uint8Array(SIZE * SIZE * 4);
   for (let j = 0; j < SIZE; j++) {
@@ -71,14 +71,14 @@ export function noiseTexture(anisotropy = 1) {
   return repeated(smoothTexture(pixels, SIZE, SIZE, anisotropy));
 }
 
-/** Pixels that do not shimmer from afar. @param {Uint8Array} pixels @param {number} width @param {number} height @param {number} anisotropy */
+/** Texture with mipmaps, which avoid flicker at a distance. @param {Uint8Array} pixels @param {number} width @param {number} height @param {number} anisotropy */
 export function smoothTexture(pixels, width, height, anisotropy) {
   const texture = new THREE.DataTexture(pixels, width, height);
   texture.generateMipmaps = true;
   return sampled(texture, anisotropy);
 }
 
-/** @param {THREE.DataTexture} texture @param {number} anisotropy */
+/** Sets filters of a texture. @param {THREE.DataTexture} texture @param {number} anisotropy */
 function sampled(texture, anisotropy) {
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipmapLinearFilter;
@@ -87,7 +87,7 @@ function sampled(texture, anisotropy) {
   return texture;
 }
 
-/** The same picture, looked up in one of its mipmaps where others blend two. @param {THREE.Texture} texture */
+/** Copy of a texture that uses the nearest mipmap, without blending. @param {THREE.Texture} texture */
 export function oneLevel(texture) {
   const copy = texture.clone();
   copy.minFilter = THREE.LinearMipmapNearestFilter;
@@ -95,7 +95,7 @@ export function oneLevel(texture) {
   return copy;
 }
 
-/** @param {THREE.DataTexture} texture */
+/** Makes a texture periodic. @param {THREE.DataTexture} texture */
 function repeated(texture) {
   texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
   return texture;

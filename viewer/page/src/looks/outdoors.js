@@ -1,4 +1,4 @@
-// A car's world: sky, sun, fog and a proving ground.
+// The look of scenes with roads: sky, sun, fog, ground and scenery.
 import * as THREE from "three";
 import { across, add, cross, scale, unit } from "../scene/math.js";
 import { contactShadows } from "./contact_shadows.js";
@@ -12,7 +12,7 @@ import { HAZE, seenSky, skyBall } from "./sky.js";
 import { sharpen, sunLight } from "./sun.js";
 import { makeWorld } from "./world.js";
 
-/** @param {Data} view the SceneView @param {boolean} fine whether the machine draws by a graphics card */
+/** Makes the look. @param {Data} view the SceneView @param {boolean} fine whether there is a graphics card */
 export function outdoors(view, fine) {
   const { world, renderer, up, extent, scene } = view;
   const x = across(up);
@@ -25,30 +25,30 @@ export function outdoors(view, fine) {
   const environment = {};
   const pixels = new THREE.Vector2();
   const noise = noiseTexture(fine ? 8 : 1);
-  /** Draws the sky once, as it is seen, and gives it to what reflects it. */
-  const around = () => {
+  /** Draws the sky to a cube for background and reflections; returns it as a scene. */
+  const makeSky = () => {
     environment.cube?.dispose();
-    const ball = new THREE.Scene().add(skyBall(up, new THREE.Vector3(...direction), noise));
+    const skyScene = new THREE.Scene().add(skyBall(up, new THREE.Vector3(...direction), noise));
     environment.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
-    new THREE.CubeCamera(0.1, 100, environment.cube).update(renderer, ball);
+    new THREE.CubeCamera(0.1, 100, environment.cube).update(renderer, skyScene);
     sky.material.uniforms.cube.value = environment.cube.texture;
     land?.mirror(environment.cube.texture);
-    return ball;
+    return skyScene;
   };
   const sky = seenSky();
   world.add(sky);
   const land = makeWorld(scene, { up, noise, sun: new THREE.Vector3(...direction), fine });
   if (land !== null) world.add(land.group);
-  const light = reflecting(view, around, { fine, intensity: 0.75 });
+  const light = reflecting(view, makeSky, { fine, intensity: 0.75 });
   const asphalt = groundMaterial({ noise, up, paint: 1, fine });
   const road = groundMaterial({ noise, up, fine });
   const grass = groundMaterial({ noise, up, grass: true });
   const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material });
   world.add(roads.group);
   const draft = makeDraft(view, sun);
-  const spots = contactShadows(view);
-  world.add(spots.mesh);
-  /** Ground by its material, and back. */
+  const shadows = contactShadows(view);
+  world.add(shadows.mesh);
+  /** Draft materials by the materials of the ground. */
   const twins = new Map();
   const dress = (on) => {
     if (on && twins.size === 0) for (const { material, drafted } of [asphalt, road, grass]) twins.set(material, drafted(draft.light));
@@ -58,7 +58,7 @@ export function outdoors(view, fine) {
   return {
     follow(origin) {
       draft.follow();
-      spots.follow(origin, !sun.castShadow);
+      shadows.follow(origin, !sun.castShadow);
       for (const surface of [asphalt, road, grass]) surface.follow(origin);
       const eye = view.cameras.current.position.toArray();
       roads.follow(origin, eye);
@@ -75,7 +75,7 @@ export function outdoors(view, fine) {
     tell: [...roads.unknown, ...(land?.tell ?? [])],
     dispose() {
       draft.dispose();
-      spots.dispose();
+      shadows.dispose();
       land?.dispose();
       roads.dispose();
       for (const twin of twins.values()) twin.dispose();

@@ -1,33 +1,33 @@
-// Chooses the quality of pictures by the measured time that the machine needs for one.
+// Chooses the quality of pictures by the measured drawing time.
 
 /**
- * From the coarsest. draft: see draft/index.js; low: without shadows of the sun, a world's ground and scenery as coarse
- * as in a draft; medium: all, with a pixel for each of the page and a smaller shadow map.
+ * Levels from the coarsest. draft: see draft/index.js; low: no shadows of the sun, ground and scenery as coarse as in a
+ * draft; medium: everything, with the resolution of the page and a smaller shadow map.
  */
 const LEVELS = ["draft", "low", "medium", "high"];
-/** What a person can choose, finest first. */
+/** Choices of the user, finest first. */
 export const QUALITIES = ["auto", ...[...LEVELS].reverse()];
-/** Time of a picture above which the next level is coarser, and below which a draft becomes finer, ms. */
-const [SLOW, QUICK] = [40, 12];
-/** Time between pictures of a driven car above which drafts get fewer pixels, and above which the page stood still, ms. */
-const [SELDOM, STOOD] = [55, 250];
-/** Pictures that are skipped at first, since they compile shaders and load textures, and pictures that are measured. */
-const [SKIPPED, MEASURED] = [3, 5];
-/** While a car is driven, one of so many pictures is measured: other places of a world may have more to draw. */
-const EVERY = 20;
-/** Least resolution of a draft, share by side, and the factor by which it changes. */
-const [LEAST_SHARE, COARSER] = [0.5, 0.8];
+/** Drawing time above which a coarser level is chosen, and below which a draft becomes finer, ms. */
+const [SLOW_TIME, QUICK_TIME] = [40, 12];
+/** Interval of pictures of a driven car above which drafts get fewer pixels, and above which the page was inactive, ms. */
+const [LONG_INTERVAL, INACTIVE_INTERVAL] = [55, 250];
+/** Number of pictures skipped at first, which compile shaders and load textures, and number of measured pictures. */
+const [SKIPPED_PICTURES, MEASURED_PICTURES] = [3, 5];
+/** Stride of measured pictures while a car is driven, since other parts of a world may need more time. */
+const DRIVING_STRIDE = 20;
+/** Least relative resolution of a draft by side, and factor of its changes. */
+const [MIN_RESOLUTION, RESOLUTION_FACTOR] = [0.5, 0.8];
 
 /** @param {number[]} values */
 const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
 
-/** Chooses between the levels. */
+/** Measures drawing times and chooses the level. */
 export class PictureQuality {
   /**
    * @param {import("three").WebGLRenderer} renderer
    * @param {string} quality
-   * @param {{software: boolean, driven: boolean}} machine software: the processor draws; driven: pictures must keep up
-   *   with something that moves now, so that they may be drafts
+   * @param {{software: boolean, driven: boolean}} machine software: the processor draws; driven: pictures follow a
+   *   simulation in real time, so that they may be drafts
    */
   constructor(renderer, quality, { software, driven }) {
     this.gl = renderer.getContext();
@@ -42,7 +42,7 @@ export class PictureQuality {
     if (!QUALITIES.includes(quality)) throw new Error(`There is no quality '${quality}'; there are ${QUALITIES.join(", ")}.`);
     const auto = quality === "auto";
     this.goes = auto && this.driven;
-    /** Pixels of a draft by side, of those that it has at first. */
+    /** Resolution of a draft by side, relative to the initial one. */
     this.share = 1;
     this.level = auto ? this._first() : quality;
     this.tried = new Set([this.level]);
@@ -56,7 +56,7 @@ export class PictureQuality {
   }
 
   _measure(level) {
-    this.skipped = level ? SKIPPED : Infinity;
+    this.skipped = level ? SKIPPED_PICTURES : Infinity;
     this.every = 1;
     this.times = [];
     this.gaps = [];
@@ -64,30 +64,30 @@ export class PictureQuality {
 
   before() {
     const now = performance.now();
-    if (this.goes && now - this.drawn < STOOD) this.gaps.push(now - this.drawn);
+    if (this.goes && now - this.drawn < INACTIVE_INTERVAL) this.gaps.push(now - this.drawn);
     this.drawn = now;
     this.looks = this.skipped <= 0;
     if (this.looks) this.began = now;
   }
 
-  /** Waits for the card where a picture is measured; after several it decides. A finer level is tried once. */
+  /** Waits for the graphics card if the picture is measured, and decides after several; a finer level is tried once. */
   after() {
     this.skipped -= 1;
     if (!this.looks) return;
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
     this.times.push(performance.now() - this.began);
     this.skipped = this.every - 1;
-    if (this.times.length < MEASURED) return;
-    // What else the machine does for a picture is not in its time.
+    if (this.times.length < MEASURED_PICTURES) return;
+    // The drawing time does not include other work of the machine for a picture.
     const time = median(this.times);
-    this._decide(this.level === "draft" && median(this.gaps) > SELDOM ? Math.max(time, SLOW + 1) : time);
+    this._decide(this.level === "draft" && median(this.gaps) > LONG_INTERVAL ? Math.max(time, SLOW_TIME + 1) : time);
   }
 
   /** @param {number} time of a picture, ms */
   _decide(time) {
     this.times = [];
     this.gaps = [];
-    this.every = EVERY;
+    this.every = DRIVING_STRIDE;
     if (!this.goes) this.skipped = Infinity;
     const level = nextLevel(this.level, time, this.driven);
     const finer = LEVELS.indexOf(level) > LEVELS.indexOf(this.level);
@@ -104,12 +104,12 @@ export class PictureQuality {
 }
 
 /**
- * Pixels of a draft by side after a measurement, of those that it has at first.
+ * Resolution of a draft by side after a measurement, relative to the initial one.
  * @param {number} share @param {number} time of a picture, ms
  */
 export function nextShare(share, time) {
-  if (time > SLOW) return Math.max(LEAST_SHARE, share * COARSER);
-  return time < SLOW / 3 ? Math.min(1, share / COARSER) : share;
+  if (time > SLOW_TIME) return Math.max(MIN_RESOLUTION, share * RESOLUTION_FACTOR);
+  return time < SLOW_TIME / 3 ? Math.min(1, share / RESOLUTION_FACTOR) : share;
 }
 
 /**
@@ -118,6 +118,6 @@ export function nextShare(share, time) {
  */
 export function nextLevel(level, time, driven) {
   const at = LEVELS.indexOf(level);
-  if (time > SLOW) return LEVELS[Math.max(driven ? 0 : Math.min(at, LEVELS.indexOf("medium")), at - 1)];
-  return level === "draft" && time < QUICK ? "low" : level;
+  if (time > SLOW_TIME) return LEVELS[Math.max(driven ? 0 : Math.min(at, LEVELS.indexOf("medium")), at - 1)];
+  return level === "draft" && time < QUICK_TIME ? "low" : level;
 }

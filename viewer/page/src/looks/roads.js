@@ -1,4 +1,4 @@
-// Roads of a scene: flat, inclined, with a profile, or a grid of heights.
+// Makes the roads of a scene: flat, inclined, with a profile, or a grid of heights.
 import * as THREE from "three";
 import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
@@ -7,24 +7,25 @@ import { alongY, turn } from "../shapes/place.js";
 import shared from "../../../looks.json" with { type: "json" };
 import { gripOf, heldWithin, slickness } from "./heights.js";
 
-/** Half the side of a road without end, in metres. */
-const ENDLESS = 1500;
-/** Metres from the eye at which ground without end is cut: a processor that draws is off in the depth of large triangles. */
-const EDGES = [-320, -80, -20, 20, 80, 320];
-/** Metres that the eye goes before a profile is built about it again: less than its middle piece reaches. */
-const STEP = 10;
-/** Metres beyond a grid that its border goes on. */
+/** Half the side of an unbounded road, m. */
+const HALF_SIDE = 1500;
+/** Distances from the eye at which unbounded ground is divided, since processors draw large triangles with depth errors, m. */
+const DIVISIONS = [-320, -80, -20, 20, 80, 320];
+/** Motion of the eye after which a profile is rebuilt, less than half of its middle piece, m. */
+const UPDATE_DISTANCE = 10;
+/** Width of the continuation of a grid beyond its border, m. */
 export const { border } = shared;
-/** Cells of a grid in one piece: pieces are left out where they are not in the picture. */
-const PIECE = 64;
-/** Metres that a cell of a grid is long at most: the depth of longer needles is off, and they lie over cars. */
-const LONGEST = 20;
-/** Cells along the longest road that is cut so: of a longer one they are longer. */
-const MOST_ADDED = 400;
+/** Cells of a side of a piece of a grid; pieces outside the picture are not drawn. */
+const PIECE_CELLS = 64;
+/** Largest length of a drawn cell of a grid, since longer triangles have depth errors, m. */
+const MAX_CELL = 20;
+/** Largest number of cells along a road from this division; cells of longer roads are longer. */
+const MAX_ADDED = 400;
 
 /**
+ * Makes the roads.
  * @param {Data} scene
- * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, reach?: number}} looks reach: half the side of a road without end, m
+ * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, reach?: number}} looks reach: half the side of an unbounded road, m
  */
 export function makeRoads(scene, looks) {
   const group = new THREE.Group();
@@ -43,11 +44,11 @@ export function makeRoads(scene, looks) {
   return {
     group,
     unknown,
-    /** @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there */
+    /** @param {number[]} origin earth position of the origin of the picture, m @param {number[]} eye camera, relative to the origin, m */
     follow(origin, eye) {
       for (const { follow } of pieces) follow(origin, eye);
     },
-    /** Materials in place of others. @param {(material: THREE.Material | THREE.Material[]) => THREE.Material} other */
+    /** Replaces materials. @param {(material: THREE.Material | THREE.Material[]) => THREE.Material} other */
     dress(other) {
       for (const { mesh } of pieces) mesh.material = other(mesh.material);
     },
@@ -57,9 +58,9 @@ export function makeRoads(scene, looks) {
   };
 }
 
-/** A square that stays under the eye, on a plane through a point, as slick as a road. */
-function endless(point, normal, material, road, reach = ENDLESS) {
-  const edges = cut(-reach, reach);
+/** A square on a plane through a point that follows the eye, with the friction of a road. */
+function unboundedPlane(point, normal, material, road, reach = HALF_SIDE) {
+  const edges = divisions(-reach, reach);
   const cells = edges.length - 1;
   const geometry = new THREE.PlaneGeometry(cells, cells, cells, cells).rotateX(-Math.PI / 2);
   const places = geometry.getAttribute("position");
@@ -73,19 +74,19 @@ function endless(point, normal, material, road, reach = ENDLESS) {
   return [{ mesh, follow }];
 }
 
-/** @param {THREE.BufferGeometry} geometry @param {number[]} slick two shares a point, see `slickness`; the first is -1 on stone */
+/** @param {THREE.BufferGeometry} geometry @param {number[]} slick two shares for each point, see `slickness`; the first is -1 on stone */
 function cover(geometry, slick) {
   geometry.setAttribute("slick", new THREE.BufferAttribute(Float32Array.from(slick), 2));
 }
 
-const flat = (road, { up, asphalt, reach }) => endless(scale(up, road.height ?? 0), up, asphalt, road, reach);
+const flat = (road, { up, asphalt, reach }) => unboundedPlane(scale(up, road.height ?? 0), up, asphalt, road, reach);
 
 function plane(road, { up, asphalt, reach }) {
-  return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt, road, reach);
+  return unboundedPlane(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt, road, reach);
 }
 
-/** Levels along a direction of travel; before the first and after the last the road goes on level, under the eye too. */
-function profile(road, { up, asphalt: material, reach = ENDLESS }) {
+/** A road with a profile along a direction, level before and behind it, built around the eye. */
+function profile(road, { up, asphalt: material, reach = HALF_SIDE }) {
   const forward = unit(road.direction ?? [1, 0, 0]);
   const side = cross(up, forward);
   const base = road.origin ?? [0, 0, 0];
@@ -94,7 +95,7 @@ function profile(road, { up, asphalt: material, reach = ENDLESS }) {
   const follow = (origin, eye) => {
     const to = subtract(add(origin, eye), base);
     const [s, aside] = [dot(to, forward), road.width === undefined ? dot(to, side) : 0];
-    if (built === null || Math.abs(s - built.s) > STEP || Math.abs(aside - built.aside) > STEP) {
+    if (built === null || Math.abs(s - built.s) > UPDATE_DISTANCE || Math.abs(aside - built.aside) > UPDATE_DISTANCE) {
       built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
       rebuild(mesh.geometry, strip(road, s, reach), { forward, side, up, half: (road.width ?? 2 * reach) / 2, slick: slickness(gripOf(road)) });
     }
@@ -103,7 +104,7 @@ function profile(road, { up, asphalt: material, reach = ENDLESS }) {
   return [{ mesh, follow }];
 }
 
-/** Level of a profile at a station. @param {{stations: number[], heights: number[]}} road @param {number} at */
+/** Height of a profile at a station. @param {{stations: number[], heights: number[]}} road @param {number} at */
 export function levelOf({ stations, heights }, at) {
   const last = stations.length - 1;
   if (at <= stations[0]) return heights[0];
@@ -113,20 +114,20 @@ export function levelOf({ stations, heights }, at) {
 }
 
 /**
- * The part of a profile around a place: pairs of station (from that place) and level.
- * @param {{stations: number[], heights: number[]}} road @param {number} s the place @param {number} reach
+ * The part of a profile around a station: pairs of relative station and height.
+ * @param {{stations: number[], heights: number[]}} road @param {number} s the station, m @param {number} reach
  */
 export function strip(road, s, reach) {
   const inside = road.stations.flatMap((station, i) => (Math.abs(station - s) < reach ? [[station - s, road.heights[i]]] : []));
   return [[-reach, levelOf(road, s - reach)], ...inside, [reach, levelOf(road, s + reach)]];
 }
 
-/** Width of the stone along the upper edge of a kerb, in metres. */
-const STONE = 0.15;
+/** Width of the stone along the upper edge of a kerb, m. */
+const STONE_WIDTH = 0.15;
 
 /**
- * Surfaces between stations, each with both ends and whether it is a kerb: a face steeper than 1 in 2, or its stone.
- * @param {number[][]} pairs of station and level
+ * Surfaces between stations, and whether each is a kerb: a face steeper than 1 in 2, or its stone.
+ * @param {number[][]} pairs of station and height
  */
 export function surfaces(pairs) {
   const steep = (/** @type {number[]} */ [s0, h0], /** @type {number[]} */ [s1, h1]) => Math.abs(h1 - h0) > 0.5 * (s1 - s0);
@@ -136,34 +137,34 @@ export function surfaces(pairs) {
     const to = pairs[i + 1];
     const kerb = steep(from, to);
     const at = (s) => [s, from[1] + ((s - from[0]) / (to[0] - from[0])) * (to[1] - from[1])];
-    const long = to[0] - from[0] > 3 * STONE;
+    const long = to[0] - from[0] > 3 * STONE_WIDTH;
     if (!kerb && long && i > 0 && steep(pairs[i - 1], from) && pairs[i - 1][1] < from[1]) {
-      const edge = at(from[0] + STONE);
+      const edge = at(from[0] + STONE_WIDTH);
       found.push({ from, to: edge, kerb: true });
       from = edge;
     }
     if (!kerb && long && i + 2 < pairs.length && steep(to, pairs[i + 2]) && pairs[i + 2][1] < to[1]) {
-      const edge = at(to[0] - STONE);
+      const edge = at(to[0] - STONE_WIDTH);
       found.push({ from, to: edge, kerb: false }, { from: edge, to, kerb: true });
     } else found.push({ from, to, kerb });
   }
   return found;
 }
 
-/** Edges sharper than this stay edges. */
+/** Angle above which edges stay sharp, rad. */
 const CREASE = Math.PI / 8;
 
-/** Both ends, and the edges between them. @param {number} from @param {number} to */
-const cut = (from, to) => [from, ...EDGES.filter((edge) => from < edge && edge < to), to];
+/** Both ends and the `DIVISIONS` between them. @param {number} from @param {number} to */
+const divisions = (from, to) => [from, ...DIVISIONS.filter((edge) => from < edge && edge < to), to];
 
 function rebuild(geometry, pairs, { forward, side, up, half, slick: road }) {
   const positions = [];
   const slick = [];
   const point = ([s, level], aside) => add(add(scale(forward, s), scale(up, level)), scale(side, aside));
-  const asides = cut(-half, half);
+  const asides = divisions(-half, half);
   for (const { from, to, kerb } of surfaces(pairs)) {
     const rise = (to[1] - from[1]) / (to[0] - from[0]);
-    const stations = cut(from[0], to[0]).map((s) => (s === to[0] ? to : [s, from[1] + rise * (s - from[0])]));
+    const stations = divisions(from[0], to[0]).map((s) => (s === to[0] ? to : [s, from[1] + rise * (s - from[0])]));
     for (let i = 0; i + 1 < stations.length; i++) {
       for (let j = 0; j + 1 < asides.length; j++) {
         const [a, b, right, left] = [stations[i], stations[i + 1], asides[j], asides[j + 1]];
@@ -175,9 +176,9 @@ function rebuild(geometry, pairs, { forward, side, up, half, slick: road }) {
       }
     }
   }
-  const made = new THREE.BufferGeometry();
-  made.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
-  const creased = toCreasedNormals(made, CREASE);
+  const flatShaded = new THREE.BufferGeometry();
+  flatShaded.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
+  const creased = toCreasedNormals(flatShaded, CREASE);
   geometry.dispose();
   geometry.setAttribute("position", creased.getAttribute("position"));
   geometry.setAttribute("normal", creased.getAttribute("normal"));
@@ -185,14 +186,14 @@ function rebuild(geometry, pairs, { forward, side, up, half, slick: road }) {
   geometry.computeBoundingSphere();
 }
 
-/** Axes of a grid in the earth. @param {Data} road @param {number[]} up */
+/** Earth vectors of the axes of a grid. @param {Data} road @param {number[]} up */
 export const groundAxes = (road, up) => road.axes ?? (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0]] : [[1, 0, 0], [0, 0, -1]]); // prettier-ignore
 
-const within = (/** @type {number} */ n, /** @type {(k: number) => boolean} */ holds) => [...Array(n).keys()].every(holds);
+const everyIndex = (/** @type {number} */ n, /** @type {(k: number) => boolean} */ holds) => [...Array(n).keys()].every(holds);
 
 /**
- * Lines of a grid that are drawn: those between two equal neighbours are left out, which would be needles.
- * @param {number} n how many there are @param {(k: number) => boolean} same whether a line equals the next one
+ * Drawn lines of a grid, without those between two equal neighbours.
+ * @param {number} n number of lines @param {(k: number) => boolean} same whether a line equals the next one
  */
 export function kept(n, same) {
   const equal = Array.from({ length: n - 1 }, (_, k) => same(k));
@@ -200,11 +201,11 @@ export function kept(n, same) {
 }
 
 /**
- * Lines that are no farther apart than `LONGEST`, or than a part of a long road: some lie between those of the grid.
+ * Lines with additional ones, so that their distance is at most `MAX_CELL`, or a share of a long road.
  * @param {number[]} lines @param {number} spacing m
  */
 export function divided(lines, spacing) {
-  const longest = Math.max(LONGEST, ((lines[lines.length - 1] - lines[0]) * spacing) / MOST_ADDED);
+  const longest = Math.max(MAX_CELL, ((lines[lines.length - 1] - lines[0]) * spacing) / MAX_ADDED);
   return lines.flatMap((k, at) => {
     const gap = (lines[at + 1] ?? k) - k;
     const parts = Math.max(1, Math.ceil((gap * spacing) / longest));
@@ -212,7 +213,7 @@ export function divided(lines, spacing) {
   });
 }
 
-/** A value on lines of a grid, or straight between two along x or y; that of its border beyond it. @param {Float32Array} values @param {number} ny @param {number} i @param {number} j */
+/** Bilinear value on a grid, constant beyond its border. @param {Float32Array} values @param {number} ny @param {number} i @param {number} j */
 export function between(values, ny, i, j) {
   [i, j] = [heldWithin(i, values.length / ny), heldWithin(j, ny)];
   const [a, b] = [Math.floor(i), Math.floor(j)];
@@ -224,8 +225,8 @@ export function between(values, ny, i, j) {
 }
 
 /**
- * Heights on a grid, in pieces; what has little friction is wet or ice. As under the wheels its border goes on, some way:
- * before and behind as the road, at both sides as grass. Around it lies lower grass.
+ * A road on a grid, in pieces; low friction is drawn as water or ice. As for wheels, the heights of its border continue,
+ * before and behind as road, at both sides as grass; around it is lower grass.
  */
 function grid(road, { up, road: material, grass }) {
   const [nx, ny] = road.shape;
@@ -237,13 +238,13 @@ function grid(road, { up, road: material, grass }) {
   const world = (x, y, z) => add(add(scale(axes[0], x), scale(axes[1], y)), scale(up, z));
   const pieces = [];
   const same = (/** @type {number} */ a, /** @type {number} */ b) => heights[a] === heights[b] && frictions?.[a] === frictions?.[b];
-  const along = divided([-border / dx, ...kept(nx, (k) => within(ny, (j) => same(k * ny + j, (k + 1) * ny + j))), nx - 1 + border / dx], dx);
-  const aside = divided(kept(ny, (k) => within(nx, (i) => same(i * ny + k, i * ny + k + 1))), dy);
+  const along = divided([-border / dx, ...kept(nx, (k) => everyIndex(ny, (j) => same(k * ny + j, (k + 1) * ny + j))), nx - 1 + border / dx], dx);
+  const aside = divided(kept(ny, (k) => everyIndex(nx, (i) => same(i * ny + k, i * ny + k + 1))), dy);
   const [right, left] = [[-border / dy, 0], [ny - 1, ny - 1 + border / dy]].map((ends) => divided(ends, dy)); // prettier-ignore
-  const sheet = (/** @type {number[]} */ across, /** @type {THREE.Material} */ look, /** @type {(friction: (values: Float32Array) => number) => number[]} */ slickOf) => {
-    for (let i0 = 0; i0 < along.length - 1; i0 += PIECE) {
-      for (let j0 = 0; j0 < across.length - 1; j0 += PIECE) {
-        const [i1, j1] = [Math.min(i0 + PIECE, along.length - 1), Math.min(j0 + PIECE, across.length - 1)];
+  const addSheet = (/** @type {number[]} */ across, /** @type {THREE.Material} */ look, /** @type {(friction: (values: Float32Array) => number) => number[]} */ slickOf) => {
+    for (let i0 = 0; i0 < along.length - 1; i0 += PIECE_CELLS) {
+      for (let j0 = 0; j0 < across.length - 1; j0 += PIECE_CELLS) {
+        const [i1, j1] = [Math.min(i0 + PIECE_CELLS, along.length - 1), Math.min(j0 + PIECE_CELLS, across.length - 1)];
         const [positions, slick, triangles] = [[], [], []];
         for (let i = i0; i <= i1; i++) {
           for (let j = j0; j <= j1; j++) {
@@ -263,10 +264,10 @@ function grid(road, { up, road: material, grass }) {
       }
     }
   };
-  sheet(aside, material, (value) => slickness(frictions === null ? gripOf(road) : factor * value(frictions)));
-  for (const side of [right, left]) sheet(side, grass, () => [0, 0]);
+  addSheet(aside, material, (value) => slickness(frictions === null ? gripOf(road) : factor * value(frictions)));
+  for (const side of [right, left]) addSheet(side, grass, () => [0, 0]);
   const low = heights.reduce((a, b) => Math.min(a, b), Infinity);
-  pieces.push(...endless(scale(up, low - 0.15), up, grass, {}));
+  pieces.push(...unboundedPlane(scale(up, low - 0.15), up, grass, {}));
   return pieces;
 }
 

@@ -1,8 +1,8 @@
-// Light of a studio: a bright ball with lamps, seen only by what reflects it.
+// Makes the surroundings of a studio for reflections: a bright sphere with lamps.
 import * as THREE from "three";
 import { across, cross } from "../scene/math.js";
 
-/** @param {number[]} up @returns {THREE.Scene} */
+/** Makes the scene of the lamps. @param {number[]} up @returns {THREE.Scene} */
 export function room(up) {
   const x = across(up);
   const y = cross(up, x);

@@ -1,4 +1,4 @@
-// A sky made by code: haze, blue, sun, clouds and far hills. It is drawn once, into a cube.
+// Makes a sky of haze, blue, sun, clouds and distant hills, which is drawn once to a cube.
 import * as THREE from "three";
 
 /** Linear colours of the sky; fog has the colour of the haze. */
@@ -42,7 +42,7 @@ void main() {
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
-/** A ball around everything with the sky on its inside. @param {number[]} up @param {THREE.Vector3} sun unit vector @param {THREE.Texture} noise */
+/** Makes a sphere with the sky on its inside. @param {number[]} up @param {THREE.Vector3} sun unit vector @param {THREE.Texture} noise */
 export function skyBall(up, sun, noise) {
   const uniforms = { up: new THREE.Vector3(...up), sun, haze: HAZE, zenith: ZENITH, ground: GROUND, hill: HILL, noise };
   const material = new THREE.ShaderMaterial({
@@ -72,7 +72,7 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-/** The sky of a cube as it is seen: drawn after all that is solid, so that it is not looked up behind that. */
+/** Makes the background from the cube, drawn after solid parts, which saves hidden pixels. */
 export function seenSky() {
   const uniforms = { cube: { value: null } };
   const look = { uniforms, vertexShader: SEEN_VERTEX, fragmentShader: SEEN, side: THREE.BackSide, depthWrite: false };

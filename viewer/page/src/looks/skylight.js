@@ -1,10 +1,10 @@
-// Diffuse light of the sky, for materials without reflections.
+// Adds diffuse light of the sky to materials without reflections.
 import { atEachPixel } from "./vertex_code.js";
 
-/** Follows the lights of a Lambert material of three.js. */
+/** Code after the lights of a Lambert material of three.js. */
 export const SKYLIGHT = "reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47) * diffuseColor.rgb;";
 
-/** @param {import("three").Material} material @param {(shader: Data) => void} [more] further changes of the shader */
+/** Adds the light to a material. @param {import("three").Material} material @param {(shader: Data) => void} [more] further changes of the shader */
 export function skylit(material, more = () => {}) {
   material.onBeforeCompile = (shader) => {
     atEachPixel(shader, "", { lights_fragment_end: SKYLIGHT });

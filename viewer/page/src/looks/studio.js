@@ -1,4 +1,4 @@
-// A studio for mechanisms: an even floor with a grid in metres, soft light.
+// The look of mechanisms: a studio with a floor with a grid in metres, and soft light.
 import * as THREE from "three";
 import { across, add, cross, dot, fromColumns, scale, unit } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
@@ -12,7 +12,7 @@ import { sharpen, sunLight } from "./sun.js";
 
 const BACKGROUND = "#dfe4e8";
 
-/** @param {Data} view the SceneView @param {boolean} fine */
+/** Makes the look. @param {Data} view the SceneView @param {boolean} fine whether there is a graphics card */
 export function studio(view, fine) {
   const { world, renderer, up, extent } = view;
   const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? unit([1, 0, 0].map((a, i) => a - up[0] * up[i])) : across(up);

@@ -1,9 +1,10 @@
-// The light that casts shadows; it moves with the focus.
+// Makes the light that casts shadows around the focus.
 import * as THREE from "three";
 
 /**
+ * Makes the light.
  * @param {{direction: number[], reach: number, strength: number, color: string, size: number}} options
- *   direction: to the light; reach: half the side of what gets shadows, in metres; size: side of the shadow map
+ *   direction: to the light; reach: half the side of the area with shadows, m; size: side of the shadow map, pixels
  */
 export function sunLight({ direction, reach, strength, color, size }) {
   const light = new THREE.DirectionalLight(color, strength);
@@ -18,7 +19,7 @@ export function sunLight({ direction, reach, strength, color, size }) {
   return light;
 }
 
-/** @param {THREE.DirectionalLight} light @param {number} size */
+/** Changes the size of the shadow map. @param {THREE.DirectionalLight} light @param {number} size pixels */
 export function sharpen(light, size) {
   if (light.shadow.mapSize.x === size) return;
   light.shadow.mapSize.set(size, size);

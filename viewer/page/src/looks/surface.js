@@ -1,4 +1,4 @@
-// Materials of a world: asphalt, grass, wet, gravel, concrete, ice and paint, drawn by noise at several scales.
+// Makes the materials of a world: surfaces and paint, drawn by noise at several scales.
 import * as THREE from "three";
 import { dot, modulo } from "../scene/math.js";
 import { vertexLit } from "./draft/vertex_lighting.js";
@@ -7,20 +7,20 @@ import { oneLevel, tonesTexture } from "./noise.js";
 import { COLOURS, CREASE, DRAFT, DRAFT_HEAD, DRAFT_PLACES, DRAFT_POINT_HEAD, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 
-/** Share of the distance by which paint is drawn nearer in a draft, whose ground is coarser. */
-const DRAFTED = 0.01;
-/** Metres after which each layer of noise repeats; none is a multiple of another. */
+/** Depth offset of paint in a draft, whose ground is coarser, as a share of the distance. */
+const DRAFT_PAINT = 0.01;
+/** Periods of the layers of noise, none a multiple of another, m. */
 const LAYERS = [1.3, 8.9, 61, 273];
 
 /**
- * The materials of a world; `follow(origin)` keeps their pattern on the earth.
+ * Makes the materials; `follow(origin)` keeps their pattern fixed to the earth.
  * @param {object} options
  * @param {THREE.Texture} options.noise
  * @param {number[][]} options.axes x and y of the world, unit vectors
  * @param {THREE.Vector3} options.sun unit vector to the sun
  * @param {{texture: THREE.DataTexture, size: number[], start: number[]}} options.cover
  * @param {number[]} options.corner x and y of the first point of the raster
- * @param {boolean} options.fine with relief and mirrored light; otherwise lit the cheapest way
+ * @param {boolean} options.fine with relief and reflections, else the least expensive lighting
  */
 export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
   const uniforms = {
@@ -38,21 +38,21 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
   const viewport = { value: new THREE.Vector2(1, 1) };
   const shared = { uniforms, fine, viewport };
   return {
-    /** Of the terrain itself. */
+    /** Material of the terrain. */
     ground: surfaceMaterial(shared, false),
-    /** Of what is painted on it: the colour is an attribute. */
+    /** Material of paint, whose colour is an attribute. */
     paint: surfaceMaterial(shared, true),
-    /** The same, lit at their points only. @param {Data} light of `lightOf` */
+    /** The same with lighting at points. @param {Data} light of `lightOf` */
     drafted(light) {
       const [aNoise, aShares] = [noise, cover.texture].map((texture) => ({ value: oneLevel(texture) }));
-      const quick = { ...shared, uniforms: { ...uniforms, aNoise, aShares, aPatches: { value: tonesTexture() } } };
-      return { ground: draftMaterial(quick, light, false), paint: draftMaterial(quick, light, true) };
+      const draft = { ...shared, uniforms: { ...uniforms, aNoise, aShares, aPatches: { value: tonesTexture() } } };
+      return { ground: draftMaterial(draft, light, false), paint: draftMaterial(draft, light, true) };
     },
-    /** @param {THREE.Texture} texture cube of the sky, which wet places mirror */
+    /** @param {THREE.Texture} texture cube of the sky, which wet ground reflects */
     mirror(texture) {
       uniforms.aSky.value = texture;
     },
-    /** @param {number[]} origin earth position of the picture's origin @param {THREE.Vector2} pixels of the picture */
+    /** @param {number[]} origin earth position of the origin of the picture, m @param {THREE.Vector2} pixels size of the picture */
     follow(origin, pixels) {
       viewport.value.copy(pixels);
       const [a, b] = axes.map((axis) => dot(origin, axis));
@@ -71,7 +71,7 @@ function surfaceMaterial({ uniforms, fine, viewport }, painted) {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     onTheEarth(shader);
-    if (painted) lay(shader, viewport, PAINT);
+    if (painted) addPaint(shader, viewport, PAINT);
     const pieces = { color_fragment: layered(NOISE) + COLOURS, normal_fragment_begin: CREASE, lights_fragment_end: MIRROR };
     if (fine) Object.assign(pieces, { roughnessmap_fragment: GLOSS, normal_fragment_maps: layered(RELIEF) });
     atEachPixel(shader, fine ? HEAD : `#define A_COARSE\n${HEAD}`, pieces);
@@ -81,11 +81,11 @@ function surfaceMaterial({ uniforms, fine, viewport }, painted) {
 
 const settingsOf = (painted) => (painted ? { vertexColors: true, transparent: true, depthWrite: false } : {});
 
-/** Noise at the places of its layers. @param {string} code */
+/** Code with the texture coordinates of the layers. @param {string} code */
 const layered = (code) => code.replace(/LAYER_(\d)/g, (_, k) => `(plane + aOffset[${k}]) / ${LAYERS[k].toFixed(1)}`);
 
-/** Paint is widened and lifted. @param {Data} shader @param {{value: Data}} viewport @param {number} nearer */
-function lay(shader, viewport, nearer) {
+/** Widens and offsets paint in a shader. @param {Data} shader @param {{value: Data}} viewport @param {number} nearer */
+function addPaint(shader, viewport, nearer) {
   widen(shader, viewport);
   lift(shader, nearer);
 }
@@ -94,7 +94,7 @@ function draftMaterial({ uniforms, viewport }, light, painted) {
   return vertexLit(light, settingsOf(painted), `surface ${painted}`, (shader) => {
     Object.assign(shader.uniforms, uniforms);
     atEachPoint(shader, DRAFT_POINT_HEAD, layered(DRAFT_PLACES));
-    if (painted) lay(shader, viewport, DRAFTED);
+    if (painted) addPaint(shader, viewport, DRAFT_PAINT);
     atEachPixel(shader, (painted ? "#define A_PAINTED\n" : "") + DRAFT_HEAD, { color_fragment: DRAFT });
   });
 }

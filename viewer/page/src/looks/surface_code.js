@@ -1,7 +1,7 @@
-// The shader code of surfaces, inserted into the shaders of three.js.
+// Shader code of surfaces, inserted into shaders of three.js.
 import looks from "../../../looks.json" with { type: "json" };
 
-/** Mean linear colour of a surface, as the shader writes it. @param {keyof typeof looks.surfaces} name */
+/** Mean linear colour of a surface as shader code. @param {keyof typeof looks.surfaces} name */
 const mean = (name) => `vec3(${looks.surfaces[name].join(", ")})`;
 
 export const HEAD = /* glsl */ `
@@ -14,13 +14,13 @@ uniform samplerCube aSky;
 varying vec3 vGround;
 `;
 
-/** Metres after which tones of far ground repeat: a multiple of the longest layer. */
+/** Period of the tones of distant ground, a multiple of the longest layer, m. */
 export const TONES = 61 * 273;
 
 /**
- * Tones as wide as a few pixels are long at their distance: mipmaps blur every layer of one size to its mean there.
- * Their length is that of level ground: facets of a terrain that are finer than pixels would make it flicker. A
- * size goes over into the next, half of it, so that no edge between them is seen; elsewhere it is looked up alone.
+ * Tones of a few pixels at any distance, because mipmaps blur layers of fixed size to their mean. The size of pixels is
+ * that on level ground, because facets smaller than pixels would make it flicker. Consecutive sizes, each half of the
+ * previous one, are blended so that there is no visible edge.
  */
 const DETAIL = /* glsl */ `
 vec3 sight = vGround - cameraPosition;
@@ -39,11 +39,11 @@ float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * ove
 `;
 
 /**
- * Shares of asphalt, grass, wet, gravel above zero, of dirt, paint, ice, concrete below it, where coverage.js halves them.
- * All shares are one together. What is missing, were no two of one channel here, is 1.5 times the lesser of such two; so
- * `upper` knows a quarter of one surface from halves of two, and the one goes over into the other as channels do.
- * Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
- * @param {string} at @param {string} sharper
+ * Shares of asphalt, grass, wet, gravel as positive values, of dirt, paint, ice, concrete as negative ones, which
+ * coverage.js halves. The sum of all shares is one. If two surfaces of a channel are present, the missing sum is 1.5 times
+ * the lesser share; so `upper` distinguishes a quarter of one surface from halves of both. A bias to finer mipmaps
+ * replaces anisotropic filtering of roads at flat angles.
+ * @param {string} at texture coordinates @param {string} sharper bias
  */
 const sharesAt = (at, sharper) => `vec4 code = (texture2D(aShares, ${at}, ${sharper}) * 255.0 - 128.0) / 127.0;
 vec4 one = max(code, 0.0);
@@ -51,10 +51,10 @@ float missing = max(1.0 - dot(one - 2.0 * min(code, 0.0), vec4(1.0)), 0.0);
 vec4 upper = smoothstep(0.4, 0.6, (code + missing / 3.0) / max(one + missing, 1e-3));
 code = min(code, 2.0 * code);`;
 
-/** Place in the picture of the shares. */
+/** Texture coordinates of the shares. */
 const PLACE = "vec2 at = ((spot - aCover.yx) / aCover.wz).yx;";
 
-/** Noise at four scales, and the shares of the surfaces with edges as sharp as noise lets them be. */
+/** Noise at four scales, and shares of the surfaces with edges sharpened by noise. */
 export const NOISE = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
 vec4 near = texture2D(aNoise, LAYER_0);
@@ -108,7 +108,7 @@ float wetness = first.y * (0.35 + 0.65 * film);
 float slick = wetness + 0.55 * second.x;
 `;
 
-/** Where a draft looks its ground up; code of each point. */
+/** Texture coordinates of a draft; code for each point. */
 export const DRAFT_PLACES = /* glsl */ `
 vec3 earth = (modelMatrix * vec4(position, 1.0)).xyz;
 vec2 plane = vec2(dot(earth, aX), dot(earth, aY));
@@ -121,7 +121,7 @@ const DRAFT_VARYING = "varying vec2 vGrain, vTone, vShares;\n";
 export const DRAFT_POINT_HEAD = `${DRAFT_VARYING}uniform vec3 aX, aY;\nuniform vec2 aOffset[4], aSpot;\nuniform vec4 aCover;`;
 export const DRAFT_HEAD = `${DRAFT_VARYING}uniform sampler2D aNoise, aPatches, aShares;\n`;
 
-/** The same from grain and one tone for all, for drafts: the mean colours are those above. */
+/** Colours of drafts from grain and one tone, with the same mean colours. */
 export const DRAFT = /* glsl */ `
 float grain = texture2D(aNoise, vGrain).r;
 float tone = texture2D(aPatches, vTone).r;
@@ -141,19 +141,19 @@ diffuseColor.rgb *= (0.325 + 0.55 * grain + 0.85 * tone) * mean / dot(both, vec4
 #endif
 `;
 
-/** What is wet or ice mirrors the sky. */
+/** Gloss: water and ice reflect the sky. */
 export const GLOSS = /* glsl */ `
 roughnessFactor = mix(0.9 + 0.08 * some.g, 0.1 + 0.2 * (1.0 - film), min(1.0, slick));
 `;
 
-/** Sharp edges, such as kerbs have, stay sharp; skirts stand across what they are lit by and are left as they are. */
+/** Keeps sharp edges, such as those of kerbs, sharp; skirts, perpendicular to their normals, stay unchanged. */
 export const CREASE = /* glsl */ `
 vec3 facet = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition)));
 float bend = dot(facet, normal);
 normal = normalize(mix(normal, facet, smoothstep(0.97, 0.9, bend) * smoothstep(0.1, 0.3, bend)));
 `;
 
-/** Grain as relief, where it is near enough to be seen. */
+/** Relief of the grain, where it is near enough to be visible. */
 export const RELIEF = /* glsl */ `
 float fade = clamp(1.0 - 45.0 * max(fwidth(plane.x), fwidth(plane.y)), 0.0, 1.0);
 if (fade > 0.0) {
@@ -165,7 +165,7 @@ if (fade > 0.0) {
 }
 `;
 
-/** Light of the sky: from all around where none is mirrored, and its picture in what is wet. */
+/** Light of the sky without reflections in materials: diffuse light, and reflections on wet ground. */
 export const MIRROR = /* glsl */ `
 #ifdef A_COARSE
 reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47) * diffuseColor.rgb;

@@ -1,4 +1,4 @@
-// The terrain of a world at several levels of detail, chosen by the distance from the camera.
+// Makes the terrain of a world, with levels of detail by the distance from the camera.
 import * as THREE from "three";
 import { dot, fromColumns } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
@@ -6,24 +6,24 @@ import { terrainBorder } from "./terrain_border.js";
 import { bundles, coarsest, parts, pieceParts } from "./terrain_mesh.js";
 
 /**
- * How finely a ground is drawn: cells a side of a part, pieces, which are left out where they are not in the picture,
- * triangles of all parts at most, and the error of the heights that may be seen, m: `least` up to `near` m away, `error`
- * more for each metre beyond.
+ * Fineness of a ground: cells of a side of a part; pieces, which are not drawn outside the picture; largest number of
+ * triangles; and allowed error of heights, m: `least` up to the distance `near`, plus `error` for each metre beyond.
  * @typedef {{cells: number, pieces: number, most: number, least: number, near: number, error: number}} Fineness
  */
 
-/** The error is thinner than a pixel up to the distance where paint is, too. @type {Fineness} */
+/** The error is below a pixel where paint is wider than a pixel. @type {Fineness} */
 export const FINE = { cells: 128, pieces: 120, most: Infinity, least: 2e-3, near: 150, error: 7e-4 };
-/** In few calls; near, the error is as much as paint is drawn above the ground. @type {Fineness} */
+/** For few calls; the error near the camera is covered by the depth offset of paint. @type {Fineness} */
 export const ROUGH = { cells: 64, pieces: 14, most: 15000, least: 8e-3, near: 0, error: 2.5e-3 };
-/** Points of a piece at most. */
-const POINTS = 60000;
-/** Where there would be more triangles, parts that are far are coarser by so much, again and again. */
-const COARSER = 1.25;
-/** Metres that the eye goes before levels are chosen again. */
-const STEP = 15;
+/** Largest number of points of a piece. */
+const MAX_POINTS = 60000;
+/** Factor of the error of distant parts, repeated while there are too many triangles. */
+const ERROR_FACTOR = 1.25;
+/** Motion of the eye after which levels are chosen again, m. */
+const UPDATE_DISTANCE = 15;
 
 /**
+ * Makes the terrain.
  * @param {THREE.Material} material
  * @param {number[][]} axes x, y and up of the world
  * @param {import("./heights.js").HeightField} field
@@ -32,16 +32,16 @@ const STEP = 15;
 export function terrain(material, axes, field, fineness) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
-  const pieces = bundles(parts(field.patches, fineness.cells), fineness.pieces, POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
+  const pieces = bundles(parts(field.patches, fineness.cells), fineness.pieces, MAX_POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
   const around = terrainBorder(field, material, fineness.least);
   group.add(...pieces.map(({ mesh }) => mesh), around.mesh);
   let chosen = null;
-  /** @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there */
+  /** @param {number[]} origin earth position of the origin of the picture, m @param {number[]} eye camera, relative to the origin, m */
   const follow = (origin, eye) => {
     const from = axes.map((axis) => dot(origin, axis));
     const camera = axes.slice(0, 2).map((axis, k) => from[k] + dot(eye, axis));
     around.follow(from);
-    const moved = chosen === null || Math.hypot(camera[0] - chosen[0], camera[1] - chosen[1]) > STEP;
+    const moved = chosen === null || Math.hypot(camera[0] - chosen[0], camera[1] - chosen[1]) > UPDATE_DISTANCE;
     for (const { mesh, base } of pieces) mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
     if (!moved) return;
     chosen = camera;
@@ -55,15 +55,15 @@ export function terrain(material, axes, field, fineness) {
 }
 
 /**
- * Levels of all parts of all pieces, whose triangles are not more than a picture may have.
+ * Levels of all parts of all pieces, within the largest number of triangles.
  * @param {{middle: number[], radius: number, levels: {error: number, triangles: ArrayLike<number>}[]}[][]} pieces
  * @param {number[]} eye x and y in the world @param {Fineness} fineness
  * @returns {number[][]}
  */
 export function levelsWithin(pieces, eye, { most, least, near, error: first }) {
-  const away = pieces.map((drawn) => drawn.map(({ middle, radius }) => Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius - near));
-  for (let error = first; ; error *= COARSER) {
-    const chosen = pieces.map((drawn, k) => drawn.map(({ levels }, i) => coarsest(levels, least + error * Math.max(0, away[k][i]))));
+  const distances = pieces.map((drawn) => drawn.map(({ middle, radius }) => Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius - near));
+  for (let error = first; ; error *= ERROR_FACTOR) {
+    const chosen = pieces.map((drawn, k) => drawn.map(({ levels }, i) => coarsest(levels, least + error * Math.max(0, distances[k][i]))));
     const count = pieces.flatMap((drawn, k) => drawn.map(({ levels }, i) => levels[chosen[k][i]].triangles.length / 3));
     if (error > 1 || count.reduce((sum, value) => sum + value, 0) <= most) return chosen;
   }

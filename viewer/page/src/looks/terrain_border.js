@@ -1,47 +1,47 @@
-// The ground around a terrain: the heights of its border continue without end, as under the wheels.
+// Makes the ground around a terrain, which continues the heights of its border, as for wheels.
 import * as THREE from "three";
 
-/** So far around the focus it is drawn, in metres. */
+/** Drawn distance around the focus, m. */
 const REACH = 1600;
-/** It is built about the nearest point of a lattice of so many metres: the same picture wherever one came from. */
-const STEP = 200;
+/** Spacing of the lattice of its centres, m, so that pictures do not depend on the path of the focus. */
+const LATTICE_SPACING = 200;
 
 /**
- * Stations of the border: where patches have points on the sides of low and of high x and y.
+ * Stations of the border: points of patches on the sides of low and high x and y.
  * @param {import("./heights.js").HeightField} field
- * @returns {number[][][]} [axis across][0 low, 1 high]: places along the side, rising
+ * @returns {number[][][]} [normal axis][0 low, 1 high]: increasing coordinates along the side, m
  */
 export function borderStations({ patches, low, high }) {
   return [0, 1].map((k) => {
     const along = 1 - k;
     return [low[k], high[k]].map((side) => {
-      const found = new Set([low[along], high[along]]);
+      const coordinates = new Set([low[along], high[along]]);
       for (const { origin, spacing, shape } of patches) {
         const ends = [origin[k], origin[k] + spacing[k] * (shape[k] - 1)];
         if (!ends.some((end) => Math.abs(end - side) < 1e-6)) continue;
-        for (let i = 0; i < shape[along]; i++) found.add(Math.round(1e6 * (origin[along] + i * spacing[along])) / 1e6);
+        for (let i = 0; i < shape[along]; i++) coordinates.add(Math.round(1e6 * (origin[along] + i * spacing[along])) / 1e6);
       }
-      return [...found].sort((a, b) => a - b);
+      return [...coordinates].sort((a, b) => a - b);
     });
   });
 }
 
 /**
- * Places along a border without those whose heights lie on the line between others.
- * @param {number[]} places rising @param {(place: number) => number} height @param {number} off m that the line may be off
+ * Stations of a border without those whose heights are on a line between others.
+ * @param {number[]} places increasing @param {(place: number) => number} height @param {number} tolerance largest error, m
  */
-export function straightened(places, height, off) {
+export function straightened(places, height, tolerance) {
   const kept = [places[0]];
   for (let to = 2, from = 0; to <= places.length; to++) {
     const [a, b] = [places[from], places[Math.min(to, places.length - 1)]];
     const line = (/** @type {number} */ place) => height(a) + ((place - a) / (b - a)) * (height(b) - height(a));
-    const fits = to < places.length && places.slice(from + 1, to).every((place) => Math.abs(height(place) - line(place)) <= off);
+    const fits = to < places.length && places.slice(from + 1, to).every((place) => Math.abs(height(place) - line(place)) <= tolerance);
     if (!fits) kept.push(places[(from = to - 1)]);
   }
   return kept;
 }
 
-/** Four sides and four corners, as corner points x, y, z of rectangles. @param {number[]} centre x and y of the focus */
+/** Rectangles of the four sides and corners, as their corner points x, y, z. @param {number[]} centre x and y of the focus */
 export function borderQuads(field, stations, centre) {
   const { low, high } = field;
   const quads = [];
@@ -72,16 +72,16 @@ export function borderQuads(field, stations, centre) {
   return quads;
 }
 
-/** @param {import("./heights.js").HeightField} field @param {THREE.Material} material @param {number} off m that its heights may be off */
-export function terrainBorder(field, material, off) {
+/** Makes the ground. @param {import("./heights.js").HeightField} field @param {THREE.Material} material @param {number} tolerance largest error of heights, m */
+export function terrainBorder(field, material, tolerance) {
   const heights = [0, 1].map((k) => [field.low[k], field.high[k]].map((side) => (/** @type {number} */ place) => (k === 0 ? field.at(side, place) : field.at(place, side))));
-  const stations = borderStations(field).map((sides, k) => sides.map((places, end) => straightened(places, heights[k][end], off)));
+  const stations = borderStations(field).map((sides, k) => sides.map((places, end) => straightened(places, heights[k][end], tolerance)));
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
   mesh.receiveShadow = true;
   let built = null;
-  /** @param {number[]} origin the picture's origin in the axes of the world */
+  /** @param {number[]} origin of the picture in the axes of the world, m */
   const follow = (origin) => {
-    const near = [0, 1].map((k) => STEP * Math.round(origin[k] / STEP));
+    const near = [0, 1].map((k) => LATTICE_SPACING * Math.round(origin[k] / LATTICE_SPACING));
     if (built === null || near[0] !== built[0] || near[1] !== built[1]) {
       built = near;
       fill(mesh.geometry, borderQuads(field, stations, built), built);

@@ -1,16 +1,16 @@
-// Triangles of a terrain: grids with skirts, coarser the farther away; pure numbers.
+// Triangles of a terrain: grids with skirts at several levels of detail.
 
-/** Depth of the skirts that hide the cracks between pieces, in metres. */
+/** Depth of the skirts that hide gaps between pieces, m. */
 const SKIRT = 0.6;
-/** Points that are left out between two, at most. */
+/** Strides of the points at the levels of detail. */
 const STRIDES = [1, 2, 4, 8, 16, 32];
 
 /**
- * A part of a patch that is drawn as one.
- * @typedef {{patch: import("./heights.js").Patch, i0: number, j0: number, n: number, m: number}} Part points, not cells
+ * A part of a patch with one level of detail: first indices and numbers of points.
+ * @typedef {{patch: import("./heights.js").Patch, i0: number, j0: number, n: number, m: number}} Part
  */
 
-/** Cuts patches into parts of at most `cells` cells a side. @param {import("./heights.js").Patch[]} patches @returns {Part[]} */
+/** Divides patches into parts of at most `cells` cells in each direction. @param {import("./heights.js").Patch[]} patches @returns {Part[]} */
 export function parts(patches, cells) {
   const found = [];
   for (const patch of patches) {
@@ -35,8 +35,8 @@ const middleOf = ({ patch, i0, j0, n, m }) => [
 ];
 
 /**
- * Puts small parts that lie side by side together, so that there are not many more than `most` pieces.
- * @param {Part[]} list @param {number} most @param {number} points of a piece at most
+ * Groups adjacent small parts to about `most` pieces.
+ * @param {Part[]} list @param {number} most @param {number} points largest number of points of a piece
  * @returns {Part[][]}
  */
 export function bundles(list, most, points) {
@@ -72,12 +72,12 @@ function divided(cell, points) {
 }
 
 /**
- * Points of a piece relative to the first point of its first part, with skirts, and triangles of every part at every coarseness.
+ * Points of a piece with skirts, relative to the first point of its first part, and triangles of each part at each level.
  * @param {Part[]} piece
  * @param {import("./heights.js").HeightField} field for the slopes along the borders
  * @returns {{base: number[], positions: Float32Array, normals: Float32Array,
- *   parts: {middle: number[], radius: number, levels: {error: number, triangles: number[]}[]}[]}} middle: on the ground, m;
- *   error: by how much the heights are off where points are left out, m
+ *   parts: {middle: number[], radius: number, levels: {error: number, triangles: number[]}[]}[]}} middle: x and y, m;
+ *   error: largest error of heights, m
  */
 export function pieceParts(piece, field) {
   const first = piece[0];
@@ -130,7 +130,7 @@ function addPoints({ patch, i0, j0, n, m }, field, base, positions, normals, sta
   return k;
 }
 
-/** Points of the border: the four sides one after the other, corners twice. */
+/** Indices of the points of the four sides, corners twice. */
 function border(n, m) {
   const found = [];
   for (let j = 0; j < m; j++) found.push([0, j]);
@@ -140,7 +140,7 @@ function border(n, m) {
   return found;
 }
 
-/** Every `stride`th of n indices, and the last one. */
+/** Every `stride`th of n indices, and the last. */
 export function strided(n, stride) {
   const found = [];
   for (let i = 0; i < n - 1; i += stride) found.push(i);
@@ -173,7 +173,7 @@ function trianglesOf({ n, m }, stride, start) {
   return found;
 }
 
-/** Largest difference of the heights from those between the points that are left. */
+/** Largest error of heights interpolated between the remaining points, m. */
 export function errorOf({ patch, i0, j0, n, m }, stride) {
   if (stride === 1) return 0;
   const [rows, columns] = [strided(n, stride), strided(m, stride)];
@@ -196,7 +196,7 @@ export function errorOf({ patch, i0, j0, n, m }, stride) {
   return most;
 }
 
-/** Index of the coarsest level within an error. @param {{error: number}[]} levels from the finest @param {number} allowed m */
+/** Index of the coarsest level with an allowed error. @param {{error: number}[]} levels from the finest @param {number} allowed m */
 export function coarsest(levels, allowed) {
   const beyond = levels.findIndex(({ error }, level) => level > 0 && error > allowed);
   return (beyond < 0 ? levels.length : beyond) - 1;

@@ -1,16 +1,16 @@
-// Inserts shader code into a material, per vertex or per pixel.
+// Inserts code into shaders of three.js, per point or per pixel.
 
-/** @param {Data} shader of three.js @param {string} declared before all @param {string} code once the place of the point is known, `position` */
-export function atEachPoint(shader, declared, code) {
-  shader.vertexShader = `${declared}\n${shader.vertexShader}`.replace("#include <begin_vertex>", `#include <begin_vertex>\n${code}`);
+/** Inserts code per point. @param {Data} shader of three.js @param {string} declarations declarations @param {string} code after that of the attribute `position` */
+export function atEachPoint(shader, declarations, code) {
+  shader.vertexShader = `${declarations}\n${shader.vertexShader}`.replace("#include <begin_vertex>", `#include <begin_vertex>\n${code}`);
 }
 
-/** Hands the place on the earth on to the pixels. @param {Data} shader */
+/** Passes the position on the earth to the pixels. @param {Data} shader */
 export const onTheEarth = (shader) => atEachPoint(shader, "varying vec3 vGround;", "vGround = (modelMatrix * vec4(position, 1.0)).xyz;");
 
-/** @param {Data} shader of three.js @param {string} declared before all @param {Object<string, string>} pieces code after the piece of three.js of that name */
-export function atEachPixel(shader, declared, pieces) {
-  shader.fragmentShader = `${declared}\n${shader.fragmentShader}`;
+/** Inserts code per pixel. @param {Data} shader of three.js @param {string} declarations declarations @param {Object<string, string>} pieces code by the name of the chunk of three.js before it */
+export function atEachPixel(shader, declarations, pieces) {
+  shader.fragmentShader = `${declarations}\n${shader.fragmentShader}`;
   for (const [name, code] of Object.entries(pieces)) {
     shader.fragmentShader = shader.fragmentShader.replace(`#include <${name}>`, `#include <${name}>\n${code}`);
   }

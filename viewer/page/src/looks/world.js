@@ -1,4 +1,4 @@
-// A world: terrain and scenery with their materials, at two levels of detail.
+// Makes a world: terrain and scenery with their materials, fine or coarse.
 import * as THREE from "three";
 import { coverage } from "./coverage.js";
 import { HeightField, SURFACES, SurfaceRaster } from "./heights.js";
@@ -10,9 +10,10 @@ import { FINE, ROUGH, terrain } from "./terrain.js";
 const axesOf = (up) => (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0], up] : [[1, 0, 0], [0, 0, -1], up]); // prettier-ignore
 
 /**
+ * Makes the world of a scene.
  * @param {Data} scene
  * @param {{up: number[], noise: THREE.Texture, sun: THREE.Vector3, fine: boolean}} looks sun: unit vector to it
- * @returns {Data | null} null where a scene has neither terrain nor scenery
+ * @returns {Data | null} null without terrain and scenery
  */
 export function makeWorld(scene, { up, noise, sun, fine }) {
   const roads = (scene.roads ?? []).filter(({ kind }) => kind === "terrain");
@@ -24,7 +25,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   const [field, raster] = roads.length > 0 ? [new HeightField(roads[0]), new SurfaceRaster(roads[0].surface)] : [null, null];
   const unknown = (raster?.names ?? []).filter((name) => !SURFACES.includes(name));
   for (const name of unknown) tell.push(`The surface '${name}' is not known to this page and is drawn as asphalt.`);
-  const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
+  const cover = raster === null ? asphaltCoverage() : coverage(raster, fine ? 8 : 1);
   const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
   const group = new THREE.Group();
   const make = (rough) => {
@@ -33,7 +34,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   };
   const versions = {};
   let [shown, drafted] = [null, null];
-  /** Show the world at a level, fine or rough, each made when it is first seen. @param {string} level @param {Data} light of a draft */
+  /** Shows the world at a level; fine and coarse versions are made on first use. @param {string} level @param {Data} light of a draft */
   const show = (level, light) => {
     const rough = level === "low" || level === "draft";
     shown = versions[rough ? "rough" : "fine"] ??= make(rough);
@@ -46,11 +47,11 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     show,
     tell: [...tell, ...tellOf(things)],
     mirror: materials.mirror,
-    /** Height of the ground at a place of the earth's plane; null without a terrain. @param {number} x @param {number} y */
+    /** Height of the ground at a point; null without a terrain. @param {number} x @param {number} y */
     height: field === null ? null : (x, y) => field.at(x, y),
     /**
-     * @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there
-     * @param {THREE.Vector2} pixels of the picture
+     * @param {number[]} origin earth position of the origin of the picture, m @param {number[]} eye camera, relative to the origin, m
+     * @param {THREE.Vector2} pixels size of the picture
      */
     follow(origin, eye, pixels) {
       materials.follow(origin, pixels);
@@ -58,17 +59,17 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     },
     dispose() {
       for (const version of Object.values(versions)) version.dispose();
-      for (const pair of [materials, drafted]) for (const what of ["ground", "paint"]) pair?.[what].dispose();
+      for (const pair of [materials, drafted]) for (const name of ["ground", "paint"]) pair?.[name].dispose();
       cover.texture.dispose();
     },
   };
 }
 
 /** Replaces the materials of ground and paint. @param {THREE.Group} group @param {Data[]} pair old and new materials */
-function dress(group, [old, fresh]) {
+function dress(group, [old, replacement]) {
   group.traverse((/** @type {THREE.Mesh} */ part) => {
-    if (part.material === old.ground) part.material = fresh.ground;
-    else if (part.material === old.paint) part.material = fresh.paint;
+    if (part.material === old.ground) part.material = replacement.ground;
+    else if (part.material === old.paint) part.material = replacement.paint;
   });
 }
 
@@ -87,8 +88,8 @@ function versionOf(land, scenery) {
   };
 }
 
-/** A coverage of asphalt only. */
-function nothing() {
+/** Coverage of a world of asphalt. */
+function asphaltCoverage() {
   const texture = new THREE.DataTexture(Uint8Array.of(255, 128, 128, 128), 1, 1);
   texture.needsUpdate = true;
   return { texture, size: [1, 1], start: [0, 0] };

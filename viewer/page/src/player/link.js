@@ -1,6 +1,6 @@
-// Settings of the player in the address of the page: #t=1.25&camera=chase&plots=a,b
+// Converts settings of the player to and from the address of the page, such as #t=1.25&camera=chase&plots=a
 
-/** @param {string} hash @returns {{time?: number, camera?: string, plots?: string[], speed?: number}} */
+/** Settings of an address. @param {string} hash @returns {{time?: number, camera?: string, plots?: string[], speed?: number}} */
 export function fromHash(hash) {
   const parameters = new URLSearchParams(hash.replace(/^#/, ""));
   const options = {};
@@ -12,7 +12,7 @@ export function fromHash(hash) {
   return options;
 }
 
-/** @param {{time: number, camera?: string, plots: string[], speed: number}} state @returns {string} */
+/** Address of settings. @param {{time: number, camera?: string, plots: string[], speed: number}} state @returns {string} */
 export function toHash({ time, camera, plots, speed }) {
   const parameters = new URLSearchParams({ t: String(Number(time.toPrecision(9))) });
   if (camera) parameters.set("camera", camera);

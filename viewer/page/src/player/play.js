@@ -1,4 +1,4 @@
-// Plays recordings: the picture of one, others as ghosts, and their traces on the ground.
+// The page of recordings: one is drawn solid, others as ghosts, with their traces on the ground.
 import looks from "../../../looks.json" with { type: "json" };
 import { el } from "../common/dom.js";
 import { instead } from "../common/notices.js";
@@ -12,11 +12,11 @@ import { Recordings } from "../sources/recordings.js";
 import { fromHash, toHash } from "./link.js";
 import { Traces } from "./traces.js";
 
-const JUMP = 0.5; // s of the run at real time: longer from one picture to the next is no way
-const SCANNED = 200; // times that ranges are looked for at
+const MAX_INTERVAL = 0.5; // s of the run at real time: longest interval within a trail
+const SCANNED_TIMES = 200; // number of times at which ranges are determined
 
 /**
- * Unpack the data of a page and play them.
+ * Makes the page from its data.
  * @param {HTMLElement} container an element with a size
  * @param {Data} page JSON as viewer/page_file.py writes it; the first run is drawn solid, others as ghosts
  * @returns {Player}
@@ -25,7 +25,7 @@ export const playPage = (container, page) => new Player(container, page);
 
 /** A page of recordings; what programs use is in docs/animation.md. */
 class Player extends Shell {
-  /** Pictures. @type {SceneView[]} */
+  /** @type {SceneView[]} */
   _drawn = [];
   _wrong = "";
   /** @type {{traces: Traces, sampler: import("../sources/sampler.js").Sampler}[]} */
@@ -34,7 +34,7 @@ class Player extends Shell {
   /** @param {HTMLElement} container @param {Data} page */
   constructor(container, page) {
     super(container, page.options);
-    /** Resolved when the first picture stands, or a sentence in its place. */
+    /** Resolved when the first picture or an error is shown. */
     this.ready = decoded(page)
       .then((given) => this._open(given))
       .catch((error) => {
@@ -53,12 +53,12 @@ class Player extends Shell {
     this.plotted = this.options.plots ?? [];
     this.source.changed = (moved) => this._moved(moved);
     const { arrows, arrow_scale: arrowScale, stress, deformation, path, closed } = this.options;
-    const asked = { arrows, arrowScale, stress, deformation, path, closed };
-    for (const [name, value] of Object.entries(asked)) if (value !== undefined) this.look[name] = value;
+    const requested = { arrows, arrowScale, stress, deformation, path, closed };
+    for (const [name, value] of Object.entries(requested)) if (value !== undefined) this.look[name] = value;
     this._draw();
     if (this.options.controls !== false) this._controls();
-    else if (this.ghosts.length > 0) this._names(); // pictures and films
-    document.addEventListener("visibilitychange", () => (this.last = undefined), { signal: this.listeners.signal }); // nobody has seen what passed
+    else if (this.ghosts.length > 0) this._addNames(); // for pictures and films
+    document.addEventListener("visibilitychange", () => (this.last = undefined), { signal: this.listeners.signal }); // time in a hidden page does not count
     this._show();
     if (this.options.play) this.play();
     this.loopId = requestAnimationFrame((now) => this._frame(now));
@@ -69,7 +69,7 @@ class Player extends Shell {
     return this._drawn;
   }
 
-  /** One sentence where nothing can be drawn, else empty. */
+  /** Reason why nothing is drawn; empty if something is. */
   get problem() {
     return this._wrong || (this.view?.problem ?? "");
   }
@@ -78,7 +78,7 @@ class Player extends Shell {
     return this.source.time;
   }
 
-  /** Sentences on the runs: thinning, gaps. */
+  /** Notes of the runs: thinning, gaps. */
   get notes() {
     const several = this.runs.length > 1;
     return this.runs.flatMap(({ name, notes = [] }) => notes.map((note) => (several ? `${name}: ${note}` : note)));
@@ -96,17 +96,17 @@ class Player extends Shell {
     this.source.acts.toggle();
   }
 
-  /** @param {number} t s @returns {Promise<void>} when the picture stands on the screen */
+  /** Shows a time. @param {number} t s @returns {Promise<void>} resolved when the picture is on the screen */
   seek(t) {
     return this.source.acts.seek(t);
   }
 
-  /** @param {number} speed from 0.05 to 10 */
+  /** Sets the speed of playing. @param {number} speed from 0.05 to 10 */
   speed(speed) {
     this.source.acts.speed(speed);
   }
 
-  /** Another instant, or another pace. @param {boolean} moved */
+  /** Updates the page. @param {boolean} moved whether the time has changed */
   _moved(moved) {
     if (moved) this._show();
     this.bar?.show(this.source);
@@ -115,22 +115,22 @@ class Player extends Shell {
     return this._painted();
   }
 
-  /** @param {Data} look as `setLook` has it; for programs */
+  /** The same as `setLook`, for programs. @param {Data} look */
   set(look) {
     this.setLook(look);
   }
 
-  /** @param {Data} look as that of the shell */
+  /** Changes the look. @param {Data} look as that of the shell */
   setLook(look) {
     super.setLook(look);
     if (look.deformation !== undefined && this.solid >= 0) {
-      this._scan(); // the floor lies below what is drawn
+      this._scan(); // the floor is below the deformed parts
       this._show();
     }
     if (look.path !== undefined) for (const { traces } of this.drawnRuns) traces.show(look.path);
   }
 
-  /** @param {Data} ghost @param {boolean} on */
+  /** Shows or hides a ghost. @param {Data} ghost @param {boolean} on */
   showGhost(ghost, on) {
     if (on) ghost.drawn ??= this.view.addGhost(ghost.run.scene, ghost.options);
     else {
@@ -141,17 +141,17 @@ class Player extends Shell {
     this._show();
   }
 
-  /** Something that the address of the page tells has changed. */
+  /** Updates the address after a change of a setting in it. */
   changed() {
     if (!this.source.running) this.remember();
   }
 
-  /** Write into the address what is shown, so that it can be sent to somebody. */
+  /** Writes the settings to the address, so that it can be shared. */
   remember() {
     if (this.options.controls === false || !/^(https?|file):$/.test(location.protocol)) return;
     clearTimeout(this.later);
     const state = { time: this.time, camera: this.cameraName === this.cameras[0] ? "" : this.cameraName, plots: this.plots?.chosen ?? [], speed: this.source.speed };
-    this.later = setTimeout(() => history.replaceState(null, "", toHash(state)), 150); // browsers allow few a second
+    this.later = setTimeout(() => history.replaceState(null, "", toHash(state)), 150); // browsers limit the rate
   }
 
   dispose() {
@@ -162,24 +162,24 @@ class Player extends Shell {
     super.dispose();
   }
 
-  /** The picture: of the first run that has a scene; the other runs are ghosts. */
+  /** Makes the picture of the first run with a scene; the other runs are ghosts. */
   _draw() {
     this.solid = this.runs.findIndex(({ scene }) => scene !== null && scene !== undefined);
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
     const picture = el("div.a3-view");
-    const seen = this.options.controls !== false;
+    const hasControls = this.options.controls !== false;
     this.viewBox.append(picture);
-    this._drawn.push(new SceneView(picture, scene, { words: seen, keep: !seen, driven: seen, quality: this.options.quality, onMessage: (sentence) => seen && this.notices.note(sentence) }));
+    this._drawn.push(new SceneView(picture, scene, { words: hasControls, keep: !hasControls, driven: hasControls, quality: this.options.quality, onMessage: (sentence) => hasControls && this.notices.note(sentence) }));
     this.view.set(this.look);
     this._scan();
-    this._trace(this.solid);
+    this._addTraces(this.solid);
     for (const [k, run] of this.runs.entries()) {
       if (k === this.solid || !run.scene || this.problem) continue;
       const options = { name: run.name, tint: looks.ghosts[this.ghosts.length % looks.ghosts.length] };
       this.ghosts.push({ name: run.name, run, options, sampler: this.source.samplers[k], drawn: this.view.addGhost(run.scene, options) });
       this._lower(run, this.ghosts.at(-1).drawn);
-      this._trace(k, { tint: options.tint, under: this.ghosts.length });
+      this._addTraces(k, { tint: options.tint, under: this.ghosts.length });
     }
     const { way } = this.drawnRuns[0].traces;
     if (way.length > 0) this.view.stand(way);
@@ -190,32 +190,32 @@ class Player extends Shell {
     this.watch(picture);
   }
 
-  /** What a run leaves on the ground. @param {number} k of the run @param {{tint: string, under: number}} [ghost] */
-  _trace(k, ghost) {
+  /** Adds the traces of a run. @param {number} k of the run @param {{tint: string, under: number}} [ghost] */
+  _addTraces(k, ghost) {
     const traces = new Traces(this.view, this.runs[k], ghost);
     traces.show(this.look.path);
     this.drawnRuns.push({ traces, sampler: this.source.samplers[k] });
   }
 
-  /** Lets the view look through the run, so that floor, arrows and colours keep one scale. */
+  /** Samples the run for constant floor height and scales of arrows and colours. */
   _scan() {
     const { t, columns } = this.runs[this.solid];
-    const times = Math.min(t.length, SCANNED);
+    const times = Math.min(t.length, SCANNED_TIMES);
     const sample = (i) => (times > 1 ? Math.round((i * (t.length - 1)) / (times - 1)) : 0);
     this.view.scan((i) => (name) => columns[name]?.data[sample(i)], times);
     this._lower(this.runs[this.solid], this.view);
     for (const { run, drawn } of this.ghosts) this._lower(run, drawn);
   }
 
-  /** Puts the floor below a run where its columns are largest and smallest. @param {import("../sources/decode.js").Run} run @param {Data} drawn */
+  /** Lowers the floor below the extreme poses of a run. @param {import("../sources/decode.js").Run} run @param {Data} drawn */
   _lower(run, drawn) {
-    if (this.problem || (this.runs[this.solid].scene.roads ?? []).length > 0) return; // roads are the floor
+    if (this.problem || (this.runs[this.solid].scene.roads ?? []).length > 0) return; // a road replaces the floor
     const instants = extremesOf(run);
     drawn?.lower((i) => (name) => run.columns[name]?.data[instants[i]], instants.length);
   }
 
   _controls() {
-    this._names();
+    this._addNames();
     for (const note of [...this.notes, ...this._spans(), ...(this.wrong ? [this.wrong] : [])]) this.notices.note(note);
     const { scene, columns = {} } = this.runs[this.solid] ?? {};
     const names = new Set(Object.keys(columns));
@@ -234,8 +234,8 @@ class Player extends Shell {
     if (plotsOnly || this.plotted.length) this.side(true);
   }
 
-  /** Names of the runs with the colours of their paths, above what there is to say of them. */
-  _names() {
+  /** Adds the names of the runs with the colours of their paths above the notices. */
+  _addNames() {
     const names = this.runs.map((run, k) => {
       const ghost = this.ghosts.find((other) => other.run === run);
       const colour = ghost?.options.tint ?? (k === this.solid && this.ghosts.length > 0 ? looks.paths.body : undefined);
@@ -245,7 +245,7 @@ class Player extends Shell {
     this.notices.element.prepend(el("div.a3-head", {}, ...names));
   }
 
-  /** Which runs do not last the whole time. */
+  /** Sentences on runs that do not cover the whole time. */
   _spans() {
     const [begin, end] = this.source.range;
     return this.runs
@@ -253,7 +253,7 @@ class Player extends Shell {
       .map(({ name, t }) => `${name} lasts from ${t[0]} s to ${t[t.length - 1]} s and stands still outside.`);
   }
 
-  /** Everything to the time that is shown. */
+  /** Updates everything to the current time. */
   _show() {
     const numbers = this.source.sample();
     if (this.solid >= 0) {
@@ -261,7 +261,7 @@ class Player extends Shell {
       for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
       for (const { traces, sampler } of this.drawnRuns) traces.update(this.time, sampler.place[0]);
       const { samplers, speed } = this.source;
-      this.instruments?.plan.trail.at(this.time, this.runs[this.solid].epoch[samplers[this.solid].place[0]], JUMP * Math.max(1, speed));
+      this.instruments?.plan.trail.at(this.time, this.runs[this.solid].epoch[samplers[this.solid].place[0]], MAX_INTERVAL * Math.max(1, speed));
       this.instruments?.show(numbers[this.solid]);
       this.view.render();
     }
@@ -284,7 +284,7 @@ class Player extends Shell {
     this.loopId = requestAnimationFrame((next) => this._frame(next));
   }
 
-  /** Two pictures later the browser has shown what was drawn. */
+  /** Resolved when the browser has shown the drawn picture, which takes two frames. */
   _painted() {
     /** @type {Promise<void>} */
     const shown = new Promise((resolve) => {

@@ -8,23 +8,23 @@ import { groundHeight } from "../looks/road_height.js";
 import { Frames } from "../scene/frames.js";
 import { add, dot, finite, length, scale, subtract } from "../scene/math.js";
 
-const MOST = 4000; // points of a path
-const LEAST = 1.5; // pixels: the path of the reference point is found however far it is
+const MAX_POINTS = 4000; // points of a path
+const MIN_WIDTH = 1.5; // least width of the path of the reference point, pixels
 const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks.paths;
 
-/** The traces of one run in a view; those of a ghost have its colour, lie wider below others, and have neither marks nor dust. */
+/** The traces of a run in a view; those of a ghost are wider, in its colour, below others, and without marks and dust. */
 export class Traces {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
    * @param {import("../sources/decode.js").Run} run
-   * @param {{tint: string, under: number}} [ghost] its colour, and how many paths lie over its own
+   * @param {{tint: string, under: number}} [ghost] its colour, and number of paths over its own
    */
   constructor(view, run, ghost) {
     this.view = view;
     this.run = run;
     /** @type {Path[]} */
     this.paths = [];
-    /** Earth positions of the reference point, from which cameras beside the way are placed. @type {number[][]} */
+    /** Earth positions of the reference point, along which cameras are placed, m. @type {number[][]} */
     this.way = [];
     const { scene } = run;
     this.lookups = (i) => (name) => run.columns[name]?.data[i];
@@ -40,37 +40,37 @@ export class Traces {
   /** @param {Data} scene @param {{tint: string, under: number}} [ghost] */
   _paths(scene, { tint, under } = { tint: "", under: 0 }) {
     const { view, run } = this;
-    const count = Math.min(run.t.length, MOST);
+    const count = Math.min(run.t.length, MAX_POINTS);
     const instants = Array.from({ length: count }, (_, k) => (count > 1 ? Math.round((k * (run.t.length - 1)) / (count - 1)) : 0));
     const { move, feet } = feetOf(scene, this.lookups, view);
     const ways = waysOf(move, instants, feet);
     if (ways[0].points.length < 2) return;
-    const gone = ways[0].points.reduce((most, point) => Math.max(most, length(subtract(point, ways[0].points[0]))), 0);
-    if (gone < view.extent) return; // it stays where it is
+    const largestDistance = ways[0].points.reduce((most, point) => Math.max(most, length(subtract(point, ways[0].points[0]))), 0);
+    if (largestDistance < view.extent) return; // no motion
     this.way = ways[0].points;
     ways.forEach(({ points, at }, k) => {
       if (points.length < 2) return;
       const which = k === 0 ? 0 : 1;
-      const look = { colour: tint || [BODY, WHEEL][which], width: (1 + under) * SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? (1 + under) * LEAST : undefined, under };
+      const look = { colour: tint || [BODY, WHEEL][which], width: (1 + under) * SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? (1 + under) * MIN_WIDTH : undefined, under };
       this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), epochs: at.map((i) => run.epoch[i]), points }, look));
     });
   }
 
   /**
-   * Everything up to an instant; to be called after the view has been updated to it.
-   * @param {number} time s @param {number} index of the sample before it
+   * Updates the traces to a time; called after the view is updated to it.
+   * @param {number} time s @param {number} index of the sample before the time
    */
   update(time, index) {
     for (const path of this.paths) path.update(time, this.view.origin);
     if (this.marks === undefined) return;
     const { t, epoch } = this.run;
-    if (index < this.taken) this.taken = -1; // marks of later times go when an earlier one comes
+    if (index < this.taken) this.taken = -1; // earlier times remove later marks
     for (let i = this.taken + 1; i < index; i++) this.marks.take(this.lookups(i), t[i], epoch[i]);
     this.taken = index;
     for (const part of [this.marks, this.dust]) part.update(this.lookups(index), t[index], epoch[index]);
   }
 
-  /** @param {boolean} on the paths; marks and dust are part of the world */
+  /** Shows or hides the paths. @param {boolean} on */
   show(on) {
     for (const path of this.paths) path.show(on);
   }
@@ -81,23 +81,23 @@ export class Traces {
 }
 
 /**
- * The points whose paths are drawn: the reference point, put down to the ground, and where wheels touch it.
+ * The points whose paths are drawn: the reference point, projected to the ground, and the contacts of wheels.
  * @param {Data} scene @param {(i: number) => (name: string) => number | undefined} lookups @param {import("../scene/scene_view.js").SceneView} view
  * @returns {{move: (i: number) => void, feet: (() => number[] | null)[]}}
  */
 export function feetOf(scene, lookups, view) {
   const { up, floor } = view;
   const frames = new Frames(scene);
-  const touched = new Wheels(scene).list;
+  const tyreWheels = new Wheels(scene).list;
   const wheels = new Map((scene.shapes ?? []).filter(({ kind }) => kind === "wheel").map(({ frame, radius }) => [frame, radius]));
   let lookup = lookups(0);
   const under = [...wheels].map(([frame, radius]) => () => {
     const { position, shown } = frames.pose(frame);
-    const tyre = touched.find((wheel) => wheel.frame === frame)?.tyre;
+    const tyre = tyreWheels.find((wheel) => wheel.frame === frame)?.tyre;
     const contact = tyre !== undefined && lookup(tyre.forces[2]) > 0 ? tyre.contact.map((name) => lookup(name)) : [NaN];
     if (finite(contact)) return contact;
     if (!shown) return null;
-    const below = subtract(position, scale(up, radius)); // of a tyre that is flattened: in the ground
+    const below = subtract(position, scale(up, radius)); // below the ground for a deflected tyre
     return add(below, scale(up, Math.max(0, (groundHeight(view, below) ?? -Infinity) - dot(below, up))));
   });
   const body = () => {
@@ -113,7 +113,7 @@ export function feetOf(scene, lookups, view) {
   return { move, feet: [body, ...under] };
 }
 
-/** Mean height of feet; null where there is none. @param {(() => number[] | null)[]} feet @param {number[]} up */
+/** Mean height of points; null if there are none. @param {(() => number[] | null)[]} feet @param {number[]} up */
 function meanHeight(feet, up) {
   const heights = feet.map((foot) => foot()).filter((point) => point !== null).map((point) => dot(point, up)); // prettier-ignore
   return heights.length > 0 ? heights.reduce((sum, height) => sum + height, 0) / heights.length : null;

@@ -1,9 +1,9 @@
-// Displacement and stress of a flexible body from the amplitudes of its modes; pure numbers.
+// Computes displacement and stress of a flexible body from the amplitudes of its modes.
 import { floats } from "./data.js";
 
-/** The arrays of one entry of a scene's `flexible`. */
+/** Displacement and stress of a flexible body. */
 export class Bending {
-  /** @param {Data} body one of a scene's `flexible` */
+  /** @param {Data} body an entry of `flexible` of a scene */
   constructor(body) {
     this.nodes = body.nodes;
     this.beams = body.beams;
@@ -16,29 +16,29 @@ export class Bending {
     this.displaced = body.nodes.map((node) => [...node]);
     this.stress = null;
     this.unit = body.stress?.unit ?? "Pa";
-    /** Stress at the end of the colours that the scene asks for; 0: the largest that is seen. */
+    /** Stress of the last colour in the scene; 0: the largest stress so far. */
     this.range = body.stress?.range ?? 0;
     this.limit = body.stress?.limit ?? null;
     this.limitName = body.stress?.limit_name ?? "limit";
-    /** Column that is 0 where this body is rigid in the model that ran. */
+    /** Column that is 0 while this body is rigid in the model. */
     this.computed = body.computed;
     if (body.stress !== undefined) {
       this.round = body.stress.rule === "round";
       this.fibres = this.round ? 3 : body.stress.fibres;
       this.rows = floats(body.stress.rows);
       this.constant = body.stress.constant === undefined ? null : floats(body.stress.constant);
-      /** Largest stress at both ends of each beam, without sign. */
+      /** Largest absolute stress at both ends of each beam. */
       this.stress = new Float64Array(2 * this.beams.length);
     }
-    expect("modes", this.modes, 3 * this.nodes.length * this.count);
-    if (this.stress !== null) expect("stress.rows", this.rows, 2 * this.beams.length * this.fibres * this.count);
+    checkLength("modes", this.modes, 3 * this.nodes.length * this.count);
+    if (this.stress !== null) checkLength("stress.rows", this.rows, 2 * this.beams.length * this.fibres * this.count);
   }
 
   /**
    * @param {((name: string) => number | undefined) | null} lookup
-   * @param {number} factor the displacement is drawn so many times
-   * @returns {string | null} the column without a number, null where nothing is computed, else empty; without numbers
-   *   the body is left as drawn
+   * @param {number} factor of the displacement
+   * @returns {string | null} the column without a number; null if nothing is computed; else empty. In the first two
+   *   cases the body is undeformed
    */
   update(lookup, factor) {
     const computed = lookup === null || this.computed === undefined ? 1 : lookup(this.computed);
@@ -54,7 +54,7 @@ export class Bending {
     return absent ?? "";
   }
 
-  /** Largest displacement of a node, times the factor. */
+  /** Largest displacement of a node with the factor, m. */
   largestMove() {
     return this.nodes.reduce((most, node, i) => Math.max(most, Math.hypot(...node.map((x, k) => this.displaced[i][k] - x))), 0);
   }
@@ -80,12 +80,12 @@ export class Bending {
         for (let m = 0; m < count; m++) sum += rows[row * count + m] * amplitudes[m];
         at[f] = sum;
       }
-      // A round tube: axial stress and the bending stresses about two axes meet at one fibre.
+      // In a round tube axial stress and resultant bending stress add at one fibre.
       this.stress[end] = this.round ? Math.abs(at[0]) + Math.hypot(at[1], at[2]) : Math.max(...at.map(Math.abs));
     }
   }
 }
 
-function expect(name, array, size) {
+function checkLength(name, array, size) {
   if (array.length !== size) throw new Error(`${name} of a flexible body has ${array.length} numbers, not ${size}.`);
 }

@@ -1,26 +1,26 @@
-// The cameras of a scene: where each stands, and how it follows the car or another body.
+// The cameras of a scene: their positions, and how they follow the car or another body.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.js";
 import { TrailingDirection } from "./trailing_direction.js";
 
-/** The driver's eyes behind and above the centre of the steering wheel, m. */
-const EYES = [0.48, 0.24];
-/** Least height of the chase camera above the ground, over the size of the drawing. */
+/** Position of the eyes of the driver behind and above the centre of the steering wheel, m. */
+const EYE_POSITION = [0.48, 0.24];
+/** Least height of the chase camera above the ground, as a share of the size of the drawing. */
 const CLEARANCE = 0.14;
 const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40, fixed: 40, trackside: 30 };
-/** Least width of the followed body in the picture of the fixed camera, share of the picture's width. */
-const LEAST_SHARE = 0.1;
-/** Largest angle of the followed body from the middle of that picture, share of the angle to its upper edge. */
-const TURNS = 0.5;
-/** Half the size of the longest path that has a fixed camera, over the largest distance that is drawn. */
-const WATCHED = 0.3;
-/** Distance between trackside cameras, and from the path, over the size of the followed body. */
-const [POSTS, ASIDE] = [10, 3];
+/** Least width of the followed body in the picture of the fixed camera, as a share of its width. */
+const MIN_SHARE = 0.1;
+/** Largest angle of the followed body from the middle of that picture, as a share of the angle to its upper edge. */
+const MAX_ANGLE_SHARE = 0.5;
+/** Half the size of the longest path with a fixed camera, as a share of the largest drawn distance. */
+const MAX_PATH = 0.3;
+/** Distance between trackside cameras, and from the path, relative to the size of the followed body. */
+const [CAMERA_SPACING, PATH_DISTANCE] = [10, 3];
 
-/** The cameras of a view; places are relative to the origin of the picture. */
+/** The cameras of a view, with positions relative to the origin of the picture. */
 export class Cameras {
-  /** @param {Data} view the SceneView @param {HTMLElement} element takes mouse and touch */
+  /** @param {Data} view the SceneView @param {HTMLElement} element receives mouse and touch events */
   constructor(view, element) {
     this.view = view;
     const { extent, up, scene } = view;
@@ -56,8 +56,8 @@ export class Cameras {
   }
 
   /**
-   * Cameras that stand still: one that sees the whole way, and several beside it.
-   * @param {number[][]} path earth positions of what is followed
+   * Adds fixed cameras: one that shows the whole path, and several beside it.
+   * @param {number[][]} path earth positions of the followed body, m
    */
   stand(path) {
     const { up } = this.view;
@@ -71,40 +71,40 @@ export class Cameras {
     this.posts = [];
     let last = null;
     for (const point of path) {
-      if (last !== null && Math.hypot(...subtract(point, last)) < POSTS * extent) continue;
-      const aside = (this.posts.length % 2 === 0 ? 1 : -1) * ASIDE * extent;
+      if (last !== null && Math.hypot(...subtract(point, last)) < CAMERA_SPACING * extent) continue;
+      const aside = (this.posts.length % 2 === 0 ? 1 : -1) * PATH_DISTANCE * extent;
       this.posts.push(add(point, add(scale(last === null ? right : rightOf(last, point), aside), scale(up, 0.5 * extent))));
       last = point;
     }
-    const watched = reach <= WATCHED * this.rig.far ? ["fixed"] : [];
+    const watched = reach <= MAX_PATH * this.rig.far ? ["fixed"] : [];
     this.names = [...this.names, ...[...watched, "trackside"].filter((name) => !this.names.includes(name))];
   }
 
-  /** The whole way, from one place; where what is followed would be small, the part of the way on which it is. */
-  _watchAll() {
+  /** Fixed camera: shows the whole path, or, if the followed body would be too small, the part around it. */
+  _showPath() {
     const { up, origin } = this.view;
-    if (this.fixed.aspect !== this.aspect) this._place();
+    if (this.fixed.aspect !== this.aspect) this._placeFixed();
     const { eye, half, whole, centre } = this.fixed;
     const from = subtract(eye, origin);
     this._angle((2 * half * 180) / Math.PI);
-    const [ahead, there] = [unit(subtract(centre, eye)), unit(scale(from, -1))];
-    const off = Math.acos(Math.min(1, dot(ahead, there)));
-    const share = whole || off < TURNS * half ? 1 : (TURNS * half) / off;
-    this._look(from, add(from, add(scale(ahead, share), scale(there, 1 - share))), up);
+    const [ahead, toBody] = [unit(subtract(centre, eye)), unit(scale(from, -1))];
+    const off = Math.acos(Math.min(1, dot(ahead, toBody)));
+    const share = whole || off < MAX_ANGLE_SHARE * half ? 1 : (MAX_ANGLE_SHARE * half) / off;
+    this._look(from, add(from, add(scale(ahead, share), scale(toBody, 1 - share))), up);
   }
 
-  /** Where the camera that stands still is, and half its angle of view, for the form of the picture. */
-  _place() {
+  /** Position and half angle of view of the fixed camera for the aspect ratio of the picture. */
+  _placeFixed() {
     const { centre, reach, from, path, extent } = this.fixed;
     const widest = Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180));
     const eye = add(centre, scale(from, Math.min(reach / (widest * this.aspect), 0.7 * this.rig.far)));
     const farthest = path.reduce((most, point) => Math.max(most, Math.hypot(...subtract(point, eye))), 0);
-    const narrow = extent / (2 * LEAST_SHARE * farthest * this.aspect);
+    const narrow = extent / (2 * MIN_SHARE * farthest * this.aspect);
     Object.assign(this.fixed, { aspect: this.aspect, eye, half: Math.atan(Math.min(widest, narrow)), whole: narrow >= widest });
   }
 
-  /** From the nearest place beside the way. */
-  _watchFromTrack(extent) {
+  /** Trackside camera nearest to the followed body. */
+  _showFromTrack(extent) {
     const { up, origin } = this.view;
     const from = this.posts.map((post) => subtract(post, origin)).reduce((a, b) => (Math.hypot(...a) <= Math.hypot(...b) ? a : b));
     const angle = (2 * Math.atan((0.7 * extent) / Math.hypot(...from)) * 180) / Math.PI;
@@ -122,7 +122,7 @@ export class Cameras {
     return /^wheel/.test(frame) ? frame : `wheel ${frame}`;
   }
 
-  /** Puts the free camera to its first place, unless somebody has moved it. */
+  /** Moves the free camera to its initial position, unless the user has moved it. */
   home() {
     if (this.moved) return;
     const { extent, up, scene } = this.view;
@@ -137,7 +137,7 @@ export class Cameras {
     this.free.lookAt(0, 0, 0);
   }
 
-  /** Left and forward of what is followed, level. */
+  /** Horizontal unit vectors to the left and forward of the followed body. */
   _axes() {
     const { up, scene, parts } = this.view;
     const { rotation, shown } = parts.frames.pose(scene.focus || "ground");
@@ -146,7 +146,7 @@ export class Cameras {
     return [cross(up, forward), forward];
   }
 
-  /** @param {string} name */
+  /** Chooses a camera. @param {string} name */
   choose(name) {
     if (!this.names.includes(name)) {
       throw new Error(`There is no camera '${name}'; there are ${this.names.join(", ")}.`);
@@ -159,7 +159,7 @@ export class Cameras {
     this.follow();
   }
 
-  /** Goes along with what is followed. */
+  /** Moves the camera with the followed body. */
   follow() {
     if (this.name === "orbit") return;
     const { up } = this.view;
@@ -170,23 +170,23 @@ export class Cameras {
     if (this.name === "chase") this._chase(forward, extent);
     else if (this.name === "side") this._look(mix(0, -2.1, 0.14), [0, 0, 0], up);
     else if (this.name === "top") this._look(scale(up, 4 * extent), [0, 0, 0], north);
-    else if (this.name === "driver") this._drive();
-    else if (this.name === "fixed") this._watchAll();
-    else if (this.name === "trackside") this._watchFromTrack(extent);
-    else this._watchWheel(this.wheels.find((frame) => this._wheelName(frame) === this.name));
+    else if (this.name === "driver") this._showFromDriver();
+    else if (this.name === "fixed") this._showPath();
+    else if (this.name === "trackside") this._showFromTrack(extent);
+    else this._showWheel(this.wheels.find((frame) => this._wheelName(frame) === this.name));
   }
 
-  /** Behind what is followed, and above the ground there. */
+  /** Chase camera behind the followed body, above the ground. */
   _chase(forward, extent) {
     const { up, origin, look } = this.view;
     const direction = this.trailing.along(forward, up);
-    const seen = (ahead, above) => add(scale(direction, ahead * extent), scale(up, above * extent));
-    const from = seen(-1.6, 0.42);
+    const offset = (ahead, above) => add(scale(direction, ahead * extent), scale(up, above * extent));
+    const from = offset(-1.6, 0.42);
     if (look?.height && up[2] > 0.9) {
       const [x, y, z] = add(origin, from);
       from[2] += Math.max(0, look.height(x, y) + CLEARANCE * extent - z);
     }
-    this._look(from, seen(0.6, 0.06), up);
+    this._look(from, offset(0.6, 0.06), up);
   }
 
   _look(from, at, up) {
@@ -195,18 +195,18 @@ export class Cameras {
     this.rig.lookAt(new THREE.Vector3().fromArray(at));
   }
 
-  /** The driver's eyes, fixed in the body. */
-  _drive() {
+  /** Camera at the eyes of the driver, fixed in the body. */
+  _showFromDriver() {
     const { parts, scene, origin } = this.view;
     const { rotation } = parts.frames.pose(scene.focus);
     const wheel = parts.frames.point(this.seat.frame, this.seat.at ?? [0, 0, 0]);
     if (wheel === null) return;
     const axes = [0, 1, 2].map((k) => [rotation[k], rotation[3 + k], rotation[6 + k]]);
-    const eye = add(subtract(wheel, origin), add(scale(axes[0], -EYES[0]), scale(axes[2], EYES[1])));
+    const eye = add(subtract(wheel, origin), add(scale(axes[0], -EYE_POSITION[0]), scale(axes[2], EYE_POSITION[1])));
     this._look(eye, add(eye, add(scale(axes[0], 10), scale(axes[2], -0.9))), axes[2]);
   }
 
-  /** Whether the driver's eyes are in another car, which would tint all that they see. @param {import("./parts.js").Parts} ghost */
+  /** Whether the eyes of the driver are in a ghost, which would tint the whole picture. @param {import("./parts.js").Parts} ghost */
   within(ghost) {
     if (this.name !== "driver") return false;
     const { position, shown } = ghost.frames.pose(ghost.scene.focus || "ground");
@@ -214,8 +214,8 @@ export class Cameras {
     return shown && Math.hypot(...from) < Math.min(this.view.extent, 2 * this.view.radius) / 2;
   }
 
-  /** A wheel and its suspension from ahead and outside. */
-  _watchWheel(frame) {
+  /** Camera at a wheel and its suspension, from the front and outside. */
+  _showWheel(frame) {
     const { parts, up, origin } = this.view;
     const extent = Math.min(this.view.extent, 2 * this.view.radius);
     const place = parts.frames.point(frame, [0, 0, 0]);

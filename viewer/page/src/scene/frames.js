@@ -1,14 +1,14 @@
-// Poses of the frames of a scene from numbers by column name; pure numbers in double precision.
+// Computes the poses of the frames of a scene from columns, in double precision.
 import { IDENTITY, aboutAxis, add, axesOfPoints, finite, fromQuaternion, product, rotate, subtract, transpose } from "./math.js";
 
 /**
  * @typedef {{position: number[], rotation: number[], shown: boolean, why: string}} Pose
- *   earth = position + rotation local; `shown` is false where a number is missing, `why` says which
+ *   earth = position + rotation local; `shown` is false if a value is missing, and `why` is the reason
  */
 
 /** The poses of all frames of a scene. */
 export class Frames {
-  /** @param {Data} scene the scene; its `frames` may stand in any order */
+  /** @param {Data} scene with `frames` in any order */
   constructor(scene) {
     this.scene = scene;
     /** @type {Map<string, Pose>} */
@@ -17,7 +17,7 @@ export class Frames {
     this.update(null);
   }
 
-  /** @param {((name: string) => number | undefined) | null} lookup a column's number now; null: as drawn */
+  /** @param {((name: string) => number | undefined) | null} lookup values of columns; null: poses as drawn */
   update(lookup) {
     for (const name of this.order) {
       this.poses.set(name, this._poseOf(name, this.scene.frames[name], lookup));
@@ -29,51 +29,51 @@ export class Frames {
     return this.poses.get(name) ?? hidden(`the frame '${name}' is not in the scene`);
   }
 
-  /** Earth position of a point of a frame; null while the frame is hidden. @returns {number[] | null} */
+  /** Earth position of a point of a frame; null if the frame is hidden. @returns {number[] | null} */
   point(name, local) {
     const { position, rotation, shown } = this.pose(name);
     return shown ? add(position, rotate(rotation, local)) : null;
   }
 
   _poseOf(name, frame, lookup) {
-    if (frame.way !== undefined) return this._slid(name, frame, lookup);
-    if (frame.parent !== undefined) return this._turned(name, frame, lookup);
-    const columned = frame.position !== undefined;
-    if (columned && lookup !== null) return fromColumns(name, frame, lookup);
+    if (frame.way !== undefined) return this._slidingPose(name, frame, lookup);
+    if (frame.parent !== undefined) return this._turningPose(name, frame, lookup);
+    const hasColumns = frame.position !== undefined;
+    if (hasColumns && lookup !== null) return fromColumns(name, frame, lookup);
     if (frame.points !== undefined && frame.on !== undefined) {
-      const found = this._onPoints(name, frame);
-      if (found.shown || lookup !== null || frame.start === undefined) return found;
+      const pointsPose = this._poseOnPoints(name, frame);
+      if (pointsPose.shown || lookup !== null || frame.start === undefined) return pointsPose;
     }
     if (frame.start !== undefined) {
       const rotation = fromQuaternion(frame.start[1]);
       return rotation === null ? hidden(`the start of the frame '${name}' has no rotation`) : pose(frame.start[0], rotation);
     }
-    return lookup === null && columned ? hidden(`the frame '${name}' has no pose as drawn`) : pose([0, 0, 0], IDENTITY);
+    return lookup === null && hasColumns ? hidden(`the frame '${name}' has no pose as drawn`) : pose([0, 0, 0], IDENTITY);
   }
 
-  _turned(name, frame, lookup) {
+  _turningPose(name, frame, lookup) {
     const parent = this.pose(frame.parent);
     if (!parent.shown) return parent;
     let angle = typeof frame.angle === "number" ? frame.angle : (frame.start ?? 0);
     if (typeof frame.angle === "string" && lookup !== null) {
       angle = lookup(frame.angle);
-      if (!Number.isFinite(angle)) return hidden(absent(name, [frame.angle]));
+      if (!Number.isFinite(angle)) return hidden(missingText(name, [frame.angle]));
     }
     const turn = aboutAxis(frame.axis ?? [0, 0, 1], angle);
     if (turn === null) return hidden(`the axis of the frame '${name}' has no direction`);
     return pose(add(parent.position, rotate(parent.rotation, frame.at ?? [0, 0, 0])), product(parent.rotation, turn));
   }
 
-  _slid(name, frame, lookup) {
+  _slidingPose(name, frame, lookup) {
     const parent = this.pose(frame.parent);
     if (!parent.shown) return parent;
     const travel = lookup === null ? (frame.start ?? 0) : lookup(frame.way);
-    if (!Number.isFinite(travel)) return hidden(absent(name, [frame.way]));
+    if (!Number.isFinite(travel)) return hidden(missingText(name, [frame.way]));
     const at = add(frame.at ?? [0, 0, 0], frame.direction.map((part) => travel * part));
     return pose(add(parent.position, rotate(parent.rotation, at)), parent.rotation);
   }
 
-  _onPoints(name, frame) {
+  _poseOnPoints(name, frame) {
     const earth = [];
     for (const [other, local] of frame.on) {
       const point = this.point(other, local);
@@ -93,7 +93,7 @@ function fromColumns(name, frame, lookup) {
   const quaternion = frame.quaternion?.map((column) => lookup(column)) ?? [1, 0, 0, 0];
   if (!finite(position) || !finite(quaternion)) {
     const columns = [...frame.position, ...(frame.quaternion ?? [])];
-    return hidden(absent(name, columns.filter((column) => !Number.isFinite(lookup(column)))));
+    return hidden(missingText(name, columns.filter((column) => !Number.isFinite(lookup(column)))));
   }
   const rotation = fromQuaternion(quaternion);
   return rotation === null ? hidden(`the quaternion of the frame '${name}' is zero`) : pose(position, rotation);
@@ -101,9 +101,9 @@ function fromColumns(name, frame, lookup) {
 
 const pose = (position, rotation) => ({ position, rotation, shown: true, why: "" });
 const hidden = (why) => ({ position: [0, 0, 0], rotation: IDENTITY, shown: false, why });
-const absent = (name, columns) => `'${name}' is not drawn where the column '${columns[0]}' has no number`;
+const missingText = (name, columns) => `'${name}' is not drawn where the column '${columns[0]}' has no number`;
 
-/** Names so that what a frame hangs on comes before it; a circle is an error. */
+/** Names in an order with parents before children; a cycle is an error. */
 function ordered(frames) {
   const order = [];
   const state = new Map();
@@ -112,8 +112,8 @@ function ordered(frames) {
     if (state.get(name) === "open") throw new Error(`The frames hang on each other in a circle: ${[...path, name].join(", ")}.`);
     state.set(name, "open");
     const frame = frames[name];
-    const needs = frame.parent !== undefined ? [frame.parent] : (frame.on ?? []).map(([other]) => other);
-    for (const other of needs) visit(other, [...path, name]);
+    const parents = frame.parent !== undefined ? [frame.parent] : (frame.on ?? []).map(([other]) => other);
+    for (const other of parents) visit(other, [...path, name]);
     state.set(name, "done");
     order.push(name);
   };

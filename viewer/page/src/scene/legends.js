@@ -1,21 +1,21 @@
-// Legends of colours, arrows and grid over the picture.
+// Makes the legends of colours, arrows and grid over the picture.
 import { gradient } from "../looks/colour_map.js";
 import { el } from "../common/dom.js";
 import { niceStep, parted, worded } from "./forces.js";
 
 const BOX = "background:#ffffffd9;border-radius:4px;padding:5px 8px;font-variant-numeric:tabular-nums";
 
-/** The legends of a view; each is made again only when it changes. */
+/** The legends of a view, remade only when they change. */
 export class Legends {
   _states = new Map();
 
-  /** @param {HTMLElement} layer takes the boxes */
+  /** @param {HTMLElement} layer parent of the legends */
   constructor(layer) {
     this.layer = layer;
   }
 
   /**
-   * Show a state under a name; none takes the box away.
+   * Shows a state as the legend of a name; null removes it.
    * @param {string} name
    * @param {Data | string | null} state
    * @param {(state: any) => (Node | string)[]} draw
@@ -33,7 +33,7 @@ export class Legends {
 }
 
 /**
- * The legend of stress colours; `ends`: what is beyond the scale has its last colour.
+ * Content of the legend of stress; `ends`: larger stress has the last colour.
  * @param {{known: boolean, computed: boolean, most: number, ends: boolean, unit: string, limit: number | null, limitName: string, factor: number}} state
  */
 export function stressLegend({ known, computed, most, ends, unit, limit, limitName, factor }) {
@@ -48,13 +48,13 @@ export function stressLegend({ known, computed, most, ends, unit, limit, limitNa
   ];
 }
 
-/** Round numbers from 0 to the end of a scale. @param {number} most */
+/** Round numbers from 0 to the end of the scale. @param {number} most */
 function ticksTo(most) {
   const step = niceStep(most / 3);
   return Array.from({ length: Math.floor(most / step + 1e-9) + 1 }, (_, k) => Number((k * step).toPrecision(6)));
 }
 
-/** The legend of the arrows. @param {{unit: string, metres: number, value: number, colour: string}[]} scales */
+/** Content of the legend of arrows. @param {{unit: string, metres: number, value: number, colour: string}[]} scales */
 export function arrowLegend(scales) {
   return scales.map(({ unit, metres, value, colour }) =>
     el("div", {}, el("b", { style: `color:${colour}` }, "\u2192"), ` ${metres} m = ${worded(value, unit)}`),

@@ -1,4 +1,4 @@
-// Labels at points of the picture: gauges with their values, the tube that is stressed most, what was clicked.
+// Labels at points of the picture: gauges with their values, the largest stress, the clicked object.
 import * as THREE from "three";
 import { el, write } from "../common/dom.js";
 import { besides } from "../common/labels.js";
@@ -10,22 +10,22 @@ const COLOURS = { gauge: "#1565c0", most: "#c62828", picked: "#111" };
 const BOX = "position:absolute;left:0;top:0;white-space:pre-wrap;will-change:transform";
 const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:50%;border:2px solid #fff;box-sizing:border-box";
 const WORDS = "position:absolute;left:0;top:0;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
-/** How far the top of words is above their dot, by their height and in pixels: the largest stress stands above gauges. */
-const ABOVE = { gauge: [0.5, 0], most: [1, 12], picked: [0, -10] };
-/** What stands over pictures, which words leave free, and how often it is looked for, ms. */
-const [OVER, LOOKED] = ["[data-legend], .a3-cluster, .a3-tyres, .a3-inset, .a3-timing, .a3-head, .a3-flags > *", 500];
-/** Words find place between their dot and the border of the picture if it is so wide, pixels. */
-const WIDE = 190;
-/** A press that moves the mouse farther than this turns the camera, pixels. */
-const STILL = 4;
-/** Lines of what was clicked at most. */
-const LINES = 7;
+/** Height of the top of labels above their dot, in their height and in pixels; that of the largest stress is above gauges. */
+const LABEL_HEIGHTS = { gauge: [0.5, 0], most: [1, 12], picked: [0, -10] };
+/** Elements over pictures that labels avoid, and interval of locating them, ms. */
+const [OVERLAYS, INTERVAL] = ["[data-legend], .a3-cluster, .a3-tyres, .a3-inset, .a3-timing, .a3-head, .a3-flags > *", 500];
+/** Distance from the border of the picture that leaves room for labels, pixels. */
+const LABEL_ROOM = 190;
+/** Largest motion of the mouse during a click, pixels. */
+const CLICK_MOTION = 4;
+/** Largest number of lines on a clicked object. */
+const MAX_LINES = 7;
 
 /**
- * What is marked where stress is coloured: places in the axes of the body's frame, with their words.
+ * Labels of gauges and of the largest stress of a body, with positions in axes of its frame.
  * @param {import("../shapes/flexible.js").Flexible} body
  * @param {((name: string) => number | undefined) | null} lookup
- * @param {number} full stress at the end of the colours: gauges have the unit of their legend
+ * @param {number} full stress of the last colour, whose prefixed unit gauges have too
  * @returns {{kind: string, name: string, at: number[], text: string}[]}
  */
 function stressMarks({ bending, name: body }, lookup, full) {
@@ -41,7 +41,7 @@ function stressMarks({ bending, name: body }, lookup, full) {
 }
 
 /**
- * A tube with the stress at its ends.
+ * Text on a tube with the stress at its ends.
  * @param {import("./bending.js").Bending} bending @param {number} beam @param {number[]} ends 0, 1 or both
  * @returns {string[]}
  */
@@ -53,14 +53,14 @@ function tubeWords(bending, beam, ends) {
   return [`tube ${from} to ${to}`, ...(stress.length ? [stress.map((value) => worded(value, unit)).join(" and "), ...share] : [])];
 }
 
-/** The words over a picture. */
+/** The labels over a picture. */
 export class Marks {
   _made = new Map();
   _over = { at: -Infinity, boxes: [] };
   /** @type {{frame: string, at: number[], lines: () => string[]} | null} */
   _picked = null;
 
-  /** @param {HTMLElement} layer takes the words @param {Data} view the SceneView @param {HTMLElement} canvas is clicked at */
+  /** @param {HTMLElement} layer parent of the labels @param {Data} view the SceneView @param {HTMLElement} canvas receives clicks */
   constructor(layer, view, canvas) {
     this.view = view;
     this.layer = el("div", { style: "position:absolute;inset:0", "aria-live": "off" });
@@ -68,20 +68,20 @@ export class Marks {
     let from = null;
     canvas.addEventListener("pointerdown", ({ clientX, clientY }) => (from = [clientX, clientY]));
     canvas.addEventListener("pointerup", ({ clientX, clientY }) => {
-      if (from === null || Math.hypot(clientX - from[0], clientY - from[1]) > STILL) return;
+      if (from === null || Math.hypot(clientX - from[0], clientY - from[1]) > CLICK_MOTION) return;
       const { left, top } = canvas.getBoundingClientRect();
       this.pick(clientX - left, clientY - top);
     });
   }
 
-  /** Choose what is drawn at a pixel of the picture; nothing takes the words away. @returns {string[]} its name and numbers */
+  /** Labels the object at a pixel of the picture, if there is one. @returns {string[]} lines of its label */
   pick(x, y) {
     this._picked = this._hit(x, y);
     this.place();
     return this._picked?.lines() ?? [];
   }
 
-  /** Everything to its place. @param {boolean} [again] once more when what stands over the picture has settled */
+  /** Updates all labels. @param {boolean} [again] whether to repeat it when the overlays are settled */
   place(again = true) {
     const { parts, lookup, gone } = this.view;
     clearTimeout(this._settled);
@@ -98,7 +98,7 @@ export class Marks {
       marks.push({ kind: "picked", name: "", at: frames.point(frame, at), text: lines().join("\n") });
     }
     this._write(marks);
-    if (again && marks.length > 0) this._settled = setTimeout(() => this.place(false), LOOKED);
+    if (again && marks.length > 0) this._settled = setTimeout(() => this.place(false), INTERVAL);
   }
 
   _write(marks) {
@@ -108,11 +108,11 @@ export class Marks {
       const label = this._made.get(key) ?? this._make(key, kind);
       write(label.words, text);
       if (label.letters !== text.length || label.size[0] === 0) {
-        const { offsetWidth, offsetHeight } = label.words; // dear, and digits are of one width
+        const { offsetWidth, offsetHeight } = label.words; // expensive, and all digits have the same width
         Object.assign(label, { letters: text.length, size: [offsetWidth, offsetHeight] });
       }
-      const outward = Math.min(at[0], width - at[0]) > WIDE; // so that few lie over each other
-      return Object.assign(label, { at, above: ABOVE[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
+      const outward = Math.min(at[0], width - at[0]) > LABEL_ROOM; // reduces overlaps
+      return Object.assign(label, { at, above: LABEL_HEIGHTS[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
     });
     const places = besides(labels, this.view.size, seen.length > 0 ? this._covered() : []);
     for (const [k, { box, words, at }] of labels.entries()) {
@@ -121,9 +121,9 @@ export class Marks {
       words.style.transform = `translate(${left - at[0]}px, ${top - at[1]}px)`;
       box.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
     }
-    const kept = new Set(seen.map(({ key }) => key));
+    const currentKeys = new Set(seen.map(({ key }) => key));
     for (const [key, { box }] of this._made) {
-      if (kept.has(key)) continue;
+      if (currentKeys.has(key)) continue;
       box.remove();
       this._made.delete(key);
     }
@@ -138,18 +138,18 @@ export class Marks {
     return this._made.get(key);
   }
 
-  /** What stands over the picture: left, top, right and bottom in its pixels. @returns {number[][]} */
+  /** Boxes of the overlays: left, top, right and bottom, pixels of the picture. @returns {number[][]} */
   _covered() {
     const now = performance.now();
-    if (now - this._over.at >= LOOKED - 1) {
+    if (now - this._over.at >= INTERVAL - 1) {
       const { left, top } = this.layer.getBoundingClientRect();
-      const boxes = [...document.querySelectorAll(OVER)].map((element) => element.getBoundingClientRect());
+      const boxes = [...document.querySelectorAll(OVERLAYS)].map((element) => element.getBoundingClientRect());
       this._over = { at: now, boxes: boxes.map((box) => [box.left - left, box.top - top, box.right - left, box.bottom - top]) };
     }
     return this._over.boxes;
   }
 
-  /** The nearest solid thing under a pixel. */
+  /** The nearest solid object at a pixel; null if there is none. */
   _hit(x, y) {
     const { view } = this;
     const { parts, size, cameras } = view;
@@ -168,7 +168,7 @@ export class Marks {
     return { frame, at, lines: beam >= 0 ? () => tubeWords(body.bending, beam, [0, 1]) : this._bodyWords(frame) };
   }
 
-  /** A body with its place and the forces on it, at each time. @param {string} frame @returns {() => string[]} */
+  /** Function that returns lines on a body: its position and the forces on it. @param {string} frame @returns {() => string[]} */
   _bodyWords(frame) {
     const { scene, parts } = this.view;
     const tyres = new Map(tyresOf(scene).map(({ tyre, shape }) => [tyre, shape?.frame]));
@@ -183,7 +183,7 @@ export class Marks {
         const found = forcesOf(arrow, parts.frames, lookup);
         return typeof found === "string" || found.length === 0 ? [] : [`${arrow.name}: ${worded(length(found[0].vector), arrow.unit ?? "N")}`];
       });
-      return [frame, positionText, ...forces].slice(0, LINES);
+      return [frame, positionText, ...forces].slice(0, MAX_LINES);
     };
   }
 }

@@ -2,7 +2,7 @@
 import { Matrix3, Matrix4, Quaternion } from "three";
 
 /** @typedef {number[]} Vector three numbers */
-/** @typedef {number[]} Rotation nine numbers, row by row; takes a frame's coordinates to those of its parent */
+/** @typedef {number[]} Rotation nine numbers, row by row; transforms coordinates of a frame to those of its parent */
 
 export const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 
@@ -21,13 +21,13 @@ export function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
-/** Unit vector along `a`; null where `a` has no direction. @param {Vector} a @returns {Vector | null} */
+/** Unit vector along `a`; null if `a` has no direction. @param {Vector} a @returns {Vector | null} */
 export function unit(a) {
   const size = length(a);
   return size > 0 && Number.isFinite(size) ? scale(a, 1 / size) : null;
 }
 
-/** A unit vector across a unit vector. @param {Vector} a @returns {Vector} */
+/** A unit vector perpendicular to a unit vector. @param {Vector} a @returns {Vector} */
 export function across(a) {
   const [x, y, z] = a.map(Math.abs);
   return unit(cross(a, x <= y && x <= z ? [1, 0, 0] : y <= z ? [0, 1, 0] : [0, 0, 1]));
@@ -42,7 +42,7 @@ export function rotate(R, v) {
   ];
 }
 
-/** A B; three.js has numbers column by column. @param {Rotation} A @param {Rotation} B @returns {Rotation} */
+/** A B; three.js stores matrices column by column. @param {Rotation} A @param {Rotation} B @returns {Rotation} */
 export const product = (A, B) => new Matrix3().fromArray(B).multiply(new Matrix3().fromArray(A)).toArray();
 
 /** @param {Rotation} R @returns {Rotation} */
@@ -63,7 +63,7 @@ export function fromQuaternion([w, x, y, z]) {
   ]; // prettier-ignore
 }
 
-/** Quaternion (w, x, y, z) of a rotation, w >= 0 or the largest part positive. @param {Rotation} R */
+/** Quaternion (w, x, y, z) of a rotation, with w >= 0 or the largest component positive. @param {Rotation} R */
 export function toQuaternion(R) {
   const { x, y, z, w } = new Quaternion().setFromRotationMatrix(new Matrix4().setFromMatrix3(new Matrix3().fromArray(transpose(R))));
   return [w, x, y, z];
@@ -77,7 +77,7 @@ export function aboutAxis(axis, angle) {
   return fromQuaternion([Math.cos(angle / 2), u[0] * h, u[1] * h, u[2] * h]);
 }
 
-/** Axes of three points: x from the first to the second, the third in the x-y plane; null where they lie on a line. */
+/** Axes of three points: x from the first to the second, the third in the x-y plane; null if they are on a line. */
 export function axesOfPoints(a, b, c) {
   const x = unit(subtract(b, a));
   if (x === null) return null;

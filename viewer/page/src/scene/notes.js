@@ -2,7 +2,7 @@
 import { el } from "../common/dom.js";
 import { instead } from "../common/notices.js";
 
-/** The layer over a picture; sentences on what is not drawn go to whoever shows them. */
+/** The layer over a picture; sentences on parts that are not drawn are passed to a listener. */
 export class Notes {
   _said = new Set();
 
@@ -16,19 +16,19 @@ export class Notes {
     container.append(this.layer);
   }
 
-  /** Sentences that have been said. @returns {string[]} */
+  /** All sentences so far. @returns {string[]} */
   get said() {
     return [...this._said];
   }
 
-  /** Say a sentence once. @param {string} sentence */
+  /** Passes a sentence to the listener once. @param {string} sentence */
   tell(sentence) {
     if (this._said.has(sentence)) return;
     this._said.add(sentence);
     this.listener?.(sentence);
   }
 
-  /** A sentence in place of the picture, or none. @param {string} sentence */
+  /** Shows a sentence in place of the picture; empty: none. @param {string} sentence */
   instead(sentence) {
     instead(this.layer, "not drawn", sentence);
   }

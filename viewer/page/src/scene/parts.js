@@ -1,4 +1,4 @@
-// The shapes of one scene, placed by its frames.
+// The shapes, flexible bodies and arrows of a scene, moved by its frames.
 import * as THREE from "three";
 import { Materials } from "../looks/materials.js";
 import { Arrows } from "../shapes/arrows.js";
@@ -11,19 +11,19 @@ import { Frames } from "./frames.js";
 import { length, rotate, subtract } from "./math.js";
 import { roadUnder, tyresOf } from "./tyres.js";
 
-/** Radius of the thinnest tube of a flexible body that is seen, beside the size of the drawing. */
-const THINNEST = 0.003;
-/** Shapes of this name are hidden by covers, as mbs/vehicle/shapes/tube_frame.py names them. */
-const WITHIN = "frame tube";
-/** A part of a ghost that is nearer to its like than this, beside the size of the drawing, would be drawn into it. */
-const SAME = 0.01;
+/** Least radius of drawn tubes of flexible bodies, as a share of the size of the drawing. */
+const MIN_RADIUS = 0.003;
+/** Name of shapes hidden by covers, as in mbs/vehicle/shapes/tube_frame.py. */
+const HIDDEN_NAME = "frame tube";
+/** Distance of parts of a ghost from those of the run below which they are hidden, as a share of the size of the drawing. */
+const COINCIDENCE_DISTANCE = 0.01;
 
-/** The moving things of a scene: the run itself, or a ghost of another run. */
+/** The moving parts of a run, or of a ghost. */
 export class Parts {
   /**
    * @param {Data} scene
    * @param {{ghost?: boolean, tint?: string, opacity?: number, over?: Parts, size?: number, tell: (sentence: string) => void}} options
-   *   parts of a ghost are hidden where those that it is drawn `over` stand, of a drawing of this `size`, m
+   *   parts of a ghost are hidden where they coincide with those of `over`, in a drawing of this `size`, m
    */
   constructor(scene, options) {
     this.scene = scene;
@@ -33,18 +33,18 @@ export class Parts {
     this.frames = new Frames(scene);
     this.materials = new Materials(options);
     this.carriers = new Map();
-    /** Groups of what covers hide, by their frames. */
+    /** Groups of shapes that covers hide, by frame. */
     this.inner = new Map();
     this.shapes = [];
-    /** Largest displacement of a flexible body so far, in metres. */
+    /** Largest displacement of a flexible body so far, m. */
     this.moved = 0;
     this.owned = [];
     const context = { materials: this.materials, frames: this.frames, scene };
     for (const shape of scene.shapes ?? []) this._add(shape, context, options);
-    this.flexible = (scene.flexible ?? []).map((body) => this._bend(body, options));
-    /** Times that displacements are drawn, whether stress is coloured, and the stress at the end of the colours. */
+    this.flexible = (scene.flexible ?? []).map((body) => this._makeFlexible(body, options));
+    /** Factor of displacements, whether stress is coloured, and stress of the last colour. */
     this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
-    /** Whether what is beyond that end stays beyond it. */
+    /** Whether the stress of the last colour is fixed. */
     this.bending.fixed = this.bending.most > 0;
     this.tyres = options.ghost ? [] : this._tyres();
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []));
@@ -64,33 +64,33 @@ export class Parts {
     this.owned.push(...(drawn.owned ?? []));
     drawn.shape = shape;
     drawn.object.name = shape.name ?? shape.body ?? "";
-    const among = shape.name === WITHIN ? this.inner : this.carriers;
-    (drawn.frame !== undefined ? this._carrier(drawn.frame, among) : this.group).add(drawn.object);
+    const groups = shape.name === HIDDEN_NAME ? this.inner : this.carriers;
+    (drawn.frame !== undefined ? this._carrier(drawn.frame, groups) : this.group).add(drawn.object);
     this.shapes.push(drawn);
   }
 
-  /** Wheels whose tyre is known and whose shape can be flattened. */
+  /** Wheels with a known tyre and a shape that can be flattened. */
   _tyres() {
     return tyresOf(this.scene)
       .map(({ tyre, shape }) => ({ tyre, frame: shape?.frame, stand: this.shapes.find((made) => made.shape === shape)?.stand }))
       .filter(({ stand }) => stand !== undefined);
   }
 
-  _bend(body, { ghost = false }) {
-    const flexible = new Flexible(body, this.materials, THINNEST * (this.scene.extent ?? 0));
+  _makeFlexible(body, { ghost = false }) {
+    const flexible = new Flexible(body, this.materials, MIN_RADIUS * (this.scene.extent ?? 0));
     if (!ghost) shaded(flexible.object);
     this._carrier(body.frame).add(flexible.object);
     return flexible;
   }
 
   /** The group that moves with a frame. */
-  _carrier(name, among = this.carriers) {
-    if (!among.has(name)) {
+  _carrier(name, groups = this.carriers) {
+    if (!groups.has(name)) {
       const carrier = new THREE.Group();
-      among.set(name, carrier);
+      groups.set(name, carrier);
       this.group.add(carrier);
     }
-    return among.get(name);
+    return groups.get(name);
   }
 
   /** Groups that move with frames, each with the name of its frame. @returns {[string, any][]} */
@@ -98,7 +98,7 @@ export class Parts {
     return [...this.carriers, ...this.inner];
   }
 
-  /** @param {((name: string) => number | undefined) | null} lookup numbers now; null: as drawn */
+  /** @param {((name: string) => number | undefined) | null} lookup values of columns; null: as drawn */
   update(lookup) {
     this.frames.update(lookup);
     for (const { frames } of this.shapes) {
@@ -119,7 +119,7 @@ export class Parts {
     this.arrows.update(lookup, this.frames, this.tell);
   }
 
-  /** Covers hide the frame that is within, be it rigid or flexible. @param {boolean} closed */
+  /** Makes covers solid, which hide rigid and flexible parts inside, or transparent. @param {boolean} closed */
   close(closed) {
     this.closed = closed && this.materials.covered;
     this.materials.cover(closed);
@@ -127,42 +127,42 @@ export class Parts {
     for (const [name, carrier] of this.inner) carrier.visible = this.frames.pose(name).shown && !this.closed;
   }
 
-  /** Whether frames and what bends on them stand where those of the same names do that are drawn already. @param {string[]} names */
-  _covers(names) {
+  /** Whether frames and their flexible bodies coincide with those of the same names in `over`. @param {string[]} names */
+  _coincide(names) {
     const { over, size = 0 } = this.options;
     if (over === undefined || over.closed !== this.closed) return false;
-    const near = (name) => apart(this.frames.pose(name), over.frames.pose(name), size / 4) < SAME * size;
-    return names.every((name) => near(name) && bentApart(this._nodes(name), over._nodes(name)) < SAME * size);
+    const near = (name) => frameDistance(this.frames.pose(name), over.frames.pose(name), size / 4) < COINCIDENCE_DISTANCE * size;
+    return names.every((name) => near(name) && nodeDistance(this._nodes(name), over._nodes(name)) < COINCIDENCE_DISTANCE * size);
   }
 
-  /** Nodes of the flexible bodies on a frame as they are drawn, along its axes. @param {string} name */
+  /** Drawn positions of nodes of the flexible bodies of a frame, in its axes. @param {string} name */
   _nodes(name) {
     return this.flexible.filter(({ frame }) => frame === name).flatMap(({ bending }) => bending.displaced);
   }
 
-  /** Puts everything in its place relative to the origin of the picture. @param {number[]} origin earth position */
+  /** Moves all parts, relative to the origin of the picture. @param {number[]} origin earth position */
   place(origin) {
     for (const body of this.flexible) body.paint(this.bending.coloured, this.bending.most || 1);
     this.arrows.place(origin);
     for (const [name, carrier] of this.moving) {
       const { position, rotation, shown } = this.frames.pose(name);
-      carrier.visible = shown && !(this.closed && this.inner.get(name) === carrier) && !this._covers([name]);
+      carrier.visible = shown && !(this.closed && this.inner.get(name) === carrier) && !this._coincide([name]);
       carrier.position.set(...subtract(position, origin));
       turn(carrier, rotation);
     }
     for (const drawn of this.shapes) {
       if (drawn.update === undefined) continue;
-      drawn.object.visible = drawn.frames.every((name) => this.frames.pose(name).shown) && !this._covers(drawn.frames);
+      drawn.object.visible = drawn.frames.every((name) => this.frames.pose(name).shown) && !this._coincide(drawn.frames);
       if (drawn.object.visible) drawn.update(([frame, local]) => subtract(this.frames.point(frame, local), origin));
     }
   }
 
-  /** A factor that draws the largest displacement so far as about a twentieth of the size. @param {number} extent */
+  /** Factor that makes the largest displacement so far about a twentieth of the size. @param {number} extent */
   fittingFactor(extent) {
     return this.moved > 0 ? Math.max(1, niceAbove(extent / 30 / this.moved)) : 1;
   }
 
-  /** Earth box of all shapes as they stand: [low, high]; null where nothing is drawn. */
+  /** Bounding box of all shapes in earth axes: [low, high]; null without shapes. */
   bounds() {
     this.place([0, 0, 0]);
     this.group.updateMatrixWorld(true);
@@ -187,19 +187,19 @@ export class Parts {
 }
 
 /**
- * How far apart points are that lie so far from two frames along their axes, m.
+ * Largest distance of points at a distance `reach` along the axes of two frames, m.
  * @param {import("./frames.js").Pose} one @param {import("./frames.js").Pose} other @param {number} reach m
  */
-function apart(one, other, reach) {
+function frameDistance(one, other, reach) {
   if (!other.shown) return Infinity;
   const axes = [[reach, 0, 0], [0, reach, 0], [0, 0, reach]]; // prettier-ignore
   const between = subtract(one.position, other.position);
-  const turned = axes.map((axis) => length(subtract(rotate(one.rotation, axis), rotate(other.rotation, axis))));
-  return length(between) + Math.max(...turned);
+  const axisDistances = axes.map((axis) => length(subtract(rotate(one.rotation, axis), rotate(other.rotation, axis))));
+  return length(between) + Math.max(...axisDistances);
 }
 
-/** How far apart the nodes of two drawings of a frame's flexible bodies are, m. @param {number[][]} one @param {number[][]} other */
-function bentApart(one, other) {
+/** Largest distance of the nodes of two drawings, m. @param {number[][]} one @param {number[][]} other */
+function nodeDistance(one, other) {
   if (one.length !== other.length) return Infinity;
   return one.reduce((most, node, k) => Math.max(most, length(subtract(node, other[k]))), 0);
 }

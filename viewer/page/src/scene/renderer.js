@@ -6,7 +6,7 @@ const NO_WEBGL =
   "This browser gives no WebGL, so nothing can be drawn here; plots still work. " +
   "Switch on hardware acceleration in the browser's settings, or open the page in another browser.";
 
-/** Whether a context draws by the processor: SwiftShader, llvmpipe and the like. @param {WebGLRenderingContext} gl */
+/** Whether a context draws on the processor, such as SwiftShader and llvmpipe. @param {WebGLRenderingContext} gl */
 function drawsBySoftware(gl) {
   const info = gl.getExtension("WEBGL_debug_renderer_info");
   const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
@@ -14,15 +14,16 @@ function drawsBySoftware(gl) {
 }
 
 /**
+ * Makes a renderer with its canvas.
  * @param {HTMLElement} container
- * @param {{label: string, antialias?: boolean, keep?: boolean}} options label: what the picture is, for who does not see
- *   it; keep: the picture can be read after it is drawn
+ * @param {{label: string, antialias?: boolean, keep?: boolean}} options label: alternative
+ *   text; keep: whether the picture can be read after it is drawn
  * @returns {{renderer?: THREE.WebGLRenderer, software?: boolean, problem?: string}}
  */
 export function makeRenderer(container, { label, antialias, keep = false }) {
   const style = "display:block;width:100%;height:100%;outline:none;touch-action:none";
   const canvas = el("canvas", { role: "img", "aria-label": label, style });
-  // The context is asked for here: three.js writes an error to the console where there is none.
+  // The context is created here, because three.js would write an error to the console if there is none.
   /** @type {WebGL2RenderingContext | null} */
   let gl;
   let software = false;

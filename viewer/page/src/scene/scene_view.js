@@ -1,4 +1,4 @@
-// A picture of a scene in an element of a page.
+// Draws a scene in an element of a page.
 import * as THREE from "three";
 import { Cameras } from "./cameras.js";
 import { add, dot, middle, rotate, subtract, transpose, unit } from "./math.js";
@@ -10,29 +10,29 @@ import { wrongName } from "./plain_names.js";
 import { makeRenderer } from "./renderer.js";
 import { makeLook } from "../looks/index.js";
 
-/** Draws a scene; numbers come by column name. Everything is drawn relative to the focus, so that 100 km shake nothing. */
+/** A picture of a scene, drawn relative to the focus so that positions are accurate at 100 km too. */
 export class SceneView {
   /**
-   * @param {HTMLElement} container an element with a size; the picture fills it
+   * @param {HTMLElement} container an element with a size, which the picture fills
    * @param {Data} scene see viewer/scene.schema.json
    * @param {object} [options]
-   * @param {string} [options.quality] of QUALITIES in looks/picture_quality.js; auto: by the measured time of a picture
-   * @param {boolean} [options.driven] pictures must keep up with what moves now: auto may choose a draft
-   * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
+   * @param {string} [options.quality] of QUALITIES in looks/picture_quality.js; auto: by the measured drawing time
+   * @param {boolean} [options.driven] pictures follow a simulation in real time: auto may choose a draft
+   * @param {"outdoors" | "studio" | "board"} [options.look] by default depending on the scene
    * @param {string} [options.camera] the first camera
-   * @param {boolean} [options.antialias] smooth edges; by default where a graphics card draws, on boards and in high quality
-   * @param {boolean} [options.words] what the grid of a board means, true by default
-   * @param {number} [options.lift] the picture is moved up by this share of its height, where something stands below
-   * @param {number} [options.trail] time in which the camera behind follows a turn, s; 0 by default: at once
-   * @param {boolean} [options.keep] the picture can be read from the canvas after it is drawn
-   * @param {(sentence: string) => void} [options.onMessage] told what is not drawn, once each
+   * @param {boolean} [options.antialias] smooth edges; by default with a graphics card, on boards and in high quality
+   * @param {boolean} [options.words] legend of the grid, by default true
+   * @param {number} [options.lift] upward shift of the picture as a share of its height
+   * @param {number} [options.trail] time constant of the chase camera in turns, s; by default 0
+   * @param {boolean} [options.keep] whether the canvas can be read after drawing
+   * @param {(sentence: string) => void} [options.onMessage] receives each sentence on parts that are not drawn once
    */
   constructor(container, scene, options = {}) {
     this.container = container;
     this.scene = scene;
     this.options = options;
     this.lookup = null;
-    /** One sentence where nothing can be drawn, else empty. */
+    /** Reason why nothing is drawn; empty if something is. */
     this.problem = "";
     if (getComputedStyle(container).position === "static") container.style.position = "relative";
     this.notes = new Notes(container, options.onMessage);
@@ -71,37 +71,37 @@ export class SceneView {
     this.update(null);
   }
 
-  /** Sentences about what is not drawn. @returns {string[]} */
+  /** Sentences on parts that are not drawn. @returns {string[]} */
   get messages() {
     return this.problem ? [this.problem, ...this.notes.said] : this.notes.said;
   }
 
-  /** Names that `camera` takes. @returns {string[]} */
+  /** Names of the cameras. @returns {string[]} */
   get cameraNames() {
     return this.cameras?.names ?? [];
   }
 
   /**
-   * Move everything to the numbers of an instant.
-   * @param {((name: string) => number | undefined) | null} lookup the number of a column; null: the scene as drawn
+   * Moves all parts to the values of a time.
+   * @param {((name: string) => number | undefined) | null} lookup values of columns; null: the scene as drawn
    */
   update(lookup) {
     this.lookup = lookup;
     this.parts.update(lookup);
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     if (shown) this.origin = add(position, rotate(rotation, this.centre));
-    this._explain();
+    this._updateLegends();
   }
 
   /**
-   * Look through a run once, so that colours, arrows and floor keep one scale while it plays.
-   * @param {(i: number) => (name: string) => number | undefined} lookupAt numbers of the instants to look at
-   * @param {number} count how many there are
+   * Samples a run for constant scales of colours and arrows and a constant floor height.
+   * @param {(i: number) => (name: string) => number | undefined} lookupAt values at the sampled times
+   * @param {number} count number of times
    */
   scan(lookupAt, count) {
     const { parts } = this;
     const every = Math.max(1, Math.floor(count / 40));
-    const grounded = (this.scene.roads ?? []).length > 0; // roads are the floor
+    const grounded = (this.scene.roads ?? []).length > 0; // a road replaces the floor
     let [box, floor] = [null, Infinity];
     for (let i = 0; i < count; i++) {
       parts.update(lookupAt(i));
@@ -120,8 +120,8 @@ export class SceneView {
   }
 
   /**
-   * Puts the floor below what is drawn at some instants; to be followed by an update.
-   * @param {(i: number) => (name: string) => number | undefined} lookupAt numbers of the instants @param {number} count how many there are
+   * Lowers the floor below the parts at some times; must be followed by an update.
+   * @param {(i: number) => (name: string) => number | undefined} lookupAt values at the times @param {number} count number of times
    */
   lower(lookupAt, count, parts = this.parts) {
     for (let i = 0; i < count; i++) {
@@ -131,12 +131,12 @@ export class SceneView {
     }
   }
 
-  /** Adds cameras that stand still beside a way. @param {number[][]} path earth positions of what is followed */
+  /** Adds fixed cameras along a path. @param {number[][]} path earth positions of the followed body, m */
   stand(path) {
     this.cameras?.stand(path);
   }
 
-  /** What a scene has that `set` can change. @returns {{arrows: boolean, stress: boolean, deformation: boolean, closed: boolean}} */
+  /** Whether the scene has parts that `set` can change. @returns {{arrows: boolean, stress: boolean, deformation: boolean, closed: boolean}} */
   get has() {
     const { arrows, flexible } = this.parts;
     return {
@@ -147,25 +147,25 @@ export class SceneView {
     };
   }
 
-  /** Names of the arrows that a scene has. @returns {string[]} */
+  /** Names of the arrows of the scene. @returns {string[]} */
   get arrowNames() {
     return this.parts.arrows.list.map(({ name }) => name);
   }
 
-  /** A factor that makes the largest displacement so far well visible. @returns {number} 1, 2, 5, 10, ... */
+  /** Factor that makes the largest displacement so far visible. @returns {number} 1, 2, 5, 10, ... */
   get fittingDeformation() {
     return this.parts.fittingFactor(this.extent);
   }
 
   /**
-   * Change what is shown; seen in the next picture.
+   * Changes the look of the next picture.
    * @param {object} options any of these keys
    * @param {boolean | string[]} [options.arrows] all, none, or names
-   * @param {number} [options.arrowScale] arrows so many times longer than fits
+   * @param {number} [options.arrowScale] factor of the length of arrows
    * @param {boolean} [options.stress] colours of stress
-   * @param {number} [options.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
-   * @param {number} [options.deformation] displacements of flexible bodies are drawn so many times
-   * @param {boolean} [options.closed] bodies hide what is within
+   * @param {number} [options.stressMost] stress of the last colour, in its unit; 0: the largest so far
+   * @param {number} [options.deformation] factor of displacements of flexible bodies
+   * @param {boolean} [options.closed] whether bodies hide parts inside
    * @param {string} [options.quality]
    */
   set({ arrows, arrowScale, stress, stressMost, deformation, closed, quality }) {
@@ -180,8 +180,8 @@ export class SceneView {
     this.update(this.lookup);
   }
 
-  /** The legends of what is drawn now. */
-  _explain() {
+  /** Updates the legends. */
+  _updateLegends() {
     const { bending, flexible, arrows } = this.parts;
     const stressed = flexible.filter(({ bending: { stress } }) => stress !== null);
     const { unit: name, limit, limitName } = stressed[0]?.bending ?? {};
@@ -196,7 +196,7 @@ export class SceneView {
   }
 
   /**
-   * Another run beside this one, see-through; its `update` takes numbers as that of the view.
+   * Adds another run as a transparent ghost, with an `update` as that of the view.
    * @param {Data} scene
    * @param {{tint?: string, opacity?: number, name?: string}} [options]
    * @returns {{update: Function, remove: Function, lower: Function}} `lower` as that of the view
@@ -214,7 +214,7 @@ export class SceneView {
     return { update: (lookup) => parts.update(lookup), remove, lower: (lookupAt, count) => this.lower(lookupAt, count, parts) };
   }
 
-  /** Draw the picture now. */
+  /** Draws the picture. */
   render() {
     if (this.problem || this.lost) return;
     this.look.before();
@@ -228,15 +228,15 @@ export class SceneView {
     this.look.after();
   }
 
-  /** @param {string} name one of `cameraNames` */
+  /** Chooses a camera. @param {string} name one of `cameraNames` */
   camera(name) {
     this.cameras?.choose(name);
   }
 
   /**
-   * Where a point of the earth stands in the picture: pixels of the page from the top left corner of the container.
-   * @param {number[]} point earth coordinates
-   * @returns {number[] | null} null behind the camera or where there is no picture
+   * Position of a point in the picture, pixels of the page from the top left corner of the container.
+   * @param {number[]} point earth position, m
+   * @returns {number[] | null} null behind the camera or without a picture
    */
   project(point) {
     if (this.problem) return null;
@@ -251,22 +251,21 @@ export class SceneView {
   }
 
   /**
-   * Name and numbers of what is drawn at a pixel, which stand over it from now on: of a tube its stress, of a body its
-   * place and the forces on it.
+   * Labels the object at a pixel with its name and values: the stress of a tube, or position and forces of a body.
    * @param {number} x @param {number} y pixels of the page from the top left corner of the container
-   * @returns {string[]} empty where nothing moves
+   * @returns {string[]} lines of the label; empty without a moving object
    */
   pick(x, y) {
     return this.problem ? [] : this.marks.pick(x, y);
   }
 
-  /** Width and height of what is drawn; the page stretches it to its picture. @returns {number[]} */
+  /** Width and height of the drawn picture, which the page scales, pixels. @returns {number[]} */
   get pixels() {
     const { width = 0, height = 0 } = this.renderer?.domElement ?? {};
     return [width, height];
   }
 
-  /** Fit the picture to the container. */
+  /** Fits the picture to the container. */
   resize() {
     if (this.problem) return;
     this.size = [Math.max(1, this.container.clientWidth), Math.max(1, this.container.clientHeight)];
@@ -275,7 +274,7 @@ export class SceneView {
     this.cameras.resize(...this.size);
   }
 
-  /** A canvas that changes its size is empty until something is drawn. */
+  /** Redraws after a change of the size, which clears the canvas. */
   _resized() {
     const { clientWidth, clientHeight } = this.container;
     if (clientWidth === this.size[0] && clientHeight === this.size[1]) return;
@@ -283,7 +282,7 @@ export class SceneView {
     if (this.drawn) this.render();
   }
 
-  /** Free what the graphics card holds and take the picture out of the page. */
+  /** Frees the graphics card and removes the picture. */
   dispose() {
     this.gone = true;
     this.observer?.disconnect();
@@ -297,7 +296,7 @@ export class SceneView {
     this.renderer.domElement.remove();
   }
 
-  /** Size of what is drawn and its middle, in the axes of the focus. */
+  /** Computes the size of the drawing and its centre in axes of the focus. */
   _measure() {
     const bounds = this.parts.bounds() ?? [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]]; // prettier-ignore
     const size = Math.hypot(...subtract(bounds[1], bounds[0])) || 1;
@@ -307,7 +306,7 @@ export class SceneView {
     this.reach = [this.extent, this.extent];
   }
 
-  /** Centre and floor of a box of the earth. @param {number[][]} bounds low and high corner */
+  /** Sets centre and floor to those of a box in earth axes. @param {number[][]} bounds low and high corner */
   _fit(bounds) {
     this.bounds = bounds;
     const [low, high] = bounds;
@@ -321,7 +320,7 @@ export class SceneView {
     this.origin = centre;
   }
 
-  /** Height of a floor that lies just below a box. @param {number[][]} box low and high corner */
+  /** Height of a floor just below a box, m. @param {number[][]} box low and high corner */
   _lowest(box) {
     return Math.min(...box.map((corner) => dot(corner, this.up))) - 0.002 * this.extent;
   }
@@ -337,7 +336,7 @@ export class SceneView {
     const canvas = this.renderer.domElement;
     canvas.addEventListener("webglcontextlost", (event) => {
       if (this.gone) return;
-      event.preventDefault(); // asks for it back
+      event.preventDefault(); // allows the context to be restored
       this.lost = true;
       this.notes.instead("The graphics card has taken its drawing context back; the picture returns when it is given again.");
     });

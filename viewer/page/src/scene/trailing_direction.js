@@ -1,10 +1,10 @@
-// A direction that follows another one with a first-order lag, so that a camera does not turn with every jerk.
+// A direction that follows another one with a first-order lag, for smooth motion of a camera.
 import { add, dot, scale, subtract, unit } from "./math.js";
 
-/** Time without a picture, s, after which the direction is that followed. */
-const PAUSE = 1;
+/** Time without a picture after which the lag is discarded, s. */
+const MAX_PAUSE = 1;
 
-/** A level direction with a lag. */
+/** A horizontal direction with a lag. */
 export class TrailingDirection {
   /** @param {number} lag - Time constant, s; 0: none. @param {() => number} [clock] - s. */
   constructor(lag, clock = () => performance.now() / 1000) {
@@ -15,17 +15,17 @@ export class TrailingDirection {
   }
 
   /**
-   * The direction now.
-   * @param {number[]} forward - Unit vector that is followed, level.
+   * Current direction.
+   * @param {number[]} forward - Followed horizontal unit vector.
    * @param {number[]} up - Unit vector.
-   * @returns {number[]} Unit vector, level.
+   * @returns {number[]} Horizontal unit vector.
    */
   along(forward, up) {
     if (!(this.lag > 0)) return forward;
     const now = this.clock();
     const elapsed = now - this.last;
     this.last = now;
-    if (this.direction === null || elapsed > PAUSE) this.direction = forward;
+    if (this.direction === null || elapsed > MAX_PAUSE) this.direction = forward;
     const share = 1 - Math.exp(-elapsed / this.lag);
     const mixed = add(scale(this.direction, 1 - share), scale(forward, share));
     this.direction = unit(subtract(mixed, scale(up, dot(mixed, up)))) ?? forward;

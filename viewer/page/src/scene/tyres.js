@@ -1,23 +1,24 @@
-// The tyres of a scene and their wheels; pure numbers.
+// Finds the tyres of a scene and their wheels, and the road plane below a wheel.
 import { dot, finite, rotate, subtract, transpose, unit } from "./math.js";
 
 /**
+ * Tyres of a scene.
  * @param {Data} scene
- * @returns {{tyre: Data, slips: Record<string, string>, shape: Data | undefined}[]} of each arrow of a tyre its columns, those of its
- *   slips and speeds, and the wheel of that name, else the only one; undefined where no wheel of several has it
+ * @returns {{tyre: Data, slips: Record<string, string>, shape: Data | undefined}[]} for each arrow of a tyre: its columns, those of
+ *   its slips and speeds, and the wheel of the same name or the only wheel, if there is one
  */
 export function tyresOf(scene) {
   const shapes = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
-  const bare = (name) => name.replace(/\W|_/g, "");
+  const withoutPunctuation = (name) => name.replace(/\W|_/g, "");
   return (scene.arrows ?? [])
     .filter(({ tyre }) => tyre !== undefined)
     .map(({ tyre, slips }) => {
-      // Under the names of another program columns of one tyre can begin differently.
+      // With names of another program, columns of a tyre may have different prefixes.
       const prefixes = [tyre.forces, tyre.contact].map(([name]) => name.replace(/\.[^.]*$/, ""));
-      const shapeOf = (prefix) => shapes.find(({ frame }) => bare(frame) === bare(prefix));
+      const shapeOf = (prefix) => shapes.find(({ frame }) => withoutPunctuation(frame) === withoutPunctuation(prefix));
       const prefix = prefixes.find(shapeOf) ?? prefixes[0];
-      const usual = { slip: `${prefix}.slip`, slip_angle: `${prefix}.slip_angle`, omega: `${prefix}.omega`, speed: "speed" };
-      return { tyre, slips: { ...usual, ...slips }, shape: shapeOf(prefix) ?? (shapes.length === 1 ? shapes[0] : undefined) };
+      const defaults = { slip: `${prefix}.slip`, slip_angle: `${prefix}.slip_angle`, omega: `${prefix}.omega`, speed: "speed" };
+      return { tyre, slips: { ...defaults, ...slips }, shape: shapeOf(prefix) ?? (shapes.length === 1 ? shapes[0] : undefined) };
     });
 }
 

@@ -1,4 +1,4 @@
-// Arrows of forces, drawn over everything else; one scale for all arrows of a unit.
+// Draws arrows of forces over everything else, with one scale for each unit.
 import * as THREE from "three";
 import { headlight } from "../looks/headlight.js";
 import { forcesOf, niceAbove, niceStep } from "../scene/forces.js";
@@ -6,31 +6,31 @@ import { add, length, scale, subtract, unit } from "../scene/math.js";
 import { stretch } from "./place.js";
 
 const COLOURS = new Map([["N", "#f4511e"], ["N.m", "#8e24aa"]]); // prettier-ignore
-const OTHER = "#00897b";
-/** Length of the longest arrow beside the size of the drawing. */
-const LONGEST = 0.35;
+const OTHER_COLOUR = "#00897b";
+/** Length of the longest arrow as a share of the size of the drawing. */
+const MAX_LENGTH = 0.35;
 
 /** The arrows of a scene. */
 export class Arrows {
-  _stand = new THREE.Object3D();
+  _instance = new THREE.Object3D();
   _colour = new THREE.Color();
 
-  /** @param {Data[]} list a scene's `arrows` */
+  /** @param {Data[]} list `arrows` of a scene */
   constructor(list) {
     this.list = list;
-    /** Size of the drawing, set by the view that measures it. */
+    /** Size of the drawing, set by the view, m. */
     this.extent = 1;
-    /** Arrows are drawn so many times longer than fits. */
+    /** Factor of the length of arrows. */
     this.factor = 1;
-    /** Names of the arrows that are drawn. */
+    /** Names of the drawn arrows. */
     this.shown = new Set(list.map(({ name }) => name));
-    /** The number at the longest arrow, by unit. */
+    /** Value of the longest arrow, by unit. */
     this.ranges = new Map();
     this.now = [];
     this.group = new THREE.Group();
     this.material = headlight({ front: true });
     this.shapes = [new THREE.CylinderGeometry(1, 1, 1, 14), new THREE.ConeGeometry(1, 1, 20)];
-    /** All shafts and all heads, a call each; made for more where there are more. @type {THREE.InstancedMesh[]} */
+    /** Instances of all shafts and all heads, remade if there are more arrows. @type {THREE.InstancedMesh[]} */
     this.meshes = [];
   }
 
@@ -50,41 +50,41 @@ export class Arrows {
     }
   }
 
-  /** The scale of a unit in round numbers: an arrow of so many metres is so much. @param {string} name of the unit */
+  /** Scale of a unit: length of an arrow, m, and its value. @param {string} name of the unit */
   scaleOf(name) {
-    return { metres: niceStep(LONGEST * this.extent * this.factor), value: this.ranges.get(name) ?? 1 };
+    return { metres: niceStep(MAX_LENGTH * this.extent * this.factor), value: this.ranges.get(name) ?? 1 };
   }
 
   /** @param {string} name of the unit @returns {string} */
   colourOf(name) {
-    return COLOURS.get(name) ?? OTHER;
+    return COLOURS.get(name) ?? OTHER_COLOUR;
   }
 
-  /** @param {number[]} origin of the picture */
+  /** Updates the instances. @param {number[]} origin of the picture, m */
   place(origin) {
     if (this.now.length > (this.meshes[0]?.instanceMatrix.count ?? 0)) this._make(this.now.length);
     for (const mesh of this.meshes) mesh.count = 0;
-    for (const force of this.now) this._put(force, origin);
+    for (const force of this.now) this._addArrow(force, origin);
     for (const mesh of this.meshes) {
       mesh.visible = mesh.count > 0;
       for (const buffer of [mesh.instanceMatrix, mesh.instanceColor]) if (buffer) buffer.needsUpdate = true;
     }
   }
 
-  /** @param {number} most arrows */
+  /** Makes the instances. @param {number} most largest number of arrows */
   _make(most) {
     for (const mesh of this.meshes) mesh.dispose();
     this.group.clear();
     this.meshes = this.shapes.map((shape, k) => {
       const mesh = new THREE.InstancedMesh(shape, this.material, most);
       mesh.renderOrder = 20 + k;
-      mesh.frustumCulled = false; // its box would be that of its first arrows
+      mesh.frustumCulled = false; // its bounding box would be that of the first arrows
       this.group.add(mesh);
       return mesh;
     });
   }
 
-  _put(force, origin) {
+  _addArrow(force, origin) {
     const direction = unit(force.vector);
     const { metres, value } = this.scaleOf(force.unit);
     const size = direction ? (length(force.vector) * metres) / value : 0;
@@ -95,9 +95,9 @@ export class Arrows {
     const ends = [[from, neck, thick], [neck, add(from, scale(direction, size)), 2.3 * thick]]; // prettier-ignore
     this.meshes.forEach((mesh, k) => {
       const [begin, end, radius] = ends[k];
-      stretch(this._stand, begin, end, radius);
-      this._stand.updateMatrix();
-      mesh.setMatrixAt(mesh.count, this._stand.matrix);
+      stretch(this._instance, begin, end, radius);
+      this._instance.updateMatrix();
+      mesh.setMatrixAt(mesh.count, this._instance.matrix);
       mesh.setColorAt(mesh.count, this._colour.set(this.colourOf(force.unit)));
       mesh.count++;
     });

@@ -1,30 +1,31 @@
-// Solids that compose a shape, about y, from the table that glTF files use too.
+// Makes the solids of composite shapes, about y, from the table shapes.json.
 import * as THREE from "three";
 import { rounded } from "./box.js";
 import { between } from "./place.js";
 
-/** Edges of a profile that are sharper have two normals. */
+/** Cosine of the angle above which an edge of a profile is sharp. */
 const CREASE = Math.cos((35 * Math.PI) / 180);
 
-/** @typedef {Object<string, number>} Lengths of a shape by the names that the table has for them, m */
+/** @typedef {Object<string, number>} Lengths lengths of a shape by their names in the table, m */
 
 const GEOMETRIES = { lathe, box, sphere, ring };
-/** A box so many times as long as thick is a bar, which a draft would lose. */
+/** Least ratio of length to thickness of a box that a draft draws as a tube. */
 const BAR = 4;
-/** What is thin, as the tubes that a draft draws of it. @type {Object<string, (part: Data, lengths: Lengths) => THREE.Matrix4[] | undefined>} */
+/** Functions that give the tubes of thin solids for drafts. @type {Object<string, (part: Data, lengths: Lengths) => THREE.Matrix4[] | undefined>} */
 const TUBES = { box: bar, ring: chords };
 
 /**
+ * Meshes of the parts of a shape.
  * @param {Data[]} parts of the table
  * @param {Lengths} lengths
  * @param {(part: Data) => THREE.Material} look
- * @param {number} [out] side that the shape stands on along y: 1, -1, or 0 in the middle
+ * @param {number} [out] outer side along y: 1, -1, or 0 for both
  * @returns {THREE.Mesh[]}
  */
 export function composed(parts, lengths, look, out = 0) {
   return parts.flatMap((part) => {
-    const [beside, middle] = part.y ?? [0, [0]];
-    const heights = out ? [beside * out] : middle;
+    const [outer, middle] = part.y ?? [0, [0]];
+    const heights = out ? [outer * out] : middle;
     const geometry = GEOMETRIES[part.kind](part, lengths);
     const tubes = TUBES[part.kind]?.(part, lengths);
     return heights.flatMap((height) =>
@@ -40,7 +41,7 @@ export function composed(parts, lengths, look, out = 0) {
   });
 }
 
-/** Radii and heights of a profile, upwards. @param {Data} part @param {Lengths} lengths @returns {number[][]} */
+/** Radii and heights of a profile, upward, m. @param {Data} part @param {Lengths} lengths @returns {number[][]} */
 export function profileOf({ from, across, along, profile, mirrored }, lengths) {
   const points = profile.map(([r, y]) => [(from ? lengths[from] : 0) + r * lengths[across], y * lengths[along]]);
   return mirrored ? [...points.map(([r, y]) => [r, -y]), ...points.slice(0, -1).reverse()] : points;
@@ -48,14 +49,14 @@ export function profileOf({ from, across, along, profile, mirrored }, lengths) {
 
 function lathe(part, lengths) {
   const points = profileOf(part, lengths);
-  const drawn = part.tread === undefined ? creased(points) : points; // a tread has its place in the numbers of the points
+  const drawn = part.tread === undefined ? withSharpEdges(points) : points; // the texture of a tread depends on the indices of points
   return new THREE.LatheGeometry(drawn.map(([r, y]) => new THREE.Vector2(r, y)), part.turns);
 }
 
-/** A point that stands twice has two normals. */
-function creased(points) {
-  const ways = points.slice(1).map(([r, y], i) => new THREE.Vector2(r - points[i][0], y - points[i][1]).normalize());
-  return points.flatMap((point, i) => (ways[i - 1] && ways[i] && ways[i - 1].dot(ways[i]) < CREASE ? [point, point] : [point]));
+/** Profile with sharp points repeated, so that they have two normals. */
+function withSharpEdges(points) {
+  const directions = points.slice(1).map(([r, y], i) => new THREE.Vector2(r - points[i][0], y - points[i][1]).normalize());
+  return points.flatMap((point, i) => (directions[i - 1] && directions[i] && directions[i - 1].dot(directions[i]) < CREASE ? [point, point] : [point]));
 }
 
 function box({ size: [x, y, z], across, along }, lengths) {
@@ -66,12 +67,13 @@ function sphere({ radius, across }, lengths) {
   return new THREE.SphereGeometry(radius * lengths[across], 12, 8);
 }
 
-/** Whole, or an arc about +z. */
+/** Torus, or an arc of it about +z. */
 function ring({ radius, thickness, across, sides, turns, arc = 2 * Math.PI }, lengths) {
   const geometry = new THREE.TorusGeometry(radius * lengths[across], thickness * lengths[across], sides, turns, arc);
   return geometry.rotateZ(Math.PI / 2 - arc / 2).rotateX(Math.PI / 2);
 }
 
+/** Tubes along a torus. */
 function chords({ radius, thickness, across, turns, arc = 2 * Math.PI }, lengths) {
   const count = Math.ceil(turns / 3);
   const at = (k) => arc * (k / count - 0.5);
@@ -79,6 +81,7 @@ function chords({ radius, thickness, across, turns, arc = 2 * Math.PI }, lengths
   return Array.from({ length: count }, (_, k) => between(point(k), point(k + 1), thickness * lengths[across]));
 }
 
+/** Tube in place of a long box. */
 function bar({ size: [x, y, z], across, along }, lengths) {
   const sides = [x * lengths[across], y * lengths[along], z * lengths[across]];
   if (sides[0] < BAR * Math.max(sides[1], sides[2])) return undefined;

@@ -1,3 +1,4 @@
+// Cylinders with bevelled edges.
 import * as THREE from "three";
 import { length, middle, subtract, unit } from "../scene/math.js";
 import { alongY, turn } from "./place.js";
@@ -11,7 +12,7 @@ export function bevelled(radius, height) {
   );
 }
 
-/** @param {Data} shape @param {import("./index.js").Context} context */
+/** Makes a cylinder. @param {Data} shape @param {import("./index.js").Context} context */
 export function cylinder(shape, { materials }) {
   const [a, b] = shape.ends;
   const along = subtract(b, a);

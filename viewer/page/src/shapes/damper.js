@@ -1,13 +1,14 @@
+// Telescopic dampers.
 import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
 import { add, length, scale, subtract, unit } from "../scene/math.js";
 import { bevelled } from "./cylinder.js";
 import { stretch } from "./place.js";
 
-/** Shares of the radius, and of the length as drawn: tube and rod overlap. */
+/** Dimensions as shares of the radius and of the length as drawn. */
 const { share, most, foot, rod: thin, eye: ball, collar: wide, below, above } = shapes.damper;
 
-/** A telescopic damper between two points: a tube at the first end, a rod at the second. @param {Data} shape */
+/** Makes a damper between two points, with the tube at the first end and the rod at the second. @param {Data} shape */
 export function damper(shape, { materials, frames }) {
   const { radius, ends } = shape;
   const unitBody = new THREE.LatheGeometry(bevelled(1, 1), 20);
@@ -18,19 +19,19 @@ export function damper(shape, { materials, frames }) {
   const eyes = [0, 1].map(() => new THREE.Mesh(eye, materials.named("steel")));
   const object = new THREE.Group().add(body, collar, rod, ...eyes);
   const drawn = ends.map(([frame, local]) => frames.point(frame, local));
-  let free = drawn.includes(null) ? null : length(subtract(drawn[1], drawn[0]));
+  let drawnLength = drawn.includes(null) ? null : length(subtract(drawn[1], drawn[0]));
   const update = (at) => {
     const [from, to] = ends.map(at);
     const along = unit(subtract(to, from));
     object.visible = along !== null;
     if (along === null) return;
-    const now = length(subtract(to, from));
-    free ??= now;
-    const part = Math.min(share * free, most * now);
-    const top = add(from, scale(along, part));
-    stretch(body, add(from, scale(along, Math.min(radius, foot * part))), top, radius);
-    stretch(collar, subtract(top, scale(along, Math.min(below[0] * radius, below[1] * part))), add(top, scale(along, above * radius)), wide * radius);
-    stretch(rod, subtract(to, scale(along, part)), to, thin * radius);
+    const distance = length(subtract(to, from));
+    drawnLength ??= distance;
+    const tubeLength = Math.min(share * drawnLength, most * distance);
+    const top = add(from, scale(along, tubeLength));
+    stretch(body, add(from, scale(along, Math.min(radius, foot * tubeLength))), top, radius);
+    stretch(collar, subtract(top, scale(along, Math.min(below[0] * radius, below[1] * tubeLength))), add(top, scale(along, above * radius)), wide * radius);
+    stretch(rod, subtract(to, scale(along, tubeLength)), to, thin * radius);
     eyes.forEach((mesh, i) => mesh.position.fromArray([from, to][i]));
   };
   return { object, update };

@@ -1,4 +1,4 @@
-// A flexible body: tubes that bend by the amplitudes of its modes, coloured by stress.
+// Flexible bodies: tubes that bend with the amplitudes of modes, coloured by stress.
 import * as THREE from "three";
 import { colourTexture } from "../looks/colour_map.js";
 import { growing } from "../looks/draft/tubes.js";
@@ -6,12 +6,12 @@ import { headlight } from "../looks/headlight.js";
 import { Bending } from "../scene/bending.js";
 import { FrameTubes } from "./frame_tubes.js";
 
-/** One entry of a scene's `flexible`, drawn. */
+/** The drawing of an entry of `flexible` of a scene. */
 export class Flexible {
   /**
    * @param {Data} body
    * @param {import("../looks/materials.js").Materials} materials
-   * @param {number} [thinnest] radius below which tubes would not be seen
+   * @param {number} [thinnest] least drawn radius of tubes, m
    */
   constructor(body, materials, thinnest = 0) {
     this.frame = body.frame;
@@ -27,25 +27,25 @@ export class Flexible {
     this.coloured.customProgramCacheKey = () => "ali3-stress";
     this.object = new THREE.Mesh(this.tubes.geometry, this.plain);
     this.object.frustumCulled = false;
-    this.object.userData.alone = true; // it bends
-    this.object.userData.coarse = this.tubes.coarse; // of a draft
+    this.object.userData.alone = true; // its form changes
+    this.object.userData.coarse = this.tubes.coarse; // triangles for drafts
     this.colours = !materials.options.ghost;
     this.absent = "";
     this.update(null, 1);
     this.paint(false, 1);
   }
 
-  /** Whether its stress is known now. */
+  /** Whether the stress is known. */
   get stressed() {
     return this.bending.stress !== null && this.absent === "";
   }
 
-  /** Largest stress now; 0 where it is not known. */
+  /** Largest stress; 0 if it is not known. */
   get most() {
     return this.stressed ? this.bending.stress.reduce((a, b) => Math.max(a, b), 0) : 0;
   }
 
-  /** @param {((name: string) => number | undefined) | null} lookup @param {number} factor of the displacement @returns {string} what has no number */
+  /** @param {((name: string) => number | undefined) | null} lookup @param {number} factor of the displacement @returns {string} a sentence if values are missing */
   update(lookup, factor) {
     this.absent = this.bending.update(lookup, factor);
     this.moved = true;
@@ -55,7 +55,7 @@ export class Flexible {
     return `Deformation and stresses of '${name}' are not drawn where the column '${this.absent}' has no number.`;
   }
 
-  /** @param {boolean} coloursOfStress colours of stress @param {number} most stress at the end of the map */
+  /** Updates points and colours. @param {boolean} coloursOfStress @param {number} most stress of the last colour */
   paint(coloursOfStress, most) {
     if (this.moved) this.tubes.move(this.bending.displaced);
     this.moved = false;

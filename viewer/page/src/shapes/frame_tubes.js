@@ -1,14 +1,14 @@
-// Tubes of a flexible body: one surface for all beams, with balls at the nodes.
+// The surface of the tubes of a flexible body, with balls at the nodes.
 import * as THREE from "three";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { across, cross, subtract, unit } from "../scene/math.js";
 
-const AROUND = 12;
-const CIRCLE = Array.from({ length: AROUND }, (_, j) => [Math.cos, Math.sin].map((of) => of((2 * Math.PI * j) / AROUND)));
-/** Every so many points around, and eight triangles of a ball, are drawn in a draft. */
-const COARSE = 3;
+const SIDES = 12;
+const CIRCLE = Array.from({ length: SIDES }, (_, j) => [Math.cos, Math.sin].map((of) => of((2 * Math.PI * j) / SIDES)));
+/** Stride of the points around a tube in a draft; balls are octahedra. */
+const DRAFT_STRIDE = 3;
 
-/** A surface over nodes and beams that is written again when the nodes move. */
+/** A surface of beams and nodes, updated when the nodes move. */
 export class FrameTubes {
   /** @param {number[][]} nodes @param {number[][]} beams pairs of nodes @param {number[]} radii of the beams */
   constructor(nodes, beams, radii) {
@@ -17,23 +17,23 @@ export class FrameTubes {
     this.thick = thickness(nodes, beams, radii);
     const [corners, ball] = [new THREE.OctahedronGeometry(1), new THREE.IcosahedronGeometry(1, 1)].map(merged);
     this.ball = ball.points;
-    this.first = beams.length * 2 * AROUND;
+    this.first = beams.length * 2 * SIDES;
     const count = this.first + nodes.length * (this.ball.length / 3);
     this.geometry = new THREE.BufferGeometry();
     for (const [name, size] of Object.entries({ position: 3, normal: 3, level: 1 })) {
       this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(count * size), size));
     }
-    const thick = [...radii.flatMap((radius) => Array(2 * AROUND).fill(radius)), ...this.thick.flatMap((radius) => Array(this.ball.length / 3).fill(radius))];
+    const thick = [...radii.flatMap((radius) => Array(2 * SIDES).fill(radius)), ...this.thick.flatMap((radius) => Array(this.ball.length / 3).fill(radius))];
     this.geometry.setAttribute("thick", new THREE.BufferAttribute(Float32Array.from(thick), 1));
     this.geometry.setIndex(this._triangles(nodes.length, 1, ball.index));
-    const kept = corners.index.map((k) => nearest(corners.points.slice(3 * k, 3 * k + 3), ball.points));
-    /** Triangles of a draft, over the same points. */
-    this.coarse = new THREE.BufferAttribute(Uint32Array.from(this._triangles(nodes.length, COARSE, kept)), 1);
+    const octahedron = corners.index.map((k) => nearest(corners.points.slice(3 * k, 3 * k + 3), ball.points));
+    /** Triangles for drafts, of the same points. */
+    this.coarse = new THREE.BufferAttribute(Uint32Array.from(this._triangles(nodes.length, DRAFT_STRIDE, octahedron)), 1);
   }
 
-  /** The beam that a triangle is of; -1: of a ball at a node. @param {number} face */
+  /** Index of the beam of a triangle; -1 for a ball. @param {number} face */
   beamAt(face) {
-    const sides = this.geometry.getIndex() === this.coarse ? Math.ceil(AROUND / COARSE) : AROUND;
+    const sides = this.geometry.getIndex() === this.coarse ? Math.ceil(SIDES / DRAFT_STRIDE) : SIDES;
     const beam = Math.floor(face / (2 * sides));
     return beam < this.beams.length ? beam : -1;
   }
@@ -41,9 +41,9 @@ export class FrameTubes {
   _triangles(nodes, every, ball) {
     const list = [];
     this.beams.forEach((_, b) => {
-      for (let j = 0; j < AROUND; j += every) {
-        const [a, c] = [2 * AROUND * b + j, 2 * AROUND * b + ((j + every) % AROUND)];
-        list.push(a, c, a + AROUND, c, c + AROUND, a + AROUND);
+      for (let j = 0; j < SIDES; j += every) {
+        const [a, c] = [2 * SIDES * b + j, 2 * SIDES * b + ((j + every) % SIDES)];
+        list.push(a, c, a + SIDES, c, c + SIDES, a + SIDES);
       }
     });
     const size = this.ball.length / 3;
@@ -51,21 +51,21 @@ export class FrameTubes {
     return list;
   }
 
-  /** @param {number[][]} nodes where the nodes are now */
+  /** Updates the points. @param {number[][]} nodes positions, m */
   move(nodes) {
     const [positions, normals] = ["position", "normal"].map((name) => this.geometry.getAttribute(name));
     this.beams.forEach(([from, to], b) => {
       const z = unit(subtract(nodes[to], nodes[from])) ?? [0, 0, 1];
       const x = across(z);
       const y = cross(z, x);
-      for (let j = 0; j < AROUND; j++) {
+      for (let j = 0; j < SIDES; j++) {
         const [cosine, sine] = CIRCLE[j];
-        const k = 3 * (2 * AROUND * b + j);
+        const k = 3 * (2 * SIDES * b + j);
         for (let i = 0; i < 3; i++) {
           const normal = x[i] * cosine + y[i] * sine;
-          normals.array[k + i] = normals.array[k + i + 3 * AROUND] = normal;
+          normals.array[k + i] = normals.array[k + i + 3 * SIDES] = normal;
           positions.array[k + i] = nodes[from][i] + normal * this.radii[b];
-          positions.array[k + i + 3 * AROUND] = nodes[to][i] + normal * this.radii[b];
+          positions.array[k + i + 3 * SIDES] = nodes[to][i] + normal * this.radii[b];
         }
       }
     });
@@ -81,7 +81,7 @@ export class FrameTubes {
     this.geometry.boundingBox = null;
   }
 
-  /** @param {ArrayLike<number>} values of both ends of each beam @param {number} most the value of the map's end */
+  /** Updates the colours. @param {ArrayLike<number>} values at both ends of each beam @param {number} most value of the last colour */
   colour(values, most) {
     const level = this.geometry.getAttribute("level");
     const atNode = new Float64Array(this.thick.length);
@@ -89,7 +89,7 @@ export class FrameTubes {
       beam.forEach((node, end) => {
         const value = values[2 * b + end] / most;
         atNode[node] = Math.max(atNode[node], value);
-        level.array.fill(value, AROUND * (2 * b + end), AROUND * (2 * b + end + 1));
+        level.array.fill(value, SIDES * (2 * b + end), SIDES * (2 * b + end + 1));
       });
     });
     const size = this.ball.length / 3;
@@ -98,7 +98,7 @@ export class FrameTubes {
   }
 }
 
-/** Points and triangles of a solid, each point once. @param {THREE.BufferGeometry} soup is freed */
+/** Points, each once, and triangles of a solid. @param {THREE.BufferGeometry} soup unmerged triangles, freed */
 function merged(soup) {
   for (const name of ["normal", "uv"]) soup.deleteAttribute(name);
   const welded = mergeVertices(soup, 1e-6);
@@ -107,13 +107,13 @@ function merged(soup) {
   return found;
 }
 
-/** Place of the point that is nearest to another. @param {number[]} point @param {number[]} points */
+/** Index of the nearest point. @param {number[]} point @param {number[]} points */
 function nearest(point, points) {
-  const away = (k) => Math.hypot(...[0, 1, 2].map((i) => points[3 * k + i] - point[i]));
-  return [...Array(points.length / 3).keys()].reduce((a, b) => (away(b) < away(a) ? b : a));
+  const distanceOf = (k) => Math.hypot(...[0, 1, 2].map((i) => points[3 * k + i] - point[i]));
+  return [...Array(points.length / 3).keys()].reduce((a, b) => (distanceOf(b) < distanceOf(a) ? b : a));
 }
 
-/** Radius of the ball at each node: that of its thickest beam; without beams nodes are points of one size. */
+/** Radius of the ball at each node: that of its thickest beam; without beams a common size. */
 function thickness(nodes, beams, radii) {
   if (beams.length === 0) {
     const size = [0, 1, 2].map((k) => Math.max(...nodes.map((node) => node[k])) - Math.min(...nodes.map((node) => node[k])));

@@ -1,4 +1,4 @@
-// A function for each kind of shape: returns {object, frame} if it is fixed in a frame, else {object, update}.
+// Makes shapes by their kind: {object, frame} if a shape is fixed in a frame, else {object, update}.
 import { box } from "./box.js";
 import { cylinder } from "./cylinder.js";
 import { damper } from "./damper.js";
@@ -15,17 +15,18 @@ import { wheel } from "./wheel.js";
  * @property {import("../looks/materials.js").Materials} materials
  * @property {import("../scene/frames.js").Frames} frames poses as drawn while shapes are made
  * @property {Data} scene
- * @property {boolean} [rigid] what moves keeps the form that it is first put in, but for a scale along its axes
+ * @property {boolean} [rigid] shapes between frames keep their first form, except for a scale along their axes
  */
 
 const MAKERS = { box, cylinder, damper, mesh, plate, sphere, spring, steering_wheel: steeringWheel, tube, wheel };
 
 /**
- * @param {Data} shape one of a scene
+ * Makes a shape.
+ * @param {Data} shape of a scene
  * @param {Context} context
  * @returns {{object: import("three").Object3D, frame?: string, update?: Function, owned?: Data[], frames: string[], shape?: Data,
  *   stand?: (plane: number[] | null) => unknown} | null} stand: flattens a tyre on a plane in the axes of the frame;
- *   null for a kind that this page does not know
+ *   null for an unknown kind
  */
 export function makeShape(shape, context) {
   const maker = MAKERS[shape.kind];

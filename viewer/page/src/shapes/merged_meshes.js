@@ -1,27 +1,27 @@
-// Merges meshes of one material that are fixed in one frame, so that there are fewer draw calls.
+// Merges meshes of one material in one frame, for fewer draw calls.
 import * as THREE from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 /**
- * Join the meshes under a group that moves as one; transparent ones stay single, so that they can be sorted.
- * What is a tube, which drafts draw otherwise, stays apart from what is none; `tubes` of a mesh places those that it has.
+ * Merges the meshes of a group that moves as a whole; transparent ones stay separate, so that they can be sorted. Tubes,
+ * which drafts draw differently, stay separate from other meshes; `tubes` of a mesh has their matrices.
  * @param {THREE.Group} carrier
  */
 export function join(carrier) {
   carrier.updateMatrixWorld(true);
   const toCarrier = carrier.matrixWorld.clone().invert();
-  const kinds = new Map();
+  const groups = new Map();
   carrier.traverse((part) => {
     if (!(part instanceof THREE.Mesh) || part.userData.alone || part.userData.cover || part.material.transparent) return;
     const key = `${part.material.uuid} ${part.castShadow} ${part.receiveShadow} ${part.userData.tubes !== undefined}`;
-    kinds.set(key, [...(kinds.get(key) ?? []), part]);
+    groups.set(key, [...(groups.get(key) ?? []), part]);
   });
-  for (const meshes of kinds.values()) {
-    if (meshes.length > 1) carrier.add(joined(meshes, toCarrier));
+  for (const meshes of groups.values()) {
+    if (meshes.length > 1) carrier.add(merged(meshes, toCarrier));
   }
 }
 
-function joined(meshes, toCarrier) {
+function merged(meshes, toCarrier) {
   const { material, castShadow, receiveShadow } = meshes[0];
   const places = meshes.map((mesh) => new THREE.Matrix4().multiplyMatrices(toCarrier, mesh.matrixWorld));
   const pieces = meshes.map((mesh, k) => plain(mesh, places[k]));
@@ -36,7 +36,7 @@ function joined(meshes, toCarrier) {
   return whole;
 }
 
-/** A geometry of positions, normals and an index, in the axes of the carrier. @param {any} mesh @param {THREE.Matrix4} matrix */
+/** Geometry of a mesh with positions, normals and index, transformed by a matrix. @param {any} mesh @param {THREE.Matrix4} matrix */
 export function plain(mesh, matrix) {
   const { geometry } = mesh;
   const copy = new THREE.BufferGeometry();

@@ -1,13 +1,14 @@
+// Meshes of a scene.
 import * as THREE from "three";
 import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { floats, integers } from "../scene/data.js";
 import { cross, dot } from "../scene/math.js";
 import { turnByAxes } from "./place.js";
 
-/** Edges sharper than this stay edges where a mesh brings no normals. */
+/** Angle above which edges of meshes without normals are sharp, rad. */
 const CREASE = Math.PI / 6;
 
-/** A mesh of the scene's `meshes`. @param {Data} shape @param {import("./index.js").Context} context */
+/** Makes a mesh of `meshes` of the scene. @param {Data} shape @param {import("./index.js").Context} context */
 export function mesh(shape, { materials, scene }) {
   const data = scene.meshes?.[shape.mesh];
   if (data === undefined) throw new Error(`The mesh '${shape.mesh}' is not in the scene.`);
@@ -26,7 +27,7 @@ export function mesh(shape, { materials, scene }) {
 }
 
 /**
- * Whether triangles look inwards: the volume that they enclose about their middle is negative.
+ * Whether triangles are oriented inward: their enclosed volume is negative.
  * @param {Float32Array} points @param {Uint32Array} triangles
  */
 export function insideOut(points, triangles) {

@@ -1,25 +1,25 @@
-// Matrices of three.js from poses in double precision.
+// Sets poses of objects of three.js.
 import * as THREE from "three";
 import { across, cross, fromColumns, subtract, toQuaternion, unit } from "../scene/math.js";
 
-/** Rotation that takes y to a direction. @param {number[]} direction unit vector */
+/** Rotation that maps y to a direction. @param {number[]} direction unit vector */
 export function alongY(direction) {
   const x = across(direction);
   return fromColumns(x, direction, cross(x, direction));
 }
 
-/** @param {THREE.Object3D} object @param {number[]} rotation nine numbers, row by row */
+/** Sets a rotation. @param {THREE.Object3D} object @param {number[]} rotation nine numbers, row by row */
 export function turn(object, rotation) {
   const [w, x, y, z] = toQuaternion(rotation);
   object.quaternion.set(x, y, z, w);
 }
 
-/** Rotation of a shape's `axes` (three vectors), or none. @param {number[][] | undefined} axes */
+/** Sets the rotation of `axes` of a shape (three vectors), if there are any. @param {number[][] | undefined} axes */
 export function turnByAxes(object, axes) {
   if (axes) turn(object, fromColumns(...axes));
 }
 
-/** A round mesh of height 1 along y, stretched between two points (relative to the origin of the picture). */
+/** Stretches a round mesh of radius 1 and height 1 along y between two points. */
 export function stretch(mesh, from, to, radius) {
   mesh.userData.round = true;
   const along = subtract(to, from);
@@ -31,7 +31,7 @@ export function stretch(mesh, from, to, radius) {
   turn(mesh, alongY(direction));
 }
 
-/** Place of a cylinder about y, of radius 1 and height 1, between two points. @returns {THREE.Matrix4} */
+/** Matrix that stretches a cylinder of radius 1 and height 1 along y between two points. @returns {THREE.Matrix4} */
 export function between(from, to, radius) {
   const object = new THREE.Object3D();
   stretch(object, from, to, radius);
@@ -39,7 +39,7 @@ export function between(from, to, radius) {
   return object.matrix;
 }
 
-/** @param {THREE.Object3D} object its meshes cast and take shadows */
+/** Makes the meshes of an object cast and receive shadows. @param {THREE.Object3D} object */
 export function shaded(object) {
   object.traverse((part) => {
     if (part instanceof THREE.Mesh) part.castShadow = part.receiveShadow = true;

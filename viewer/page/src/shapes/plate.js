@@ -1,9 +1,10 @@
+// Thin plates.
 import * as THREE from "three";
 import { across, add, cross, dot, fromColumns, length, subtract, unit } from "../scene/math.js";
 import { turn } from "./place.js";
 import { roundTubes } from "./tube.js";
 
-/** Normal of a polygon (Newell's method); null for points on a line. @param {number[][]} points */
+/** Normal of a polygon (Newell's method); null if the points are on a line. @param {number[][]} points */
 function normalOf(points) {
   let sum = [0, 0, 0];
   points.forEach((point, i) => {
@@ -12,16 +13,16 @@ function normalOf(points) {
   return unit(sum);
 }
 
-/** A thin plate through points of any frames, with a round edge. @param {Data} shape @param {import("./index.js").Context} context */
+/** Makes a plate through points of any frames, with a round edge. @param {Data} shape @param {import("./index.js").Context} context */
 export function plate(shape, { materials, rigid = false }) {
   const { points, thickness } = shape;
   const material = materials.of(shape, "steel");
   const { group, place } = roundTubes(points.length, true, 0.75 * thickness, material);
   const faces = new THREE.Mesh(new THREE.BufferGeometry(), material);
   group.add(faces);
-  faces.userData.alone = points.some(([frame]) => frame !== points[0][0]); // it changes its form
+  faces.userData.alone = points.some(([frame]) => frame !== points[0][0]); // its form changes
   let [triangles, drawn] = [null, null];
-  const put = (corners) => {
+  const setCorners = (corners) => {
     place(corners);
     const normal = normalOf(corners);
     faces.visible = normal !== null;
@@ -32,8 +33,8 @@ export function plate(shape, { materials, rigid = false }) {
     faces.position.fromArray(corners[0]);
     turn(faces, fromColumns(...axes));
     if (rigid && drawn !== null) {
-      const off = flat.map((corner, k) => length(subtract(corner, drawn[k])));
-      faces.userData.bent = Math.max(faces.userData.bent ?? 0, ...off);
+      const changes = flat.map((corner, k) => length(subtract(corner, drawn[k])));
+      faces.userData.bent = Math.max(faces.userData.bent ?? 0, ...changes);
       return;
     }
     const corner = flat.map(([x, y]) => new THREE.Vector2(x, y));
@@ -43,13 +44,13 @@ export function plate(shape, { materials, rigid = false }) {
   };
   const frame = points[0][0];
   if (points.every(([other]) => other === frame)) {
-    put(points.map(([, local]) => local));
+    setCorners(points.map(([, local]) => local));
     return { object: group, frame };
   }
-  return { object: group, update: (at) => put(points.map(at)) };
+  return { object: group, update: (at) => setCorners(points.map(at)) };
 }
 
-/** Both faces of the plate, across z. */
+/** Writes both faces of the plate, normal to z. */
 function write(geometry, corners, triangles, half) {
   const [positions, normals] = [[], []];
   for (const side of [1, -1]) {
@@ -65,7 +66,7 @@ function write(geometry, corners, triangles, half) {
   geometry.computeBoundingSphere();
 }
 
-/** Numbers of an attribute; the buffer of the card is kept. */
+/** Sets the numbers of an attribute; a buffer of the same size is reused. */
 export function set(geometry, name, numbers, size = 3) {
   const attribute = geometry.getAttribute(name);
   if (attribute?.array.length === numbers.length) {

@@ -1,6 +1,7 @@
+// Spheres.
 import * as THREE from "three";
 
-/** @param {Data} shape @param {import("./index.js").Context} context */
+/** Makes a sphere. @param {Data} shape @param {import("./index.js").Context} context */
 export function sphere(shape, { materials }) {
   const mesh = new THREE.Mesh(new THREE.SphereGeometry(shape.radius, 32, 20), materials.of(shape));
   mesh.position.fromArray(shape.at ?? [0, 0, 0]);

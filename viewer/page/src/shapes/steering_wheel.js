@@ -1,10 +1,11 @@
+// Steering wheels.
 import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
 import { across, cross, dot, fromColumns, rotate, scale, subtract, transpose, unit } from "../scene/math.js";
 import { composed } from "./composite_solids.js";
 import { turn } from "./place.js";
 
-/** A steering wheel about the axis of its frame, with a mark that stands on top as drawn. @param {Data} shape */
+/** Makes a steering wheel about the axis of its frame, with a mark at the top as drawn. @param {Data} shape */
 export function steeringWheel(shape, { materials, frames, scene }) {
   const { radius, frame } = shape;
   const axis = unit(shape.axis ?? scene.frames?.[frame]?.axis ?? [0, 0, 1]) ?? [0, 0, 1];

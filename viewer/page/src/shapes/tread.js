@@ -1,36 +1,37 @@
-// The texture of a tyre: tread blocks and lines on the side wall, which show its rotation.
+// Makes the texture of a tyre: tread blocks and lines on the side wall, which show its rotation.
 import * as THREE from "three";
 import { smoothTexture } from "../looks/noise.js";
 
-const [WIDE, HIGH] = [1024, 64];
+const [WIDTH, HEIGHT] = [1024, 64];
 
 /**
- * @param {[number, number]} tread part of the profile (0 to 1) that is tread
- * @returns {THREE.DataTexture} repeats around the tyre
+ * Makes the texture, periodic around the tyre.
+ * @param {[number, number]} tread range of the tread in the profile, 0 to 1
+ * @returns {THREE.DataTexture}
  */
 export function treadTexture(tread) {
-  const pixels = new Uint8Array(WIDE * HIGH * 4);
-  for (let j = 0; j < HIGH; j++) {
-    const v = (j + 0.5) / HIGH;
+  const pixels = new Uint8Array(WIDTH * HEIGHT * 4);
+  for (let j = 0; j < HEIGHT; j++) {
+    const v = (j + 0.5) / HEIGHT;
     const across = (v - tread[0]) / (tread[1] - tread[0]);
-    for (let i = 0; i < WIDE; i++) {
-      const value = across > 0 && across < 1 ? block(i / WIDE, across) : side(i / WIDE, v);
-      const k = 4 * (j * WIDE + i);
+    for (let i = 0; i < WIDTH; i++) {
+      const value = across > 0 && across < 1 ? block(i / WIDTH, across) : side(i / WIDTH, v);
+      const k = 4 * (j * WIDTH + i);
       pixels.fill(value, k, k + 3);
       pixels[k + 3] = 255;
     }
   }
-  return Object.assign(smoothTexture(pixels, WIDE, HIGH, 4), { colorSpace: THREE.SRGBColorSpace, wrapS: THREE.RepeatWrapping });
+  return Object.assign(smoothTexture(pixels, WIDTH, HEIGHT, 4), { colorSpace: THREE.SRGBColorSpace, wrapS: THREE.RepeatWrapping });
 }
 
-/** Blocks that slant to the middle, with a closed rib there. */
+/** Grey value of slanted blocks with a closed rib in the middle. */
 function block(u, across) {
   const off = Math.abs(across - 0.5) * 2;
   const slanted = (u * 60 + (across < 0.5 ? off : off + 0.5) * 0.6) % 1;
   return slanted < 0.16 && off > 0.18 ? 70 : 205;
 }
 
-/** Two fine rings and eight marks on each side. */
+/** Grey value of two fine rings and eight marks on each side. */
 function side(u, v) {
   const out = Math.abs(v - 0.5) * 2;
   const mark = (u * 8) % 1 < 0.1 && out > 0.66 && out < 0.74;

@@ -1,16 +1,17 @@
+// Round tubes.
 import * as THREE from "three";
 import { stretch } from "./place.js";
 
 const rod = (material) => new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 12, 1, true), material);
 
-/** Round tubes between points with balls where they meet; `place` puts them to points relative to the origin. */
+/** Makes round tubes between points with balls at the points; `place` moves them. */
 export function roundTubes(count, closed, radius, material) {
   const group = new THREE.Group();
   const rods = Array.from({ length: closed ? count : count - 1 }, () => rod(material));
   for (const mesh of rods) mesh.userData.tubes = [new THREE.Matrix4()];
   const ball = new THREE.SphereGeometry(radius, 10, 6);
   const balls = Array.from({ length: count }, () => new THREE.Mesh(ball, material));
-  for (const mesh of balls) mesh.userData.tubes = []; // a draft has none
+  for (const mesh of balls) mesh.userData.tubes = []; // drafts have no balls
   group.add(...rods, ...balls);
   const place = (points) => {
     rods.forEach((mesh, i) => stretch(mesh, points[i], points[(i + 1) % count], radius));
@@ -19,7 +20,7 @@ export function roundTubes(count, closed, radius, material) {
   return { group, place };
 }
 
-/** A round tube through points of any frames. @param {Data} shape @param {import("./index.js").Context} context */
+/** Makes a tube through points of any frames. @param {Data} shape @param {import("./index.js").Context} context */
 export function tube(shape, { materials }) {
   const { points, radius } = shape;
   const { group, place } = roundTubes(points.length, false, radius, materials.of(shape, "steel"));

@@ -1,3 +1,4 @@
+// Wheels with tyres.
 import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
 import { atEachPoint } from "../looks/vertex_code.js";
@@ -9,7 +10,7 @@ import { treadTexture } from "./tread.js";
 /** @type {Data} */
 const WHEEL = shapes.wheel;
 
-/** Rubber with blocks of tread and lines on the side. */
+/** Makes rubber with tread blocks and lines on the side. */
 function rubber(part, lengths, materials) {
   const material = materials.named("rubber").clone();
   if (!materials.options.ghost) {
@@ -21,7 +22,7 @@ function rubber(part, lengths, materials) {
 }
 
 /**
- * A tyre that is flat on the road: what would lie below a plane is drawn in it.
+ * Flattens a tyre on the road: points below a plane are moved to it.
  * @param {THREE.Material} material
  * @returns {THREE.Vector4} the plane in the axes of the mesh: normal, and its distance from the origin along the normal
  */
@@ -34,7 +35,7 @@ function flattened(material) {
   return plane;
 }
 
-/** Side of the car that a wheel stands on, along its axis: 1, -1, or 0 in the middle. */
+/** Side of the car of a wheel, along its axis: 1, -1, or 0 in the middle. */
 function outward(shape, axis, { frames, scene }) {
   const body = frames.pose(scene.focus || "ground");
   const { position, rotation } = frames.pose(shape.frame);
@@ -43,7 +44,7 @@ function outward(shape, axis, { frames, scene }) {
   return Math.abs(along) > 0.5 * shape.radius ? Math.sign(along) : 0;
 }
 
-/** A wheel with tyre, rim and spokes. @param {Data} shape @param {import("./index.js").Context} context */
+/** Makes a wheel with tyre, rim and spokes. @param {Data} shape @param {import("./index.js").Context} context */
 export function wheel(shape, context) {
   const { materials } = context;
   const { radius, width, rim = WHEEL.rim * radius, axis = [0, 1, 0] } = shape;
@@ -58,7 +59,7 @@ export function wheel(shape, context) {
   const road = flattened(tyre);
   object.updateMatrix();
   const [turned, moved] = [new THREE.Matrix3().setFromMatrix4(object.matrix).transpose(), object.position];
-  /** @param {number[] | null} plane in the axes of the frame: normal, distance from its origin; null: a round tyre */
+  /** @param {number[] | null} plane in axes of the frame: normal, distance from its origin; null: a round tyre */
   const stand = (plane) => {
     if (plane === null) return road.set(0, 0, 0, -1);
     const normal = new THREE.Vector3().fromArray(plane);

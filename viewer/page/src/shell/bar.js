@@ -1,19 +1,19 @@
-// The bar below the picture of every page; what a page cannot do has no button.
+// The bar below the picture, with buttons for the actions of a page.
 import { button, el, icon, select, write } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
-/** Buttons before and behind the slider: an act of the table of keys, and what stands on it where there is no icon. */
-const BEFORE = [["reset"], ["rewind"], ["before"], ["toggle"], ["step"], ["upright", "upright"]];
-const BEHIND = [["mute"], ["levers", "levers"], ["panels", "signals"], ["settings", "settings"], ["csv", "CSV"], ["help", "?"], ["full screen"]]; // prettier-ignore
+/** Buttons before and after the slider: an action of the table of keys, and its label if it has no icon. */
+const LEFT_BUTTONS = [["reset"], ["rewind"], ["before"], ["toggle"], ["step"], ["upright", "upright"]];
+const RIGHT_BUTTONS = [["mute"], ["levers", "levers"], ["panels", "signals"], ["settings", "settings"], ["csv", "CSV"], ["help", "?"], ["full screen"]]; // prettier-ignore
 /** @type {Object<string, Parameters<typeof icon>[0]>} */
 const ICONS = { reset: "reset", rewind: "rewind", before: "back", toggle: "play", step: "forward", mute: "sound", "full screen": "full" };
 const WORDS = { csv: "save inputs and outputs of the run as a table" };
 
-/** The bar; it calls acts of the page by their names and shows what it is told. */
+/** The bar. */
 export class Bar {
   /**
    * @param {Object<string, (value?: any, done?: boolean) => unknown>} acts of the table of keys; `speed`, `seek`, `camera`, `place`,
-   *   `stepSize` are called with a value, `seek` with true behind the time when the slider is let go
+   *   `stepSize` are called with a value, `seek` also with true when the slider is released
    * @param {{cameras?: string[], places?: string[], steps?: (string | number)[][], step?: number, speeds?: number[], digits?: number}} has
    */
   constructor(acts, { cameras = [], places = [], steps = [], step, speeds = [], digits = 2 }) {
@@ -32,22 +32,22 @@ export class Bar {
     this.clock = el("span.a3-time", { data: "clock" });
     this.rate = select("speed", `speed: ${hint("slow")}`, [], (value) => acts.speed(Number(value)));
     this.cameras = select("camera", `camera: ${hint("next camera")}`, cameras.map((name) => [name, name]), (name) => acts.camera(name)); // prettier-ignore
-    const spots = places.map((name) => [name, name.replaceAll("_", " ")]);
-    const place = select("place", "begin at a place of the world", [["", "places \u2026"], ...spots], (name) => {
+    const placeOptions = places.map((name) => [name, name.replaceAll("_", " ")]);
+    const place = select("place", "begin at a place of the world", [["", "places \u2026"], ...placeOptions], (name) => {
       if (name) acts.place(name);
-      place.value = ""; // so that the same one can be chosen again
+      place.value = ""; // allows choosing the same place again
     });
     const size = select("step size", "communication step", steps, (value) => acts.stepSize(Number(value)), step);
     const some = (list) => list.filter(([act]) => act in acts && (act !== "full screen" || document.fullscreenEnabled)).map(([act, words]) => this._button(act, words, acts[act])); // prettier-ignore
     const group = (...parts) => el("div.a3-group", {}, ...parts);
     const choices = [[size, steps], [place, places], [this.cameras, cameras]].filter(([, list]) => list.length > 1).map(([choice]) => choice); // prettier-ignore
-    this.element = el("div.a3-bar", { data: "bar" }, group(...some(BEFORE)), this.slide, this.clock, group(this.rate), group(...choices, ...some(BEHIND)));
+    this.element = el("div.a3-bar", { data: "bar" }, group(...some(LEFT_BUTTONS)), this.slide, this.clock, group(this.rate), group(...choices, ...some(RIGHT_BUTTONS)));
     this.speed(1);
   }
 
-  _button(act, words, work) {
+  _button(act, words, action) {
     const title = WORDS[act] ?? hint(act);
-    const element = button(act, words ?? "", () => work({}), title);
+    const element = button(act, words ?? "", () => action({}), title);
     element.setAttribute("aria-label", words ? `${words}: ${title}` : title);
     if (!words) element.append(icon(ICONS[act]));
     this.buttons[act] = element;
@@ -58,7 +58,7 @@ export class Bar {
     return `${time.toFixed(this.digits)} s`;
   }
 
-  /** @param {number} chosen speed, which may be another than those of the list */
+  /** Shows a speed, which need not be in the list. @param {number} chosen */
   speed(chosen) {
     if (this.chosen === chosen) return;
     this.chosen = chosen;
@@ -67,20 +67,20 @@ export class Bar {
     this.rate.value = String(chosen);
   }
 
-  /** A camera was chosen. @param {string} name */
+  /** Shows the chosen camera. @param {string} name */
   camera(name) {
     this.cameras.value = name;
   }
 
-  /** Sound is heard or not. @param {boolean} on */
+  /** Shows whether sound is on. @param {boolean} on */
   sound(on) {
     this.buttons.mute.replaceChildren(icon(on ? "sound" : "silent"));
     this.buttons.mute.setAttribute("aria-pressed", String(on));
   }
 
   /**
-   * @param {{running: boolean, speed: number, time: number, range: [number, number], grows?: boolean}} source what is true now;
-   *   `grows`: a run that has no end yet
+   * @param {{running: boolean, speed: number, time: number, range: [number, number], grows?: boolean}} source current state;
+   *   `grows`: the run has no end yet
    */
   show({ running, speed, time, range: [begin, end], grows = false }) {
     const moves = end > begin;
@@ -98,7 +98,7 @@ export class Bar {
   }
 }
 
-/** Digits of a time so that each recorded one differs from the next. @param {number} step s */
+/** Number of digits that distinguish consecutive recorded times. @param {number} step s */
 export function digitsOf(step) {
   return step > 0 ? Math.min(9, Math.max(2, Math.ceil(-Math.log10(step) - 1e-3))) : 3;
 }

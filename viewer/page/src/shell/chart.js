@@ -1,4 +1,4 @@
-// One diagram: the signals of one unit over time, of all runs, with a line at the time that is shown.
+// A diagram of the signals of one unit over time, of all runs, with a line at the current time.
 import uPlot from "uplot";
 import uplotStyle from "uplot/dist/uPlot.min.css";
 import { el, write } from "../common/dom.js";
@@ -9,21 +9,20 @@ import { resampled, values } from "./series.js";
 /** Okabe and Ito's palette: distinguishable with any colour vision. */
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#8a8f94"];
 const FONT = "11px system-ui, sans-serif";
-const FAINT = { stroke: "#8884", width: 1 };
-// A canvas takes the word currentColor for black.
+const GRID_STYLE = { stroke: "#8884", width: 1 };
+// A canvas interprets currentColor as black.
 const INK = (/** @type {uPlot} */ plot) => getComputedStyle(plot.root).color;
-const AXIS = { stroke: INK, grid: FAINT, ticks: FAINT, font: FONT, labelFont: FONT, labelSize: 16 };
+const AXIS = { stroke: INK, grid: GRID_STYLE, ticks: GRID_STYLE, font: FONT, labelFont: FONT, labelSize: 16 };
 const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none";
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
-const SYNCED = "ali3"; // diagrams of the page have one line under the mouse
-const NULL_RETAIN = 1; // of uPlot.join: a gap of a run stays one
+const CURSOR_KEY = "ali3"; // common cursor of all diagrams
+const NULL_RETAIN = 1; // of uPlot.join: retains gaps of a run
 
-/** @param {number} value @returns {string} */
-const shownNumber = (value) => (Number.isFinite(value) ? Number(value.toPrecision(5)).toString() : "–");
+/** Text of a number. @param {number} value @returns {string} */
+const numberText = (value) => (Number.isFinite(value) ? Number(value.toPrecision(5)).toString() : "–");
 
-/** A diagram. */
 export class Chart {
-  _quiet = false;
+  _isSettingScale = false;
 
   /**
    * @param {HTMLElement} parent
@@ -48,10 +47,10 @@ export class Chart {
     styled(uplotStyle);
     this.plot = new uPlot(this._settings(), this._data(), this.box);
     this.plot.over.append(this.line);
-    this.plot.over.addEventListener("click", (event) => this._clicked(event));
+    this.plot.over.addEventListener("click", (event) => this._seekAt(event));
   }
 
-  /** What is drawn: {label, colour, dash, t, data}. */
+  /** Curves: {label, colour, dash, t, data}. */
   _curves() {
     const [first, ...others] = this.runs;
     const curves = [];
@@ -81,7 +80,7 @@ export class Chart {
     for (const { t, data } of this.curves) tables.set(t, [...(tables.get(t) ?? [Array.from(t)]), data]);
     const lists = [...tables.values()];
     if (lists.length === 1) return lists[0];
-    // The order of the curves, which joining would change to that of the runs.
+    // Restores the order of the curves, which joining changes to that of the runs.
     const joined = uPlot.join(lists, lists.map((list) => list.map(() => NULL_RETAIN)));
     const at = new Map();
     let column = 1;
@@ -103,10 +102,10 @@ export class Chart {
         { ...AXIS, label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
       ],
       series: [{}, ...this.curves.map(({ label, colour, dash, t }) => ({ label, stroke: colour, dash, width: 1.5, points: { show: t.length === 1 ? true : undefined } }))],
-      cursor: { sync: { key: SYNCED }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
+      cursor: { sync: { key: CURSOR_KEY }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       hooks: {
         draw: [() => this._putLine()],
-        setScale: [(plot, key) => key === "x" && !this._quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
+        setScale: [(plot, key) => key === "x" && !this._isSettingScale && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
       },
     };
   }
@@ -128,31 +127,31 @@ export class Chart {
     return legend;
   }
 
-  _clicked(event) {
+  _seekAt(event) {
     const { select, over } = this.plot;
-    if (select.width > 0) return; // the end of a drag, which is a zoom
+    if (select.width > 0) return; // the end of a zoom by dragging
     const left = event.clientX - over.getBoundingClientRect().left;
     this.source.acts.seek?.(this.plot.posToVal(left, "x"));
   }
 
-  /** The same signals over other times. @param {Data[]} runs */
+  /** Updates the data of the curves. @param {Data[]} runs */
   refresh(runs) {
     this.runs = runs;
     const outputs = this.curves.map(({ output }) => output);
     this.curves = this._curves().map((curve, k) => ({ ...curve, output: outputs[k] }));
-    this._quiet = true;
+    this._isSettingScale = true;
     this.plot.setData(this._data());
-    this._quiet = false;
+    this._isSettingScale = false;
   }
 
-  /** The line, where the time that is shown stands now. */
+  /** Moves the line to the current time. */
   _putLine() {
     const left = this.plot?.valToPos(this.source.time, "x");
     this.line.style.display = left >= 0 && left <= this.plot.over.clientWidth ? "" : "none";
     this.line.style.transform = `translateX(${left}px)`;
   }
 
-  /** The line and the values at the time that is shown. */
+  /** Updates the line and the values at the current time. */
   now() {
     const { time } = this.source;
     this._putLine();
@@ -160,25 +159,25 @@ export class Chart {
       const inside = time >= t[0] && time <= t[t.length - 1];
       const [k, share] = place(t, time);
       const value = inside && data[k] !== null ? linear(data, k, data[k + 1] === null ? 0 : share) : NaN;
-      write(output, `${shownNumber(value)}${this.unit ? ` ${this.unit}` : ""}`);
+      write(output, `${numberText(value)}${this.unit ? ` ${this.unit}` : ""}`);
     }
   }
 
-  /** @param {[number, number]} range of time to show */
+  /** Sets the range of time. @param {[number, number]} range s */
   zoom([min, max]) {
-    this._quiet = true;
+    this._isSettingScale = true;
     this.plot.batch(() => this.plot.setScale("x", { min, max }));
-    this._quiet = false;
+    this._isSettingScale = false;
   }
 
-  /** @param {number} width @param {number} height pixels, with the legend */
+  /** Sets the size with legend. @param {number} width pixels @param {number} height pixels */
   resize(width, height) {
     const left = height - this.legend.offsetHeight - 2;
     this.plot.setSize({ width: Math.max(120, Math.floor(width)), height: Math.max(90, Math.floor(left)) });
     this.now();
   }
 
-  /** After a change of the theme. */
+  /** Redraws after a change of the theme. */
   redraw() {
     this.plot.redraw(false, true);
   }
@@ -189,7 +188,7 @@ export class Chart {
   }
 }
 
-/** Gives each name a colour of its own as long as there are some. */
+/** Function that gives names different colours, as far as there are enough. */
 export function palette() {
   const groups = new Map();
   return (name) => {

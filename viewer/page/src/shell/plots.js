@@ -1,22 +1,21 @@
-// Beside the picture: a list of all signals to choose from, and a diagram for each unit of those chosen.
+// The plots beside the picture: a list of all signals, and a diagram for each unit of the chosen ones.
 import { Chart, palette } from "./chart.js";
 import { el, select } from "../common/dom.js";
 import { byUnit, found } from "./series.js";
 
-const LISTED = 300;
-const LOWEST = 130; // pixels of a diagram
-const EVERY = 120; // ms between two drawings of a live run
-/** How much of a live run is shown, s. @type {[number, string][]} */
+const MAX_LISTED = 300;
+const MIN_HEIGHT = 130; // pixels of a diagram
+const DRAW_INTERVAL = 120; // least interval of drawing a live run, ms
+/** Shown time spans of a live run, s. @type {[number, string][]} */
 const SPANS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [Infinity, "all"]]; // prettier-ignore
 
-/** The list of signals and the diagrams of those that are chosen. */
 export class Plots {
   span = SPANS[0][0];
   drawnAt = -Infinity;
 
   /**
    * @param {HTMLElement} parent @param {import("./shell.js").Shell} shell of the page
-   * @param {import("./shell.js").Source} source @param {string[]} chosen names at the start
+   * @param {import("./shell.js").Source} source @param {string[]} chosen names of initial signals
    */
   constructor(parent, shell, source, chosen) {
     this.shell = shell;
@@ -47,16 +46,16 @@ export class Plots {
     this._draw();
   }
 
-  /** @param {string[]} names that are plotted from now on */
+  /** Chooses the plotted signals. @param {string[]} names */
   choose(names) {
     this.chosen = names.filter((name) => this.names.includes(name));
     this._list();
     this._draw();
   }
 
-  /** Show the present time, and new values of a live run. @param {boolean} [all] at once, not after `EVERY` */
+  /** Shows the current time and new values of a live run. @param {boolean} [all] whether values are updated at once */
   now(all = false) {
-    if (this.source.grows && (all || performance.now() - this.drawnAt > EVERY)) {
+    if (this.source.grows && (all || performance.now() - this.drawnAt > DRAW_INTERVAL)) {
       this.drawnAt = performance.now();
       const runs = this.source.plotted(this.chosen, this.span);
       for (const chart of this.charts) chart.refresh(runs);
@@ -71,7 +70,7 @@ export class Plots {
   resize() {
     const { clientWidth, clientHeight } = this.area;
     if (clientWidth === 0 || this.charts.length === 0) return;
-    const height = Math.max(LOWEST, (clientHeight - 6) / this.charts.length);
+    const height = Math.max(MIN_HEIGHT, (clientHeight - 6) / this.charts.length);
     for (const chart of this.charts) chart.resize(clientWidth - 14, height);
   }
 
@@ -91,13 +90,13 @@ export class Plots {
     if (this.list.hidden) return;
     const names = found(this.names, this.search.value);
     /** @type {HTMLElement[]} */
-    const rows = names.slice(0, LISTED).map((name) => {
+    const rows = names.slice(0, MAX_LISTED).map((name) => {
       const box = el("input", { type: "checkbox", onchange: () => this._toggle(name) });
       box.checked = this.chosen.includes(name);
       const unit = el("span.a3-unit", {}, this.source.columns.get(name));
       return el("label", {}, box, el("span.a3-signal", {}, name), unit);
     });
-    if (names.length > LISTED) rows.push(el("div.a3-more", {}, `and ${names.length - LISTED} more; search for them`));
+    if (names.length > MAX_LISTED) rows.push(el("div.a3-more", {}, `and ${names.length - MAX_LISTED} more; search for them`));
     if (names.length === 0) rows.push(el("div.a3-more", {}, this.names.length > 0 ? "no signal has these words in its name" : "there are no signals"));
     this.list.replaceChildren(...rows);
   }

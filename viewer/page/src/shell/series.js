@@ -1,8 +1,8 @@
-// What a diagram shows: the signals of one unit, of all runs on one axis of times, and their differences.
+// Prepares signals for diagrams: resampling, grouping by unit, search.
 import { linear, place } from "../sources/sampler.js";
 
 /**
- * A signal at the times of another run; nothing outside its own times.
+ * A signal at the times of another run; null outside its own times.
  * @param {ArrayLike<number>} t @param {ArrayLike<number>} data
  * @param {ArrayLike<number>} times
  * @returns {(number | null)[]}
@@ -16,7 +16,7 @@ export function resampled(t, data, times) {
   });
 }
 
-/** Values as a diagram takes them: null for what is not a number. @param {ArrayLike<number>} data */
+/** Values for a diagram, with null in place of NaN and infinity. @param {ArrayLike<number>} data */
 export const values = (data) => Array.from(data, (value) => (Number.isFinite(value) ? value : null));
 
 /**
@@ -35,7 +35,7 @@ export function byUnit(names, columns) {
 }
 
 /**
- * Names that hold all words of a search, in any order.
+ * Names that contain all words of a search, in any order.
  * @param {string[]} names @param {string} search
  */
 export function found(names, search) {

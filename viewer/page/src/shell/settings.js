@@ -1,15 +1,14 @@
-// The panel of settings: forces, stress, ghosts, colours of the page, and what there is to say of the runs.
+// The panel of settings: forces, stress, ghosts, colours of the page, and notes.
 import { QUALITIES } from "../looks/picture_quality.js";
 import { el, named, select } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
-/** The panel. */
 export class Settings {
   /** @param {HTMLElement} parent @param {Data} player the shell of the page @param {Data} source */
   constructor(parent, player, source) {
     this.player = player;
     this.source = source;
-    /** Shows a value that was set elsewhere, by its name. */
+    /** Functions that show a value, by its name. */
     this.shown = {};
     this.notes = el("div.a3-wide");
     this.panel = el("div.a3-panel", { hidden: true });
@@ -23,7 +22,7 @@ export class Settings {
     this.player.bar.buttons.settings.setAttribute("aria-pressed", String(open));
   }
 
-  /** @param {Data} look values that were set, by their names */
+  /** Shows values that were set elsewhere. @param {Data} look by name */
   refresh(look) {
     for (const [key, value] of Object.entries(look)) this.shown[key]?.(value);
   }
@@ -38,7 +37,7 @@ export class Settings {
       rows.push(el("label.a3-wide", {}, box, ` ${text}`));
       return (now) => (box.checked = now === true || now?.length > 0);
     };
-    // A factor from 1/range to range, in equal steps of its logarithm.
+    // A slider of a factor with a logarithmic scale.
     const factor = (text, key, low, high) => {
       const shown = el("output");
       const range = el("input", { type: "range", min: Math.log10(low), max: Math.log10(high), step: 0.05, "aria-label": text });
@@ -54,17 +53,17 @@ export class Settings {
       rows.push(el("span", {}, text), range, shown);
       return (value) => player.setLook({ [key]: value });
     };
-    const shows = (what) => {
-      if (player.has[what]) this.shown[what] = check(hint(what), look[what], (on) => player.setLook({ [what]: on }), `show ${what}`);
+    const addSwitch = (effect) => {
+      if (player.has[effect]) this.shown[effect] = check(hint(effect), look[effect], (on) => player.setLook({ [effect]: on }), `show ${effect}`);
     };
     const choice = (data, text, names, change, value) => {
       const box = select(data, text, named(names), change, value);
       rows.push(el("span", {}, text), box, el("span"));
       return (now) => (box.value = now);
     };
-    shows("arrows");
+    addSwitch("arrows");
     if (player.has.arrows) factor("length of the arrows", "arrowScale", 0.1, 10);
-    for (const what of ["path", "closed", "stress"]) shows(what);
+    for (const effect of ["path", "closed", "stress"]) addSwitch(effect);
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);
       const fit = () => deform(player.view.fittingDeformation);
@@ -74,18 +73,18 @@ export class Settings {
     if (this.source.acts.loop) this.shown.loop = check(hint("loop"), this.source.loop, () => this.source.acts.loop());
     if (player.view) this.shown.quality = choice("quality", "quality of the picture", QUALITIES, (quality) => player.setLook({ quality }), player.quality);
     choice("theme", "colours of the page", ["auto", "light", "dark"], (name) => player.theme(name), player.themeName);
-    const copied = el("span");
+    const copyResult = el("span");
     const copy = async () => {
       player.remember();
       try {
         await navigator.clipboard.writeText(location.href);
-        copied.textContent = "copied";
+        copyResult.textContent = "copied";
       } catch {
-        copied.textContent = "it stands in the address bar";
+        copyResult.textContent = "it stands in the address bar";
       }
     };
     if (player.remember && /^(https?|file):$/.test(location.protocol)) {
-      rows.push(el("span", {}, "link to this time"), el("button", { onclick: copy }, "copy"), copied);
+      rows.push(el("span", {}, "link to this time"), el("button", { onclick: copy }, "copy"), copyResult);
     }
     this.panel.replaceChildren(...rows, this.notes);
   }

@@ -1,4 +1,4 @@
-// The shell of every page: pictures of a source of numbers, what stands beside them, the bar below, settings, keys.
+// The base of all pages: pictures of a source, panel beside them, bar below, settings, keys.
 import { el } from "../common/dom.js";
 import { Help } from "../common/help.js";
 import { keys } from "../common/keys.js";
@@ -12,44 +12,43 @@ import { Plots } from "./plots.js";
 import { Settings } from "./settings.js";
 import style from "./style.css";
 
-const WIDE = 1.15; // width over height from which signals stand beside the picture
+const WIDE_RATIO = 1.15; // least ratio of width to height for signals beside the picture
 
-/** A lookup of the numbers of one instant. @typedef {(name: string) => number | undefined} Lookup */
+/** Values of columns at a time. @typedef {(name: string) => number | undefined} Lookup */
 
 /**
- * What a page shows: a recording, an FMU that runs in the tab, a car at the other end of a socket.
+ * A source of a page: recordings, FMUs that run in it, or a car that another program simulates.
  * @typedef {object} Source
- * @property {[number, number]} range - Times that can be shown, s; `grows`: the run has no end yet.
- * @property {boolean} [grows]
- * @property {number} time - That is shown, s.
+ * @property {[number, number]} range - Times that can be shown, s.
+ * @property {boolean} [grows] - Whether the run has no end yet.
+ * @property {number} time - Current time, s.
  * @property {boolean} running
  * @property {number} speed - Simulated seconds per second of the clock.
- * @property {number[]} speeds - To choose from.
- * @property {Map<string, string>} columns - Names and units of all numbers.
- * @property {(t?: number) => Lookup[]} sample - Numbers of each run at a time; without one at the time that is shown.
- * @property {(names: string[], span: number) => Data[]} plotted - Runs with times and columns of these names; of a run
- *   that grows the last so many seconds.
+ * @property {number[]} speeds - Selectable speeds.
+ * @property {Map<string, string>} columns - Units of all columns by name.
+ * @property {(t?: number) => Lookup[]} sample - Values of each run at a time, by default at the current time.
+ * @property {(names: string[], span: number) => Data[]} plotted - Runs with times and columns of these names; for a run
+ *   that grows, over the last `span` seconds.
  * @property {(source: string, wants: [string, number, number?][]) => void} [want] - Inputs, values, largest changes per second.
- * @property {Object<string, (value?: any) => unknown>} acts - What it can do, by the names of the table of keys; what
- *   it cannot, no page offers.
+ * @property {Object<string, (value?: any) => unknown>} acts - Its actions by the names of the table of keys.
  */
 
-/** A page; what draws is made by those who extend it. */
+/** A page; derived classes add the pictures. */
 export class Shell {
   listeners = new AbortController();
   look = { arrows: false, arrowScale: 1, stress: false, deformation: 1, path: true, closed: true };
-  /** What `set` can change, by name. @type {Data} */
+  /** Whether `set` can change a part of the look, by name. @type {Data} */
   has = {};
   /** Names of cameras. @type {string[]} */
   cameras = [];
-  /** @type {Data[]} see-through runs */
+  /** Transparent runs. @type {Data[]} */
   ghosts = [];
   dirty = true;
-  /** What the page shows; see `Source`. @type {any} */
+  /** See `Source`. @type {any} */
   source;
-  /** Signals over time, made when they are first shown. @type {Plots | undefined} */
+  /** Plots, made on first use. @type {Plots | undefined} */
   plots;
-  /** Names of the signals that are plotted at first. @type {string[]} */
+  /** Names of the initially plotted signals. @type {string[]} */
   plotted = [];
   dark = matchMedia("(prefers-color-scheme: dark)");
 
@@ -57,7 +56,6 @@ export class Shell {
   constructor(container, { theme = "auto", kind = "" } = {}) {
     styled(style);
     this.container = container;
-    /** What there is to say. */
     this.notices = new Notices();
     this.viewBox = el("div.a3-views", {}, this.notices.element);
     this.sideBox = el("aside.a3-side", { hidden: true, data: "panel", "aria-label": "signals" });
@@ -86,21 +84,21 @@ export class Shell {
   }
 
   /**
-   * Bar, settings and keys over a source.
+   * Adds bar, settings and keys for a source.
    * @param {Source} source
-   * @param {Object<string, (value?: any) => unknown>} more acts of this page
-   * @param {Data} [bar] what the bar has, as `Bar` takes it
-   * @param {(event: KeyboardEvent) => boolean} [drive] takes the keys that drive a car
+   * @param {Object<string, (value?: any) => unknown>} more actions of this page
+   * @param {Data} [bar] options of `Bar`
+   * @param {(event: KeyboardEvent) => boolean} [drive] handles the keys that drive a car
    */
   controls(source, more, bar = {}, drive) {
     this.source = source;
-    const switches = ["arrows", "stress", "closed", "path"].filter((what) => this.has[what]);
+    const switches = ["arrows", "stress", "closed", "path"].filter((effect) => this.has[effect]);
     const camera = (name) => this.tell(this.camera(name));
     this.acts = {
       ...source.acts,
       camera,
       ...cameraActs({ names: () => this.cameras, all: this.cameras, now: () => this.cameraName, choose: camera }),
-      ...Object.fromEntries(switches.map((what) => [what, () => this.setLook({ [what]: !this.look[what] })])),
+      ...Object.fromEntries(switches.map((effect) => [effect, () => this.setLook({ [effect]: !this.look[effect] })])),
       panels: () => this.side(!this.sideOpen),
       settings: () => this.settings.toggle(),
       help: () => this.help.toggle(),
@@ -120,28 +118,28 @@ export class Shell {
   }
 
   /**
-   * Keys and a gamepad drive from now on. Those who extend this have `driverSpeed`, `sound` and `unseen`.
+   * Starts driving by keys and gamepad; derived classes define `driverSpeed`, `sound` and `unseen`.
    * @param {import("../live/input_arbiter.js").InputArbiter} hands @param {string[]} inputs @returns {HTMLElement} the panel of the gamepad
    */
   driven(hands, inputs) {
     this.hands = hands;
     this._gamepad = gamepadPanel(hands.gamepad, inputs);
     const { signal } = this.listeners;
-    for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, () => this._touch(), { signal });
+    for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, () => this._startSound(), { signal });
     window.addEventListener("blur", () => hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => document.hidden && this.unseen(), { signal });
-    this._asking = setInterval(() => this.poll(), ARBITER_MS);
+    this._pollTimer = setInterval(() => this.poll(), ARBITER_MS);
     return this._gamepad.element;
   }
 
-  /** Sound begins with the first touch of the page, as browsers want it. */
-  _touch() {
-    if (this._touched) return;
-    this._touched = true;
+  /** Starts the sound at the first click or key, as browsers require. */
+  _startSound() {
+    if (this._soundStarted) return;
+    this._soundStarted = true;
     this.sound();
   }
 
-  /** Look at the hands, by a clock of their own. */
+  /** Reads keys and gamepad. */
   poll() {
     const { changed, lost } = this.hands.poll(this.driverSpeed);
     if (lost) this.tell("The gamepad is gone: its pedals and steering are let go.");
@@ -149,30 +147,30 @@ export class Shell {
     this._gamepad.show();
   }
 
-  /** Speed of the car that is driven, m/s. */
+  /** Speed of the driven car, m/s. */
   get driverSpeed() {
     return 0;
   }
 
-  /** Sound may begin. */
+  /** Starts the sound. */
   sound() {}
 
-  /** Nobody sees the page any more. */
+  /** Called when the page is hidden. */
   unseen() {}
 
   _fullScreen() {
     if (document.fullscreenElement) document.exitFullscreen();
-    else this.root.requestFullscreen?.().catch(() => {}); // a browser may refuse it, as in a frame
+    else this.root.requestFullscreen?.().catch(() => {}); // browsers may refuse it, such as in a frame
   }
 
-  /** A hand on a picture changes it. @param {HTMLElement} box */
+  /** Marks pictures as changed at mouse and touch events. @param {HTMLElement} box */
   watch(box) {
     for (const event of ["pointerdown", "pointermove", "wheel", "touchmove", "pointerup"]) {
       box.addEventListener(event, () => (this.dirty = true), { passive: true, signal: this.listeners.signal });
     }
   }
 
-  /** @param {string} name @returns {string} a sentence if there is no such camera, else empty */
+  /** Chooses a camera. @param {string} name @returns {string} a sentence if there is no such camera, else empty */
   camera(name) {
     if (!this.cameras.includes(name)) return `There is no camera '${name}'; there are ${this.cameras.join(", ") || "none"}.`;
     for (const view of this.views) if (view.cameraNames.includes(name)) view.camera(name);
@@ -183,16 +181,16 @@ export class Shell {
     return "";
   }
 
-  /** Change what pictures show. @param {Data} look as `SceneView.set` has it, with `path` */
+  /** Changes the look of pictures. @param {Data} look as of `SceneView.set`, with `path` */
   setLook(look) {
-    if (look.stress && this.look.closed && look.closed === undefined && this.has.closed) look.closed = false; // what has the colours is within
+    if (look.stress && this.look.closed && look.closed === undefined && this.has.closed) look.closed = false; // the coloured parts are inside
     Object.assign(this.look, look);
     for (const view of this.views) view.set(look);
     this.settings?.refresh(look);
     this.dirty = true;
   }
 
-  /** Show or hide what stands beside the picture. @param {boolean} open */
+  /** Shows or hides the panel beside the picture. @param {boolean} open */
   side(open) {
     if (open) this.plots ??= new Plots(this.sideBox, this, this.source, this.plotted);
     this.sideBox.hidden = !open;
@@ -201,7 +199,7 @@ export class Shell {
     this.plots?.resize();
   }
 
-  /** Colours of the page. @param {string} name auto, light or dark */
+  /** Sets the colours of the page. @param {string} name auto, light or dark */
   theme(name) {
     this.themeName = name;
     this.dark.onchange = () => this.theme(this.themeName);
@@ -209,30 +207,30 @@ export class Shell {
     this.plots?.redraw();
   }
 
-  /** Beside or below each other, by the form of the window. */
+  /** Puts the panel beside or below the picture, depending on the window. */
   shape() {
     const { clientWidth, clientHeight } = this.root;
-    this.root.dataset.shape = clientWidth > WIDE * clientHeight ? "wide" : "tall";
+    this.root.dataset.shape = clientWidth > WIDE_RATIO * clientHeight ? "wide" : "tall";
     this.dirty = true;
   }
 
-  /** Sound of a car is heard or not; what sounds is of those who extend this. @param {boolean} on */
+  /** Switches the sound on or off in the bar; derived classes do so for the sound itself. @param {boolean} on */
   mute(on) {
     this.muted = on;
     this.bar.sound(!on);
   }
 
-  /** Say over the picture that something has happened. @param {string} sentence */
+  /** Shows an event over the picture. @param {string} sentence */
   tell(sentence) {
     this.notices.tell(sentence);
   }
 
-  /** What the address of the page may tell has changed. */
+  /** Called after a change of a setting in the address. */
   changed() {}
 
   dispose() {
     this.listeners.abort();
-    clearInterval(this._asking);
+    clearInterval(this._pollTimer);
     this.observer.disconnect();
     this.plots?.dispose();
     this.dark.onchange = null;

@@ -1,4 +1,4 @@
-// The panel of the host's devices: their axes as bars, what each drives, calibration, force.
+// The panel of the host's input devices: bars of their axes, assignment of inputs, calibration and settings of the force.
 import { button, el, named, select, short } from "../common/dom.js";
 import { section } from "../live/panel.js";
 import { styled } from "../styles.js";
@@ -14,10 +14,10 @@ const SETTINGS = [
   ["damper", "damper", "", 0, 1, 0.05],
   ["spring", "spring while the car rests", "", 0, 1, 0.05],
 ];
-const TEST_WORDS = "The wheel should turn to the left for a moment. If it turns to the right, tick “force inverted”.";
-const NONE = "No steering wheel, pedals or gamepad is plugged in at the computer that runs the car.";
+const TEST_INSTRUCTION = "The wheel should turn to the left for a moment. If it turns to the right, tick “force inverted”.";
+const NO_DEVICES = "No steering wheel, pedals or gamepad is plugged in at the computer that runs the car.";
 
-/** The panel. `element` is put anywhere; `show` is called with what the host says. */
+/** The panel. `element` goes into the page; `show` updates it with the host's message “devices”. */
 export class CalibrationPanel {
   /**
    * @param {object} options
@@ -27,13 +27,13 @@ export class CalibrationPanel {
     styled(style);
     this._send = send;
     this._parts = new Map();
-    this._none = el("p.a3-hint", { data: "no devices" }, NONE);
-    this._list = el("div", {}, this._none);
+    this._noDevices = el("p.a3-hint", { data: "no devices" }, NO_DEVICES);
+    this._list = el("div", {}, this._noDevices);
     this.element = section("Devices", true, el("div.a3-devices", {}, this._list));
   }
 
   /**
-   * What is plugged in now.
+   * Show the devices that are plugged in.
    * @param {Data[]} devices - As in the host's message “devices”.
    */
   show(devices) {
@@ -50,11 +50,11 @@ export class CalibrationPanel {
       }
       this._parts.get(device.id).show(device);
     }
-    this._none.hidden = devices.length > 0;
+    this._noDevices.hidden = devices.length > 0;
   }
 }
 
-/** One device. */
+/** The part of the panel for one device. */
 class DevicePart {
   constructor(send) {
     this._send = send;
@@ -68,114 +68,114 @@ class DevicePart {
     this.element = el("details.a3-section", { open: true }, this._title, this._body);
   }
 
-  /** @param {Data} device */
+  /** Show a new state of the device. @param {Data} device */
   show(device) {
     this.device = device;
     const shape = shapeOf(device);
     const focused = this._body.contains(document.activeElement) ? document.activeElement : null;
-    // What a person is typing, dragging or choosing stays as it is; the panel follows after.
+    // A field in use is not replaced: the panel is drawn again once typing, dragging or choosing has ended.
     if (shape !== this._shape && !(this._busy && this._shape)) {
       this._shape = shape;
       const open = new Map([...this._body.querySelectorAll("details")].map((part) => [part.getAttribute("data-a3"), part.open]));
       this._draw(device);
       for (const part of this._body.querySelectorAll("details")) part.open = open.get(part.getAttribute("data-a3")) ?? part.open;
-      const again = focused?.getAttribute("data-a3");
+      const focusedName = focused?.getAttribute("data-a3");
       /** @type {HTMLElement | null} */
-      const same = again ? this._body.querySelector(`[data-a3="${CSS.escape(again)}"]`) : null;
-      same?.focus();
+      const replacement = focusedName ? this._body.querySelector(`[data-a3="${CSS.escape(focusedName)}"]`) : null;
+      replacement?.focus();
     }
-    this._move(device);
+    this._update(device);
   }
 
   /** Send a message about this device. */
-  _say(type, more = {}) {
+  _sendMessage(type, more = {}) {
     this._send({ type, device: this.device.id, ...more });
   }
 
   _assign(input, mapping) {
-    this._say("assign", { input, mapping });
+    this._sendMessage("assign", { input, mapping });
   }
 
   _draw(device) {
-    this._moving = [];
+    this._updates = [];
     this._title.textContent = `${device.name} (${device.kind})`;
     this.element.setAttribute("data-a3", `device ${device.name}`);
     const lines = device.inputs.map((input) => this._input(device, input));
     const axes = device.axes.map((_, k) => this._axis(device, k));
     const pressed = el("small", { data: "pressed" });
-    this._moving.push((d) => (pressed.textContent = `pressed: ${pressedWords(d)}`));
+    this._updates.push((d) => (pressed.textContent = `pressed: ${pressedWords(d)}`));
     this._body.replaceChildren(
       this._calibration(device),
       ...lines,
       section("Axes and buttons", true, ...axes, pressed),
       section("Wheel and force", false, ...this._settings(device)),
-      el("div.a3-device-buttons", {}, button("reset mapping", "Back to the first guess", () => this._say("reset mapping"))),
+      el("div.a3-device-buttons", {}, button("reset mapping", "Back to the first guess", () => this._sendMessage("reset mapping"))),
     );
   }
 
-  _move(device) {
-    for (const move of this._moving) move(device);
+  _update(device) {
+    for (const update of this._updates) update(device);
   }
 
-  /** Calibration: its button, or what is to be done. */
+  /** The button that begins a calibration; during one, its instruction and buttons. */
   _calibration(device) {
     if (!device.calibration) {
-      const begin = button("calibrate", "Calibrate", () => this._say("calibrate", { on: true }));
+      const begin = button("calibrate", "Calibrate", () => this._sendMessage("calibrate", { on: true }));
       return el("div.a3-device-buttons", {}, begin, el("span.a3-hint", {}, "finds the ends of every axis that drives something"));
     }
     const words = el("p", { data: "calibration" });
-    this._moving.push((d) => (words.textContent = d.calibration?.text ?? ""));
-    const finish = button("finish", "Finish", () => this._say("calibrate", { on: false }));
+    this._updates.push((d) => (words.textContent = d.calibration?.text ?? ""));
+    const finish = button("finish", "Finish", () => this._sendMessage("calibrate", { on: false }));
     finish.disabled = device.calibration.stage === "rest";
-    const cancel = button("cancel", "Cancel", () => this._say("calibrate", { on: false, keep: false }));
+    const cancel = button("cancel", "Cancel", () => this._sendMessage("calibrate", { on: false, keep: false }));
     return el("div.a3-device-do", {}, words, el("div.a3-device-buttons", {}, finish, cancel));
   }
 
-  /** An input: what drives it, and its value. */
+  /** The line of an input: its source, its value and, for an axis, its options. */
   _input(device, input) {
     const mapping = device.mapping[input];
     const assign = (source) => this._assign(input, chosen(this.device.mapping[input], source, input));
     const source = select(`source ${input}`, `what drives ${input}`, named(sourcesFor(device, input)), assign, mapping?.source ?? "none");
     const waiting = device.assigning === input;
-    const move = button(`move ${input}`, waiting ? "Cancel" : "Move it now", () => this._say("assign by moving", { input, on: !waiting }));
+    const move = button(`move ${input}`, waiting ? "Cancel" : "Move it now", () => this._sendMessage("assign by moving", { input, on: !waiting }));
     const children = [el("span", {}, input), source, move];
     if (waiting) children.push(el("span.a3-device-more", { data: "moving" }, movingWords(input)));
     if (mapping && !input.startsWith("selector")) {
       const bar = track(`value ${input}`);
       const low = isPedal(input) ? 0 : -1;
       // Positive steering is to the left, and so is its bar.
-      this._moving.push((d) => bar.set(barOf((low ? -1 : 1) * (d.mapping[input]?.value ?? 0), low, 1, 0)));
+      this._updates.push((d) => bar.set(barOf((low ? -1 : 1) * (d.mapping[input]?.value ?? 0), low, 1, 0)));
       children.push(bar.element);
     }
     if (mapping?.source.startsWith("axis")) children.push(this._axisChoices(input, mapping));
     return el("div.a3-device-line", { data: `input ${input}` }, ...children);
   }
 
-  /** Inverted, half, dead zone of an axis. */
+  /** Options of an axis: inversion, dead zone and, for a pedal, the part of the axis. */
   _axisChoices(input, mapping) {
-    const now = () => this.device.mapping[input];
+    const current = () => this.device.mapping[input];
     const inverted = el("input", { type: "checkbox", checked: mapping.inverted, data: `inverted ${input}` });
     inverted.addEventListener("change", () => {
-      this._assign(input, changed(now(), { inverted: inverted.checked }));
+      this._assign(input, changed(current(), { inverted: inverted.checked }));
     });
     const zone = el("input", { type: "range", min: 0, max: 0.5, step: 0.01, value: mapping.dead_zone, data: `dead zone ${input}` });
     zone.addEventListener("change", () => {
-      this._assign(input, changed(now(), { dead_zone: Number(zone.value) }));
+      this._assign(input, changed(current(), { dead_zone: Number(zone.value) }));
     });
     /** @type {HTMLElement[]} */
     const parts = [el("label", {}, inverted, "inverted"), el("label", {}, "dead zone", zone, short(mapping.dead_zone))];
     if (isPedal(input)) {
       const names = [...PARTS.map(([name]) => String(name)), ...(partOf(mapping) === "calibrated" ? ["calibrated"] : [])];
-      const take = (part) => {
-        const found = PARTS.find(([name]) => name === part);
-        if (found) this._assign(input, changed(now(), { low: found[1], high: found[2] }));
+      const setPart = (part) => {
+        const match = PARTS.find(([name]) => name === part);
+        if (match) this._assign(input, changed(current(), { low: match[1], high: match[2] }));
       };
-      parts.push(select(`part ${input}`, `part of the axis for ${input}`, named(names), take, partOf(mapping)));
+      parts.push(select(`part ${input}`, `part of the axis for ${input}`, named(names), setPart, partOf(mapping)));
     }
     return el("div.a3-device-more", {}, ...parts);
   }
 
-  /** An axis as the device tells it, with the ends of what it drives. */
+  /** The line of an axis: its raw value, with marks at the ends of the inputs that it drives. */
   _axis(device, k) {
     const bar = track(`axis ${k}`);
     const number = el("span");
@@ -183,7 +183,7 @@ class DevicePart {
     for (const input of driven) {
       for (const end of ["low", "high"]) bar.mark(barOf(device.mapping[input][end], -1, 1, -1).width);
     }
-    this._moving.push((d) => {
+    this._updates.push((d) => {
       bar.set(barOf(d.axes[k] ?? 0, -1, 1, 0));
       number.textContent = (d.axes[k] ?? 0).toFixed(3);
     });
@@ -195,27 +195,27 @@ class DevicePart {
     const lines = SETTINGS.map(([name, words, unit, min, max, step]) => {
       const field = el("input", { type: "number", min, max, step, value: device.settings[name], data: `setting ${name}` });
       field.addEventListener("change", () => {
-        this._say("device settings", { settings: { [name]: Number(field.value) } });
+        this._sendMessage("device settings", { settings: { [name]: Number(field.value) } });
       });
       return [el("span", {}, words), field, el("span", {}, unit)];
     });
     const inverted = el("input", { type: "checkbox", checked: device.settings.force_inverted, data: "force inverted" });
     inverted.addEventListener("change", () => {
-      this._say("device settings", { settings: { force_inverted: inverted.checked } });
+      this._sendMessage("device settings", { settings: { force_inverted: inverted.checked } });
     });
     const forceText = el("p.a3-hint", { data: "force" });
     forceText.textContent = device.force ? "Its motor works." : `No force${device.force_problem ? `: ${device.force_problem}` : ""}.`;
-    const words = el("p.a3-hint", { data: "force test", hidden: true }, TEST_WORDS);
+    const words = el("p.a3-hint", { data: "force test", hidden: true }, TEST_INSTRUCTION);
     const test = button("test force", "Test the force", () => {
       words.hidden = false;
-      this._say("test force");
+      this._sendMessage("test force");
     });
     test.disabled = !device.force;
     return [el("div.a3-device-settings", {}, ...lines.flat()), el("label.a3-control", {}, inverted, "force inverted"), forceText, test, words];
   }
 }
 
-/** A bar that moves, with marks. */
+/** A bar with `set` for its extent and `mark` for a line, both in percent of the width. */
 function track(data) {
   const bar = el("i");
   const element = el("div.a3-track", { data }, bar);

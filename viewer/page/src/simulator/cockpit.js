@@ -16,21 +16,21 @@ import { CalibrationPanel } from "./calibration.js";
 import { readByHost } from "./device_words.js";
 import { Report } from "./report.js";
 
-/** Least time between two drawings of the figures of time, s. */
-const TIMED_EVERY = 0.1;
-/** Cameras that come first; those of wheels and the map come last. */
-const FIRST = ["chase", "driver", "orbit"];
-/** The picture stands higher by this share, since instruments are below. */
-const LIFT = 0.07;
-/** A state that is not as it should be. */
-const BAD = { bad: true };
-/** Time in which the camera behind follows a turn of the car, s. */
-const TRAIL = 0.18;
+/** Shortest time between two updates of the timing figures and notices, s. */
+const TIMING_INTERVAL = 0.1;
+/** Cameras at the top of the list; those of wheels and the map are at its end. */
+const FIRST_CAMERAS = ["chase", "driver", "orbit"];
+/** Share of its height by which the picture is moved up, since instruments are below. */
+const PICTURE_LIFT = 0.07;
+/** Option of a notice that marks a fault. */
+const FAULT = { bad: true };
+/** Time constant with which the camera behind the car follows its turns, s. */
+const TRAIL_TIME = 0.18;
 
-/** A car that is driven. */
+/** The page of one car. */
 export class Cockpit extends Shell {
   /**
-   * @param {HTMLElement} container - Filled.
+   * @param {HTMLElement} container - Its content is replaced.
    * @param {Data} hello - First message of the program, with the world's roads and scenery in its scene.
    * @param {import("./link.js").Link} link
    * @param {() => number} clock - s.
@@ -43,8 +43,8 @@ export class Cockpit extends Shell {
     this._clock = clock;
     const { scene, world = {} } = hello;
     this._beat = new Beat();
-    this._hosts = []; // devices that the program reads itself
-    this._refusal = { time: Infinity, text: "" }; // of the refused step at which the car stands
+    this._hostDevices = []; // input devices that the program reads itself
+    this._refusal = { time: Infinity, text: "" }; // time, s, and reason of the refused step; infinite and empty without one
     this.source = new Socket(hello, link);
     this.instruments = new Instruments(new Set(hello.columns), { scene, world, fixed: (name) => this.source.fixed(name) });
     this.plan = this.instruments.plan;
@@ -57,19 +57,19 @@ export class Cockpit extends Shell {
     return this._views ?? [];
   }
 
-  /** Rates of pictures and frames, pictures a second, their size, and the delay of the picture, s. */
+  /** Pictures and frames per second, size of the pictures in pixels, longest interval, delay and age of the last frame, s. */
   flow() {
     const { frames } = this.source;
     const size = this.cameraName === "map" ? "" : ` of ${this.view.pixels.join(" × ")}`;
     return { drawn: this._beat.rate, size, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
   }
 
-  /** A frame has come. @param {any} frame As `readFrame` has it. */
+  /** Take in a received frame. @param {any} frame - Result of `readFrame`. */
   add(frame) {
     const restarted = this.source.add(frame, this._clock());
     this.notices.flag("lost", "");
     this._factor = this._factors.add(frame);
-    // A frame from before the refusal may come after its sentence, and does not answer it.
+    // A frame from before the refusal may arrive after its message; it does not end the refusal.
     if (!frame.refused && (restarted || frame.time > this._refusal.time)) this._refusal = { time: Infinity, text: "" };
     if (!restarted) return;
     this.plan.trail.lift();
@@ -77,24 +77,24 @@ export class Cockpit extends Shell {
     this.view.cameras?.trailing.snap();
   }
 
-  /** Something was said. @param {Data} event - Kind, text and simulated time, s. */
+  /** Show an event of the program. @param {Data} event - Kind, text and simulated time, s. */
   event({ kind, text, time }) {
     if (kind === "refused") this._refusal = { time, text };
     else this.tell(text);
   }
 
-  /** Devices of the program. */
+  /** Show the input devices of the program. @param {Data[]} devices */
   devices(devices) {
-    this._hosts = devices;
+    this._hostDevices = devices;
     this._devices.show(devices);
   }
 
-  /** The wire broke. */
+  /** Show that the connection is lost. @param {string} sentence */
   lost(sentence) {
-    this.notices.flag("lost", sentence, BAD);
+    this.notices.flag("lost", sentence, FAULT);
   }
 
-  /** One picture: called by the page before it is shown. */
+  /** Draw one picture; the page calls this for each of its own. */
   draw() {
     const now = this._clock();
     const shown = this.source.at(now);
@@ -104,11 +104,11 @@ export class Cockpit extends Shell {
     this._stalled = stalled;
     const [lookup] = this.source.sample();
     const car = this.instruments.car(lookup);
-    const still = before === this._before && after === this._after && share === this._share;
+    const unchanged = before === this._before && after === this._after && share === this._share;
     this._before = before;
     this._after = after;
     this._share = share;
-    if (!still || this.dirty) this._drawPicture(lookup, { time, car, epoch: after.epoch });
+    if (!unchanged || this.dirty) this._drawPicture(lookup, { time, car, epoch: after.epoch });
     this.dirty = false;
     this._display(lookup, { frame: this.source.frames.newest, time, stalled, car, now });
   }
@@ -120,7 +120,7 @@ export class Cockpit extends Shell {
     else this.view.render();
   }
 
-  /** Take listeners and the picture away. */
+  /** Remove the listeners and the picture. */
   dispose() {
     this.effects.dispose();
     this.view.dispose();
@@ -132,13 +132,13 @@ export class Cockpit extends Shell {
     const inputs = variables.filter((v) => v.causality === "input").map((v) => v.name);
     const want = (source, wants) => this.source.want(source, wants);
     const constants = inputs.includes("steering") ? (hello.constants ?? {}) : null;
-    const pads = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad && !readByHost(pad.id, this._hosts));
+    const pads = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad && !readByHost(pad.id, this._hostDevices));
     this.hands = new InputArbiter({ inputs, constants, pads, want });
     this.timing = new Timing();
     this._factors = new Factor();
-    this._pulled = new Set(); // levers that are held
+    this._heldLevers = new Set(); // names of the inputs of the levers that are held
     this.levers = levers(inputs, (name, value) => {
-      this._pulled[value ? "add" : "delete"](name);
+      this._heldLevers[value ? "add" : "delete"](name);
       want("touch", [[name, value]]);
     });
     this._picture = el("div.a3-view");
@@ -158,13 +158,13 @@ export class Cockpit extends Shell {
   }
 
   _open(scene) {
-    const view = new SceneView(this._picture, scene, { words: false, lift: LIFT, trail: TRAIL, driven: true, onMessage: (sentence) => this.tell(sentence) });
+    const view = new SceneView(this._picture, scene, { words: false, lift: PICTURE_LIFT, trail: TRAIL_TIME, driven: true, onMessage: (sentence) => this.tell(sentence) });
     this._views = [view];
     this.problem = view.problem;
     view.set(this.look);
     this.has = view.has;
     this.watch(this._picture);
-    const rank = (name) => (name.startsWith("wheel") ? FIRST.length + 1 : FIRST.includes(name) ? FIRST.indexOf(name) : FIRST.length);
+    const rank = (name) => (name.startsWith("wheel") ? FIRST_CAMERAS.length + 1 : FIRST_CAMERAS.includes(name) ? FIRST_CAMERAS.indexOf(name) : FIRST_CAMERAS.length);
     this.cameras = [...[...view.cameraNames].sort((a, b) => rank(a) - rank(b)), "map"];
     const { hello } = this;
     this.effects = new Effects(view, { columns: hello.columns, constants: hello.constants ?? {} }, (sentence) => this.tell(sentence));
@@ -175,12 +175,12 @@ export class Cockpit extends Shell {
     const send = (message) => link.send(message);
     this._devices = new CalibrationPanel({ send });
     this.report = new Report(() => send({ type: "report" }));
-    const said = hello.recording ? `Everything is recorded in ${hello.recording}` : "Nothing is recorded.";
-    const recorded = section("Recording", true, el("p", { data: "recording" }, said));
-    this.sideBox.append(this._devices.element, section("Report", true, this.report.element), recorded, this.driven(this.hands, this._inputs));
-    const more = { instruments: () => this.instruments.toggle(), costs: () => this.timing.toggle() };
+    const recordingText = hello.recording ? `Everything is recorded in ${hello.recording}` : "Nothing is recorded.";
+    const recording = section("Recording", true, el("p", { data: "recording" }, recordingText));
+    this.sideBox.append(this._devices.element, section("Report", true, this.report.element), recording, this.driven(this.hands, this._inputs));
+    const actions = { instruments: () => this.instruments.toggle(), costs: () => this.timing.toggle() };
     const places = (world.places ?? []).map(({ name }) => name);
-    this.controls(this.source, more, { places }, (event) => this.hands.key(event, this.driverSpeed));
+    this.controls(this.source, actions, { places }, (event) => this.hands.key(event, this.driverSpeed));
     this.camera(this.cameras[0]);
   }
 
@@ -199,12 +199,12 @@ export class Cockpit extends Shell {
     this.effects.start();
   }
 
-  /** Nobody sees the page: nobody drives. */
+  /** Release all inputs when the page is hidden. */
   unseen() {
     this.hands.letKeysGo();
     this.hands.letGamepadGo();
-    if (this._pulled.size) this.source.want("touch", [...this._pulled].map((name) => [name, 0])); // prettier-ignore
-    this._pulled.clear();
+    if (this._heldLevers.size) this.source.want("touch", [...this._heldLevers].map((name) => [name, 0])); // prettier-ignore
+    this._heldLevers.clear();
   }
 
   poll() {
@@ -217,27 +217,27 @@ export class Cockpit extends Shell {
     this.instruments.show(lookup, car);
     this.bar.show(this.source);
     if (this.sideOpen) this.plots?.now();
-    if (now - (this._timed ?? -Infinity) < TIMED_EVERY) return;
+    if (now - (this._timed ?? -Infinity) < TIMING_INTERVAL) return;
     this._timed = now;
     const factor = this._factor ?? null;
     const slower = factor === null ? "" : `${short(factor)} s of the run a second, `;
-    const warn =
+    const warning =
       this.timing.show(time, { ...frame, factor, flow: this.flow() }) ||
       (frame.running && frame.behind ? `The car's program is behind: ${slower}${short(frame.speed)} asked for.` : "");
     const { notices } = this;
     const refused = this._refusal.text || "The car refused a step.";
-    notices.flag("refused", frame.refused ? `${refused} Rewind, set upright or reset to go on.` : "", BAD);
+    notices.flag("refused", frame.refused ? `${refused} Rewind, set upright or reset to go on.` : "", FAULT);
     notices.flag("paused", !frame.running && !frame.refused ? "paused" : "");
     notices.flag("slow", frame.speed < 1 ? `slow motion × ${Number(frame.speed.toPrecision(3))}` : "");
-    notices.flag("behind", warn, BAD);
+    notices.flag("behind", warning, FAULT);
     notices.flag("outside", this.plan.holds(car) ? "" : "Outside of the world: the ground goes on with nothing on it.");
-    notices.flag("stalled", stalled ? `No news of the car for ${stalled.toFixed(1)} s: this is the last that came.` : "", BAD);
+    notices.flag("stalled", stalled ? `No news of the car for ${stalled.toFixed(1)} s: this is the last that came.` : "", FAULT);
   }
 
   /** @param {string} name */
   camera(name) {
-    const wrong = super.camera(name);
-    if (wrong) return wrong;
+    const problem = super.camera(name);
+    if (problem) return problem;
     const map = name === "map";
     this.map.element.hidden = !map;
     this.instruments.inset.element.hidden = map;

@@ -1,27 +1,27 @@
 // Texts of the panel of devices, without elements of the page.
 
-const HAT = ["up", "right", "down", "left"];
-const CENTRED = ["steering"];
-const SELECTOR = "selector";
+const HAT_DIRECTIONS = ["up", "right", "down", "left"];
+const CENTRED_INPUTS = ["steering"];
+const SELECTOR_PREFIX = "selector";
 /** Parts of an axis: name, lowest and highest value. */
 export const PARTS = [["whole axis", -1, 1], ["upper half", 0, 1], ["lower half", -1, 0]];
 
-/** What a person moves for an input. */
-const MOVE_WORDS = {
+/** Instructions by input, for its assignment by a movement. */
+const MOVE_INSTRUCTIONS = {
   steering: "turn the steering wheel to the left",
   throttle: "press the throttle down",
   brake: "press the brake down",
   hand_brake: "pull the hand brake",
 };
 
-/** The words while an input waits for a movement. */
+/** The instruction while an input waits for a movement. @param {string} input @returns {string} */
 export function movingWords(input) {
-  return `${MOVE_WORDS[input] ?? `press the button for ${input}`} now`;
+  return `${MOVE_INSTRUCTIONS[input] ?? `press the button for ${input}`} now`;
 }
 
-/** Whether an input is a pedal: from 0 to 1. */
+/** Whether an input runs from 0 to 1, as that of a pedal does. @param {string} input @returns {boolean} */
 export function isPedal(input) {
-  return !CENTRED.includes(input) && !input.startsWith(SELECTOR);
+  return !CENTRED_INPUTS.includes(input) && !input.startsWith(SELECTOR_PREFIX);
 }
 
 /**
@@ -33,14 +33,14 @@ export function isPedal(input) {
 export function sourcesFor(device, input) {
   const axes = device.axes.map((_, k) => `axis ${k}`);
   const buttons = device.buttons.map((_, k) => `button ${k}`);
-  const hats = (device.hats ?? []).flatMap((_, k) => HAT.map((direction) => `hat ${k} ${direction}`));
-  if (CENTRED.includes(input)) return ["none", ...axes];
-  if (input.startsWith(SELECTOR)) return ["none", ...buttons, ...hats];
+  const hats = (device.hats ?? []).flatMap((_, k) => HAT_DIRECTIONS.map((direction) => `hat ${k} ${direction}`));
+  if (CENTRED_INPUTS.includes(input)) return ["none", ...axes];
+  if (input.startsWith(SELECTOR_PREFIX)) return ["none", ...buttons, ...hats];
   return ["none", ...axes, ...buttons, ...hats];
 }
 
 /**
- * The mapping to ask for when a person chooses another source.
+ * The mapping to request after another source was chosen.
  * @param {Data | undefined} old - The mapping so far.
  * @param {string} source
  * @param {string} input
@@ -49,12 +49,12 @@ export function sourcesFor(device, input) {
 export function chosen(old, source, input) {
   if (source === "none") return null;
   if (!source.startsWith("axis")) return { source };
-  const inverted = old?.source?.startsWith("axis") ? old.inverted : CENTRED.includes(input); // axes grow to the right
+  const inverted = old?.source?.startsWith("axis") ? old.inverted : CENTRED_INPUTS.includes(input); // axes grow to the right
   return { source, inverted, low: -1, high: 1, dead_zone: old?.dead_zone ?? 0.03 };
 }
 
 /**
- * The mapping with some fields changed, as it is sent: without what is only shown.
+ * A mapping with some fields changed, in the form of a message: without fields that are for display only.
  * @param {Data} mapping
  * @param {Data} change
  */
@@ -63,28 +63,28 @@ export function changed(mapping, change) {
   return { source, inverted, low, high, dead_zone, centre };
 }
 
-/** The name of the part of its axis that a mapping uses; "calibrated" where the ends are others. */
+/** The name of the part of its axis that a mapping uses; "calibrated" where its ends are those of no part. */
 export function partOf({ low, high }) {
   return PARTS.find(([, l, h]) => l === low && h === high)?.[0] ?? "calibrated";
 }
 
-/** Which inputs an axis drives. */
+/** Names of the inputs that an axis drives. */
 export function drivenBy(device, axis) {
   return Object.keys(device.mapping).filter((input) => device.mapping[input].source === `axis ${axis}`);
 }
 
-/** Buttons and hats that are pressed, as words. */
+/** Names of the pressed buttons and hats, in one text. */
 export function pressedWords(device) {
   const buttons = device.buttons.flatMap((down, k) => (down ? [`button ${k}`] : []));
-  const hats = (device.hats ?? []).flatMap((bits, k) => HAT.flatMap((direction, b) => (bits & (1 << b) ? [`hat ${k} ${direction}`] : [])));
+  const hats = (device.hats ?? []).flatMap((bits, k) => HAT_DIRECTIONS.flatMap((direction, b) => (bits & (1 << b) ? [`hat ${k} ${direction}`] : [])));
   return [...buttons, ...hats].join(", ") || "none";
 }
 
 /**
- * Where a bar begins and how long it is, in percent of its width.
- * @param {number} value
- * @param {number} low - Left end.
- * @param {number} high
+ * Left end and length of a bar, in percent of the width of its track.
+ * @param {number} value - Where the bar ends.
+ * @param {number} low - Value at the left end of the track.
+ * @param {number} high - Value at its right end.
  * @param {number} from - Where the bar begins.
  */
 export function barOf(value, low, high, from) {
@@ -94,18 +94,18 @@ export function barOf(value, low, high, from) {
 }
 
 /**
- * Whether a gamepad of the browser is a device that the host reads already: it would drive twice.
- * @param {string} padId - `Gamepad.id`, which has the numbers of maker and product.
+ * Whether the host already reads a gamepad of the browser, whose inputs would count twice.
+ * @param {string} padId - `Gamepad.id`, which contains the USB numbers of vendor and product.
  * @param {{usb?: string}[]} devices
  */
 export function readByHost(padId, devices) {
-  const found = /Vendor: *([0-9a-f]{4}).*Product: *([0-9a-f]{4})/i.exec(padId) ?? /^([0-9a-f]{1,4})-([0-9a-f]{1,4})-/i.exec(padId);
-  if (!found) return false;
-  const usb = found.slice(1).map((number) => number.toLowerCase().padStart(4, "0")).join(":");
+  const match = /Vendor: *([0-9a-f]{4}).*Product: *([0-9a-f]{4})/i.exec(padId) ?? /^([0-9a-f]{1,4})-([0-9a-f]{1,4})-/i.exec(padId);
+  if (!match) return false;
+  const usb = match.slice(1).map((number) => number.toLowerCase().padStart(4, "0")).join(":");
   return devices.some((device) => device.usb === usb);
 }
 
-/** Everything of a device but what moves: where it differs the panel is drawn again. */
+/** All of a device but its moving values, as a text; the panel is drawn again when it changes. */
 export function shapeOf(device) {
   const mapping = Object.fromEntries(Object.entries(device.mapping).map(([k, m]) => [k, changed(m, {})]));
   const { id, name, kind, force, force_problem, inputs, settings, assigning } = device;

@@ -1,26 +1,26 @@
 // The page's side of the socket to the simulator: frames in, requests and commands out.
 
 const MAGIC = 0x31463341;
-const HEADER = 96;
+const HEADER_SIZE = 96;
 const RUNNING = 1, REFUSED = 2, BEHIND = 4; // prettier-ignore
-const NUMBERS = ["count", "time", "speed", "wall", "cost", "worst", "lateness", "missed", "deadline", "saved"];
-/** A request that has not changed is said again after so long, so that the simulator knows that the page is alive. */
-const AGAIN = 200;
-/** Milliseconds before the first and the later tries to connect again. */
-const FIRST_WAIT = 250;
-const LONGEST_WAIT = 4000;
+const HEADER_NUMBERS = ["count", "time", "speed", "wall", "cost", "worst", "lateness", "missed", "deadline", "saved"];
+/** Interval at which an unchanged request is sent again, so that the simulator knows that the page is alive, ms. */
+const REPEAT_INTERVAL = 200;
+/** Waiting time before the first attempt to reconnect, doubled with each further one up to the longest, ms. */
+const MIN_WAIT = 250;
+const MAX_WAIT = 4000;
 
 /**
  * Read a frame.
  * @param {ArrayBuffer} buffer
- * @returns {Data} Numbers of the header, three flags, and `values`, a Float64Array in the order of the columns.
+ * @returns {Data} Epoch, three flags, the other numbers of the header by name, and `values`, a Float64Array in the order of the columns.
  */
 export function readFrame(buffer) {
   const view = new DataView(buffer);
-  if (buffer.byteLength < HEADER || view.getUint32(0, true) !== MAGIC) throw new Error("This is not a frame of a simulator.");
+  if (buffer.byteLength < HEADER_SIZE || view.getUint32(0, true) !== MAGIC) throw new Error("This is not a frame of a simulator.");
   const flags = view.getUint32(8, true);
   const size = view.getUint32(12, true);
-  if (buffer.byteLength !== HEADER + 8 * size) {
+  if (buffer.byteLength !== HEADER_SIZE + 8 * size) {
     throw new Error(`A frame of ${size} numbers has ${buffer.byteLength} bytes.`);
   }
   const frame = {
@@ -29,13 +29,13 @@ export function readFrame(buffer) {
     refused: (flags & REFUSED) !== 0,
     behind: (flags & BEHIND) !== 0,
   };
-  NUMBERS.forEach((name, k) => (frame[name] = view.getFloat64(16 + 8 * k, true)));
-  frame.values = new Float64Array(buffer, HEADER, size); // every computer with a browser is little endian
+  HEADER_NUMBERS.forEach((name, k) => (frame[name] = view.getFloat64(16 + 8 * k, true)));
+  frame.values = new Float64Array(buffer, HEADER_SIZE, size); // every computer with a browser is little endian
   return frame;
 }
 
-/** A frame or a message that has come, or what is wrong with it. @param {string | ArrayBuffer} data @returns {Data} */
-function heard(data) {
+/** Decode received data: `frame` or `message`, or `wrong`, the text of an error. @param {string | ArrayBuffer} data @returns {Data} */
+function decoded(data) {
   try {
     return typeof data === "string" ? { message: JSON.parse(data) ?? {} } : { frame: readFrame(data) };
   } catch (error) {
@@ -43,47 +43,47 @@ function heard(data) {
   }
 }
 
-/** A connection that comes back by itself. */
+/** A connection that is opened again after it was lost. */
 export class Link {
   /**
-   * @param {string|URL} url - Of the socket, with the token where there is one.
-   * @param {Data} handlers - `hello`, `frame`, `event`, `report`, `devices`, `refused` get what the simulator says;
-   *   `closed` gets a sentence and in how many ms it is tried again.
-   * @param {{WebSocket?: typeof WebSocket, now?: () => number, wait?: (work: () => void, ms: number) => void}} [means] - Replaced in tests.
+   * @param {string|URL} url - Of the socket, with the token if there is one.
+   * @param {Data} handlers - `hello`, `frame`, `event`, `report`, `devices`, `refused` get the frame or message of that type;
+   *   `closed` gets a sentence and the time to the next attempt, ms.
+   * @param {{WebSocket?: typeof WebSocket, now?: () => number, wait?: (work: () => void, ms: number) => void}} [environment] - Replaced in tests.
    */
-  constructor(url, handlers, means = {}) {
+  constructor(url, handlers, environment = {}) {
     this._url = url;
     this._handlers = handlers;
-    this._Socket = means.WebSocket ?? globalThis.WebSocket;
-    this._now = means.now ?? (() => performance.now());
-    this._wait = means.wait ?? ((work, ms) => setTimeout(work, ms));
-    this._said = new Map(); // source -> {text, at}
+    this._Socket = environment.WebSocket ?? globalThis.WebSocket;
+    this._now = environment.now ?? (() => performance.now());
+    this._wait = environment.wait ?? ((work, ms) => setTimeout(work, ms));
+    this._sent = new Map(); // source -> {text, at}
     this._tries = 0;
     this._closed = false;
     this._reason = "";
     this._open();
   }
 
-  /** Whether the simulator hears the page. */
+  /** Whether the socket is open. */
   get connected() {
     return this._socket.readyState === 1;
   }
 
   /**
-   * Say what a source wants; may be called in every picture: what has not changed is said again now and then only.
+   * Send the requests of a source. May be called in every picture: unchanged ones are sent again at an interval only.
    * @param {"keys"|"gamepad"|"touch"} source
-   * @param {Object<string, [number, number|null]>} values - Input to value and largest change per second, null: at once.
+   * @param {Object<string, [number, number|null]>} values - By input: value and largest change per second, null for a jump.
    */
   want(source, values) {
     const text = JSON.stringify({ type: "want", source, values });
-    const before = this._said.get(source);
+    const previous = this._sent.get(source);
     const now = this._now();
-    if (before && before.text === text && now - before.at < AGAIN) return;
-    if (this._send(text)) this._said.set(source, { text, at: now });
+    if (previous && previous.text === text && now - previous.at < REPEAT_INTERVAL) return;
+    if (this._send(text)) this._sent.set(source, { text, at: now });
   }
 
   /**
-   * A command to the car.
+   * Send a command to the car.
    * @param {string} name
    * @param {number} [value]
    */
@@ -92,9 +92,9 @@ export class Link {
   }
 
   /**
-   * Say anything.
+   * Send a message.
    * @param {Data} message
-   * @returns {boolean} Whether it could be said.
+   * @returns {boolean} False while the socket is not open.
    */
   send(message) {
     return this._send(JSON.stringify(message));
@@ -110,7 +110,7 @@ export class Link {
     const socket = new this._Socket(this._url);
     this._socket = socket;
     socket.binaryType = "arraybuffer";
-    socket.onmessage = (message) => this._take(message.data);
+    socket.onmessage = (message) => this._receive(message.data);
     socket.onclose = (event) => this._lost(event?.reason ?? "");
   }
 
@@ -120,8 +120,8 @@ export class Link {
     return true;
   }
 
-  _take(data) {
-    const { frame, message, wrong } = heard(data);
+  _receive(data) {
+    const { frame, message, wrong } = decoded(data);
     if (wrong) {
       this._reason = `what it says is not understood: ${wrong}`;
       this._socket.close();
@@ -141,13 +141,13 @@ export class Link {
   }
 
   _lost(reason) {
-    this._said.clear();
+    this._sent.clear();
     if (this._closed) return;
-    const wait = Math.min(FIRST_WAIT * 2 ** this._tries, LONGEST_WAIT);
+    const wait = Math.min(MIN_WAIT * 2 ** this._tries, MAX_WAIT);
     this._tries += 1;
-    this._reason = reason || this._reason; // what the server said at its end stands until there is one again
-    const why = this._reason ? `: ${this._reason.replace(/\.$/, "")}` : "";
-    const text = `The simulator is not there${why}. Trying again in ${(wait / 1000).toFixed(1)} s.`;
+    this._reason = reason || this._reason; // the server's last reason is shown until it is back
+    const explanation = this._reason ? `: ${this._reason.replace(/\.$/, "")}` : "";
+    const text = `The simulator is not there${explanation}. Trying again in ${(wait / 1000).toFixed(1)} s.`;
     this._handlers.closed?.(text, wait);
     this._wait(() => this._closed || this._open(), wait);
   }

@@ -1,4 +1,4 @@
-// The page of the driving simulator: the car is driven by a program elsewhere, seen and steered here.
+// The page of the driving simulator: a program elsewhere computes the car, which is shown and steered here.
 import { instead } from "../common/notices.js";
 import { styled } from "../styles.js";
 import { Cockpit } from "./cockpit.js";
@@ -6,7 +6,7 @@ import { Link } from "./link.js";
 import style from "./style.css";
 
 /** The clock of the page, s. */
-const clock = () => performance.now() / 1000;
+const pageTime = () => performance.now() / 1000;
 
 /**
  * Fill an element with the simulator.
@@ -18,7 +18,7 @@ export function simulate(container, options = {}) {
   return new Simulator(container, options);
 }
 
-/** A page of the simulator; `cockpit` is there once the program has said what car it drives. */
+/** A page of the simulator; `cockpit` is null until the program has described its car. */
 class Simulator {
   /** @param {HTMLElement} container @param {{url?: string, token?: string}} options */
   constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" }) {
@@ -35,7 +35,7 @@ class Simulator {
     address.protocol = address.protocol.replace("http", "ws");
     if (token) address.searchParams.set("token", token);
     this.link = new Link(address.href, {
-      hello: (hello) => this._hello(hello).catch((error) => this._wrong(error)),
+      hello: (hello) => this._hello(hello).catch((error) => this._fail(error)),
       frame: (frame) => this._frame(frame),
       event: (event) => this._event(event),
       refused: ({ text }) => this.cockpit?.tell(text),
@@ -45,7 +45,7 @@ class Simulator {
     });
   }
 
-  /** Frames as they come. */
+  /** Received frames. */
   get frames() {
     return this.cockpit?.source.frames;
   }
@@ -55,22 +55,22 @@ class Simulator {
     return this.cockpit?.view;
   }
 
-  /** Number of an output or input of the newest frame. @param {string} name */
+  /** Value of an output or input in the newest frame. @param {string} name */
   get(name) {
     return this.frames?.newest?.values[this.cockpit.source.index.get(name)];
   }
 
-  /** Choose a camera. @returns {string} A sentence where there is none of this name. */
+  /** Choose a camera. @param {string} name @returns {string} A sentence if there is none of this name, otherwise empty. */
   camera(name) {
     return this.cockpit.camera(name);
   }
 
-  /** Rates and lateness of pictures and frames, as they are shown. */
+  /** Rates and delays of pictures and frames; see `Cockpit.flow`. */
   get flow() {
     return this.cockpit?.flow();
   }
 
-  /** Take everything out of the page. */
+  /** Close the connection and empty the container. */
   dispose() {
     this._ended = true;
     this.link.close();
@@ -87,7 +87,7 @@ class Simulator {
     if (this._ended) return;
     const camera = this.cockpit?.cameraName;
     this.cockpit?.dispose();
-    this.cockpit = new Cockpit(this.container, { ...hello, scene }, this.link, clock);
+    this.cockpit = new Cockpit(this.container, { ...hello, scene }, this.link, pageTime);
     if (missing) this.cockpit.tell(missing);
     if (camera) this.cockpit.camera(camera);
     this.problem = this.cockpit.problem;
@@ -95,8 +95,8 @@ class Simulator {
     this._resolve(this);
   }
 
-  /** The page itself is wrong: that is said, and thrown for whoever looks for its place. */
-  _wrong(error) {
+  /** Show an error of the page itself, and throw it so that the browser's console has its stack. */
+  _fail(error) {
     this.problem = `This page cannot show the car: ${error.message}`;
     instead(this.container, "problem", this.problem);
     throw error;
@@ -123,12 +123,12 @@ class Simulator {
   }
 }
 
-/** The scene with the world in it: roads and scenery come by a request of their own, since they are long. */
-async function worldScene({ scene: given, world }, token) {
-  const scene = given ?? {}; // an FMU without a drawing
+/** The scene with roads and scenery, which are fetched by a separate request since they are long. */
+async function worldScene({ scene: received, world }, token) {
+  const scene = received ?? {}; // null for an FMU without a drawing
   if (!world || scene.roads?.length) return scene;
-  const answer = await fetch(`/world${token ? `?token=${encodeURIComponent(token)}` : ""}`);
-  if (!answer.ok) throw new Error(`The drawing of the world cannot be had (${answer.status}): the car drives on nothing that is seen.`);
-  const { roads, scenery } = await answer.json();
+  const response = await fetch(`/world${token ? `?token=${encodeURIComponent(token)}` : ""}`);
+  if (!response.ok) throw new Error(`The drawing of the world cannot be had (${response.status}): the car drives on nothing that is seen.`);
+  const { roads, scenery } = await response.json();
   return { ...scene, roads, scenery };
 }

@@ -1,10 +1,10 @@
 // Interpolates numbers between two instants: linearly, angles by the shorter turn and quaternions by the shorter arc.
 import { Quaternion } from "three";
 
-/** What turns: columns that are angles, and those of quaternions by four. @typedef {{angles: Set<string>, quaternions: string[][]}} Turns */
+/** Columns that are angles, and the four columns of each quaternion. @typedef {{angles: Set<string>, quaternions: string[][]}} Turns */
 
 /**
- * Columns of a scene that turn.
+ * Columns of angles and quaternions of a scene.
  * @param {Data | null | undefined} scene
  * @returns {Turns}
  */
@@ -16,36 +16,36 @@ export function turnsOf(scene) {
 }
 
 /**
- * The change of an angle from one row to the next. An angle between -pi and pi may jump from one end to the other; one
- * that counts turns goes on.
+ * The change of an angle from one row to the next, rad. An angle between -pi and pi may jump from one end to the other;
+ * one outside of them counts turns and does not jump.
  */
-function turned(a, b) {
+function angleChange(a, b) {
   const change = b - a;
   const wrapped = Math.abs(change) > Math.PI && Math.max(Math.abs(a), Math.abs(b)) < Math.PI + 1e-6;
   return wrapped ? change - 2 * Math.PI * Math.sign(change) : change;
 }
 
 /**
- * Between two orientations along the shorter arc; q and -q are the same one.
- * @param {number[]} a @param {number[]} b quaternions, of any length but zero
- * @param {number} share
+ * Interpolate between two orientations along the shorter arc; q and -q are the same orientation.
+ * @param {number[]} a @param {number[]} b quaternions (w, x, y, z) of any norm but zero
+ * @param {number} share of the way from a to b
  * @returns {number[]} unit quaternion
  */
 export function slerp(a, b, share) {
   const [from, to] = [a, b].map((parts) => {
-    const [w, x, y, z] = parts.map((part) => part / Math.hypot(...parts)); // three.js takes one of zeros for no turn
+    const [w, x, y, z] = parts.map((part) => part / Math.hypot(...parts)); // three.js would treat a quaternion of zeros as the identity
     return new Quaternion(x, y, z, w);
   });
   const { x, y, z, w } = from.slerp(to, share);
   return [w, x, y, z];
 }
 
-/** Numbers between instants of the same columns. */
+/** Interpolates the columns of two rows. */
 export class Blend {
-  /** Names of the four parts of a quaternion and which one, by the name of the part. @type {Map<string, [string[], number]>} */
+  /** By the name of a quaternion's part: the names of all four, and its index. @type {Map<string, [string[], number]>} */
   _parts = new Map();
 
-  /** @param {Partial<Turns>} [turns] @param {Set<string>} [whole] names of whole numbers: those of the nearer instant count */
+  /** @param {Partial<Turns>} [turns] @param {Set<string>} [whole] names of whole numbers, which are taken from the nearer row */
   constructor({ angles = new Set(), quaternions = [] } = {}, whole = new Set()) {
     this._angles = angles;
     this._whole = whole;
@@ -53,8 +53,9 @@ export class Blend {
   }
 
   /**
-   * @param {(name: string) => number | undefined} a numbers before @param {(name: string) => number | undefined} b after
-   * @param {number} s from 0 to 1
+   * A lookup of interpolated numbers.
+   * @param {(name: string) => number | undefined} a lookup of the row before @param {(name: string) => number | undefined} b of the row after
+   * @param {number} s share of the way from a to b, from 0 to 1
    * @returns {(name: string) => number | undefined}
    */
   lookup(a, b, s) {
@@ -64,10 +65,10 @@ export class Blend {
       const [from, to] = [a(name), b(name)];
       if (from === undefined || to === undefined) return undefined;
       if (this._whole.has(name)) return s < 0.5 ? from : to;
-      if (this._angles.has(name)) return from + s * turned(from, to);
-      const four = this._parts.get(name);
-      if (four === undefined) return from + s * (to - from);
-      const [names, part] = four;
+      if (this._angles.has(name)) return from + s * angleChange(from, to);
+      const quaternion = this._parts.get(name);
+      if (quaternion === undefined) return from + s * (to - from);
+      const [names, part] = quaternion;
       if (!turns.has(names)) turns.set(names, slerp(names.map(a), names.map(b), s));
       return turns.get(names)[part];
     };

@@ -1,4 +1,4 @@
-// From the JSON of a page to runs with arrays.
+// Decodes the JSON of a page into runs with arrays.
 import { bytesOf, gunzipped, missingParts } from "../bytes.js";
 
 /**
@@ -7,7 +7,7 @@ import { bytesOf, gunzipped, missingParts } from "../bytes.js";
  */
 
 /**
- * Numbers whose bytes stand in planes: all first bytes, then all second ones.
+ * Numbers from bytes in planes: the first bytes of all numbers, then their second bytes, and so on.
  * @param {Uint8Array} planes
  * @param {"f8" | "f4"} kind
  * @returns {Float64Array | Float32Array}
@@ -22,7 +22,7 @@ export function fromPlanes(planes, kind) {
   return kind === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
 }
 
-/** @param {{names: string[], kind: "f8" | "f4", data: string}} block @returns {Promise<Map<string, ArrayLike<number>>>} */
+/** Columns of a block, by name. @param {{names: string[], kind: "f8" | "f4", data: string}} block @returns {Promise<Map<string, ArrayLike<number>>>} */
 async function columnsOf(block) {
   const numbers = fromPlanes(await gunzipped(bytesOf(block.data)), block.kind);
   const count = numbers.length / block.names.length;
@@ -30,20 +30,21 @@ async function columnsOf(block) {
 }
 
 /**
- * @param {Data} page JSON that viewer/page_data.py makes
+ * Runs and options of a page.
+ * @param {Data} page JSON made by viewer/page_data.py
  * @returns {Promise<{runs: Run[], options: Data}>}
  */
 export async function decoded(page) {
   if (page.format !== "ALi3 page" || page.version !== 1) throw new Error("The data of this page are of another format.");
-  const lacking = missingParts(globalThis, false);
-  if (lacking) throw new Error(lacking);
+  const problem = missingParts(globalThis, false);
+  if (problem) throw new Error(problem);
   const runs = await Promise.all(
     page.runs.map(async (run) => {
       const times = await columnsOf(run.time);
-      const found = new Map();
-      for (const block of run.blocks) for (const [name, data] of await columnsOf(block)) found.set(name, data);
+      const arrays = new Map();
+      for (const block of run.blocks) for (const [name, data] of await columnsOf(block)) arrays.set(name, data);
       const columns = Object.create(null);
-      for (const name of run.order) columns[name] = { unit: run.units[name] ?? "", data: found.get(name) };
+      for (const name of run.order) columns[name] = { unit: run.units[name] ?? "", data: arrays.get(name) };
       const scene = run.scene === null ? null : page.scenes[run.scene];
       return { scene, t: times.get("time"), epoch: times.get("epoch"), columns, name: run.name, notes: run.notes, missing: run.missing };
     }),

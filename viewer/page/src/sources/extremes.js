@@ -1,13 +1,13 @@
-// Finds the instants of a run at which part of a body may be lowest.
+// Finds instants of a run at which some part of a body may be at its lowest.
 
 /**
- * Where positions of frames and amplitudes of flexible bodies are largest and smallest.
+ * Instants at which positions of frames or amplitudes of flexible bodies are largest or smallest.
  * @param {import("./decode.js").Run} run with a scene
  * @returns {number[]} indices of times, ascending
  */
 export function extremesOf({ scene, columns }) {
   const names = [...Object.values(scene.frames ?? {}).flatMap(({ position }) => position ?? []), ...(scene.flexible ?? []).flatMap(({ amplitudes }) => amplitudes)];
-  const found = new Set();
+  const indices = new Set();
   for (const name of names) {
     const data = columns[name]?.data ?? [];
     let [low, high] = [0, 0];
@@ -15,7 +15,7 @@ export function extremesOf({ scene, columns }) {
       if (data[i] < data[low] || Number.isNaN(data[low])) low = i;
       if (data[i] > data[high] || Number.isNaN(data[high])) high = i;
     }
-    if (data.length > 0) found.add(low).add(high);
+    if (data.length > 0) indices.add(low).add(high);
   }
-  return [...found].sort((a, b) => a - b);
+  return [...indices].sort((a, b) => a - b);
 }

@@ -1,4 +1,4 @@
-// FMUs that run in the tab, as a source of a page (see `Source` in shell/shell.js): between the worker and what is seen.
+// FMUs that run in the tab, as a source of a page (see `Source` in shell/shell.js): connects the worker with the page.
 import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
@@ -6,15 +6,15 @@ import { speedActions, unitsOf } from "./source_actions.js";
 import { Blend, turnsOf } from "./blend.js";
 import { clock } from "../live/worker.js";
 
-/** The picture is this much behind the run, so that there is a row on either side of it, s. */
-const BEHIND = 0.03;
-/** Points of a curve. */
-const MOST_POINTS = 1000;
+/** Delay of the picture behind the run, so that there is a row before and after it, s. */
+const DELAY = 0.03;
+/** Largest number of points of a curve. */
+const MAX_POINTS = 1000;
 
-/** What an answer begins with, by what was asked. */
-const REFUSED = { open: "The FMU could not be started: ", restart: "These values were refused: ", worker: "The FMU stopped: " };
+/** Beginnings of error messages, by the action that failed. */
+const ERROR_PREFIXES = { open: "The FMU could not be started: ", restart: "These values were refused: ", worker: "The FMU stopped: " };
 
-/** A run as the page sees it. */
+/** A run in the worker, as a source. */
 export class Session {
   grows = true;
   speeds = [0.02, 0.1, 0.25, 0.5, 1, 2, 5];
@@ -22,9 +22,9 @@ export class Session {
   /**
    * @param {Data[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
    * @param {Data} options - `step`, `start`, `script` (inputs over time), `worker`, `places` (start values by name).
-   * @param {Data} hears - Functions: started, refused, message, error, moved (another instant is to be shown), ran.
+   * @param {Data} listeners - Functions: started, refused, message, error, back, moved (another instant is to be shown), ran.
    */
-  constructor(fmus, options, hears) {
+  constructor(fmus, options, listeners) {
     const descriptions = fmus.map((f) => f.description);
     this.step = options.step ?? descriptions[0].stepSize ?? 0.01;
     this.start = { ...options.start };
@@ -36,9 +36,9 @@ export class Session {
     this.speed = 1;
     this.pace = { at: 0, factor: null, slow: 0, cost: 0 };
     this.oldest = 0;
-    this.scrubbed = null; // time of the picture where it is not that of the run, s
-    this._hears = hears;
-    this._waiting = new Map();
+    this.scrubbed = null; // time of a picture earlier in the run, s; null: that of the run
+    this._listeners = listeners;
+    this._pending = new Map();
     const inputs = this.held.filter((v) => v.causality === "input").map((v) => v.name);
     const named = [...inputs, ...new Set(descriptions.flatMap((d) => outputNames(d)))];
     this.columns = unitsOf(named, (name) => this.variables.get(name)?.unit);
@@ -49,11 +49,11 @@ export class Session {
       step: () => this.advance(),
       reset: () => this.again(),
       seek: (time) => this.scrub(time),
-      stepSize: (step) => this.again(this._fitting(step), step).catch(() => {}), // told by `error`
+      stepSize: (step) => this.again(this._fitting(step), step).catch(() => {}), // reported by `error`
       ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
     };
     this._newRecord();
-    this._desk = new Desk((message) => this._take(message), options);
+    this._desk = new Desk((message) => this._receive(message), options);
     this.threaded = this._desk.threaded;
     const parts = fmus.map(({ description, wasm, resources }) => ({ description, wasm, resources }));
     const { script } = options;
@@ -70,41 +70,41 @@ export class Session {
     return [this.oldest, this.end];
   }
 
-  /** Time of the picture, s: a little behind the run, and evenly on by the clock. */
+  /** Time of the picture, s: a little behind the run, and even by the clock. */
   get time() {
     if (this.scrubbed !== null) return this.scrubbed;
     if (!this.running) return this.end;
     const rate = this.pace.factor === null ? this.speed : Math.min(this.speed, this.pace.factor);
-    const target = this._k * this.step + rate * (clock() - this.pace.at - BEHIND);
+    const target = this._k * this.step + rate * (clock() - this.pace.at - DELAY);
     this._last = Math.max(this._last, Math.min(this.end, target));
     return this._last;
   }
 
-  /** Let time run; from the instant that is shown if it is an earlier one. */
+  /** Run; from the shown instant if it is an earlier one. @param {number} [speed] - Simulated seconds per second. */
   async run(speed = this.speed) {
     if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
     this.speed = speed;
     this.running = true;
     this._last = Math.min(this.end, this._last);
     this._desk.send({ do: "run", speed });
-    this._hears.ran();
+    this._listeners.ran();
   }
 
-  /** Let time stand. */
+  /** Pause the run. */
   pause() {
     this.running = false;
     return this._ask("paused", { do: "pause" });
   }
 
-  /** Some communication steps, then stand. */
+  /** Compute some communication steps, then pause. @param {number} [count] */
   async advance(count = 1) {
     if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
     this.running = false;
     await this._ask("paused", { do: "step", count });
-    this._hears.moved();
+    this._listeners.moved();
   }
 
-  /** Begin again, with other start values or another communication step where they are given, and run on if it ran. */
+  /** Restart, with other start values or another communication step if they are given, and continue if it was running. */
   async again(start = this.start, step = this.step) {
     const { running } = this;
     Object.assign(this, { start: { ...start }, step, running: false, scrubbed: null });
@@ -112,46 +112,46 @@ export class Session {
       await this._ask("started", { do: "restart", start: this.start, step });
     } finally {
       if (running) await this.run();
-      this._hears.moved();
+      this._listeners.moved();
     }
   }
 
-  /** Go back, and run on if it ran. @param {number} seconds - Of the run. */
+  /** Go back, and continue if it was running. @param {number} seconds - Simulated time. */
   async rewind(seconds) {
     const { running } = this;
     await this.back(Math.max(0, Math.round((this.time - seconds) / this.step)));
     if (running) await this.run();
-    this._hears.moved();
+    this._listeners.moved();
   }
 
-  /** Start values with which an inner step is not longer than another communication step. */
+  /** Start values whose inner step is not longer than a new communication step. @param {number} step - s. */
   _fitting(step) {
     const inner = this.variables.get("step_size");
     const { step_size: _, ...start } = this.start;
     return inner && step < Number(inner.start) ? { ...start, step_size: Math.max(step, inner.min ?? 0) } : start;
   }
 
-  /** Go back to a step that was; what came after it is forgotten. */
+  /** Go back to step `k`; later rows are deleted. @param {number} k */
   async back(k) {
     this.running = false;
     this.scrubbed = null;
     await this._ask("back", { do: "back", k });
   }
 
-  /** Show an earlier instant. */
+  /** Pause, and show an earlier instant. @param {number} time - s. */
   scrub(time) {
     if (this.running) this.pause();
     this.scrubbed = Math.max(this.oldest, Math.min(time, this.end));
   }
 
-  /** What a hand wants. @param {string} source @param {[string, number, number?][]} wants */
+  /** Pass on requests for inputs. @param {string} source @param {[string, number, number?][]} wants - Input, value, largest change per second. */
   want(source, wants) {
     if (wants.length) this._desk.send({ do: "want", wants });
   }
 
   /**
-   * Set an input, or a parameter: a tunable one at once, a fixed one begins the run again.
-   * @returns {Promise<boolean>} Whether it began again.
+   * Set an input or a parameter: a tunable one at once, a fixed one by a restart of the run.
+   * @returns {Promise<boolean>} Whether the run was restarted.
    */
   async set(name, value) {
     const variable = this.variables.get(name);
@@ -164,7 +164,7 @@ export class Session {
     return true;
   }
 
-  /** Values that the run began with, where they are not those of the FMU. */
+  /** Start values of the run that differ from those of the FMU, by name. */
   changed() {
     return Object.entries(this.start).filter(([name, value]) => value !== this.variables.get(name)?.start);
   }
@@ -173,7 +173,7 @@ export class Session {
   csv() {
     const changed = this.changed().map(([name, value]) => `${name}=${typeof value === "string" ? `"${value}"` : value}`);
     const inputs = this.held.filter((v) => v.causality === "input").map((v) => v.name);
-    const tuned = this.held.filter((v) => v.causality !== "input" && this._moved.has(v.name)).map((v) => v.name);
+    const tuned = this.held.filter((v) => v.causality !== "input" && this._tuned.has(v.name)).map((v) => v.name);
     const { record } = this;
     const outputs = this.prefixes.length > 1 ? record.outputs : this.outputs;
     const comments = changed.length ? [`start: ${changed.join(", ")}`] : [];
@@ -183,7 +183,7 @@ export class Session {
     return record.csv(comments, [...inputs, ...tuned], outputs);
   }
 
-  /** Numbers of each FMU at a time; fixed parameters have the values of the start. @param {number} [time] - s. */
+  /** Lookups of the numbers of each FMU at a time; fixed parameters have their start values. @param {number} [time] - s. */
   sample(time = this.time) {
     return this._bound.map(({ blend, columns, fixed }) => {
       const lookup = between(this.record, time, blend, columns);
@@ -191,12 +191,12 @@ export class Session {
     });
   }
 
-  /** Which columns of the record are those of each FMU. */
+  /** Find the columns of the record for the variables of each FMU. */
   _bind() {
     this._bound = this.fmus.map(({ description: { variables }, scene }, k) => {
       /** @type {[string, number][]} */
-      const found = variables.filter((v) => v.causality === "output").map((v) => [v.name, this.record.column(this.prefixes[k] + v.name)]);
-      const columns = new Map([...this.held.map((v, i) => /** @type {[string, number]} */ ([v.name, i])), ...found.filter(([, index]) => index >= 0)]);
+      const outputColumns = variables.filter((v) => v.causality === "output").map((v) => [v.name, this.record.column(this.prefixes[k] + v.name)]);
+      const columns = new Map([...this.held.map((v, i) => /** @type {[string, number]} */ ([v.name, i])), ...outputColumns.filter(([, index]) => index >= 0)]);
       const fixed = new Map(variables.filter((v) => !columns.has(v.name)).map((v) => [v.name, this.start[v.name] ?? v.start]));
       return { blend: new Blend(turnsOf(scene)), columns, fixed };
     });
@@ -207,17 +207,17 @@ export class Session {
     const { record } = this;
     const rows = Number.isFinite(span) ? Math.round(span / this.step) : record.end;
     const from = Math.max(record.first, record.end - rows);
-    const stride = Math.max(1, Math.ceil((record.end - from) / MOST_POINTS));
-    const [t] = record.series(0, from, stride); // one list, which tells a diagram that its curves share their times
+    const stride = Math.max(1, Math.ceil((record.end - from) / MAX_POINTS));
+    const [t] = record.series(0, from, stride); // one array for all curves, by which a diagram recognises that they share their times
     return this.prefixes.map((prefix, k) => {
-      const at = (name) => record.column(prefix + name); // what is set is in no FMU, or in the first
-      const own = names.filter((name) => at(name) >= 0);
-      const columns = Object.fromEntries(own.map((name) => [name, { unit: this.columns.get(name), data: record.series(at(name), from, stride)[1] }]));
+      const at = (name) => record.column(prefix + name); // inputs and parameters have no prefix: they count to the first FMU
+      const present = names.filter((name) => at(name) >= 0);
+      const columns = Object.fromEntries(present.map((name) => [name, { unit: this.columns.get(name), data: record.series(at(name), from, stride)[1] }]));
       return { name: this.fmus[k].title, t, columns };
     });
   }
 
-  /** End it. */
+  /** End the worker. */
   close() {
     this._desk.close();
   }
@@ -225,24 +225,24 @@ export class Session {
   _newRecord() {
     this.record = new Record(this.held.map((v) => v.name), this.outputs, this.step);
     this._bind();
-    this._moved = new Set(); // parameters that were changed in the run
+    this._tuned = new Set(); // parameters that were changed in the run
     this._k = 0;
     this._last = 0;
   }
 
   _ask(answer, message) {
     return new Promise((resolve, reject) => {
-      this._waiting.set(answer, [...(this._waiting.get(answer) ?? []), { resolve, reject }]);
+      this._pending.set(answer, [...(this._pending.get(answer) ?? []), { resolve, reject }]);
       this._desk.send(message);
     });
   }
 
   _answer(answer, value) {
-    const first = this._waiting.get(answer)?.shift();
+    const first = this._pending.get(answer)?.shift();
     first?.resolve(value);
   }
 
-  _take(message) {
+  _receive(message) {
     this[`_on_${message.is}`](message);
   }
 
@@ -252,7 +252,7 @@ export class Session {
     this.record.add(held, outputs);
     this.oldest = 0;
     this.pace = { at: clock(), factor: null, slow: 0, cost: this.pace.cost };
-    this._hears.started();
+    this._listeners.started();
     this._answer("started");
   }
 
@@ -260,7 +260,7 @@ export class Session {
     const [inputCount, width] = [this.held.length, this.held.length + this.outputs.length];
     for (let n = 0; n < count; n++) {
       const row = rows.subarray(n * width, (n + 1) * width);
-      this._noteMoved(row);
+      this._noteTuned(row);
       this.record.add(row.subarray(0, inputCount), row.subarray(inputCount));
     }
     this._k = k;
@@ -274,7 +274,7 @@ export class Session {
   }
 
   _on_back({ k }) {
-    this._hears.back();
+    this._listeners.back();
     this.record.cut(k);
     this._k = k;
     this._last = this.end;
@@ -283,27 +283,27 @@ export class Session {
 
   _on_refused({ which, text, alive }) {
     if (!alive) this.running = false;
-    this._hears.refused(which, text, alive);
+    this._listeners.refused(which, text, alive);
   }
 
   _on_message({ which, text, status }) {
-    this._hears.message(which, text, status);
+    this._listeners.message(which, text, status);
   }
 
   _on_error({ at, text }) {
     this.running = false;
-    const sentence = `${REFUSED[at] ?? ""}${text}`;
-    const waiting = [...this._waiting.values()].flat();
-    this._waiting.clear();
-    waiting.forEach(({ reject }) => reject(new Error(sentence)));
-    this._hears.error(sentence);
+    const sentence = `${ERROR_PREFIXES[at] ?? ""}${text}`;
+    const pending = [...this._pending.values()].flat();
+    this._pending.clear();
+    pending.forEach(({ reject }) => reject(new Error(sentence)));
+    this._listeners.error(sentence);
   }
 
-  /** Which tunable parameters of a row are other than in the row before. */
-  _noteMoved(row) {
+  /** Note the tunable parameters that differ from the row before. */
+  _noteTuned(row) {
     const before = this.record.row(this.record.end - 1);
     this.held.forEach((v, i) => {
-      if (v.causality !== "input" && row[i] !== before[i]) this._moved.add(v.name);
+      if (v.causality !== "input" && row[i] !== before[i]) this._tuned.add(v.name);
     });
   }
 }

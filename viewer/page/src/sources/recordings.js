@@ -4,11 +4,11 @@ import { Sampler } from "./sampler.js";
 
 /** Speeds that can be chosen. */
 const SPEEDS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
-/** Recorded times of a step, without and with Shift. */
+/** Recorded times per step, without and with Shift. */
 const STEPS = [1, 10];
 
 /**
- * Names of all signals: those that do not only place bodies come first.
+ * Names of all signals; those of positions and orientations of frames are last.
  * @param {Pick<import("./decode.js").Run, "scene" | "columns">[]} runs
  * @returns {string[]}
  */
@@ -23,26 +23,26 @@ export function signalNames(runs) {
   return [...all.filter((name) => !poses.has(name)), ...all.filter((name) => poses.has(name))];
 }
 
-/** Recordings that are shown at one time, which runs and stands; where pictures take long there are fewer of them. */
+/** Recordings shown at one common time, which can run and pause; slow drawing lowers the rate of pictures, not the pace. */
 export class Recordings {
   speeds = SPEEDS;
   running = false;
-  /** Told when another instant (true) or pace is to be shown. @type {(moved: boolean) => Promise<void>} */
+  /** Called when another instant (true) or pace (false) is to be shown. @type {(moved: boolean) => Promise<void>} */
   changed = () => Promise.resolve();
 
   /** @param {import("./decode.js").Run[]} runs @param {{speed?: number, loop?: boolean, time?: number}} options */
   constructor(runs, { speed = 1, loop = true, time }) {
     this.runs = runs;
     this.speed = speed;
-    /** Whether it begins again at the end. */
+    /** Whether the run starts again at its end. */
     this.loop = loop;
     this.samplers = runs.map((run) => new Sampler(run));
     const [begin, end] = [Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1]))];
     /** @type {[number, number]} */
     this.range = [begin, end];
-    this.time = this._within(time ?? begin);
+    this.time = this._limited(time ?? begin);
     this.columns = unitsOf(signalNames(runs), (name) => runs.find(({ columns }) => name in columns).columns[name].unit);
-    const far = (/** @type {Data} */ event) => STEPS[event?.shiftKey ? 1 : 0];
+    const stepsOf = (/** @type {Data} */ event) => STEPS[event?.shiftKey ? 1 : 0];
     const toggle = () => this._pace(() => (this.running ? (this.running = false) : this._run()));
     const seek = (t) => this._seek(t);
     const pace = speedActions(this, {
@@ -54,18 +54,18 @@ export class Recordings {
       toggle,
       play: toggle,
       seek,
-      step: () => seek(this._beside(STEPS[0])),
-      before: (event) => seek(this._beside(-far(event))),
-      after: (event) => seek(this._beside(far(event))),
-      faster: () => pace.speed(this._next(1)),
-      slower: () => pace.speed(this._next(-1)),
+      step: () => seek(this._recordedTime(STEPS[0])),
+      before: (event) => seek(this._recordedTime(-stepsOf(event))),
+      after: (event) => seek(this._recordedTime(stepsOf(event))),
+      faster: () => pace.speed(this._nextSpeed(1)),
+      slower: () => pace.speed(this._nextSpeed(-1)),
       reset: () => seek(begin),
       end: () => seek(end),
       loop: () => this._pace(() => (this.loop = !this.loop)),
     };
   }
 
-  /** Let time pass. @param {number} passed s of the wall clock since the last picture */
+  /** Advance the time. @param {number} passed s of the wall clock since the last picture */
   tick(passed) {
     if (!this.running) return;
     const [begin, end] = this.range;
@@ -75,18 +75,18 @@ export class Recordings {
     else [this.time, this.running] = [end, false];
   }
 
-  /** Runs as diagrams show them. */
+  /** Runs for diagrams. */
   plotted() {
     return this.runs;
   }
 
-  /** Numbers of each run. @param {number} [t] s @returns {import("../shell/shell.js").Lookup[]} */
+  /** Lookups of the numbers of each run. @param {number} [t] s @returns {import("../shell/shell.js").Lookup[]} */
   sample(t = this.time) {
     return this.samplers.map((sampler) => sampler.at(t));
   }
 
-  /** A recorded time of the first run, so many from the one that is shown; the run then stands. @param {number} steps */
-  _beside(steps) {
+  /** The recorded time of the first run some steps after (negative: before) the shown one, s; pauses. @param {number} steps */
+  _recordedTime(steps) {
     this.running = false;
     const { t } = this.runs[0];
     const [k, share] = this.samplers[0].place;
@@ -95,7 +95,7 @@ export class Recordings {
   }
 
   _seek(t) {
-    this.time = this._within(t);
+    this.time = this._limited(t);
     return this.changed(true);
   }
 
@@ -105,8 +105,8 @@ export class Recordings {
     this.running = end > begin;
   }
 
-  /** @param {number} t held within the runs; their begin where it is no number */
-  _within(t) {
+  /** A time limited to the range of the runs; their begin if it is not finite. @param {number} t s */
+  _limited(t) {
     const [begin, end] = this.range;
     return Math.min(end, Math.max(begin, Number.isFinite(t) ? t : begin));
   }
@@ -116,7 +116,7 @@ export class Recordings {
     this.changed(false);
   }
 
-  _next(change) {
+  _nextSpeed(change) {
     const k = SPEEDS.findIndex((speed) => speed >= this.speed - 1e-9);
     const at = k < 0 ? SPEEDS.length - 1 : k;
     return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + change))];

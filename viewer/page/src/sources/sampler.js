@@ -2,9 +2,9 @@
 import { Blend, turnsOf } from "./blend.js";
 
 /**
- * Index of the last time that is not after t, and how far t is on the way to the next.
+ * Index of the last time that is not after t, and the share of the way from it to the next.
  * @param {ArrayLike<number>} times not decreasing
- * @param {number} t outside the times: their ends
+ * @param {number} t limited to the range of the times
  * @returns {[number, number]}
  */
 export function place(times, t) {
@@ -21,12 +21,12 @@ export function place(times, t) {
   return [low, (t - times[low]) / (times[high] - times[low])];
 }
 
-/** @param {ArrayLike<number>} data @param {number} k @param {number} share of the way to sample k + 1 */
+/** Interpolate linearly. @param {ArrayLike<number>} data @param {number} k @param {number} share of the way to sample k + 1 */
 export function linear(data, k, share) {
   return share === 0 ? data[k] : data[k] + share * (data[k + 1] - data[k]);
 }
 
-/** A run at an instant; `lookup` gives the numbers that the view asks for. */
+/** A run at an instant; `lookup` gives its numbers by name. */
 export class Sampler {
   /** @type {(name: string) => number | undefined} */
   _now;
@@ -39,13 +39,13 @@ export class Sampler {
     this.at(run.t[0]);
   }
 
-  /** @param {number} t s @returns {import("../shell/shell.js").Lookup} `lookup`, which gives the numbers of that time from now on */
+  /** Go to a time. @param {number} t s @returns {import("../shell/shell.js").Lookup} `lookup`, which from now on gives the numbers of that time */
   at(t) {
     const { t: times, epoch, columns } = this.run;
     /** Sample before the instant, and the share of the way to the next. @type {[number, number]} */
     this.place = place(times, t);
     const [k, share] = this.place;
-    if (share > 0 && epoch && epoch[k] !== epoch[k + 1]) this.place[1] = 0; // nothing moves from one epoch to the next
+    if (share > 0 && epoch && epoch[k] !== epoch[k + 1]) this.place[1] = 0; // no interpolation between epochs
     const row = (i) => (name) => columns[name]?.data[i];
     this._now = this._blend.lookup(row(k), row(k + 1), this.place[1]);
     return this.lookup;

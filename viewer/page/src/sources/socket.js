@@ -1,13 +1,13 @@
-// A car that another program drives, as a source of a page (see `Source` in shell/shell.js): its frames come by a socket.
+// A car that another program drives, as a source of a page (see `Source` in shell/shell.js): its frames arrive by a socket.
 import { speedActions, unitsOf } from "./source_actions.js";
 import { Blend, turnsOf } from "./blend.js";
 import { Frames } from "./frames.js";
 import { InputRequests } from "./input_requests.js";
 
-/** Numbers of the frames that diagrams have, in all, and points of a curve. */
-const [KEPT, MOST_POINTS] = [1e7, 1000];
+/** Largest count of numbers kept for diagrams, and of points of a curve. */
+const [MAX_KEPT_NUMBERS, MAX_POINTS] = [1e7, 1000];
 
-/** The car at the other end of a link. */
+/** The car of a link, as a source. */
 export class Socket {
   grows = true;
   speeds = [0.1, 0.25, 0.5, 1];
@@ -33,7 +33,7 @@ export class Socket {
       ...speedActions(this, { speed: (factor) => command("speed", factor), back }),
       toggle: () => command(this.running ? "pause" : "run"),
       step: () => command("step", 1),
-      seek: (time, done) => done && back(this.range[1] - time), // the program goes back once it is told how far
+      seek: (time, done) => done && back(this.range[1] - time), // sent when dragging has ended
       upright: () => command("upright"),
       reset: () => command("reset"),
       ...((world.places ?? []).length ? { place: (name) => link.send({ type: "place", name }) } : {}),
@@ -53,28 +53,28 @@ export class Socket {
     return this._shown?.time ?? 0;
   }
 
-  /** What the program can go back to. @returns {[number, number]} */
+  /** Times to which the program can go back, s. @returns {[number, number]} */
   get range() {
     const { time = 0, saved = 0 } = this.frames.newest ?? {};
     return [time - saved, time];
   }
 
-  /** A frame has come. @param {any} frame As `readFrame` has it. @param {number} now - Clock of the page, s. @returns {boolean} Whether it begins an epoch. */
+  /** Add a received frame. @param {any} frame - Result of `readFrame`. @param {number} now - Clock of the page, s. @returns {boolean} Whether it begins an epoch. */
   add(frame, now) {
     const restarted = this.frames.add(frame, now);
     while (this._past.length && this._past.at(-1).time >= frame.time) this._past.pop();
     this._past.push(frame);
-    if (this._past.length * this.index.size > KEPT) this._past.splice(0, this._past.length >> 2);
+    if (this._past.length * this.index.size > MAX_KEPT_NUMBERS) this._past.splice(0, this._past.length >> 2);
     return restarted;
   }
 
-  /** Where the picture stands; null before the first frame. @param {number} now - Clock of the page, s. */
+  /** The instant of the picture, see `Frames.at`; null before the first frame. @param {number} now - Clock of the page, s. */
   at(now) {
     this._shown = this.frames.at(now);
     return this._shown;
   }
 
-  /** Numbers of the car where the picture stands. @returns {import("../shell/shell.js").Lookup[]} */
+  /** Lookup of the numbers of the car at the instant of the picture. @returns {import("../shell/shell.js").Lookup[]} */
   sample() {
     const { before, after, share } = this._shown;
     const numbers = (/** @type {Data} */ { values }) => (name) => values[this.index.get(name)];
@@ -82,12 +82,12 @@ export class Socket {
     return [(name) => (this.index.has(name) ? row(name) : Number(this._fixed.get(name) ?? NaN))];
   }
 
-  /** A constant or a parameter at the start. @param {string} name */
+  /** The value of a constant, or the start value of a parameter. @param {string} name */
   fixed(name) {
     return this._fixed.get(name);
   }
 
-  /** @param {string} source @param {[string, number, number?][]} wants */
+  /** Pass on requests for inputs. @param {string} source @param {[string, number, number?][]} wants - Input, value, largest change per second. */
   want(source, wants) {
     this.wants.want(source, wants);
   }
@@ -96,7 +96,7 @@ export class Socket {
   plotted(names, span) {
     const first = (this._past.at(-1)?.time ?? 0) - span;
     const recent = this._past.filter(({ time }) => time >= first);
-    const stride = Math.max(1, Math.ceil(recent.length / MOST_POINTS));
+    const stride = Math.max(1, Math.ceil(recent.length / MAX_POINTS));
     const thinned = recent.filter((_, k) => k % stride === 0);
     const column = (name) => thinned.map(({ values }) => values[this.index.get(name)]);
     const columns = Object.fromEntries(names.map((name) => [name, { unit: this.columns.get(name), data: column(name) }]));

@@ -1,11 +1,11 @@
-// What modelDescription.xml of an FMU (FMI 2.0) says, as an object.
+// Reads modelDescription.xml of an FMU (FMI 2.0) into an object.
 
 const TYPES = ["Real", "Integer", "Boolean", "String", "Enumeration"];
 
 /**
  * @typedef {object} Variable
  * @property {string} name
- * @property {number} reference its value reference; numbers of one type
+ * @property {number} reference its value reference, unique among variables of its type
  * @property {string} type "Real", "Integer", "Boolean" or "String"
  * @property {string} causality "input", "output", "parameter", "local", ...
  * @property {string} variability "continuous", "discrete", "tunable", "fixed", "constant"
@@ -21,15 +21,15 @@ const TYPES = ["Real", "Integer", "Boolean", "String", "Enumeration"];
  * @property {string} modelName
  * @property {string} guid
  * @property {string} description
- * @property {number|undefined} startTime s, of the default experiment; so are the next two
+ * @property {number|undefined} startTime of the default experiment, s; so are the next two
  * @property {number|undefined} stopTime
  * @property {number|undefined} stepSize
  * @property {Variable[]} variables
  */
 
 /**
- * The description of an FMU.
- * @param {string|Description} source text of modelDescription.xml, where there is a DOMParser, or the object itself
+ * Read or check the description of an FMU.
+ * @param {string|Description} source text of modelDescription.xml, which needs a DOMParser, or the object itself
  * @returns {Description}
  */
 export function describe(source) {

@@ -1,13 +1,13 @@
-// Errors of calls of an FMU.
+// The error of a refused call of an FMU.
 
-/** Statuses of FMI by their numbers. */
+/** Names of the statuses of FMI, in the order of their numbers. */
 export const STATUSES = ["ok", "warning", "discard", "error", "fatal", "pending"];
 
-/** A call that the FMU refused, in its own words. */
+/** A call was refused by the FMU; the message contains its explanation. */
 export class FmuError extends Error {
   /**
    * @param {string} message
-   * @param {string} status "discard" (the state is that before the step; another step may be tried), "error" or "fatal"
+   * @param {string} status "discard" (the state is that before the step, and a shorter step may be tried), "error" or "fatal"
    */
   constructor(message, status) {
     super(message);

@@ -1,4 +1,4 @@
-// An FMU of ALi3 (FMI 2.0, platform wasm32) in a page or any other host of JavaScript.
+// An FMU of ALi3 (FMI 2.0, platform wasm32) in a page or any other JavaScript host.
 import { describe } from "./description.js";
 import { FmuError } from "./errors.js";
 import { FmuInstance } from "./instance.js";
@@ -12,7 +12,7 @@ const RESOURCES = "/resources";
  * Loads an FMU.
  * @param {object} parts
  * @param {BufferSource} parts.wasm the file binaries/wasm32/NAME.wasm
- * @param {string|import("./description.js").Description} parts.description modelDescription.xml, or what it says
+ * @param {string|import("./description.js").Description} parts.description text of modelDescription.xml, or its content as an object
  * @param {Object<string, ArrayBuffer|Uint8Array>} parts.resources files by their paths inside the folder resources
  * @returns {Promise<Fmu>}
  */
@@ -50,13 +50,13 @@ export class Fmu {
     this.memory = new ModuleMemory(exports);
     /** @type {Map<string, import("./description.js").Variable>} variables by name */
     this.variables = new Map(description.variables.map((variable) => [variable.name, variable]));
-    /** Why the module can no longer be used; empty as long as it can. */
+    /** Why the module can no longer be used; empty while it can. */
     this.broken = "";
     this._box = exports.ali3_messages() >>> 2;
   }
 
   /**
-   * Puts a file into the folder of the resources, in place of one of the same path. A road lies in roads/.
+   * Puts a file into the folder of the resources, in place of one with the same path. Roads are in roads/.
    * @param {string} path such as "system_0.ali3" or "roads/own.road"
    * @param {ArrayBuffer|Uint8Array} content
    */
@@ -76,7 +76,7 @@ export class Fmu {
    * Makes an instance.
    * @param {object} [options]
    * @param {string} [options.name]
-   * @param {boolean} [options.logging] whether it tells of more than problems
+   * @param {boolean} [options.logging] whether it reports more than problems
    * @returns {FmuInstance}
    */
   instantiate({ name = this.description.modelName, logging = false } = {}) {

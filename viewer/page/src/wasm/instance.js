@@ -2,7 +2,7 @@
 import { FmuError, STATUSES } from "./errors.js";
 import { Transfer } from "./transfer.js";
 
-const MOST_MESSAGES = 1000;
+const MAX_MESSAGES = 1000;
 const LAST_SUCCESSFUL_TIME = 2;
 
 /** A state of an instance, kept in the module's memory. */
@@ -10,10 +10,10 @@ class FmuState {
   constructor(instance) {
     this.instance = instance;
     this.address = 0;
-    this.phase = undefined; // of the instance that it is a state of, where that is known
+    this.phase = undefined; // phase of the instance, if known
   }
 
-  /** Gives its memory back. */
+  /** Frees its memory. */
   free() {
     if (this.address === 0) return;
     this.instance._withPointer(this.address, (p, c, e) => e.fmi2FreeFMUstate(c, p), "Freeing a state");
@@ -22,13 +22,13 @@ class FmuState {
   }
 }
 
-/** One instance. Made by `Fmu.instantiate`. A call that the FMU refuses throws an `FmuError`; the instance stays. */
+/** An instance, made by `Fmu.instantiate`. A refused call throws an `FmuError`; the instance remains usable. */
 export class FmuInstance {
   constructor(fmu, component, messages) {
     this.fmu = fmu;
     this._component = component;
-    this._room = fmu.memory.block(16); // for one value or pointer
-    this._owned = new Set(); // states and transfers, whose memory goes with the instance
+    this._scratch = fmu.memory.block(16); // block for one value reference or pointer, and one value
+    this._owned = new Set(); // states and transfers, freed with the instance
     this._phase = "new";
     this._startTime = 0;
     this._started = false;
@@ -36,7 +36,7 @@ export class FmuInstance {
     this.time = 0;
     /** Messages of the FMU, the last 1000: status (a word), category, text. */
     this.messages = [];
-    this._keep(messages);
+    this._addMessages(messages);
   }
 
   /**
@@ -83,9 +83,9 @@ export class FmuInstance {
    */
   getString(name) {
     const { memory, exports } = this.fmu;
-    memory.view().words[this._room >>> 2] = this._variable(name, "String").reference;
-    this._call(`Reading '${name}'`, () => exports.fmi2GetString(this._component, this._room, 1, this._room + 8));
-    return memory.text(memory.view().words[(this._room + 8) >>> 2]);
+    memory.view().words[this._scratch >>> 2] = this._variable(name, "String").reference;
+    this._call(`Reading '${name}'`, () => exports.fmi2GetString(this._component, this._scratch, 1, this._scratch + 8));
+    return memory.text(memory.view().words[(this._scratch + 8) >>> 2]);
   }
 
   /**
@@ -103,9 +103,9 @@ export class FmuInstance {
   }
 
   /**
-   * The same for many calls: what can be prepared is.
+   * A function that reads variables of the types Real and Integer, prepared for many calls.
    * @param {string[]} names
-   * @returns {() => Float64Array} gives the array that the next call fills again
+   * @returns {() => Float64Array} returns one value a name, in an array that the next call fills again
    */
   reader(names) {
     const transfer = new Transfer(this, names);
@@ -114,7 +114,7 @@ export class FmuInstance {
   }
 
   /**
-   * Sets variables of the types Real and Integer, for many calls.
+   * A function that sets variables of the types Real and Integer, prepared for many calls.
    * @param {string[]} names
    * @returns {(values: ArrayLike<number>) => void} takes one value a name
    */
@@ -128,7 +128,7 @@ export class FmuInstance {
    * Initialises. May be called again after it was refused and other values were set.
    * @param {object} [experiment]
    * @param {number} [experiment.startTime] s
-   * @param {number} [experiment.stopTime] s; no end where it is left out
+   * @param {number} [experiment.stopTime] s; without it the run has no end
    */
   initialise({ startTime = 0, stopTime } = {}) {
     const { exports } = this.fmu;
@@ -164,9 +164,9 @@ export class FmuInstance {
   }
 
   /**
-   * The state, to go back to.
-   * @param {FmuState} [state] an old one, whose memory is used again
-   * @returns {FmuState} kept until `free()` is called on it
+   * Saves the state; `setState` restores it.
+   * @param {FmuState} [state] an older state, whose memory is used again
+   * @returns {FmuState} valid until its `free()` is called
    */
   getState(state = new FmuState(this)) {
     state.address = this._withPointer(state.address, (p, c, e) => e.fmi2GetFMUstate(c, p), "Getting the state");
@@ -175,7 +175,7 @@ export class FmuInstance {
     return state;
   }
 
-  /** @param {FmuState} state what `getState` or `deserialise` gave */
+  /** Restores a state. @param {FmuState} state from `getState` or `deserialise` */
   setState(state) {
     this._call("Setting the state", () => this.fmu.exports.fmi2SetFMUstate(this._component, state.address));
     this.time = this._kernelTime();
@@ -201,8 +201,8 @@ export class FmuInstance {
   }
 
   /**
-   * A state from bytes; `setState` goes to it.
-   * @param {Uint8Array} bytes what `serialise` gave, here or on another platform
+   * A state from bytes; `setState` restores it.
+   * @param {Uint8Array} bytes result of `serialise`, here or on another platform
    * @returns {FmuState}
    */
   deserialise(bytes) {
@@ -219,7 +219,7 @@ export class FmuInstance {
     }
   }
 
-  /** Back to where `instantiate` was; what was set is forgotten, states stay. */
+  /** Returns to the condition after `instantiate`; values that were set are lost, saved states remain. */
   reset() {
     this._call("Resetting", () => this.fmu.exports.fmi2Reset(this._component));
     this._phase = "new";
@@ -231,12 +231,12 @@ export class FmuInstance {
     this._call("Ending the run", () => this.fmu.exports.fmi2Terminate(this._component));
   }
 
-  /** Gives the memory of the instance and its states back; nothing can be done with them afterwards. */
+  /** Frees the instance and its states; they cannot be used afterwards. */
   free() {
     if (this._component === 0) return;
     for (const each of [...this._owned]) each.free();
     this.fmu.call(() => this.fmu.exports.fmi2FreeInstance(this._component));
-    this.fmu.memory.free(this._room);
+    this.fmu.memory.free(this._scratch);
     this._component = 0;
   }
 
@@ -254,42 +254,42 @@ export class FmuInstance {
   _setNumber(call, type, name, value, put) {
     const { memory, exports } = this.fmu;
     const { reference } = this._variable(name, type);
-    memory.view().words[this._room >>> 2] = reference;
-    put(memory, this._room + 8);
-    this._call(`Setting '${name}' to ${value}`, () => exports[call](this._component, this._room, 1, this._room + 8));
+    memory.view().words[this._scratch >>> 2] = reference;
+    put(memory, this._scratch + 8);
+    this._call(`Setting '${name}' to ${value}`, () => exports[call](this._component, this._scratch, 1, this._scratch + 8));
   }
 
-  /** Calls with a place for a 32-bit number, which holds `value` before, and gives what it holds after. */
+  /** Makes a call with the address of a 32-bit number, which is `value` before it; returns the number after it. */
   _withPointer(value, work, what) {
     const { memory, exports } = this.fmu;
-    memory.view().words[this._room >>> 2] = value;
-    this._call(what, () => work(this._room, this._component, exports));
-    return memory.view().words[this._room >>> 2];
+    memory.view().words[this._scratch >>> 2] = value;
+    this._call(what, () => work(this._scratch, this._component, exports));
+    return memory.view().words[this._scratch >>> 2];
   }
 
-  /** The communication point of the FMU. Before the end of initialisation it has none. */
+  /** The communication point of the FMU, s; the start time before the end of initialisation. */
   _kernelTime() {
     const { memory, exports } = this.fmu;
-    const ask = () => exports.fmi2GetRealStatus(this._component, LAST_SUCCESSFUL_TIME, this._room);
+    const ask = () => exports.fmi2GetRealStatus(this._component, LAST_SUCCESSFUL_TIME, this._scratch);
     this._started = this.fmu.call(ask) === 0;
-    if (this._started) return memory.view().doubles[this._room >>> 3];
-    this.fmu.takeMessages(); // that it has none
+    if (this._started) return memory.view().doubles[this._scratch >>> 3];
+    this.fmu.takeMessages(); // discard the message about it
     return this._startTime;
   }
 
-  /** Makes a call; throws what the FMU says where it refuses it. */
+  /** Makes a call; throws the FMU's explanation if it is refused. */
   _call(what, work) {
     if (this._component === 0) throw new FmuError("This instance was freed.", "error");
     const status = this.fmu.call(work);
     const messages = this.fmu.takeMessages();
-    if (messages.length > 0) this._keep(messages);
+    if (messages.length > 0) this._addMessages(messages);
     if (status < 2) return status;
     const words = messages.filter((m) => m.status >= 2).map((m) => m.text);
     throw new FmuError(`${what} was refused: ${words.join(" ") || "the FMU says no more."}`, STATUSES[status]);
   }
 
-  _keep(messages) {
+  _addMessages(messages) {
     for (const { status, category, text } of messages) this.messages.push({ status: STATUSES[status], category, text });
-    if (this.messages.length > MOST_MESSAGES) this.messages.splice(0, this.messages.length - MOST_MESSAGES);
+    if (this.messages.length > MAX_MESSAGES) this.messages.splice(0, this.messages.length - MAX_MESSAGES);
   }
 }

@@ -5,13 +5,13 @@ const decoder = new TextDecoder();
 
 /** Blocks, texts and numbers in the memory of a module that exports `memory`, `malloc` and `free`. */
 export class ModuleMemory {
-  /** @param {Data} exports what the module exports */
+  /** @param {Data} exports of the module */
   constructor(exports) {
     this.exports = exports;
     this.view();
   }
 
-  /** Views of all of the memory; made again after it grew, which takes the old ones away. */
+  /** Views of the whole memory; made again after it has grown, which detaches the old ones. */
   view() {
     const { buffer } = this.exports.memory;
     if (this.buffer !== buffer) {
@@ -25,7 +25,7 @@ export class ModuleMemory {
   }
 
   /**
-   * A block, aligned for all numbers.
+   * Allocates a block, aligned for all numbers.
    * @param {number} size bytes
    * @returns {number} its address
    */
@@ -35,13 +35,13 @@ export class ModuleMemory {
     return address;
   }
 
-  /** @param {number} address of a block; 0 is none */
+  /** Frees a block. @param {number} address 0: no block */
   free(address) {
     if (address !== 0) this.exports.free(address);
   }
 
   /**
-   * A block with a copy of bytes.
+   * Allocates a block with a copy of bytes.
    * @param {Uint8Array} bytes
    * @returns {number} its address
    */
@@ -52,7 +52,7 @@ export class ModuleMemory {
   }
 
   /**
-   * A block with a text that ends with a zero.
+   * Allocates a block with a text that ends with a zero.
    * @param {string} text
    * @returns {number} its address
    */
@@ -61,9 +61,9 @@ export class ModuleMemory {
   }
 
   /**
-   * Does something with blocks for texts and frees them.
+   * Calls `work` with blocks for texts, and frees them afterwards.
    * @param {string[]} texts
-   * @param {(...addresses: number[]) => T} work gets their addresses
+   * @param {(...addresses: number[]) => T} work takes their addresses
    * @returns {T} what `work` returns
    * @template T
    */
@@ -78,6 +78,7 @@ export class ModuleMemory {
   }
 
   /**
+   * The text at an address.
    * @param {number} address of a text that ends with a zero
    * @returns {string}
    */

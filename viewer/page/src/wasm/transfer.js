@@ -1,4 +1,4 @@
-// Transfers many values at once between an instance and an array, through memory of the module reserved before.
+// Transfers many values at once between an instance and an array, through a reserved block of the module's memory.
 import { FmuError } from "./errors.js";
 
 /** Values of fixed variables of the types Real and Integer; one call of the FMU for each type. */
@@ -23,14 +23,14 @@ export class Transfer {
     const { memory } = this.instance.fmu;
     const places = variables.flatMap((variable, k) => (variable.type === type ? [k] : []));
     const n = places.length;
-    const whole = n === variables.length; // values come in the order of the names
+    const whole = n === variables.length; // all values are of this type, in the order of the names
     const block = n > 0 ? memory.block(16 * n) : 0; // values, then references
     const { words } = memory.view();
     places.forEach((place, k) => (words[((block + 8 * n) >>> 2) + k] = variables[place].reference));
     return { type, places, n, whole, block, references: block + 8 * n };
   }
 
-  /** @returns {Float64Array} the values, in an array that the next call fills again */
+  /** Reads all values. @returns {Float64Array} an array that the next call fills again */
   read() {
     const { instance, values } = this;
     const { fmu, _component: component } = instance;
@@ -49,7 +49,7 @@ export class Transfer {
     return values;
   }
 
-  /** @param {ArrayLike<number>} given one value a name */
+  /** Writes all values. @param {ArrayLike<number>} given one value a name */
   write(given) {
     const { instance, values } = this;
     const { fmu, _component: component } = instance;
@@ -71,7 +71,7 @@ export class Transfer {
     }
   }
 
-  /** Gives its memory back. */
+  /** Frees its memory. */
   free() {
     for (const { block } of this.groups) this.instance.fmu.memory.free(block);
     this.groups = [];

@@ -9,25 +9,25 @@ function loudspeakers() {
   return new Context({ latencyHint: "interactive" });
 }
 
-/** Sound of a car by its columns; starts after a click, as browsers want it. */
+/** Sound of a car from its columns; starts after a click, as browsers require. */
 export class CarSound {
   _muted = false;
 
   /**
    * @param {object} car
-   * @param {string[]} car.columns names of its numbers
+   * @param {string[]} car.columns names of its signals
    * @param {Object<string, number>} [car.constants] of the FMU
-   * @param {AudioContext | OfflineAudioContext} [car.context] where it sounds: by default the loudspeakers
+   * @param {AudioContext | OfflineAudioContext} [car.context] output; by default the loudspeakers
    */
   constructor({ columns, constants = {}, context = undefined }) {
     this.context = context;
     this.mix = new CarMix(columns, constants);
-    /** One sentence why nothing is heard, else empty. */
+    /** Reason why nothing is audible; empty if there is sound. */
     this.problem = this.mix.problem;
     this.mixer = null;
   }
 
-  /** To be called by a click or a key; again without harm. @returns {Promise<void>} */
+  /** Starts the sound; called by each click or key. @returns {Promise<void>} */
   async start() {
     if (this.problem && this.mixer === null) return;
     try {
@@ -44,9 +44,9 @@ export class CarSound {
   }
 
   /**
-   * What is heard from now on. Without new numbers, or while time stands, the sound fades.
+   * Sets the sound; without new values, or while time stands, it fades.
    * @param {((name: string) => number | undefined) | null} lookup null: silence
-   * @param {number} [time] of the run, s; by default that of the clock
+   * @param {number} [time] of the run, s; by default of the clock
    */
   update(lookup, time = performance.now() / 1000) {
     if (this.mixer === null) return;
@@ -59,7 +59,7 @@ export class CarSound {
     if (this.mixer !== null) this.mixer.volume = on ? 0 : 1;
   }
 
-  /** Ends the sound and gives the device back. @returns {Promise<void>} */
+  /** Ends the sound and releases the device. @returns {Promise<void>} */
   async dispose() {
     this.mixer = null;
     if (this.context !== undefined && "close" in this.context && this.context.state !== "closed") await this.context.close();

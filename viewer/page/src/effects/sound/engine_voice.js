@@ -1,16 +1,16 @@
-// An engine: two tones of the same pitch, one calm, one under load, whose harmonics are half orders of the crank.
+// The sound of an engine: tones without and with load, whose harmonics are half orders of the crankshaft speed.
 
-/** Cylinders: so many harmonics of the working cycle make one firing. */
+/** Number of cylinders, which is the order of firing in harmonics of the working cycle. */
 export const CYLINDERS = 4;
-/** Strength of the orders of the cycle from 1; the fourth is the firing. */
+/** Amplitudes of the harmonics of the working cycle, from the first, without and with load. */
 const CALM = [0.1, 0.16, 0.06, 1, 0.05, 0.12, 0.04, 0.5, 0.03, 0.06, 0.03, 0.22, 0, 0.03, 0, 0.1];
 const LOADED = [0.16, 0.3, 0.14, 1, 0.16, 0.3, 0.14, 0.8, 0.1, 0.2, 0.1, 0.6, 0.08, 0.14, 0.08, 0.45, 0.05, 0.1, 0.05, 0.3, 0.03, 0.06, 0.03, 0.2];
 
-/** @param {BaseAudioContext} context @param {number[]} orders */
+/** Waveform of harmonics. @param {BaseAudioContext} context @param {number[]} orders amplitudes */
 function wave(context, orders) {
   const [real, imaginary] = [new Float32Array(orders.length + 1), new Float32Array(orders.length + 1)];
   orders.forEach((strength, k) => {
-    // Phases spread by the square of the order: no peaks that would be cut off.
+    // Phases proportional to the square of the order avoid peaks, which would be clipped.
     const phase = (Math.PI * (k + 1) * (k + 1)) / orders.length;
     real[k + 1] = strength * Math.cos(phase);
     imaginary[k + 1] = strength * Math.sin(phase);
@@ -19,6 +19,7 @@ function wave(context, orders) {
 }
 
 /**
+ * Starts the tones of an engine.
  * @param {BaseAudioContext} context @param {AudioNode} to
  * @returns {{pitch: AudioParam[], calm: AudioParam, loaded: AudioParam}} pitch: of the working cycle, Hz
  */

@@ -2,10 +2,10 @@
 import * as signals from "./signals.js";
 
 const PREFIX = /^(.+)\.slip_angle$/;
-/** Radius of a wheel, m, and the longest time between two pictures, s, over which a change of load is a thump. */
-const [RADIUS, LONGEST] = [0.3, 0.2];
+/** Radius of a wheel, m, and the longest time between pictures for which changes of load are impacts, s. */
+const [WHEEL_RADIUS, MAX_INTERVAL] = [0.3, 0.2];
 
-/** Knows which numbers a car has; remembers the loads of the last time. */
+/** Computes sounds from the available signals; stores the last loads. */
 export class CarMix {
   /** @param {string[]} columns @param {Object<string, number>} [constants] */
   constructor(columns, constants = {}) {
@@ -22,7 +22,7 @@ export class CarMix {
     this.most = constants["drive.max_torque"] ?? 200;
     this.loads = null;
     this.time = null;
-    /** One sentence where nothing can be heard, else empty. */
+    /** Reason why nothing is audible; empty if there is sound. */
     this.problem =
       this.engine || this.motor || this.speed || this.wheels.length > 0
         ? ""
@@ -31,8 +31,8 @@ export class CarMix {
 
   /**
    * @param {(name: string) => number | undefined} lookup
-   * @param {number} time of the run, s; the same as before: paused
-   * @returns {import("./mixer.js").Mix | null} null: nothing is to be heard
+   * @param {number} time of the run, s; unchanged: paused
+   * @returns {import("./mixer.js").Mix | null} null: silence
    */
   at(lookup, time) {
     const number = (name) => {
@@ -45,7 +45,7 @@ export class CarMix {
       load: number(`${prefix}.Fz`),
       slip: number(`${prefix}.slip`),
       angle: number(`${prefix}.slip_angle`),
-      tread: Math.abs(number(`${prefix}.omega`)) * RADIUS,
+      tread: Math.abs(number(`${prefix}.omega`)) * WHEEL_RADIUS,
     }));
     const before = this.loads;
     this.loads = wheels.map(({ load }) => load);
@@ -55,7 +55,7 @@ export class CarMix {
     const squeals = wheels.map(({ slip, angle, load, tread }) => signals.squealLevel(slip, angle, load, Math.max(speed, tread)));
     const loudest = squeals.indexOf(Math.max(...squeals, 0));
     const touching = wheels.length > 0 ? wheels.filter(({ load }) => load > 0).length / wheels.length : 1;
-    const thumps = before === null || step > LONGEST ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
+    const thumps = before === null || step > MAX_INTERVAL ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
     return {
       engine: this.engine ? { pitch: signals.enginePitch(number("engine_speed")), ...signals.engineLevels(number("engine_speed"), throttle) } : null,
       motor: this.motor ? this._motor(number, throttle) : null,

@@ -1,19 +1,19 @@
-// All voices of a car in one audio context, which may be a real one or one that renders to memory.
+// The audio graph of all sounds of a car, for an audio context that plays or renders to memory.
 import { CYLINDERS, engineVoice } from "./engine_voice.js";
 import { Thumps, noiseBuffer, noiseVoice, squealVoice, whineVoice } from "./voices.js";
 
-/** Time constant of every change, s: no clicks. */
-const SMOOTH = 0.025;
-/** After so long without new numbers the sound fades, s. */
-const PATIENCE = 0.4;
+/** Time constant of all changes, s, which avoids clicks. */
+const TIME_CONSTANT = 0.025;
+/** Time without new values after which the sound fades, s. */
+const TIMEOUT = 0.4;
 
 /**
- * What is to be heard.
+ * Pitches, Hz, and levels of all sounds.
  * @typedef {{engine: {pitch: number, calm: number, loaded: number} | null, motor: {pitch: number, level: number} | null,
  *   squeal: {pitch: number, level: number}, rolling: {pitch: number, level: number}, wind: {pitch: number, level: number}, thumps: number[]}} Mix
  */
 
-/** The graph of nodes; `set` moves it to a mix. */
+/** The graph of audio nodes. */
 export class Mixer {
   /** @param {BaseAudioContext} context */
   constructor(context) {
@@ -32,15 +32,15 @@ export class Mixer {
     this.volume = 1;
   }
 
-  /** @param {Mix | null} mix null: silence */
+  /** Changes the sounds to a mix. @param {Mix | null} mix null: silence */
   set(mix) {
     const now = this.context.currentTime;
-    const to = (param, value) => param.setTargetAtTime(value, now, SMOOTH);
+    const to = (param, value) => param.setTargetAtTime(value, now, TIME_CONSTANT);
     const { gain } = this.master;
     gain.cancelScheduledValues(now);
     to(gain, mix === null ? 0 : 0.7 * this.volume);
     if (mix === null) return;
-    gain.setTargetAtTime(0, now + PATIENCE, 0.08);
+    gain.setTargetAtTime(0, now + TIMEOUT, 0.08);
     const { engine, motor, squeal, rolling, wind } = mix;
     if (engine !== null) for (const pitch of this.engine.pitch) to(pitch, engine.pitch / CYLINDERS);
     to(this.engine.calm, engine?.calm ?? 0);
@@ -49,9 +49,9 @@ export class Mixer {
     to(this.whine.level, motor?.level ?? 0);
     this.squeal.pitch.forEach((pitch) => to(pitch, squeal.pitch));
     to(this.squeal.level, 0.45 * squeal.level);
-    for (const [voice, wish] of [[this.rolling, rolling], [this.wind, wind]]) {
-      to(voice.level, wish.level);
-      to(voice.pitch, wish.pitch);
+    for (const [voice, target] of [[this.rolling, rolling], [this.wind, wind]]) {
+      to(voice.level, target.level);
+      to(voice.pitch, target.pitch);
     } // prettier-ignore
     for (const strength of mix.thumps) this.thumps.knock(strength);
   }

@@ -1,7 +1,7 @@
 // The sounds of a car except its engine: gear whine, tyre squeal, rolling, wind, impacts.
 import { randomNumbers } from "../../common/random.js";
 
-/** White noise of two seconds, made by code. @param {BaseAudioContext} context @returns {AudioBuffer} */
+/** White noise of two seconds. @param {BaseAudioContext} context @returns {AudioBuffer} */
 export function noiseBuffer(context) {
   const buffer = context.createBuffer(1, 2 * context.sampleRate, context.sampleRate);
   const next = randomNumbers(2718);
@@ -31,7 +31,7 @@ export function noiseVoice(context, noise, to, type, frequency, quality) {
   return { level: level.gain, pitch: filter.frequency };
 }
 
-/** The whine of an electric motor: its wave and the third of it. @returns {{level: AudioParam, pitch: AudioParam[]}} */
+/** The whine of an electric motor: its fundamental and third harmonic. @returns {{level: AudioParam, pitch: AudioParam[]}} */
 export function whineVoice(context, to) {
   const level = silent(context);
   const pitch = [1, 0.25].map((strength) => {
@@ -47,28 +47,28 @@ export function whineVoice(context, to) {
   return { level: level.gain, pitch };
 }
 
-/** Squeal: a rough tone and noise about its pitch. @returns {{level: AudioParam, pitch: AudioParam[]}} */
+/** Squeal: a sawtooth tone and noise around its pitch. @returns {{level: AudioParam, pitch: AudioParam[]}} */
 export function squealVoice(context, noise, to) {
   const level = silent(context);
   const tone = context.createOscillator();
   tone.type = "sawtooth";
-  const soft = context.createBiquadFilter();
-  Object.assign(soft, { type: "bandpass" });
-  soft.Q.value = 4;
+  const bandpass = context.createBiquadFilter();
+  Object.assign(bandpass, { type: "bandpass" });
+  bandpass.Q.value = 4;
   const share = context.createGain();
   share.gain.value = 0.35;
-  tone.connect(soft).connect(share).connect(level);
-  const hiss = noiseVoice(context, noise, level, "bandpass", 900, 9);
-  hiss.level.value = 1.6;
+  tone.connect(bandpass).connect(share).connect(level);
+  const noiseBand = noiseVoice(context, noise, level, "bandpass", 900, 9);
+  noiseBand.level.value = 1.6;
   tone.start();
   level.connect(to);
-  return { level: level.gain, pitch: [tone.frequency, soft.frequency, hiss.pitch] };
+  return { level: level.gain, pitch: [tone.frequency, bandpass.frequency, noiseBand.pitch] };
 }
 
-/** Thumps that sound at once. */
-const MOST = 6;
+/** Largest number of simultaneous impacts. */
+const MAX_IMPACTS = 6;
 
-/** Short low knocks. */
+/** Short low sounds of impacts. */
 export class Thumps {
   _ends = [];
 
@@ -79,15 +79,15 @@ export class Thumps {
     this.to = to;
   }
 
-  /** Knocks that sound now. */
+  /** Number of current impacts. */
   get count() {
     this._ends = this._ends.filter((end) => end > this.context.currentTime);
     return this._ends.length;
   }
 
-  /** @param {number} strength 0 to 1 */
+  /** Plays an impact. @param {number} strength 0 to 1 */
   knock(strength) {
-    if (this.count >= MOST) return;
+    if (this.count >= MAX_IMPACTS) return;
     const { context } = this;
     const [begin, end] = [context.currentTime, context.currentTime + 0.28];
     const level = silent(context);
@@ -97,15 +97,15 @@ export class Thumps {
     const tone = context.createOscillator();
     tone.frequency.setValueAtTime(105, begin);
     tone.frequency.exponentialRampToValueAtTime(48, end);
-    const rattle = context.createBufferSource();
-    rattle.buffer = this.noise;
-    const dull = context.createBiquadFilter();
-    dull.type = "lowpass";
-    dull.frequency.value = 420;
+    const noiseSource = context.createBufferSource();
+    noiseSource.buffer = this.noise;
+    const lowpass = context.createBiquadFilter();
+    lowpass.type = "lowpass";
+    lowpass.frequency.value = 420;
     tone.connect(level);
-    rattle.connect(dull).connect(level);
+    noiseSource.connect(lowpass).connect(level);
     level.connect(this.to);
-    for (const source of [tone, rattle]) {
+    for (const source of [tone, noiseSource]) {
       source.start(begin);
       source.stop(end);
     }

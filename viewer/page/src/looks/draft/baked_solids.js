@@ -1,22 +1,22 @@
-// The solid parts of a scene in one call: fewer triangles, colours at their points.
+// Draws the solid parts of a scene in one call, with fewer triangles and colours at their points.
 import * as THREE from "three";
 import { vertexLit } from "./vertex_lighting.js";
 import { within } from "./vertex_clustering.js";
 import { growing, prisms } from "./tubes.js";
 
-/** Triangles of all solid parts and of those that change their form together, at most; solid parts have half of them. */
+/** Largest number of triangles of all parts, of which solid parts may have at least half. */
 export const MOST = 12000;
-/** The finest lattice, beside the size of the drawing. */
-const FINEST = 1.5e-3;
-/** Cameras do not see this layer. */
-const UNSEEN = 1;
+/** Cell size of the finest lattice, as a share of the size of the drawing. */
+const FINEST_CELL = 1.5e-3;
+/** Layer that cameras do not draw. */
+const HIDDEN_LAYER = 1;
 
-/** Whether a mesh is drawn by itself: see-through, or of a form or a look that changes. @param {THREE.Mesh} mesh */
-const stays = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone || mesh.userData.cover;
+/** Whether a mesh is drawn separately: it is transparent, or its form or look changes. @param {THREE.Mesh} mesh */
+const isSeparate = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone || mesh.userData.cover;
 
 const colourOf = (mesh) => /** @type {THREE.MeshStandardMaterial} */ (mesh.material).color.toArray();
 
-/** Numbers of a mesh in the axes of a group. @param {THREE.Mesh} mesh @param {THREE.Matrix4} toGroup */
+/** Surface of a mesh in the axes of a group. @param {THREE.Mesh} mesh @param {THREE.Matrix4} toGroup */
 function surfaceOf(mesh, toGroup) {
   const geometry = mesh.geometry.clone().applyMatrix4(toGroup.multiply(mesh.matrixWorld));
   const { position, normal } = geometry.attributes;
@@ -26,7 +26,7 @@ function surfaceOf(mesh, toGroup) {
   return { positions: position.array, normals: normal.array, colours: Array.from(position.array, (_, k) => colour[k % 3]), index };
 }
 
-function together(surfaces) {
+function joined(surfaces) {
   const mesh = { positions: [], normals: [], colours: [], index: [] };
   for (const { positions, normals, colours, index } of surfaces) {
     const from = mesh.positions.length / 3;
@@ -41,7 +41,7 @@ function together(surfaces) {
 function geometryOf({ positions, normals, colours, index }, tubes) {
   const geometry = new THREE.BufferGeometry();
   const thicks = [...Array(positions.length / 3).fill(0), ...tubes.thicks];
-  const whole = together([{ positions, normals, colours, index }, tubes]);
+  const whole = joined([{ positions, normals, colours, index }, tubes]);
   for (const [name, values] of Object.entries({ position: whole.positions, normal: whole.normals, color: whole.colours, thick: thicks })) {
     geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), name === "thick" ? 1 : 3));
   }
@@ -51,6 +51,7 @@ function geometryOf({ positions, normals, colours, index }, tubes) {
 const sumOf = (surfaces, name) => surfaces.reduce((sum, surface) => sum + surface[name].length, 0);
 
 /**
+ * Makes the mesh of all solid parts.
  * @param {import("../../scene/parts.js").Parts} parts
  * @param {Data} light of `lightOf` @param {number} extent
  */
@@ -59,37 +60,37 @@ export function baked(parts, light, extent) {
   const hidden = [];
   const movers = [];
   const single = new Map();
-  const thinner = new Set();
-  const gather = (object, bends) => {
+  const coarsened = new Set();
+  const collect = (object, bends) => {
     const meshes = [];
     object.traverse((part) => {
       if (!(part instanceof THREE.Mesh)) return;
-      if (part.userData.coarse !== undefined) thinner.add(part);
-      if (!stays(part)) meshes.push(part);
+      if (part.userData.coarse !== undefined) coarsened.add(part);
+      if (!isSeparate(part)) meshes.push(part);
       else if (!bends || !part.userData.alone) single.set(part, part.material);
     });
     return meshes;
   };
   const carriers = parts.moving.map(([, carrier]) => carrier);
-  for (const carrier of carriers) movers.push({ object: carrier, meshes: gather(carrier, true) });
-  for (const { object, update } of parts.shapes) if (update) for (const mesh of gather(object, false)) movers.push({ object: mesh, meshes: [mesh] });
+  for (const carrier of carriers) movers.push({ object: carrier, meshes: collect(carrier, true) });
+  for (const { object, update } of parts.shapes) if (update) for (const mesh of collect(object, false)) movers.push({ object: mesh, meshes: [mesh] });
   const solid = movers.filter(({ meshes }) => meshes.length > 0);
   const tubes = solid.map(({ object, meshes }) => {
     const inverse = object.matrixWorld.clone().invert();
     const places = (mesh) => mesh.userData.tubes.map((tube) => inverse.clone().multiply(mesh.matrixWorld).multiply(tube));
     const prismatic = meshes.filter(({ userData }) => userData.tubes).map((mesh) => prisms(places(mesh), colourOf(mesh)));
-    return { ...together(prismatic), thicks: prismatic.flatMap(({ thicks }) => thicks) };
+    return { ...joined(prismatic), thicks: prismatic.flatMap(({ thicks }) => thicks) };
   });
-  const others = [...thinner].reduce((sum, { userData }) => sum + (userData.coarse.count ?? userData.coarse.length) / 3, 0) + sumOf(tubes, "index") / 3;
+  const otherTriangles = [...coarsened].reduce((sum, { userData }) => sum + (userData.coarse.count ?? userData.coarse.length) / 3, 0) + sumOf(tubes, "index") / 3;
   const surfaces = within(solid.map(({ object, meshes }) => {
     const inverse = object.matrixWorld.clone().invert();
-    return together(meshes.filter(({ userData }) => !userData.tubes).map((mesh) => surfaceOf(mesh, inverse.clone())));
-  }), Math.max(MOST / 2, MOST - others), FINEST * extent); // prettier-ignore
+    return joined(meshes.filter(({ userData }) => !userData.tubes).map((mesh) => surfaceOf(mesh, inverse.clone())));
+  }), Math.max(MOST / 2, MOST - otherTriangles), FINEST_CELL * extent); // prettier-ignore
   for (const { meshes } of solid) hidden.push(...meshes);
   const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k], tubes: tubes[k] })).filter(({ surface, tubes: { index } }) => surface.index.length + index.length > 0);
   const [points, corners] = ["positions", "index"].map((name) => sumOf(surfaces, name) + sumOf(tubes, name));
-  const grown = (shader) => growing(shader, light.aLeast);
-  const material = vertexLit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked", grown);
+  const thicken = (shader) => growing(shader, light.aLeast);
+  const material = vertexLit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked", thicken);
   const batch = new THREE.BatchedMesh(Math.max(1, drawn.length), Math.max(3, points / 3), Math.max(3, corners), material);
   Object.assign(batch, { frustumCulled: false, perObjectFrustumCulled: false, sortObjects: false });
   for (const mover of drawn) mover.id = batch.addInstance(batch.addGeometry(geometryOf(mover.surface, mover.tubes)));
@@ -98,22 +99,22 @@ export function baked(parts, light, extent) {
     const { color, opacity, side, transparent, depthWrite } = own;
     twins.set(own, vertexLit(light, { color, opacity, side, transparent, depthWrite }, `single ${transparent}`));
   }
-  const steel = new Map(parts.flexible.map((body) => [body, vertexLit(light, { color: body.plain.color }, "steel", grown)]));
+  const steel = new Map(parts.flexible.map((body) => [body, vertexLit(light, { color: body.plain.color }, "steel", thicken)]));
   return {
     mesh: batch,
-    /** Draw this in place of the parts, or the parts again. @param {boolean} on */
+    /** Draws this mesh in place of the parts, or the parts. @param {boolean} on */
     show(on) {
       batch.visible = on;
       if (!on) for (const { least } of parts.flexible) least.value = 0;
-      for (const mesh of hidden) mesh.layers.set(on ? UNSEEN : 0);
+      for (const mesh of hidden) mesh.layers.set(on ? HIDDEN_LAYER : 0);
       for (const [mesh, own] of single) mesh.material = on ? twins.get(own) : own;
-      for (const mesh of thinner) {
+      for (const mesh of coarsened) {
         const { coarse, fine = mesh.geometry.index } = mesh.userData;
         mesh.userData.fine = fine;
         mesh.geometry.setIndex(on ? coarse : fine);
       }
     },
-    /** After the parts have their places. */
+    /** Moves the mesh after the parts. */
     follow() {
       parts.group.updateMatrixWorld(true);
       for (const [own, twin] of twins) {

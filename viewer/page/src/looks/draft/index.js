@@ -1,9 +1,10 @@
-// The draft quality: one call for what moves, no shadow map, ground lit at its points; for machines without a card.
+// The draft quality, for machines without a graphics card: one call for moving parts, no shadow map, lighting at points.
 import { baked } from "./baked_solids.js";
 import { lightOf } from "./vertex_lighting.js";
 import { leastOf } from "./tubes.js";
 
 /**
+ * Makes the draft of a picture, when it is first shown.
  * @param {Data} view the SceneView
  * @param {import("three").DirectionalLight} sun
  */
@@ -19,7 +20,7 @@ export function makeDraft(view, sun) {
   return {
     light,
     on: false,
-    /** @param {string} level */
+    /** Sets the quality. @param {string} level */
     set(level) {
       sun.castShadow = level === "high" || level === "medium";
       const on = level === "draft";
@@ -28,7 +29,7 @@ export function makeDraft(view, sun) {
       if (on) draft ??= make();
       draft.show(on);
     },
-    /** After the parts have their places. */
+    /** Moves the draft after the parts. */
     follow() {
       if (!this.on) return;
       light.aLeast.value = leastOf(view.renderer.domElement.height);

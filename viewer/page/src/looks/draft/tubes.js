@@ -1,9 +1,9 @@
-// Tubes of a draft: prisms that are never thinner in the picture than a line without gaps.
+// Tubes of a draft: prisms with a least width in the picture, so that they have no gaps.
 import * as THREE from "three";
 import { atEachPoint } from "../vertex_code.js";
 
-/** Sides of a prism, and the least radius of a tube in pixels: its narrowest side is a pixel wide. */
-const [SIDES, LEAST] = [4, 0.75];
+/** Sides of a prism, and least radius of a tube, for a least width of a pixel, pixels. */
+const [SIDES, MIN_RADIUS] = [4, 0.75];
 
 const GROW = /* glsl */ `
 mat4 stands = modelMatrix;
@@ -14,12 +14,12 @@ float radius = length(mat3(stands) * (normal * thick));
 float least = aLeast * (projectionMatrix * viewMatrix * stands * vec4(position, 1.0)).w / projectionMatrix[1][1];
 if (radius > 0.0) transformed += normal * thick * max(0.0, least / radius - 1.0);`;
 
-/** `aLeast` of a picture: the least radius over half of its height. @param {number} height pixels */
-export const leastOf = (height) => (2 * LEAST) / height;
+/** `aLeast` of a picture: least radius over half of its height. @param {number} height pixels */
+export const leastOf = (height) => (2 * MIN_RADIUS) / height;
 
 /**
- * Points whose attribute `thick` is not 0 lie so far from the middle of a tube along their normal.
- * @param {Data} shader of three.js @param {{value: number}} least see `leastOf`; 0: tubes are as thick as they are
+ * Widens tubes in a shader; the attribute `thick` is the radius of a point of a tube along its normal, else 0.
+ * @param {Data} shader of three.js @param {{value: number}} least see `leastOf`; 0: no widening
  */
 export function growing(shader, least) {
   shader.uniforms.aLeast = least;
@@ -27,6 +27,7 @@ export function growing(shader, least) {
 }
 
 /**
+ * Prisms in place of tubes.
  * @param {THREE.Matrix4[]} places of cylinders about y of radius 1 and height 1 @param {number[]} colour
  * @returns {import("./vertex_clustering.js").Surface & {thicks: number[]}}
  */

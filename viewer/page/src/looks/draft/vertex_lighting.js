@@ -1,8 +1,8 @@
-// Materials that are lit at their points only: the cheapest that still shows forms.
+// Materials with lighting computed only at points, the least expensive that shows forms.
 import * as THREE from "three";
 import { atEachPixel, atEachPoint } from "../vertex_code.js";
 
-/** Light from all of the sky, with what other materials take from its picture. */
+/** Diffuse light of the sky, including that of environment maps of other materials. */
 const SKY = "vec3(0.42, 0.55, 0.8)";
 
 const VERTEX = /* glsl */ `
@@ -16,22 +16,23 @@ facing = mat3(instanceMatrix) * facing;
 facing = normalize(mat3(modelMatrix) * facing);
 vLit = max(dot(facing, aTo), 0.0) * aLight + ${SKY} * (0.75 + 0.25 * dot(facing, aUp));`;
 
-/** The curve of sRGB by roots, which are quicker than its power: off by at most 2 of 255, where it is nearly black. */
+/** The transfer function of sRGB by roots, which are faster than powers; the largest error is 2 of 255, near black. */
 const SRGB = /* glsl */ `
 vec3 root = sqrt(gl_FragColor.rgb);
 vec3 fourth = sqrt(root);
 gl_FragColor.rgb = 0.662002687 * root + 0.684122060 * fourth - 0.323583601 * sqrt(fourth) - 0.0225411470 * gl_FragColor.rgb;`;
 
-/** The light of a picture for such materials. @param {THREE.DirectionalLight} sun @param {number[]} up */
+/** Uniforms of the light of a picture. @param {THREE.DirectionalLight} sun @param {number[]} up */
 export function lightOf(sun, up) {
   const strength = new THREE.Vector3(sun.color.r, sun.color.g, sun.color.b).multiplyScalar(sun.intensity / Math.PI);
   return { aTo: { value: sun.position.clone().normalize() }, aLight: { value: strength }, aUp: { value: new THREE.Vector3(...up) }, aLeast: { value: 0 } };
 }
 
 /**
+ * Makes a material that is lit at its points.
  * @param {Data} light of `lightOf`
  * @param {THREE.MeshBasicMaterialParameters} look
- * @param {string} key of the program, another one where `more` is another one
+ * @param {string} key of the program, unique for each `more`
  * @param {(shader: Data) => void} [more] further changes of the shader
  */
 export function vertexLit(light, look, key, more = () => {}) {

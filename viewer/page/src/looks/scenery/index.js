@@ -1,42 +1,42 @@
-// Scenery: objects and paint along a road, grouped by squares so that those outside the picture cost nothing.
+// Makes the scenery: objects and paint along a road, grouped in squares so that those outside the picture are not drawn.
 import * as THREE from "three";
 import { dot, fromColumns } from "../../scene/math.js";
 import { turn } from "../../shapes/place.js";
 import { skylit } from "../skylight.js";
-import { PAINTS, ROUGHLY, arrowStrips, dashes, edges } from "./ribbon.js";
+import { PAINTS, DRAFT_OFFSET, arrowStrips, dashes, edges } from "./ribbon.js";
 import { MOST_TEXTS, addSign, signTexture } from "./signs.js";
 import { coneGeometry, postGeometry } from "./small_things.js";
-import { FAR, Forest, formOf, kindOf } from "./trees.js";
+import { FAR_DISTANCE, Forest, formOf, kindOf } from "./trees.js";
 import { Triangles } from "./triangles.js";
 import { addBarrier, addBuilding, windows } from "./walls.js";
 
-/** Sides of the squares that scenery is gathered in, at least, in metres, and about how many squares there may be. */
-const [SQUARE, SQUARES] = [250, 20];
+/** Least side of the squares of scenery, m, and their approximate largest number. */
+const [MIN_SQUARE_SIDE, SQUARE_COUNT] = [250, 20];
 
-/** One tree of so many stands in a draft. */
-const FEW = 3;
+/** Stride of the trees in a draft. */
+const TREE_STRIDE = 3;
 
 const KINDS = ["line", "cone", "tree", "sign", "barrier", "post", "building", "arrow"];
 const placeOf = (thing) => thing.at ?? thing.points[Math.floor(thing.points.length / 2)];
 
-/** Things by squares. @param {Data[]} things @returns {Data[][]} */
+/** Objects of each square. @param {Data[]} things @returns {Data[][]} */
 export function squares(things) {
   const places = things.map(placeOf);
   const side = [0, 1].map((k) => {
     const [low, high] = places.reduce(([a, b], place) => [Math.min(a, place[k]), Math.max(b, place[k])], [Infinity, -Infinity]);
     return high - low;
   });
-  const size = Math.max(SQUARE, Math.sqrt((side[0] * side[1]) / SQUARES));
-  const found = new Map();
+  const size = Math.max(MIN_SQUARE_SIDE, Math.sqrt((side[0] * side[1]) / SQUARE_COUNT));
+  const groups = new Map();
   things.forEach((thing, n) => {
     const key = places[n].slice(0, 2).map((value) => Math.floor(value / size)).join();
-    if (!found.has(key)) found.set(key, []);
-    found.get(key).push(thing);
+    if (!groups.has(key)) groups.set(key, []);
+    groups.get(key).push(thing);
   });
-  return [...found.values()];
+  return [...groups.values()];
 }
 
-/** What of a scenery can be drawn, and the sentences on what cannot. @param {Data[]} things */
+/** Objects that can be drawn, texts of signs, and sentences on objects that cannot. @param {Data[]} things */
 function drawable(things) {
   const known = things.filter(({ kind }) => KINDS.includes(kind));
   const unknown = [...new Set(things.filter((thing) => !known.includes(thing)).map(({ kind }) => kind))];
@@ -49,12 +49,13 @@ function drawable(things) {
   return { known, texts, tell };
 }
 
-/** Sentences on what of a scenery is not drawn. @param {Data[]} things */
+/** Sentences on objects that are not drawn. @param {Data[]} things */
 export const tellOf = (things) => drawable(things).tell;
 
 /**
- * @param {Data[]} things a scene's `scenery`
- * @param {{axes: number[][], paint: THREE.Material, ground: Data | null, drafted?: boolean}} looks ground: heights as drawn;
+ * Makes the scenery.
+ * @param {Data[]} things `scenery` of a scene
+ * @param {{axes: number[][], paint: THREE.Material, ground: Data | null, drafted?: boolean}} looks ground: drawn heights;
  *   drafted: in few calls, with few trees
  */
 export function makeScenery(things, { axes, paint, ground, drafted = false }) {
@@ -63,11 +64,11 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
   const { known, texts } = drawable(things);
   const shared = makeShared(known, texts, drafted);
   const pieces = [];
-  const fewer = () => known.filter(({ kind, seed }, k) => kind !== "tree" || (seed ?? k) % FEW === 0);
+  const fewer = () => known.filter(({ kind, seed }, k) => kind !== "tree" || (seed ?? k) % TREE_STRIDE === 0);
   for (const square of drafted ? [fewer()] : squares(known)) {
     if (square.length === 0) continue;
     const base = placeOf(square[0]).slice();
-    for (const mesh of squareMeshes(square, base, { shared, texts, paint, ground, off: drafted ? ROUGHLY : undefined })) {
+    for (const mesh of squareMeshes(square, base, { shared, texts, paint, ground, off: drafted ? DRAFT_OFFSET : undefined })) {
       group.add(mesh);
       pieces.push({ mesh, base });
     }
@@ -79,8 +80,8 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
       const levels = mesh.userData.levels;
       if (levels === undefined) continue;
       const { center, radius } = mesh.boundingSphere;
-      const away = Math.hypot(...[0, 1, 2].map((k) => center.getComponent(k) + mesh.position.getComponent(k) - camera[k])) - radius;
-      mesh.geometry = levels[drafted || away > FAR ? 1 : 0];
+      const distance = Math.hypot(...[0, 1, 2].map((k) => center.getComponent(k) + mesh.position.getComponent(k) - camera[k])) - radius;
+      mesh.geometry = levels[drafted || distance > FAR_DISTANCE ? 1 : 0];
     }
   };
   const dispose = () => {
@@ -93,7 +94,7 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
   return { group, follow, dispose };
 }
 
-/** Materials and geometries that all squares share; only what the things need. @param {Data[]} things @param {string[]} texts @param {boolean} coarse */
+/** Materials and geometries that all squares share, as far as the objects need them. @param {Data[]} things @param {string[]} texts @param {boolean} coarse */
 function makeShared(things, texts, coarse) {
   const has = (kind) => things.some((thing) => thing.kind === kind);
   const plain = skylit(new THREE.MeshLambertMaterial({ vertexColors: true }));
@@ -116,6 +117,7 @@ function makeShared(things, texts, coarse) {
   return shared;
 }
 
+/** Meshes of the objects of a square. */
 function squareMeshes(square, base, { shared, texts, paint, ground, off }) {
   const of = (kind) => square.filter((thing) => thing.kind === kind);
   const meshes = [];
@@ -138,24 +140,24 @@ function squareMeshes(square, base, { shared, texts, paint, ground, off }) {
   const colours = [...new Set(of("cone").map(({ colour }) => colour ?? "orange"))];
   for (const colour of colours) {
     const cones = of("cone").filter((cone) => (cone.colour ?? "orange") === colour);
-    meshes.push(many(shared.cone(colour), shared.plain, cones, base, ({ height = 0.5 }) => [height, height, height]));
+    meshes.push(instances(shared.cone(colour), shared.plain, cones, base, ({ height = 0.5 }) => [height, height, height]));
   }
   const posts = of("post");
-  if (posts.length > 0) meshes.push(many(shared.post, shared.plain, posts, base, ({ height = 1 }) => [1, 1, height]));
+  if (posts.length > 0) meshes.push(instances(shared.post, shared.plain, posts, base, ({ height = 1 }) => [1, 1, height]));
   for (let kind = 0; kind < 3; kind++) {
     const trees = of("tree").filter(({ seed }) => kindOf(seed ?? 0) === kind);
-    if (trees.length > 0) meshes.push(wood(shared.forest, kind, trees, base));
+    if (trees.length > 0) meshes.push(treeInstances(shared.forest, kind, trees, base));
   }
   for (const mesh of meshes) mesh.receiveShadow = mesh.material === paint;
   return meshes;
 }
 
-/** Paint along a line. @param {Triangles} triangles @param {Data} line @param {any} ground @param {number} [off] */
+/** Adds a painted line. @param {Triangles} triangles @param {Data} line @param {any} ground @param {number} [off] */
 export function addLine(triangles, { points, width, colour = "white", dash }, ground, off) {
   for (const stretch of dashes(points, dash)) addStrip(triangles, edges(stretch, width, ground, off), PAINTS[colour] ?? PAINTS.white);
 }
 
-/** Quads between pairs of points: right, left. @param {Triangles} triangles @param {number[][][]} pairs @param {number[]} colour */
+/** Adds quads between pairs of points: right, left. @param {Triangles} triangles @param {number[][][]} pairs @param {number[]} colour */
 export function addStrip(triangles, pairs, colour) {
   let last = null;
   for (const pair of pairs) {
@@ -166,8 +168,8 @@ export function addStrip(triangles, pairs, colour) {
   }
 }
 
-/** One geometry at many places. */
-function many(geometry, material, things, base, sizeOf) {
+/** Instances of a geometry at the positions of objects. */
+function instances(geometry, material, things, base, sizeOf) {
   const mesh = new THREE.InstancedMesh(geometry, material, things.length);
   const [matrix, position, size, rotation] = [new THREE.Matrix4(), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion()];
   things.forEach((thing, k) => {
@@ -180,9 +182,10 @@ function many(geometry, material, things, base, sizeOf) {
   return mesh;
 }
 
-function wood(forest, kind, trees, base) {
+/** Instances of the trees of a kind. */
+function treeInstances(forest, kind, trees, base) {
   const things = trees.map((tree) => ({ at: tree.at, yaw: formOf(tree.seed ?? 0).turn, tree }));
-  const mesh = many(forest.geometries[kind][0], forest.material, things, base, ({ tree }) => {
+  const mesh = instances(forest.geometries[kind][0], forest.material, things, base, ({ tree }) => {
     const { wide } = formOf(tree.seed ?? 0);
     return [tree.height * wide, tree.height * wide, tree.height];
   });

@@ -1,16 +1,16 @@
-// Draws the texture of a twig: leaves with gaps between.
+// Draws the texture of a twig with leaves.
 import * as THREE from "three";
 import { smoothTexture } from "../noise.js";
 import { randomNumbers } from "../../common/random.js";
 
-/** Side in points. */
+/** Side of the texture, pixels. */
 export const SIDE = 128;
 
-/** @returns {THREE.DataTexture} */
+/** Makes the texture. @returns {THREE.DataTexture} */
 export function leafTexture() {
   const pixels = new Uint8Array(SIDE * SIDE * 4);
   const next = randomNumbers(4711);
-  // Behind the leaves stands their colour, so that their edges have no other.
+  // The transparent background has the colour of leaves, so that their edges keep it.
   for (let k = 0; k < pixels.length; k += 4) pixels.set([110, 128, 60, 0], k);
   for (let leaf = 0; leaf < 150; leaf++) {
     const [angle, distance] = [2 * Math.PI * next(), Math.sqrt(next())];
@@ -20,7 +20,7 @@ export function leafTexture() {
   return Object.assign(smoothTexture(pixels, SIDE, SIDE, 1), { colorSpace: THREE.SRGBColorSpace });
 }
 
-/** @param {Uint8Array} pixels @param {number[]} middle */
+/** Draws a leaf. @param {Uint8Array} pixels @param {number[]} middle */
 function drawLeaf(pixels, [mx, my], length, turn, shade, yellow) {
   const [c, s] = [Math.cos(turn), Math.sin(turn)];
   for (let dy = -9; dy <= 9; dy++) {

@@ -1,20 +1,20 @@
-// Paint on the ground: lines with dashes and arrows, laid on the heights that are drawn; pure numbers.
+// Outlines of paint on the drawn ground: lines with dashes, and arrows.
 import looks from "../../../../looks.json" with { type: "json" };
 import { LIFT } from "../ground_offset.js";
 
 /** Linear colours of paint. @type {Record<string, number[]>} */
 export const PAINTS = looks.paints;
 
-/** Longest and shortest steps along a line, and its largest distance from the ground where steps are left out, m. */
-const [LONGEST, SHORTEST, OFF] = [2, 0.1, 1e-3];
-/** This distance in a draft, whose ground is no closer to the heights, m. */
-export const ROUGHLY = 1e-2;
+/** Longest and shortest steps along a line, and its largest distance from the ground after thinning, m. */
+const [MAX_STEP, MIN_STEP, MAX_OFFSET] = [2, 0.1, 1e-3];
+/** The same distance in a draft, m. */
+export const DRAFT_OFFSET = 1e-2;
 
-/** The point at a share of the way from a to b. */
+/** Point between a and b. */
 const between = (a, b, share) => a.map((value, k) => value + share * (b[k] - value));
 
 /**
- * Stretches of a line that are painted.
+ * Painted parts of a line.
  * @param {number[][]} points of its middle @param {number[]} [dash] lengths painted and left out
  * @returns {number[][][]} polylines
  */
@@ -47,16 +47,16 @@ export function dashes(points, dash) {
 }
 
 /**
- * Both edges of a line, on the ground.
+ * Edges of a line on the ground.
  * @param {number[][]} points of its middle @param {number} width
- * @param {{at: (x: number, y: number) => number, stepAt: (x: number, y: number) => number} | null} ground heights as drawn
- * @param {number} [off] largest distance of ground and edges where steps are left out, m
+ * @param {{at: (x: number, y: number) => number, stepAt: (x: number, y: number) => number} | null} ground drawn heights
+ * @param {number} [off] largest distance of the edges from the ground after thinning, m
  * @returns {number[][][]} pairs of points: right edge, left edge
  */
-export function edges(points, width, ground, off = OFF) {
+export function edges(points, width, ground, off = MAX_OFFSET) {
   const stations = ground === null ? points : dense(points, ground);
   const pairs = stations.map((at, i) => {
-    const side = across(stations, i);
+    const side = scaledNormal(stations, i);
     return [-0.5, 0.5].map((half) => {
       const [x, y] = [at[0] + half * width * side[0], at[1] + half * width * side[1]];
       return [x, y, (ground === null ? at[2] : ground.at(x, y)) + LIFT];
@@ -65,7 +65,7 @@ export function edges(points, width, ground, off = OFF) {
   return thinned(pairs, off);
 }
 
-/** A line with as many points as the ground needs there. */
+/** A line with additional points, depending on the resolution of the ground. */
 function dense(points, ground) {
   const found = [];
   for (let i = 0; i + 1 < points.length; i++) {
@@ -74,15 +74,15 @@ function dense(points, ground) {
     for (let done = 0; done < length - 1e-6; ) {
       const at = between(a, b, done / length);
       found.push(at);
-      done += Math.min(LONGEST, Math.max(SHORTEST, ground.stepAt(at[0], at[1])));
+      done += Math.min(MAX_STEP, Math.max(MIN_STEP, ground.stepAt(at[0], at[1])));
     }
   }
   found.push(points[points.length - 1]);
   return found;
 }
 
-/** Across a polyline at one of its points, so that its width stays the same at bends. */
-function across(stations, i) {
+/** Normal of a polyline at a point, scaled so that the width is constant at bends. */
+function scaledNormal(stations, i) {
   const normal = (a, b) => {
     const [x, y] = [b[0] - a[0], b[1] - a[1]];
     const size = Math.hypot(x, y) || 1;
@@ -96,7 +96,7 @@ function across(stations, i) {
   return half > 0.2 ? sum.map((value) => value / half) : after;
 }
 
-/** Leaves out pairs that lie on the straight line between the pairs around them. */
+/** Pairs without those on straight lines between others. */
 function thinned(pairs, off) {
   const kept = [pairs[0]];
   let from = 0;
@@ -109,9 +109,9 @@ function thinned(pairs, off) {
   return kept;
 }
 
-/** Whether all pairs between two others are within a distance of the straight lines between these. */
+/** Whether all pairs between two others are within a distance of their connecting lines. */
 function fits(pairs, from, to, off) {
-  if (to - from > 40) return false; // so that a long line costs no more than its length
+  if (to - from > 40) return false; // limits the time for long lines
   return [0, 1].every((edge) => {
     const [a, b] = [pairs[from][edge], pairs[to][edge]];
     const length2 = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 || 1;
@@ -130,7 +130,7 @@ const ARROW = [
   { stations: [0.1, 0.5], halves: [0.14, 0.0] },
 ];
 
-/** @param {{at: number[], yaw: number, length: number}} arrow @param {Data | null} ground @returns {number[][][][]} strips of pairs */
+/** Outline of an arrow on the ground. @param {{at: number[], yaw: number, length: number}} arrow @param {Data | null} ground @returns {number[][][][]} strips of pairs */
 export function arrowStrips({ at, yaw, length = 4 }, ground) {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   return ARROW.map(({ stations, halves }) => {

@@ -1,4 +1,4 @@
-// Cones and posts of height 1, to be set up many times.
+// Makes geometries of cones and posts of height 1, for instances.
 import looks from "../../../../looks.json" with { type: "json" };
 import { Triangles } from "./triangles.js";
 
@@ -6,7 +6,7 @@ import { Triangles } from "./triangles.js";
 const { cones: CONES, white: WHITE } = looks.things;
 
 /**
- * A round thing of rings: radius and height, with a colour between two rings.
+ * Adds a surface of revolution of rings, with a colour between two rings.
  * @param {Triangles} triangles @param {{radius: number, z: number, colour: number[]}[]} rings @param {number} sides
  */
 export function turned(triangles, rings, sides) {
@@ -20,7 +20,7 @@ export function turned(triangles, rings, sides) {
   }
 }
 
-/** @param {string} colour orange, yellow or blue @param {boolean} [coarse] of four sides, open above */
+/** Makes a cone. @param {string} colour orange, yellow or blue @param {boolean} [coarse] with four sides, open at the top */
 export function coneGeometry(colour = "orange", coarse = false) {
   const triangles = new Triangles();
   const paint = CONES[colour] ?? CONES.orange;

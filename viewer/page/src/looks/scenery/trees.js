@@ -1,4 +1,4 @@
-// Trees of three kinds, of trunk and cards with twigs; those far away have fewer cards.
+// Makes trees of three kinds, of a trunk and cards with twigs; distant trees have fewer cards.
 import * as THREE from "three";
 import looks from "../../../../looks.json" with { type: "json" };
 import { skylit } from "../skylight.js";
@@ -6,35 +6,35 @@ import { randomNumbers } from "../../common/random.js";
 import { SIDE, leafTexture } from "./leaves.js";
 import { Triangles } from "./triangles.js";
 
-/** Crowns of height 1: middle, half width, half height, cards near and far, whether its twigs hang in tiers. */
+/** Crowns of trees of height 1: middle, half width, half height, cards of near and far trees, whether twigs are in tiers. */
 const KINDS = [
   { crown: 0.62, wide: 0.31, high: 0.36, cards: [38, 12], tint: [0.8, 0.95, 0.55] },
   { crown: 0.55, wide: 0.2, high: 0.45, cards: [44, 14], tint: [0.42, 0.62, 0.4], tiers: true },
   { crown: 0.58, wide: 0.13, high: 0.41, cards: [30, 10], tint: [0.72, 0.85, 0.42] },
 ];
-/** Colour of trunks, whose places in the picture of twigs lie beyond 1. */
+/** Colour of trunks, whose texture coordinates are above 1. */
 const BARK = looks.things.bark;
-/** Metres from which on a tree is a far one. */
-export const FAR = 120;
+/** Distance of far trees, m. */
+export const FAR_DISTANCE = 120;
 
-/** Kind of a tree. @param {number} seed whole */
+/** Kind of a tree. @param {number} seed integer */
 export const kindOf = (seed) => Math.floor(3 * randomNumbers(seed)());
 
-/** Size across, turn and colour of one tree. @param {number} seed whole */
+/** Width, rotation and colour of a tree. @param {number} seed integer */
 export function formOf(seed) {
   const next = randomNumbers(seed);
   next();
   return { wide: 0.85 + 0.4 * next(), turn: 2 * Math.PI * next(), light: 0.75 + 0.45 * next(), yellow: 0.9 + 0.25 * next() };
 }
 
-/** Geometries of a kind, near and far, and what all trees are made of. */
+/** Geometries of each kind, near and far, and their common material. */
 export class Forest {
   constructor() {
     this.texture = leafTexture();
     this.geometries = KINDS.map((kind, seed) => kind.cards.map((count) => treeGeometry(kind, count, 31 + seed)));
     this.material = skylit(
       new THREE.MeshLambertMaterial({ map: this.texture, alphaTest: 0.45, vertexColors: true, side: THREE.DoubleSide }),
-      leafy,
+      addLeaves,
     );
   }
 
@@ -45,8 +45,8 @@ export class Forest {
   }
 }
 
-/** Leaves are lit as the crown is round, from both sides; far away they keep their cover. */
-function leafy(shader) {
+/** Changes a shader so that both sides of leaves have the normal of the crown, and distant leaves stay opaque. */
+function addLeaves(shader) {
   shader.fragmentShader = shader.fragmentShader
     .replace("#include <normal_fragment_begin>", "vec3 normal = normalize(vNormal);\nvec3 nonPerturbedNormal = normal;")
     .replace(
@@ -61,12 +61,12 @@ if (vMapUv.x > 1.5) diffuseColor = vec4(vColor.rgb, 1.0);
 function treeGeometry(kind, count, seed) {
   const triangles = new Triangles();
   const next = randomNumbers(seed);
-  trunk(triangles, kind, count);
-  for (let k = 0; k < count; k++) (kind.tiers ? tier : twig)(triangles, kind, k, count, next);
+  addTrunk(triangles, kind, count);
+  for (let k = 0; k < count; k++) (kind.tiers ? addTier : addTwig)(triangles, kind, k, count, next);
   return triangles.geometry(true);
 }
 
-function trunk(triangles, { crown }, count) {
+function addTrunk(triangles, { crown }, count) {
   const sides = count > 20 ? 6 : 4;
   const ring = (k, radius, z) => {
     const a = (2 * Math.PI * k) / sides;
@@ -78,8 +78,8 @@ function trunk(triangles, { crown }, count) {
   }
 }
 
-/** A card somewhere in the crown, lit as the crown there. */
-function twig(triangles, { crown, wide, high, tint }, k, count, next) {
+/** Adds a card in a round crown, with the normal of the crown. */
+function addTwig(triangles, { crown, wide, high, tint }, k, count, next) {
   const z = 1 - (2 * (k + 0.5)) / count;
   const angle = 2.399963 * k + 0.6 * next();
   const flat = Math.sqrt(1 - z * z);
@@ -87,11 +87,11 @@ function twig(triangles, { crown, wide, high, tint }, k, count, next) {
   const depth = 0.45 + 0.4 * next();
   const middle = [wide * depth * light[0], wide * depth * light[1], crown + high * depth * light[2]];
   const size = (count > 20 ? 0.62 : 0.95) * Math.min(wide * 1.15, high) * (0.85 + 0.3 * next());
-  card(triangles, middle, [next() - 0.5, next() - 0.5, 0.7 * (next() - 0.5)], size, size, light, shade(tint, depth, z));
+  addCard(triangles, middle, [next() - 0.5, next() - 0.5, 0.7 * (next() - 0.5)], size, size, light, shade(tint, depth, z));
 }
 
-/** A branch of a fir, sloping down and outwards. */
-function tier(triangles, { crown, wide, high, tint }, k, count, next) {
+/** Adds a branch of a fir, sloping down and outwards. */
+function addTier(triangles, { crown, wide, high, tint }, k, count, next) {
   const up = Math.sqrt((k + 0.5) / count); // fewer near the top
   const z = crown + high * (2 * up - 1);
   const reach = wide * (1.12 - up) * (0.85 + 0.3 * next());
@@ -99,13 +99,13 @@ function tier(triangles, { crown, wide, high, tint }, k, count, next) {
   const out = [Math.cos(angle), Math.sin(angle)];
   const middle = [0.5 * reach * out[0], 0.5 * reach * out[1], z - 0.22 * reach];
   const lean = [0.5 * out[0], 0.5 * out[1], 1];
-  card(triangles, middle, lean, 0.62 * reach + 0.03, 0.62 * reach + 0.03, [0.8 * out[0], 0.8 * out[1], 0.6], shade(tint, 0.7, 2 * up - 1));
+  addCard(triangles, middle, lean, 0.62 * reach + 0.03, 0.62 * reach + 0.03, [0.8 * out[0], 0.8 * out[1], 0.6], shade(tint, 0.7, 2 * up - 1));
 }
 
 const shade = (tint, depth, z) => tint.map((value) => value * (0.45 + 0.45 * depth) * (0.85 + 0.2 * z));
 
-/** A square card across a direction, all of it lit by one normal. */
-function card(triangles, middle, across, wide, high, light, colour) {
+/** Adds a square card perpendicular to a direction, with one normal for lighting. */
+function addCard(triangles, middle, across, wide, high, light, colour) {
   const normal = new THREE.Vector3(...across).normalize();
   const x = new THREE.Vector3(0, 0, 1).cross(normal);
   if (x.lengthSq() < 1e-6) x.set(1, 0, 0);

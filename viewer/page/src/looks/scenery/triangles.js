@@ -1,7 +1,7 @@
-// Collects triangles with colours and builds a geometry from them.
+// Collects coloured triangles and builds geometries from them.
 import * as THREE from "three";
 
-/** Collects triangles; places are relative to `base`. */
+/** A list of triangles, whose positions are relative to `base`. */
 export class Triangles {
   /** @param {number[]} [base] */
   constructor(base = [0, 0, 0]) {
@@ -14,7 +14,7 @@ export class Triangles {
     this.index = [];
   }
 
-  /** One point. @param {number[]} at @param {number[]} normal @param {number[]} colour linear @param {number[]} [uv] @param {number[]} [aside] from the middle of a line @returns {number} its number */
+  /** Adds a point. @param {number[]} at @param {number[]} normal @param {number[]} colour linear @param {number[]} [uv] @param {number[]} [aside] from the middle of a line @returns {number} its index */
   point(at, normal, colour, uv = [0, 0], aside = []) {
     this.positions.push(at[0] - this.base[0], at[1] - this.base[1], at[2] - this.base[2]);
     this.normals.push(...normal);
@@ -24,7 +24,7 @@ export class Triangles {
     return this.positions.length / 3 - 1;
   }
 
-  /** A flat face of four corners, seen from where they turn to the left. @param {number[][]} corners @param {number[]} colour @param {number[][]} [uvs] */
+  /** Adds a flat face of four corners, counterclockwise as seen from outside. @param {number[][]} corners @param {number[]} colour @param {number[][]} [uvs] */
   quad(corners, colour, uvs = []) {
     const [a, b, , d] = corners;
     const u = b.map((value, k) => value - a[k]);
@@ -36,7 +36,7 @@ export class Triangles {
     this.index.push(first, first + 1, first + 2, first, first + 2, first + 3);
   }
 
-  /** A box that stands at a place. @param {number[]} at middle of its foot @param {number[]} size @param {number} yaw @param {number[]} colour */
+  /** Adds a box. @param {number[]} at middle of its base @param {number[]} size @param {number} yaw @param {number[]} colour */
   box(at, [length, width, height], yaw, colour) {
     const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
     const corner = (x, y, z) => [at[0] + c * x * length - s * y * width, at[1] + s * x * length + c * y * width, at[2] + z * height];
@@ -54,14 +54,14 @@ export class Triangles {
     return this.index.length === 0;
   }
 
-  /** @param {boolean} [placed] with the places in pictures */
-  geometry(placed = false) {
+  /** Builds the geometry. @param {boolean} [withUv] with texture coordinates */
+  geometry(withUv = false) {
     const geometry = new THREE.BufferGeometry();
     const put = (name, values, size) => geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), size));
     put("position", this.positions, 3);
     put("normal", this.normals, 3);
     put("color", this.colours, 3);
-    if (placed) put("uv", this.places, 2);
+    if (withUv) put("uv", this.places, 2);
     if (this.asides.length > 0) put("aside", this.asides, 3);
     geometry.setIndex(this.index);
     geometry.computeBoundingSphere();

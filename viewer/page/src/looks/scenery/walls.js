@@ -1,22 +1,23 @@
-// Guard rails and buildings.
+// Makes guard rails and buildings.
 import looks from "../../../../looks.json" with { type: "json" };
 import { randomNumbers } from "../../common/random.js";
 import { atEachPixel, atEachPoint } from "../vertex_code.js";
 
 const { zinc: ZINC, roof: ROOF } = looks.things;
-/** Across a rail, from below: outwards and up, of a rail of height 1 whose beam is its upper 0.4. */
-const BEAM = [[0.0, 0.6], [0.08, 0.66], [0.08, 0.72], [0.0, 0.8], [0.08, 0.88], [0.08, 0.94], [0.0, 1.0]]; // prettier-ignore
-/** Metres between the posts of a rail. */
-const POSTS = 4;
+/** Cross section of the beam of a rail of height 1, from below: outward and up. */
+const BEAM_PROFILE = [[0.0, 0.6], [0.08, 0.66], [0.08, 0.72], [0.0, 0.8], [0.08, 0.88], [0.08, 0.94], [0.0, 1.0]]; // prettier-ignore
+/** Distance of the posts of a rail, m. */
+const POST_SPACING = 4;
 
 /**
+ * Adds a guard rail.
  * @param {import("./triangles.js").Triangles} triangles @param {{points: number[][], height?: number}} barrier
  * @param {boolean} [coarse] with a third of the points along and across
  */
 export function addBarrier(triangles, { points: all, height = 0.8 }, coarse = false) {
-  const beam = BEAM.filter((_, k) => !coarse || k % 3 === 0);
+  const beam = BEAM_PROFILE.filter((_, k) => !coarse || k % 3 === 0);
   const points = all.filter((_, k) => !coarse || k % 3 === 0 || k === all.length - 1);
-  let distance = POSTS / 2;
+  let distance = POST_SPACING / 2;
   for (let i = 0; i + 1 < points.length; i++) {
     const [a, b] = [points[i], points[i + 1]];
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -30,7 +31,7 @@ export function addBarrier(triangles, { points: all, height = 0.8 }, coarse = fa
         triangles.quad(corners, ZINC);
       }
     }
-    for (; distance < length; distance += POSTS) {
+    for (; distance < length; distance += POST_SPACING) {
       const foot = a.map((value, k) => value + (distance / length) * (b[k] - value));
       triangles.box([foot[0], foot[1], foot[2] - 0.1], [0.1, 0.12, 0.94 * height + 0.1], Math.atan2(along[1], along[0]), ZINC);
     }
@@ -38,14 +39,14 @@ export function addBarrier(triangles, { points: all, height = 0.8 }, coarse = fa
   }
 }
 
-const WALLS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 0.36, 0.27]]; // prettier-ignore
+const WALL_COLOURS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 0.36, 0.27]]; // prettier-ignore
 
-/** A box with windows and a gable roof. @param {import("./triangles.js").Triangles} triangles places: metres of the wall, below zero where no windows are */
+/** Adds a box with windows and a gable roof. @param {import("./triangles.js").Triangles} triangles texture coordinates: m of the wall, negative without windows */
 export function addBuilding(triangles, { at, yaw, size }) {
   const [length, width, height] = size;
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   const next = randomNumbers(Math.round(17 * at[0] + 31 * at[1]));
-  const wall = WALLS[Math.floor(WALLS.length * next())];
+  const wall = WALL_COLOURS[Math.floor(WALL_COLOURS.length * next())];
   const eaves = height / (1 + (0.22 * Math.min(width, 12)) / height);
   const foot = [at[0], at[1], at[2] - 0.5];
   triangles.box(foot, [length, width, eaves + 0.5], yaw, wall);
@@ -60,7 +61,7 @@ export function addBuilding(triangles, { at, yaw, size }) {
   }
 }
 
-/** Windows in a regular order, by the metres of a wall. @param {Data} shader of three.js */
+/** Adds windows at regular distances to a shader of walls. @param {Data} shader of three.js */
 export function windows(shader) {
   atEachPoint(shader, "varying vec2 vWall;", "vWall = uv;");
   atEachPixel(shader, "varying vec2 vWall;", {
