@@ -177,11 +177,8 @@ class RefinedRuns:
         if self.divisor:
             return max(self.divisor, self.parts)
         missed, factor = self._missed(self.run) / self.unresolved, 1
-        while (
-            missed > factor
-            and factor < (2 if self.has_order else 4)
-            and 2 * factor * self.parts <= self.most - self.cost
-        ):
+        most = 2 if self.has_order else 4
+        while missed > factor and factor < most and 2 * factor * self.parts <= self.most - self.cost:
             factor *= 2
         return self.parts * factor
 
@@ -273,7 +270,7 @@ class RefinedRuns:
             self.before |= extremes.ends
 
     def text(self, known: Accuracy) -> str:
-        """The estimated error in a sentence."""
+        """Sentence about the estimated error."""
         return accuracy.error_text(known, self._sizes, self.compared)
 
     def rerun(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
@@ -281,7 +278,9 @@ class RefinedRuns:
 
         Raises `TooDearError`: the cost exceeds the remaining budget.
         """
-        spent_cost, self.tried, share = 1.0 + self.cost, h, 0.0
+        spent_cost = 1.0 + self.cost
+        self.tried = h
+        share = 0.0
         if self.cost + cost > self.most:
             raise TooDearError
         self.cost += cost
@@ -294,7 +293,7 @@ class RefinedRuns:
 
         try:
             return self.march(h, every, update, bool(self.run[1]), iterations, watch)
-        except SimulationError:  # its steps up to the failure count
+        except SimulationError:  # the whole cost counts
             share = 1.0
             raise
         finally:
@@ -324,9 +323,9 @@ class RefinedRuns:
         return {name: q[:, i] for name, i in self._columns.items()}
 
     def estimate(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
-        """Accuracy of `first_divisor` from a run `other` in steps of `h`, s.
+        """Accuracy of `first` from a run `other` in steps of `h`, s.
 
-        `ratio`: mean step of `first_divisor` over that of `other`, below 1 if `other` is coarser.
+        `ratio`: mean step of `first` over that of `other`, below 1 if `other` is coarser.
         """
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
