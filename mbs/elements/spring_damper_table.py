@@ -139,9 +139,8 @@ def _damper_columns(rows: NDArray[np.float64]) -> list[float]:
     """Rates, forces and slopes, one column after the other."""
     if not len(rows):
         return []
-    return [
-        float(v) for v in np.concatenate([*rows.T, np.maximum(_slopes(rows), 0.0)])
-    ]  # negative slopes are round-off
+    slopes = np.maximum(_slopes(rows), 0.0)  # negative slopes are round-off
+    return [float(v) for v in np.concatenate([*rows.T, slopes])]
 
 
 def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:

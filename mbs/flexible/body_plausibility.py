@@ -13,6 +13,7 @@ from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, qua
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
+from mbs.flexible.mass_points import rigid_motions
 from mbs.flexible.reduced_body import ReducedBody
 
 RIGID = 6
@@ -22,7 +23,7 @@ QUANTITIES = quantities_of("flexible")
 
 
 class FlexibleWarning(UserWarning):
-    """A flexible body that is possible but unlikely; the message says which mistake in units would explain it."""
+    """A flexible body that is unlikely; the message names a mistake in units that would explain it."""
 
 
 class Units(NamedTuple):
@@ -85,6 +86,7 @@ def _plausibility(label: str, values: partial[list[Value]], alone: bool = False)
 
 
 def _affected_keys(units: Units) -> Iterator[str]:
+    """Keys of the data that a mistake in units changes."""
     for key, factor, unit_factor in zip(("nodes", "mass", "stiffness"), units, Units(), strict=True):
         if factor != unit_factor:
             yield key
@@ -101,6 +103,7 @@ def _values(
     beside: float,
     units: Units,
 ) -> list[Value]:
+    """Values of all quantities with the data in `units`; lengths and frequencies are those of the file."""
     total, sides = units.mass * float(masses.sum()), units.length * np.ptp(x, axis=0)
     size, centre = float(sides.max()), units.length * moment / max(float(masses.sum()), np.finfo(float).tiny)
     mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_size_text(sides)} m"}
@@ -153,11 +156,7 @@ def _frequency_of_model(model: FiniteElementModel, number: int, held: ArrayLike 
 def _free_frequency(body: ReducedBody) -> float | None:
     """First elastic frequency of a free reduced body, Hz."""
     points, modes = len(body.masses), body.n_modes
-    rigid = np.zeros((points, 3, RIGID))
-    rigid[:, range(3), range(3)] = 1.0
-    for axis, rotation in enumerate(np.eye(3)):
-        rigid[:, :, 3 + axis] = np.cross(rotation, body.mass_positions)
-    shapes = np.concatenate([rigid, body.mass_shapes], axis=2).reshape(3 * points, -1)
+    shapes = np.concatenate([rigid_motions(body.mass_positions), body.mass_shapes], axis=2).reshape(3 * points, -1)
     M = shapes.T @ (np.repeat(body.masses, 3)[:, None] * shapes)
     K = np.zeros((RIGID + modes, RIGID + modes))
     K[RIGID:, RIGID:] = body.K

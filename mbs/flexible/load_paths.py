@@ -6,6 +6,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from mbs.common.errors import ModelError
+from mbs.flexible.mass_points import rigid_motions
 from mbs.flexible.reduced_body import ReducedBody
 
 
@@ -91,18 +92,9 @@ def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np
 def _balancing_inertia(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None) -> np.ndarray:
     """Modal forces of the inertia of the rigid motion that each load causes, shape (n_modes, n_loads)."""
     positions = np.array([interface.position for interface in body.interfaces.values()])
-    mass_motions, interface_motions = _rigid_motions(body.mass_positions), _rigid_motions(positions)
+    mass_motions, interface_motions = rigid_motions(body.mass_positions), rigid_motions(positions)
     rigid_mass = np.einsum("k,kia,kib->ab", body.masses, mass_motions, mass_motions)
     coupling = np.einsum("k,kij,kia->ja", body.masses, body.mass_shapes, mass_motions)
     total = interface_motions.reshape(-1, 6).T @ loads + (0.0 if frame_loads is None else frame_loads)
     acceleration = np.linalg.solve(rigid_mass, total)
     return np.asarray(coupling @ acceleration)
-
-
-def _rigid_motions(points: np.ndarray) -> np.ndarray:
-    """Motion of points for unit rigid translations and rotations, shape (p, 3, 6)."""
-    field = np.zeros((len(points), 3, 6))
-    for axis in range(3):
-        field[:, axis, axis] = 1.0
-        field[:, :, 3 + axis] = np.cross(np.eye(3)[axis], points)
-    return field

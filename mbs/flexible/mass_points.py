@@ -14,8 +14,8 @@ from mbs.common.errors import ModelError
 class MassPoints:
     """Point masses, isotropic in translation, whose displacements are linear in those of the nodes.
 
-    Isotropy is what lets ``B' M_FEM B`` of the paper's equation (13) collapse to constant shape integrals: A'A = I
-    drops out point by point. Points at the nodes give the lumped mass matrix; points at the Gauss stations of the
+    With isotropy ``B' M_FEM B`` of the paper's equation (13) reduces to constant shape integrals, because A'A = I holds
+    for each point. Points at the nodes give the lumped mass matrix; points at the Gauss stations of the
     elements give the consistent one, to the last digit, and the collapse holds all the same.
     """
 
@@ -52,6 +52,15 @@ def nodal_mass_points(positions: np.ndarray, masses: np.ndarray, translation: np
         (np.ones(rows.size), (rows, translation[mass_nodes].ravel())), shape=(rows.size, n_dof)
     )
     return MassPoints(positions[mass_nodes], masses[mass_nodes], interpolation)
+
+
+def rigid_motions(points: np.ndarray) -> np.ndarray:
+    """Displacements of points (p, 3) for unit translations and unit small rotations, shape (p, 3, 6)."""
+    motions = np.zeros((len(points), 3, 6))
+    for axis in range(3):
+        motions[:, axis, axis] = 1.0
+        motions[:, :, 3 + axis] = np.cross(np.eye(3)[axis], points)
+    return motions
 
 
 def check_masses(masses: np.ndarray, names: tuple[str, ...]) -> None:

@@ -143,9 +143,11 @@ class Comparison:
         return ends
 
     def sizes(self, guided: bool = True) -> dict[str, float]:
-        """Reference of the differences of each relevant quantity: the largest range in its unit; of forces, the value.
+        """References of the differences of relevant quantities, by name.
 
-        `guided`: positions that are equal in both motions do not move by themselves.
+        They are the largest range in the unit of a quantity, of forces the largest value.
+
+        `guided`: whether positions that are equal in both motions do not count as moving.
         """
         references = np.zeros(len(self._judged))
         pointer = references.ctypes.data_as(POINTER(c_double))
@@ -273,10 +275,8 @@ def differences(
     sizes : dict of str to float
         See `Comparison.sizes`, of the finer run.
     """
-    comparison, samples = (
-        Comparison(compared, length, before),
-        [len(run[n]) for n in compared for run in (fine, coarse)],
-    )
+    comparison = Comparison(compared, length, before)
+    samples = [len(run[n]) for n in compared for run in (fine, coarse)]
     comparison.add(fine, coarse, instants(min(samples, default=0)))
     comparison.widen(
         {name: missed_load(coarse[name], fine[name]) for name, quantity in compared.items() if quantity.load}

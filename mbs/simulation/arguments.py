@@ -177,7 +177,7 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
     instants = array(times, (None,), "the times", ValueError, "finite numbers that ascend")
     if not len(instants) or not np.all(np.diff(instants) > 0.0):
         raise ValueError(f"The times must be finite numbers that ascend, not {shown(times)}.")
-    if len(instants) and not (instants[0] >= t0 and instants[-1] <= t_end):
+    if not (instants[0] >= t0 and instants[-1] <= t_end):
         raise ValueError(
             f"The times must lie between {t0:g} and {t_end:g} s; they go from {instants[0]:g} to {instants[-1]:g}."
         )

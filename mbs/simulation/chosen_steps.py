@@ -1,4 +1,4 @@
-"""Run in equal steps with automatic choice of step, method or both."""
+"""Run in equal steps with an automatic choice of the step, the method or both."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -57,11 +57,22 @@ def run_chosen_steps(
         h, error, runs = step.h, step.error, runs + step.runs
     trajectory = run(h, settings, estimate_error if step_given or estimate_error else False)
     assert trajectory.report is not None
-    length = length_of(start(h, settings).system)
-    steps = trajectory.report.steps
     trajectory.control = Control(
-        DEFAULT_TOLERANCE, length, settings.method, reason, error, h, steps, 0, 0, 0, h, h, 0, runs + 1
-    )  # fmt: skip
+        tolerance=DEFAULT_TOLERANCE,
+        length=length_of(start(h, settings).system),
+        method=settings.method,
+        reason=reason,
+        error=error,
+        h=h,
+        steps=trajectory.report.steps,
+        rejected=0,
+        failed=0,
+        forced=0,
+        smallest=h,
+        largest=h,
+        side_steps=0,
+        runs=runs + 1,
+    )
     warn_of_tolerance(trajectory.control, error)
     trajectory.wall_s += wall
     return trajectory

@@ -91,32 +91,34 @@ class CoarserRuns:
         or a sensor differs by more than `limit` of its range. `iterations`: largest number of Newton iterations per
         step; 0: no limit.
         """
+        refined, times = self.refined, self.refined.run[0].t
         # the steps end at each sample, or at every `stride`-th one if they are longer than the sampling interval
-        steps, stride = max(round(self.refined.every / factor), 1), max(round(factor / self.refined.every), 1)
-        step_ratio = stride * self.refined.every / steps
-        h, intervals = step_ratio * self.refined.h, len(self.refined.run[0].t) - 1
-        coordinates, loads = bool(self.refined.run[1]), has_loads(self.refined.compared) and intervals <= WHOLE
-        long_enough = self.refined.run[0].t[-1] - self.refined.run[0].t[0] >= h - 0.5 * self.refined.h
-        if (stride > 1 and (coordinates or loads)) or not long_enough:
+        steps = max(round(refined.every / factor), 1)
+        stride = max(round(factor / refined.every), 1)
+        step_ratio = stride * refined.every / steps
+        h = step_ratio * refined.h
+        coordinates = bool(refined.run[1])
+        loads = has_loads(refined.compared) and len(times) - 1 <= WHOLE
+        if (stride > 1 and (coordinates or loads)) or times[-1] - times[0] < h - 0.5 * refined.h:
             return None
-        run = self.refined.run if stride == 1 else (self.refined.run[0].thinned(stride), [])
+        run = refined.run if stride == 1 else (refined.run[0].thinned(stride), [])
         smooth_from, watch = math.inf, None
         if not (coordinates or iterations):  # runs with one iteration per step are cheap enough to finish
             smooth_from = self._smooth_from / stride
             watch = self.watch(run[0], limit, smooth_from)
         try:
-            other = self.refined.rerun(h, steps, 1.0 / step_ratio, iterations, watch)
+            other = refined.rerun(h, steps, 1.0 / step_ratio, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
             return None
         made_ratio = step_ratio * self._halved_parts(stride * (len(other[0].t) - 1)) / _halved_parts(other[0].report)
         if made_ratio <= 1.0:
             return None
         if len(other[0].t) >= smooth_from:
-            other = self._continued(other[0], run[0]), []
+            other = self._complete(other[0], run[0]), []
         shared = min(len(run[0].t), len(other[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):
             return None
-        return self.refined.estimate(run, other, h, 1.0 / made_ratio)
+        return refined.estimate(run, other, h, 1.0 / made_ratio)
 
     def _halved_parts(self, samples: int) -> float:
         """Mean number of parts into which the first run halved a step, up to a number of samples."""
@@ -136,8 +138,8 @@ class CoarserRuns:
                 return samples
         return math.inf
 
-    def _continued(self, other: Trajectory, run: Trajectory) -> Trajectory:
-        """The run `other`, which ended early in agreement, continued by the samples of `run`."""
+    def _complete(self, other: Trajectory, run: Trajectory) -> Trajectory:
+        """Complete the run `other`, which ended early in agreement, by the samples of `run`."""
         names = list(self.refined.compared)
         values = np.column_stack([np.append(other[n], run[n][len(other.t) :]) for n in names])
         t = np.append(other.t, run.t[len(other.t) :])
@@ -173,11 +175,9 @@ class CoarserRuns:
         def decide(values: NDArray[np.float64]) -> bool:
             end = len(values)
             earlier = end - 1 - eighth
-            overall, last, before = (
-                difference(values, 0.0, end),
-                difference(values, earlier, end),
-                difference(values, earlier - eighth, earlier),
-            )
+            overall = difference(values, 0.0, end)
+            last = difference(values, earlier, end)
+            before = difference(values, earlier - eighth, earlier)
             if overall > limit:
                 raise TooFarError
             growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf

@@ -25,12 +25,12 @@ SCAN_STEP = 1e-3  # share of the run: interval at which input functions are scan
 ROWS, BALANCE = 1e-7, 1e-6  # tolerances of Newton's iteration over that of the run, both times the length
 MOST_FORCED, MOST_FORCED_SHARE = 300, 0.05  # steps of the least size that may exceed their share: number, share of all
 MOST_OVER_SHARE, MOST_OVER_SHARE_PART = 3000, 0.3  # steps that may exceed their share: number, share of all
-ROUND_OFF = 1e-13  # m at coordinates of 1 m
+ROUND_OFF = 1e-13  # round-off of coordinates of 1 m, m
 
 
 @dataclass(frozen=True)
 class Task:
-    """Arguments shared by all runs of one call."""
+    """Duration, record and inputs that all runs of one call have."""
 
     t0: float
     t_end: float
@@ -97,7 +97,6 @@ class ControlledRun:
         self.recorded = 0
         self.wall = 0.0
         self._stops = list(task.stops)
-        self._columns = task.signals.columns()
 
     @property
     def finished(self) -> bool:

@@ -10,10 +10,10 @@ from mbs.simulation.system_instance import SystemInstance
 
 Array = NDArray[np.float64]
 
-SHIFT = 1e-6  # of coordinates (m), velocities (m/s) and element states in the central differences
+SHIFT = 1e-6  # shift of coordinates (m), velocities (m/s) and element states in central differences
 RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
-STATE_STEP = 1e-5  # s, of the element steps from which the rates of element states are found
-SHORT_STEP = 1e-9  # s, over which a state keeps its value
+STATE_STEP = 1e-5  # s; element step from which the rates of element states are computed
+SHORT_STEP = 1e-9  # s; element step over which a state keeps its value
 
 
 class Evaluator:
@@ -74,10 +74,9 @@ class Evaluator:
         values = self._evaluate(q, qd, settled, t)
         M = self.mass(q)
         root = np.sqrt(np.where(M.diagonal() > 0.0, M.diagonal(), M.diagonal().mean()))
-        jacobian, M = (
-            self._jacobian(values, len(q)) / root,
-            M / root / root[:, None],
-        )  # with coordinates scaled by the roots of their masses
+        # coordinates scaled by the roots of their masses
+        jacobian = self._jacobian(values, len(q)) / root
+        M = M / root / root[:, None]
         Z = scipy.linalg.null_space(jacobian, rcond=RANK_TOLERANCE) if len(jacobian) else np.eye(len(q))
         particular = np.linalg.lstsq(jacobian, -np.array(values["gamma"]), rcond=RANK_TOLERANCE)[0]
         free = np.linalg.solve(Z.T @ M @ Z, Z.T @ (np.array(values["force"]) / root - M @ particular))
@@ -98,6 +97,7 @@ class Evaluator:
         return np.reshape(self.instance.mass_matrix(q.tolist()), (len(q),) * 2)
 
     def _with_settled_slots(self, q: Array, qd: Array, y: Array) -> Array:
+        """Slots `y`, with those that are no states at their values after a short step."""
         settled = self._element_step(q, qd, y, SHORT_STEP)
         settled[self.slots] = y[self.slots]
         return settled
@@ -105,9 +105,8 @@ class Evaluator:
     def _slot_rates(self, q: Array, qd: Array, settled: Array) -> Array:
         full_step_rates = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
         half_step_rates = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
-        rates: Array = (2.0 * half_step_rates - full_step_rates)[
-            self.slots
-        ]  # without the first-order error of the steps
+        # the combination has no first-order error of the steps
+        rates: Array = (2.0 * half_step_rates - full_step_rates)[self.slots]
         return rates
 
     def _evaluate(self, q: Array, qd: Array, y: Array, t: float | None = None) -> dict[str, Any]:
@@ -120,6 +119,7 @@ class Evaluator:
         return matrix
 
     def _is_state(self, k: int) -> bool:
+        """Whether slot `k` keeps a shift of its value over a short step."""
         state = self.state
         shift = SHIFT * np.eye(len(state.y))[k]
         ahead = self._element_step(state.q, state.qd, state.y + shift, SHORT_STEP)

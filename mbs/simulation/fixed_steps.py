@@ -53,7 +53,13 @@ def run_fixed_steps(
     `start`: makes the simulation for a step, s; `before`, `divisor`: as of `RefinedRuns`; `warned`: list to which
     warnings except `Accuracy.message` are added, also if the run fails; None: they are issued.
     """
-    stepped, path = list[SteppedSystem](), list[tuple[int, Mapping[str, float]]]()
+    is_checked = estimate_error is not False
+    most_cost = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
+    records_coordinates = is_checked or before is not None
+    sample_interval = accuracy.sampling_interval(every, count_steps(t0, t_end, h)) if is_checked else every
+    thinning = every // sample_interval
+    stepped = list[SteppedSystem]()
+    path = list[tuple[int, Mapping[str, float]]]()
     run_accuracy: Accuracy | None = None
 
     def record_path(values: NDArray[np.float64]) -> bool:
@@ -78,13 +84,8 @@ def run_fixed_steps(
                 name: quantity for name, quantity in compared_sensors(system).items() if quantity.always or guided
             }
             watch = None if uses_one_iteration(simulation.settings, judged_sensors, states) else record_path
-        return march(simulation, t_end, step, inputs, every, progress, records_coordinates, samples_per_pose, watch)
+        return march(simulation, t_end, step, inputs, every, progress, records_coordinates, thinning, watch)
 
-    is_checked = estimate_error is not False
-    most_cost = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
-    records_coordinates = is_checked or before is not None
-    sample_interval = accuracy.sampling_interval(every, count_steps(t0, t_end, h)) if is_checked else every
-    samples_per_pose = every // sample_interval
     try:
         with progress_for(progress) as bar:
             first_share = 1.0 / 3.0 if estimate_error is True else 1.0
@@ -100,24 +101,31 @@ def run_fixed_steps(
             refined.add_ends()
     except SimulationError as error:
         if error.trajectory is not None:
-            error.trajectory = error.trajectory.thinned(every // sample_interval)
+            error.trajectory = error.trajectory.thinned(thinning)
         raise
     finally:  # warnings about the first run are issued even if it failed
-        jumped = stepped and stepped[0].report.branch_kind == BranchKind.JUMP
-        branch = stepped[0].branch_change if jumped else run_accuracy.branch if run_accuracy is not None else ""
-        bending = stepped[0].bending.message_once() if stepped else ""
-        # the error of a failed run has this message already
-        road_message = stepped[0].road_text if stepped and run_accuracy is not None else ""
-        for category, text in ((BranchWarning, branch), (BendingWarning, bending), (RoadWarning, road_message)):
-            if text and warned is not None:
-                warned.append((category, text))
-            elif text:
+        for category, text in _warnings_of(stepped[0], run_accuracy) if stepped else ():
+            if warned is None:
                 warnings.warn(text, category, stacklevel=4)
-    trajectory = run[0].thinned(every // sample_interval)
+            else:
+                warned.append((category, text))
+    trajectory = run[0].thinned(thinning)
     trajectory.accuracy = run_accuracy
     if run_accuracy is not None and run_accuracy.notice:
         trajectory.notices += (run_accuracy.notice,)
     return trajectory
+
+
+def _warnings_of(first: SteppedSystem, run_accuracy: Accuracy | None) -> Warned:
+    """Warnings about the first run except `Accuracy.message`. `run_accuracy`: None if the run failed."""
+    if first.report.branch_kind == BranchKind.JUMP:
+        branch = first.branch_change
+    else:
+        branch = run_accuracy.branch if run_accuracy is not None else ""
+    bending = first.bending.message_once()
+    road = first.road_text if run_accuracy is not None else ""  # the error of a failed run has this message already
+    messages = ((BranchWarning, branch), (BendingWarning, bending), (RoadWarning, road))
+    return [(category, text) for category, text in messages if text]
 
 
 def estimate_accuracy(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:

@@ -177,11 +177,8 @@ class RefinedRuns:
         if self.divisor:
             return max(self.divisor, self.parts)
         missed, factor = self._missed(self.run) / self.unresolved, 1
-        while (
-            missed > factor
-            and factor < (2 if self.has_order else 4)
-            and 2 * factor * self.parts <= self.most - self.cost
-        ):
+        most = 2 if self.has_order else 4
+        while missed > factor and factor < most and 2 * factor * self.parts <= self.most - self.cost:
             factor *= 2
         return self.parts * factor
 
@@ -286,7 +283,7 @@ class RefinedRuns:
             self.before |= extremes.ends
 
     def text(self, known: Accuracy) -> str:
-        """The estimated error in a sentence."""
+        """Sentence about the estimated error."""
         return accuracy.error_text(known, self._sizes, self.compared)
 
     def rerun(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
@@ -294,7 +291,9 @@ class RefinedRuns:
 
         Raises `TooDearError`: the cost exceeds the remaining budget.
         """
-        spent_cost, self.tried, share = 1.0 + self.cost, h, 0.0
+        spent_cost = 1.0 + self.cost
+        self.tried = h
+        share = 0.0
         if self.cost + cost > self.most:
             raise TooDearError
         self.cost += cost
@@ -307,7 +306,7 @@ class RefinedRuns:
 
         try:
             return self.march(h, every, update, bool(self.run[1]), iterations, watch)
-        except SimulationError:  # its steps up to the failure count
+        except SimulationError:  # the whole cost counts
             share = 1.0
             raise
         finally:

@@ -119,14 +119,14 @@ class Simulation(SteppedSystem):
 
     @property
     def sensors(self) -> dict[str, float]:
-        """Sensor values at the state, by name; those that the System leaves out are found when one is first read."""
+        """Sensor values at the state, by name; omitted ones are computed when one is first read."""
         computed = super().sensors
         return (
             computed if len(computed) == len(self._meta["sensors"]) else Readings(computed, self.system, self.instance)
         )
 
     def set_input(self, name: str, value: float) -> None:
-        """Value of an input from now on.
+        """Set the value of an input from now on.
 
         Parameters
         ----------
@@ -145,9 +145,9 @@ class Simulation(SteppedSystem):
         self._apply_to_refined(lambda run: run.set_input(index, x))
 
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
-        """Value of a tunable parameter from now on; the next step is the first with it.
+        """Set a tunable parameter; the next step is the first with its value.
 
-        Gives a `ParameterWarning` for a value outside the range in which such models work, see `Model.parameter`.
+        Issues a `ParameterWarning` for a value outside the range of such models, see `Model.parameter`.
 
         Parameters
         ----------
@@ -207,6 +207,7 @@ class Simulation(SteppedSystem):
                 )
 
     def _set_road(self, entry: Mapping[str, Any], value: object) -> None:
+        """Set the file of a road at the start. `entry`: of the parameter in `System.meta`."""
         name = entry["name"]
         if self._started:
             raise ValueError(f"Parameter {name!r} is fixed: give the file of a road to the Simulation's constructor.")
@@ -222,8 +223,8 @@ class Simulation(SteppedSystem):
     def set_switch(self, name: str, on: bool) -> float:
         """Turn the rows of a switch on or off.
 
-        Rows that go on hold the values they have at this moment; velocities go to the nearest ones that satisfy them,
-        as in an impact without rebound.
+        Rows that are turned on keep their present values; velocities change to the nearest ones that satisfy them, as
+        in an impact without rebound.
 
         Parameters
         ----------
@@ -295,10 +296,9 @@ class Simulation(SteppedSystem):
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.
 
-        After each step the scene is put back as a whole: place along the ground and horizontal velocity of its heaviest
-        point, heading and yaw rate of its heaviest direction stay, on a slope along the slope. A scene that hangs above
-        its road is lowered to it first. Works are counted from here on, as in an FMU with
-        `initial.settling`.
+        After each step the scene is moved back as a whole: position along the ground and horizontal velocity of its
+        heaviest point, heading and yaw rate of its heaviest direction stay, on a slope along the slope. A scene above
+        its road is lowered to it first. Works are counted from here on, as in an FMU with `initial.settling`.
 
         Parameters
         ----------
@@ -433,11 +433,9 @@ class Simulation(SteppedSystem):
         every = check_every(every)
         check_progress(progress)
         checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= MOST_PARTS
-        existing, is_started, state = (
-            self._refined if checked else None,
-            False,
-            self.instance.save() if checked else b"",
-        )
+        existing = self._refined if checked else None
+        state = self.instance.save() if checked else b""
+        is_started = False
         self._refined = None
 
         def start(_: float) -> SteppedSystem:
@@ -448,8 +446,10 @@ class Simulation(SteppedSystem):
             self._refined = existing if existing is not None else self._restored(state)
             return self._refined
 
-        def equal_steps() -> Trajectory:
-            estimate, divisor = estimate_error if checked else False, self._divisor if existing is not None else 0
+        estimate = estimate_error if checked else False
+        divisor = self._divisor if existing is not None else 0
+
+        def equal_steps() -> Trajectory:  # a call as deep as in `simulate`, for the stack level of warnings
             return run_fixed_steps(
                 self.system, start, self.time, t_end, h, inputs, every, progress, estimate, self._extremes, divisor
             )
@@ -493,6 +493,7 @@ class Simulation(SteppedSystem):
         return trajectory
 
     def _restored(self, state: bytes) -> SteppedSystem:
+        """A second instance at a saved state, with the same settings and roads."""
         return restore_system(self.system, self.settings, self.road_paths, state)
 
     def _warn_once(self, right: bool = False) -> None:
@@ -507,7 +508,7 @@ class Simulation(SteppedSystem):
         warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
 
     def save(self) -> bytes:
-        """The state, from which a run continues bit for bit, in this or another process.
+        """Save the state, from which a run continues bit for bit, in this or another process.
 
         Returns
         -------
@@ -529,6 +530,7 @@ class Simulation(SteppedSystem):
         self._call("The saved state was refused", lambda: self.instance.restore(bytes(state)))
 
     def _index(self, kind: str, name: str) -> int:
+        """Index of an input, parameter or switch. `kind`: key of the metadata. Raises `ValueError`: there is none."""
         names = [entry["name"] for entry in self._meta[kind]]
         if not isinstance(name, str) or name not in names:
             available = ", ".join(names) or "none"
@@ -536,6 +538,7 @@ class Simulation(SteppedSystem):
         return names.index(name)
 
     def _call(self, subject: str, action: Callable[[], object], *, step_given: bool = False) -> None:
+        """Call the kernel; make a `SimulationError` of its error. `subject`, `step_given`: as of `refusal`."""
         try:
             action()
         except KernelError as error:

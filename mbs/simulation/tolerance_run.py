@@ -198,10 +198,23 @@ def _run_method(
     if error > 0.0:  # smaller estimates are unreliable; the error is at most the displacement
         reported_error = max(error, min(AGREED * target, run.moved / run.length))
     control = Control(
-        target, run.length, settings.method, reason, reported_error, None, fields.accepted, fields.rejected,
-        fields.failed, fields.forced, fields.smallest, fields.largest, fields.side_steps, runs, run.moved,
-        ControlledPair(run, coarser, tolerance).errors,
-    )  # fmt: skip
+        tolerance=target,
+        length=run.length,
+        method=settings.method,
+        reason=reason,
+        error=reported_error,
+        h=None,
+        steps=fields.accepted,
+        rejected=fields.rejected,
+        failed=fields.failed,
+        forced=fields.forced,
+        smallest=fields.smallest,
+        largest=fields.largest,
+        side_steps=fields.side_steps,
+        runs=runs,
+        moved=run.moved,
+        sensors=ControlledPair(run, coarser, tolerance).errors,
+    )
     return _MethodRun(run, coarser, control, error, wall)
 
 
@@ -232,6 +245,7 @@ def _record(run: ControlledRun, times: Array, first: SteppedSystem, control: Con
 def _finish(
     run: ControlledRun, tolerance: float, bar: Progress, from_share: float, times: Array, first: SteppedSystem
 ) -> ControlledRun:
+    """Finish a run while the progress goes from `from_share` to 1; its errors have the record until then."""
     try:
         run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
     except KernelError as error:
@@ -242,6 +256,7 @@ def _finish(
 
 
 def _partial_record(run: ControlledRun, times: Array, first: SteppedSystem) -> Trajectory:
+    """Trajectory of the part of a run that was reached."""
     recorded_times = run.task.times[: run.recorded]
     reached_times = times[1:][times[1:] <= (recorded_times[-1] if len(recorded_times) else run.task.t0)]
     return _record(run, times[: len(reached_times) + 1], first, None, run.wall)

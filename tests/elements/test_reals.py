@@ -65,7 +65,7 @@ def test_every_declared_number_of_an_element_is_one_of_its_record(name: str):
     if not isinstance(record, ElementRecord) or not isinstance(thing, Element):
         return
     actual = dict(zip(record.real_names, zip(record.real, record.real_checks, strict=False), strict=True))
-    own, last = type(thing)._numbers()
+    own, last = type(thing)._real_names()
     present = last and last[0] in actual
     assert {name for name in record.real_names if name in own + last} == {*own, *(last if present else ())} - UNUSED[
         name
