@@ -31,11 +31,11 @@ def write_road(
     road : PlaneRoad, KerbRoad or GridRoad
         Its friction factor is multiplied into the frictions.
     file : path
-        Whole or not at all; an older file is replaced.
+        Written completely or not at all; an existing file is replaced.
     shared : bool
-        Of a grid: equal tiles are stored once, which FMUs of version 0.1.0 do not read.
+        Whether equal tiles of a grid are stored once, which FMUs of version 0.1.0 do not read.
     tolerance : float
-        m, with `shared`: parts of the grid that are nearer to a polynomial are stored as it.
+        With `shared`: largest deviation of polynomials that are stored in place of the heights of tiles, m.
 
     Raises
     ------

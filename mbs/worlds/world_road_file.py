@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ali3.files import atomic_file
 from mbs.kernel.header.limits import ROAD_TILE
 from mbs.roads.road_header import check_grid
-from mbs.roads.shared_tiles import TILE_PLACES, TOLERANCE, SharedWriter, simplest
+from mbs.roads.shared_tiles import TILE_COORDINATES, TOLERANCE, SharedWriter, polynomials_of
 from mbs.worlds import thinned_world as thin_world
 from mbs.worlds.profiles import spaced
 from mbs.worlds.terrain import Terrain
@@ -61,7 +61,7 @@ def _tiles(terrain: Terrain, x: Float, y: Float, tolerance: float) -> Iterator[t
     z, surfaces, same = terrain.on_grid(x[SOME], y[some])
     check_grid(z, None, "the world")
     blocks = [_blocks(values, count) for values in (z, surfaces, same)]
-    forms = simplest(blocks[0], TILE_PLACES[SOME], 0.5 * tolerance)
+    forms = polynomials_of(blocks[0], TILE_COORDINATES[SOME], 0.5 * tolerance)
     step = 0.75 * math.hypot(x[1] - x[0], y[1] - y[0]) * (SOME[1] - SOME[0])
     level = (blocks[1] == blocks[1][:, :1, :1]).all(axis=(1, 2)) & (blocks[2].min(axis=(1, 2)) > step)
     whole = (
@@ -75,7 +75,7 @@ def _tiles(terrain: Terrain, x: Float, y: Float, tolerance: float) -> Iterator[t
         z, surfaces, _ = terrain.on_grid(x, (y.reshape(count, ROAD_TILE)[numbers]).ravel())
         check_grid(z, None, "the world")
         fine, kinds = _blocks(z, len(numbers)), _blocks(surfaces, len(numbers))
-        close = simplest(fine, TILE_PLACES, tolerance)
+        close = polynomials_of(fine, TILE_COORDINATES, tolerance)
         for k, number in enumerate(numbers.tolist()):
             form = close[k]
             found[number] = np.ascontiguousarray(fine[k]) if form is None else form, np.ascontiguousarray(kinds[k])
