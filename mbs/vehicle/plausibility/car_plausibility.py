@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ali3.plausibility import Mistake, Plausibility, Value
-from mbs.tyre_files.tyre_plausibility import cornering, magic_plausibility, tmeasy_plausibility
+from mbs.tyre_files.tyre_plausibility import cornering_stiffness_at, magic_plausibility, tmeasy_plausibility
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
@@ -154,7 +154,9 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
 
 
 def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
-    stiffness = {name: 2.0 * cornering(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()}
+    stiffness = {
+        name: 2.0 * cornering_stiffness_at(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()
+    }
     if min(stiffness.values()) > 0.0:
         front, rear = (2.0 * rest.load[name] / stiffness[name] * DEG for name in car.axles)
         loads = {axle.tyre.key("nominal_load"): axle.tyre.nominal_load for axle in car.axles.values()}
