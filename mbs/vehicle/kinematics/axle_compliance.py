@@ -58,7 +58,7 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
     chosen = fidelity_of(car, fidelity)
     if not car.linked_axles:
-        car.front.suspension.needs_links()
+        car.front.suspension.require_links()
     held_car = HeldCar(car, chosen)
     V, soft = held_car.flexibility(held_car.wheel_rows())
     values = {axle: _responses(held_car, axle, V, soft) for axle in car.linked_axles}

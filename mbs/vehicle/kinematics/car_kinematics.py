@@ -95,7 +95,7 @@ def kinematics(
     curves: dict[tuple[str, str], Curve] = {}
     notes: list[str] = []
     if not car.linked_axles:
-        car.front.suspension.needs_links()
+        car.front.suspension.require_links()
     for axle in car.linked_axles:
         linkage = Linkage(car, axle)
         for motion in MOTIONS:

@@ -25,7 +25,7 @@ class SuspensionSection(Section):
         Raises `CarFileError`: a file is missing or not right.
         """
 
-    def needs_links(self) -> None:
+    def require_links(self) -> None:
         """Refuse what has no links. Raises `ModelError`: it has none."""
         if not self.linked:
             raise ModelError(self.unlinked)
