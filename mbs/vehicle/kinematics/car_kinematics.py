@@ -130,8 +130,8 @@ def checked_travel(travel: object) -> tuple[float, float]:
     low, high = (float(v) for v in travel)
     if not (-LARGEST_TRAVEL <= low < 0.0 < high <= LARGEST_TRAVEL):
         raise ModelError(
-            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{LARGEST_TRAVEL:g} m or more, "
-            f"to above 0, {LARGEST_TRAVEL:g} m or less (positive in bump; 0 is the drawing)."
+            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{LARGEST_TRAVEL:g} m or "
+            f"more, to above 0, {LARGEST_TRAVEL:g} m or less (positive in bump; 0 is the drawing)."
         )
     return low, high
 

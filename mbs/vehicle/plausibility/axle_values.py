@@ -12,7 +12,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.places import centres_of, drawn_points
-from mbs.vehicle.checks.working_ranges import DAMPER_SPEED, under_load, weight_on_spring
+from mbs.vehicle.checks.working_ranges import DAMPER_SPEED, compression_and_slope, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.linkages.continuation import HEAVE
@@ -62,7 +62,7 @@ def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
     if force < 1.0 or carried <= 0.0:
         return None
     ratio = carried / force
-    rate = under_load(axle.spring, force)[1] * axle.spring.factor * ratio**2
+    rate = compression_and_slope(axle.spring, force)[1] * axle.spring.factor * ratio**2
     return AxleRates(rate, ratio, 0.5 * rate * axle.track**2, {})
 
 

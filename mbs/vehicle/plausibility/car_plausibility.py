@@ -14,7 +14,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of, weighed_points
-from mbs.vehicle.checks.places import centres_of, drawn_points, parts_of, points_of_the_body
+from mbs.vehicle.checks.places import centres_of, chassis_points, drawn_points, parts_of
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.plausibility.axle_values import CAR, DEG, axle_rates, axle_values
@@ -105,7 +105,7 @@ def _dimension_values(car: CarContent) -> Iterator[Value]:
 
 def _point_values(car: CarContent) -> Iterator[Value]:
     """Extreme points: farthest outside the body's outline, nearest to the front axle, smallest coordinate but 0."""
-    points, body = points_of_the_body(car), car.vehicle
+    points, body = chassis_points(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
     overhangs = {
         key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - HEIGHT, -z, 0.0)
