@@ -15,8 +15,8 @@ from mbs.vehicle.quantities import Factor, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 
 LINK = "anti-roll link "
-"""Begins the names of links, and of the angles of their levers; the wheel's name follows."""
-DEAD_POINT = 0.2  # sine between lever and link, seen along the bar
+"""Prefix of the names of drop links and of the angles of their levers, before the name of the wheel."""
+LEAST_SINE = 0.2  # of the angle between lever and link, seen along the bar
 
 
 class AntiRollBarPoints(Section):
@@ -39,7 +39,7 @@ class AntiRollBarPoints(Section):
                 f"{self.key('lever_end')} lies {length:.3g} m from the axis of the bar; "
                 f"a lever is {LEAST:g} m long or more."
             )
-        elif rod < LEAST or abs(lever[0] * link[1] - lever[1] * link[0]) < DEAD_POINT * length * rod:
+        elif rod < LEAST or abs(lever[0] * link[1] - lever[1] * link[0]) < LEAST_SINE * length * rod:
             yield (
                 f"{self.key('link_end')} is where the drop link cannot turn its lever; "
                 f"the link must be {LEAST:g} m long or more and stand across the lever."
@@ -55,7 +55,7 @@ class RollStiffness(Section):
     """Factor on the torque of the bar."""
 
     def tie(self, b: CarBuilder, bar: ElementRecord) -> None:
-        """Let parameters write them."""
+        """Make stiffness and factor parameters of the bar in the model."""
         b.tie_numbers(self, bar)
         b.tie(self, "factor", bar, "stiffness_factor")
 
