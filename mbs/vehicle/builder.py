@@ -18,7 +18,7 @@ Target: TypeAlias = "tuple[Owner, str | int, float, float, bool]"
 
 
 @dataclass
-class _Tied:
+class _TiedNumber:
     """A number of the car file that becomes a parameter, and the numbers of the model that it sets."""
 
     section: Section
@@ -56,7 +56,7 @@ class CarBuilder:
     rack: Coordinate | None = None
     """Travel of the rack, m, if the front axle is given by kinematic curves."""
     _chassis: Mount | None = None
-    _tied: dict[str, _Tied] = field(default_factory=dict)
+    _tied: dict[str, _TiedNumber] = field(default_factory=dict)
 
     @property
     def chassis(self) -> Mount:
@@ -106,7 +106,7 @@ class CarBuilder:
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
         path = section.key(name) + (f".{part}" if part else "")
-        tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part))
+        tied = self._tied.setdefault(path, _TiedNumber(section, name, quantity, start, part))
         tied.targets.append((owner, real, scale, offset, inverse))
 
     def tie_numbers(self, section: Section, element: ElementRecord) -> None:

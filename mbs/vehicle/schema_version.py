@@ -7,7 +7,7 @@ from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
 
 SCHEMA = 2
-"""Version that this release reads and writes."""
+"""Version that is read."""
 
 
 def check_version(data: Mapping[str, Any], what: str) -> None:

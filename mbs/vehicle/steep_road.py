@@ -1,4 +1,4 @@
-"""Warns of roads with walls for the wheels of a car."""
+"""Warns of roads with faces that the wheels of a car cannot climb."""
 
 import warnings
 from pathlib import Path
@@ -17,9 +17,9 @@ def warn_of_steep_face(road: Road | RoadOfFile, radius: float) -> None:
     Parameters
     ----------
     road : Road or RoadFile
-        Under a car. A file of more than 4e6 points is not looked at: it was when it was made.
+        Road of a car. A file of more than `MOST_POINTS` points is not checked: it was when it was made.
     radius : float
-        Of the largest wheel, m.
+        Radius of the largest wheel, m.
     """
     grid: Road | RoadOfFile | None = road
     name: object = "The grid road"
