@@ -285,9 +285,17 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
             for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")
         }
         curve_keys[f"{prefix}nominal_load"] = nominal
-        for q, stem in (("k", "slope"), ("mu", "max_force"), ("peak", "max_slip"), ("zero", ""), ("left", "slide")):
-            keys[q + axis] = {
-                k: v for k, v in curve_keys.items() if (stem and stem in k) or (q in ("k", "mu") and "nominal" in k)
+        for symbol, stem in (
+            ("k", "slope"),
+            ("mu", "max_force"),
+            ("peak", "max_slip"),
+            ("zero", ""),
+            ("left", "slide"),
+        ):
+            keys[symbol + axis] = {
+                k: v
+                for k, v in curve_keys.items()
+                if (stem and stem in k) or (symbol in ("k", "mu") and "nominal" in k)
             }
     keys["ratio"] = keys["muy"] | keys["mux"]
     return [*_curve_values(curves, keys), *_vertical_values(tyre, prefix)]

@@ -1,4 +1,4 @@
-"""State of the construction of the model of a car, shared by its parts, and parameters tied to numbers of the file."""
+"""Model of a car under construction, and parameters that are tied to numbers of the car file."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -15,6 +15,7 @@ from mbs.vehicle.quantities import Quantity
 from mbs.vehicle.section import Section
 
 Target: TypeAlias = "tuple[Owner, str | int, float, float, bool]"
+"""Owner, number, scale, offset and whether the value is inverted."""
 
 
 @dataclass
@@ -24,7 +25,7 @@ class _TiedNumber:
     section: Section
     """Section of the file with the number."""
     name: str
-    """Its field."""
+    """Name of its field."""
     quantity: Quantity
     """Range, unit and changeability of the field."""
     value: float
@@ -32,12 +33,12 @@ class _TiedNumber:
     part: str = ""
     """Component of a field with several numbers, else empty."""
     targets: list[Target] = field(default_factory=list)
-    """Owner, number, scale, offset and whether the value is inverted."""
+    """Numbers of the model that the parameter sets."""
 
 
 @dataclass
 class CarBuilder:
-    """Model of a car under construction, its inputs, and the parameters that are to be added."""
+    """Model of a car under construction with its inputs, and the parameters to add to it."""
 
     m: Model
     """The model, to which bodies, joints and elements are added."""
@@ -50,9 +51,9 @@ class CarBuilder:
     port_inputs: list[Input] = field(default_factory=list)
     """Inputs of the ports added so far."""
     wheel_roads: Mapping[str, int] = field(default_factory=dict)
-    """Numbers of the roads of wheels that have a road of their own, by wheel."""
+    """Numbers of the roads under wheels whose road is not that under the chassis, by wheel."""
     port_senses: list[Callable[[], object]] = field(default_factory=list)
-    """Functions that add the outputs of ports, called after all other outputs are there."""
+    """Functions that add the outputs of ports, called after all other outputs have been added."""
     rack: Coordinate | None = None
     """Travel of the rack, m, if the front axle is given by kinematic curves."""
     _chassis: Mount | None = None
@@ -61,7 +62,7 @@ class CarBuilder:
     @property
     def chassis(self) -> Mount:
         """Mount of the chassis, to which the other parts are attached; set when the chassis is built."""
-        assert self._chassis is not None, "the chassis is made first"
+        assert self._chassis is not None, "the chassis is built first"
         return self._chassis
 
     @chassis.setter
