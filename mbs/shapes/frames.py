@@ -87,6 +87,7 @@ def _pose_sensors(turn: Spin | Turning) -> tuple[str, ...]:
 
 
 def _carrier_of(turn: Spin | Turning) -> Body:
+    """Body that carries a wheel or turning part."""
     return turn.carrier if isinstance(turn, Spin) else turn.body
 
 
@@ -145,6 +146,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
     amplitudes: list[AmplitudePlace] = []
 
     def append(start: int, end: int) -> int:
+        """Append coordinates from `start` to `end` and return the row of the first one."""
         indices.extend(range(start, end))
         return len(indices) - (end - start)
 

@@ -57,6 +57,8 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     def fit(
         names: Sequence[str], start: Sequence[float], residuals: Callable[[dict[str, float]], Array]
     ) -> dict[str, float]:
+        """Coefficients with the least squares of the residuals."""
+
         def by_name(x: Array) -> dict[str, float]:
             return dict(zip(names, map(float, x), strict=True))
 
@@ -66,6 +68,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
         return by_name(least_squares(differences, start, x_scale="jac").x)
 
     def errors(name: str, c: dict[str, float]) -> Array:
+        """Errors of a curve at all loads and slips over the largest force. `name`: "longitudinal" or "lateral"."""
         law, slip, target = (
             (magic_longitudinal, KAPPA, longitudinal_forces)
             if name == "longitudinal"
@@ -91,6 +94,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     moments = {q: _patch_length(tyre, q) * _trail(tyre, q) * lateral_forces[q] for q in LOADS}
 
     def moment_errors(trail_coefficients: dict[str, float]) -> Array:
+        """Errors of the moment at all loads and slips over the largest moment."""
         return np.concatenate(
             [
                 (magic_trail(trail_coefficients, nominal, tyre.radius, q * nominal, alpha) * lateral_forces[q] - m)
