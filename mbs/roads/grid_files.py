@@ -149,6 +149,7 @@ def _origin_and_spacing(values: NDArray[np.float64], name: str, path: object) ->
 
 
 def _read_arrays(file: Path, quantity: str) -> Grid:
+    """Read a grid from a file of NumPy arrays."""
     arrays = read_arrays(file, MOST_BYTES, RoadFileError)
     if file.suffix.lower() == ".npy":
         return Grid(_as_floats(arrays[""], file))
@@ -167,12 +168,14 @@ def _read_arrays(file: Path, quantity: str) -> Grid:
 
 
 def _as_floats(values: NDArray[np.generic], file: Path) -> NDArray[np.float64]:
+    """Convert real numbers to floats. Raises `RoadFileError`: they are of another type."""
     if values.dtype.kind not in "fiu":
         raise RoadFileError(f"{file} has values of type {values.dtype}; real numbers are needed.")
     return values.astype(float)
 
 
 def _as_pair(values: NDArray[np.float64], subject: str) -> tuple[float, float]:
+    """Numbers for x and y from an array of one or two. Raises `RoadFileError`: it has another shape."""
     if values.shape not in ((2,), (1,), ()):
         raise RoadFileError(f"{subject} has shape {values.shape}; it is one number or two, of x and y.")
     first, *rest = np.atleast_1d(values).tolist()

@@ -143,6 +143,7 @@ def _surface(crg: pyopencrg.CrgRoad, uv: Values) -> tuple[Values, Values]:
 
 
 def _read(source: str) -> pyopencrg.CrgRoad:
+    """Read an OpenCRG file with its modifiers. Raises `RoadFileError`: it cannot be read."""
     try:
         import pyopencrg
 

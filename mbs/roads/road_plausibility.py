@@ -175,6 +175,7 @@ def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
 
 
 def _friction_values(least: float, largest: float, factor: float) -> list[Value]:
+    """Values of the least and the largest friction of a road."""
     keys = {"frictions": [least, largest], "friction_factor": factor}
     return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", least), ("largest", largest))]
 
@@ -237,6 +238,7 @@ def _is_text(road: RoadFile) -> bool:
 
 
 def _place_of_header(road: RoadFile) -> Place | None:
+    """Location of the grid in a road file; None without a grid."""
     head = road.header
     return Place(head.real[:2], head.real[2:4], (head.nx, head.ny)) if head.nx * head.ny else None
 

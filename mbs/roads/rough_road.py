@@ -14,7 +14,7 @@ REFERENCE_FREQUENCY = 0.1
 LARGEST_SQUARE = 2048
 """Largest number of points per side for which the surface is computed on a square."""
 MOST_POINTS = 2**25
-LOWEST, HIGHEST = 0.011, 2.83
+LOWEST_FREQUENCY, HIGHEST_FREQUENCY = 0.011, 2.83
 """Range of spatial frequencies, 1/m (ISO 8608:2016, 5.1.2)."""
 
 
@@ -29,8 +29,8 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
 
     `spacing`: in m; `density`: Gd(n0), m3; `seed`: of the phases. Raises `RoadFileError`: there are too many points.
     """
-    longest = round(1.0 / (LOWEST * spacing))
-    sides = [max(n, longest) for n in (nx, ny)]
+    longest_wave = round(1.0 / (LOWEST_FREQUENCY * spacing))
+    sides = [max(n, longest_wave) for n in (nx, ny)]
     if max(sides) <= LARGEST_SQUARE:
         sides = [max(sides)] * 2  # as in earlier versions
     if math.prod(sides) > MOST_POINTS:
@@ -43,7 +43,7 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     cell = 1.0 / math.prod(side * spacing for side in sides)
     with np.errstate(divide="ignore"):
         spectrum = np.where(frequency > 0.0, 0.25 * density * REFERENCE_FREQUENCY**2 * frequency**-3.0, 0.0)
-    spectrum[(frequency < LOWEST) | (frequency > HIGHEST)] = 0.0
+    spectrum[(frequency < LOWEST_FREQUENCY) | (frequency > HIGHEST_FREQUENCY)] = 0.0
     phases = np.exp(2j * np.pi * np.random.default_rng(seed).random(spectrum.shape))
     surface = np.fft.irfft2(np.sqrt(spectrum * cell) * phases, s=sides) * math.prod(sides)
     return np.asarray(surface[:nx, :ny])

@@ -69,6 +69,7 @@ def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
 
 
 def _plane_entry(road: PlaneRoad) -> dict[str, Any]:
+    """Entry of a plane in the scene."""
     if road.grade_x == 0.0 and road.grade_y == 0.0:
         return {"kind": "flat", "height": float(road.height)}
     normal = np.array([-road.grade_x, -road.grade_y, 1.0])
@@ -77,6 +78,7 @@ def _plane_entry(road: PlaneRoad) -> dict[str, Any]:
 
 
 def _kerb_entry(road: KerbRoad) -> dict[str, Any]:
+    """Entry of a kerb in the scene: a profile over a limited length."""
     low, high = float(road.lower_height), float(road.lower_height + road.step)
     before, after = (high, low) if road.upper == "before" else (low, high)
     return {
@@ -89,6 +91,7 @@ def _kerb_entry(road: KerbRoad) -> dict[str, Any]:
 
 
 def _grid_entry(road: GridRoad) -> dict[str, Any]:
+    """Entry of a grid in the scene, with a limited number of points."""
     heights = np.asarray(road.heights, float)
     frictions = np.broadcast_to(np.asarray(road.frictions, float), heights.shape)
     origin = np.array(road.origin, float)

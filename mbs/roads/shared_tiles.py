@@ -90,6 +90,7 @@ class SharedWriter:
         self._add(record_bytes(heights, frictions))
 
     def _add(self, record: bytes) -> None:
+        """Append a tile; write its record unless an equal one has been written."""
         offset = self.places.get(record)
         if offset is None:
             offset = self.places[record] = self.end
@@ -171,6 +172,7 @@ def record_bytes(heights: Float, frictions: Float | None) -> bytes:
 
 
 def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
+    """Number of different frictions in a tile, and their bytes."""
     first = frictions.flat[0]
     if (frictions == first).all():
         return 1, struct.pack("<d", first)
@@ -204,6 +206,7 @@ def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[in
 
 
 def _tile_values(record: bytes, maps: int, name: str) -> Float:
+    """Heights and frictions of a tile from its record. Raises `RoadFileError`: the record is damaged."""
     try:
         rows, columns, friction_count, zero = RECORD.unpack(record[: RECORD.size])
         reals = np.frombuffer(record, "<f8", rows * columns + friction_count, RECORD.size)

@@ -47,6 +47,7 @@ def bending_outputs(model: Model) -> None:
 
 
 def _add_amplitudes(model: Model, body: FlexibleBody, sensed: set[str]) -> None:
+    """Add the amplitudes of the modes of a flexible body."""
     stem = _stem(body.name, sensed, ("mode_1",))
     for k, mode in enumerate(body.reduced.mode_names):
         row = [float(j == k) for j in range(body.n_modes)]
@@ -69,6 +70,7 @@ def _stem(name: str, names: set[str], parts: tuple[str, ...]) -> str:
 
 
 def _add_position(model: Model, body_name: str, body: Body, stem: str) -> None:
+    """Add the coordinates of the centre of mass; constant outside the plane of a planar model."""
     position = body.point(body.com)
     for k, c in enumerate("xyz"):
         name, text = f"{stem}.{c}", f"{c} of the centre of mass of {body_name} as drawn, earth"
@@ -79,6 +81,7 @@ def _add_position(model: Model, body_name: str, body: Body, stem: str) -> None:
 
 
 def _add_orientation(model: Model, body_name: str, body: Body, stem: str) -> None:
+    """Add the quaternion; constant for a particle."""
     for k, c in enumerate("wxyz"):
         name = f"{stem}.q{c}"
         text = f"q{c} of the orientation of {body_name} since the drawing, scalar first (qw), to earth axes"

@@ -39,7 +39,20 @@ _ALIASES = {
     "IP_NOM": "NOMPRES",
 }
 _SECTIONS = ("UNITS", "MODEL", "DIMENSION", "VERTICAL", "LONGITUDINAL_COEFFICIENTS", "LATERAL_COEFFICIENTS")
-_NEEDED = ("UNLOADED_RADIUS", "FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1", "PKY2", "QBZ1", "QCZ1", "QDZ1")
+_REQUIRED_NUMBERS = (
+    "UNLOADED_RADIUS",
+    "FNOMIN",
+    "PCX1",
+    "PDX1",
+    "PKX1",
+    "PCY1",
+    "PDY1",
+    "PKY1",
+    "PKY2",
+    "QBZ1",
+    "QCZ1",
+    "QDZ1",
+)
 _WEIGHTING_COEFFICIENTS = ("RBX1", "RCX1", "RBY1", "RCY1")
 _ASYMMETRIC = (  # 0 for a symmetric tyre
     *("PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "RHX1", "RBY3", "RVY1", "RVY2"),
@@ -60,7 +73,7 @@ _VERTICAL_UNUSED = (
     *("Q_CAM", "Q_CAM1", "Q_CAM2", "Q_CAM3", "Q_FYS1", "Q_FYS2", "Q_FYS3"),
 )
 _NUMBERS = {  # keys whose values must be numbers
-    *(*MAGIC_COEFFICIENTS, *_NEEDED, *_ALIASES, *POWERS, *PRESSURES),
+    *(*MAGIC_COEFFICIENTS, *_REQUIRED_NUMBERS, *_ALIASES, *POWERS, *PRESSURES),
     *("FITTYP", "USE_MODE", "LCZ", "Q_FZ1", "Q_FZ2", *_VERTICAL_UNUSED),
     *("KPUMIN", "KPUMAX", "ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"),
 }
@@ -153,7 +166,7 @@ def read_tyre(file: str | Path) -> TyreFile:
         raise text.fault(f"it has no section [{missing_sections[0]}]; it may be cut, or no tyre property file.")
     entries = {_ALIASES.get(key, key): value for key, value in file_numbers.items()}
     numbers = to_si(text, entries)
-    missing_numbers = [key for key in _NEEDED if not numbers.get(key)]
+    missing_numbers = [key for key in _REQUIRED_NUMBERS if not numbers.get(key)]
     if missing_numbers:
         raise text.fault(
             f"{', '.join(missing_numbers)} {'is' if len(missing_numbers) == 1 else 'are'} missing or 0; it may be cut."

@@ -344,5 +344,6 @@ def _vertical_values(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
 
 @plausibility_of.register
 def _file_plausibility(file: TyreFile) -> list[Plausibility]:
+    """Plausibility of the tyre in a tyre property file."""
     signs = "adapted_sae" if file.values["coefficients"]["PKY1"] > 0.0 else "iso"
     return [magic_plausibility(file.name, file.tyre(signs=signs), file.numbers)]

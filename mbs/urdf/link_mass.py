@@ -24,14 +24,14 @@ class Factors(NamedTuple):
     limits: float = 1.0
     angles: float = 1.0
     centres: float = 1.0
-    """Of origins of inertias, beside `lengths`."""
+    """Factor on origins of inertias, in addition to `lengths`."""
     efforts: float = 1.0
     speeds: float = 1.0
     solid: bool = False
     """Whether placeholder inertias of 1, 0.1, ... kg m2 about all axes are replaced by those of a ball of
     `SOLID_DENSITY`."""
     only: str = ""
-    """Name of the only link to which they apply; empty: all."""
+    """Name of the only link to which the factors apply; empty: all links."""
 
     def of(self, name: str) -> Factors:
         """Factors that apply to a link."""

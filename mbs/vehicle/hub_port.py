@@ -7,12 +7,12 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.tyres import Tyre
 
-LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
-"""Unit, largest value and quantity by the letter in the name."""
+INPUT_RANGES = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
+"""Unit, largest value and quantity of the inputs, by the letter in their names."""
 
 
 def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) -> None:
-    """Add the inputs, their element and the outputs for a tyre model in another program.
+    """Add the inputs, their element and the outputs for a tyre model of another program.
 
     `wheel`: its name, such as "FL"; `tyre`: the replaced one, which determines numbers for the check of the inputs;
     `inertia`: of the wheel about its axis, kg m2.
@@ -21,7 +21,7 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
     inverse_inertia = tyre.radius**2 / inertia
     figures = (settling, fading, 1.0 / (slip_stiffness * inverse_inertia), stiffness * inverse_inertia)
     channels: list[int] = []
-    for letter, (unit, largest, quantity) in LARGEST.items():
+    for letter, (unit, largest, quantity) in INPUT_RANGES.items():
         for c in "xyz":
             text = f"{quantity} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
             name = f"wheel_{wheel}.hub_{letter}{c}"
@@ -33,6 +33,7 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
     b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
 
     def outputs() -> None:
+        """Add the outputs for the other program."""
         for k, c in enumerate("xyz"):
             text = f"rate of the spin axis along the earth's {c} axis"
             name = f"wheel_{wheel}.axis_rate_{c}"

@@ -41,6 +41,7 @@ class _Generator(GenerateJsonSchema):
     """Generator of schemas with lists as in draft 7."""
 
     def tuple_schema(self, schema: core_schema.TupleSchema) -> JsonSchemaValue:
+        """Schema of an array with one schema for all its elements if these are equal."""
         items = schema["items_schema"]
         inner = [self.generate_inner(item) for item in items]
         alike = all(item == inner[0] for item in inner)

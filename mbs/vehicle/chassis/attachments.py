@@ -35,6 +35,7 @@ class _RecordingChassis(Body):
         self.points: dict[Point, None] = {}
 
     def point(self, position: ArrayLike) -> AffineVector:
+        """Record a point and return it as that of the chassis."""
         x, y, z = (float(v) for v in np.asarray(position))
         if np.linalg.norm(np.subtract((x, y, z), self.reference)) > POINT_TOLERANCE:
             self.points[x, y, z] = None

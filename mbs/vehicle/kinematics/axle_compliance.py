@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 DIRECTIONS = {"same": 1.0, "opposed": -1.0}
 """Load of the right wheel per load of the left one, both in vehicle axes."""
 LOADS = ("lateral_force", "longitudinal_force", "drive_force", "aligning_torque")
-"""On the carrier: forces along y and x at the contact centre, along x at the wheel centre, moment about z."""
+"""Loads on the carrier: forces along y and x at the contact centre, along x at the wheel centre, moment about z."""
 
 
 @dataclass(frozen=True)
@@ -32,13 +32,13 @@ class Compliance:
 
     fidelity: Fidelity
     freedoms: int
-    """Independent small motions that held wheels and steering leave; 0: nothing gives, and all values are zero."""
+    """Number of independent small motions with fixed wheels and steering; 0: all values are zero."""
     values: dict[str, dict[str, float]]
     """By axle, of those with links; names as ``lateral_force.same.steer_angle``: the load, its sense on the right
     wheel, and the response: steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or
-    per N m. Of the axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with what gives in series."""
+    per N m. Of the axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with all compliances in series."""
     sentence: str
-    """Why nothing gives; empty where something does."""
+    """Reason why all values are zero; else empty."""
 
 
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:

@@ -10,7 +10,7 @@ from ali3.files import atomic_file
 from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError
 from mbs.vehicle.linkages.pose_grid import MARGIN, SPACING, compression_range, even_points, is_coupled
 from mbs.vehicle.suspensions.curve_poses import axes_of
-from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER, RACK, TRAVEL
+from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER_TRAVEL, RACK, WHEEL_TRAVEL
 
 
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
@@ -23,7 +23,7 @@ def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
     travel = _wheel_travels(linkage, coupled)
     name, second_values = "", np.zeros(1)
     if coupled:
-        name, second_values = OTHER, travel
+        name, second_values = OTHER_TRAVEL, travel
     elif linkage.has_rod and rack_travel > 0.0:
         name, second_values = RACK, even_points(-rack_travel - MARGIN, rack_travel + MARGIN, SPACING[1])
     rows: list[dict[str, float]] = []
@@ -31,7 +31,7 @@ def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
         for u in second_values:
             position = (np.array([t, u]), 0.0) if coupled else (np.array([t, t]), float(u))
             q = _solve(linkage, *position)
-            rows.append({TRAVEL: float(t), **({name: float(u)} if name else {}), **_columns_at(linkage, q)})
+            rows.append({WHEEL_TRAVEL: float(t), **({name: float(u)} if name else {}), **_columns_at(linkage, q)})
     return {column: np.array([row[column] for row in rows]) + 0.0 for column in rows[0]}
 
 

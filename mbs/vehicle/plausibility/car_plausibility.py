@@ -280,6 +280,7 @@ def _scale(keys: str | list[str], factor: float) -> Undo:
 
 
 def _scaled(value: Any, factor: float) -> Any:
+    """A number times a factor, or all numbers of a list; of a table, its last column."""
     if isinstance(value, list):
         if value and isinstance(value[0], list):
             return [[*row[:-1], row[-1] * factor] for row in value]

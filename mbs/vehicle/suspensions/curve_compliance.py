@@ -24,7 +24,7 @@ from mbs.vehicle.quantities import DisplacementPerForce, LossTime, SteerPerForce
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.suspensions.curve_poses import WheelCurves
-from mbs.vehicle.suspensions.curve_table import OTHER, RACK
+from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK
 
 STEER_ANGLES = np.linspace(-0.06, 0.06, 7)  # rad, in the table
 FORWARD = (1.0, 0.0, 0.0)
@@ -59,8 +59,11 @@ class Compliance(Section):
 
     def fits(self, second: str) -> Iterator[str]:
         """Yield a sentence if the table has a second variable with which the compliance cannot be combined."""
-        if second == OTHER:
-            yield f"{self.path} is there, but the table has {OTHER}; an axle whose wheels move each other has none."
+        if second == OTHER_TRAVEL:
+            yield (
+                f"{self.path} is there, but the table has {OTHER_TRAVEL}; an axle whose wheels move each other has "
+                "none."
+            )
         for name in ("per_lateral_force", "per_longitudinal_force"):
             if second == RACK and getattr(self, name):
                 yield (

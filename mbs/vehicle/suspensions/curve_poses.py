@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.suspensions.curve_table import OTHER, RACK, CurveTable
+from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK, CurveTable
 
 Array = NDArray[np.float64]
 
@@ -66,8 +66,8 @@ def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
 
     `hub`: the left wheel as drawn.
     """
-    has_own = table.both and side.name == "right"
-    if has_own and table.second_name == OTHER:  # the first variable is the travel of the left wheel
+    has_own = table.has_right_wheel and side.name == "right"
+    if has_own and table.second_name == OTHER_TRAVEL:  # the first variable is the travel of the left wheel
         table = table.exchanged()
     sign = -1.0 if has_own else 1.0
     centres, rotations = _centres_and_rotations(table, "right" if has_own else "left", sign, hub)

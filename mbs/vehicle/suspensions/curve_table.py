@@ -19,11 +19,11 @@ from mbs.vehicle.files import beside
 Array = NDArray[np.float64]
 
 UNITS = {"m": ("m", 1.0), "mm": ("m", 1e-3), "rad": ("rad", 1.0), "deg": ("rad", math.pi / 180.0)}
-TRAVEL, RACK, OTHER = "wheel_travel", "rack_travel", "other_wheel_travel"
+WHEEL_TRAVEL, RACK, OTHER_TRAVEL = "wheel_travel", "rack_travel", "other_wheel_travel"
 COLUMNS = {
-    TRAVEL: "m",
+    WHEEL_TRAVEL: "m",
     RACK: "m",
-    OTHER: "m",
+    OTHER_TRAVEL: "m",
     "wheel_centre_x": "m",
     "wheel_centre_y": "m",
     "contact_centre_x": "m",
@@ -41,22 +41,22 @@ COLUMNS = {
     "anti_roll_bar_angle": "rad",
 }
 """Columns of a table with their SI units."""
-NEEDED = (
+REQUIRED_GROUPS = (
     ("wheel_centre_x", "contact_centre_x", "wheelbase_change"),
     ("wheel_centre_y", "contact_centre_y", "track_change"),
     ("toe_angle", "steer_angle"),
     ("camber_angle", "inclination_angle"),
     ("carrier_pitch_angle", "caster_angle"),
 )
-"""Groups of columns of which one is needed; the first one is used."""
-OPTIONAL = ("spring_length", "damper_length", "anti_roll_bar_angle")
+"""Groups of columns of which one is required; the first one is used."""
+OPTIONAL_COLUMNS = ("spring_length", "damper_length", "anti_roll_bar_angle")
 LARGEST_ANGLE = 1.6  # rad
 LARGEST_RATES = {"m": 1.0, "rad": 10.0}
-"""Largest change by unit per m of travel: a larger one is a wrong cell. Twice as much for both wheels together."""
-RACK_FACTOR, LEVER_FACTOR = 20.0, 10.0  # on these rates, over the travel of a rack, and of springs and bars
+"""Largest change per m of travel, by unit: a larger one is an error in a cell; twice as much for the track."""
+RACK_FACTOR, LEVER_FACTOR = 20.0, 10.0  # on these rates: over the travel of a rack; of springs, dampers and bars
 POINT_TOLERANCE = 1e-9  # m, of equal points
 MOST_INTERVALS = 200  # of a variable; a table with more is thinned
-LARGEST_SPACINGS = {TRAVEL: 0.0125, RACK: 0.0065, OTHER: 0.0125}  # m; a coarser table is interpolated
+LARGEST_SPACINGS = {WHEEL_TRAVEL: 0.0125, RACK: 0.0065, OTHER_TRAVEL: 0.0125}  # m; a coarser table is interpolated
 
 
 @dataclass(frozen=True)
@@ -66,22 +66,22 @@ class CurveTable:
     travel: Array
     """Travel of the left wheel centre, m, positive in bump, shape (n,); equidistant, with 0 among the points."""
     second: Array
-    """Travel of the rack, positive to the left, or of the right wheel, m, shape (k,), likewise; k = 1 without a second
-    variable."""
+    """Travel of the rack, positive to the left, or of the right wheel, m, shape (k,); k = 1 without a
+    second variable."""
     second_name: str
-    """`RACK`, `OTHER` or empty."""
+    """`RACK`, `OTHER_TRAVEL` or empty."""
     columns: dict[str, Array]
     """Columns by name, SI units, shape (n, k) each."""
-    left_out: tuple[str, ...] = ()
+    unused_columns: tuple[str, ...] = ()
     """Columns of the file that are not used."""
 
     def of(self, name: str, side: str) -> Array | None:
-        """Column of a wheel by its name with the side; for the left wheel also without. None if there is none."""
+        """Column of a wheel by its name with or, for the left wheel, without the side; None if there is none."""
         values = self.columns.get(f"{name}_{side}")
         return self.columns.get(name) if values is None and side == "left" else values
 
     @property
-    def both(self) -> bool:
+    def has_right_wheel(self) -> bool:
         """Whether the right wheel has columns of its own."""
         return any(name.endswith("_right") for name in self.columns)
 
@@ -99,19 +99,21 @@ def read_curves(folder: Path, name: str, key: str, size: float) -> CurveTable:
     Raises `CarFileError`: there is no such file, or it is not such a table.
     """
     what = f"{key} ({name})"
-    table = TextTable(beside(folder, name, key), CarFileError, what, known=(TRAVEL, f"{TRAVEL}_left"), units=True)
+    table = TextTable(
+        beside(folder, name, key), CarFileError, what, known=(WHEEL_TRAVEL, f"{WHEEL_TRAVEL}_left"), units=True
+    )
     file_columns = dict(zip(table.names, table.values(finite=False).T, strict=True))
-    used = [n for n in file_columns if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER))]
+    used = [n for n in file_columns if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER_TRAVEL))]
     columns = {n: _in_si(what, n, table.units.get(n, ""), file_columns[n], size) for n in used}
     travel = _travel(what, file_columns, columns)
-    seconds = [n for n in (RACK, OTHER) if n in columns]
+    seconds = [n for n in (RACK, OTHER_TRAVEL) if n in columns]
     if len(seconds) > 1:
-        raise CarFileError(f"{what} has the columns {RACK} and {OTHER}; give at most one of them.")
+        raise CarFileError(f"{what} has the columns {RACK} and {OTHER_TRAVEL}; give at most one of them.")
     _check_sides(what, file_columns, columns)
     second_name = seconds[0] if seconds else ""
     curves = _grid(what, travel, columns.pop(second_name, None), second_name, columns)
     _check_rates(what, curves)
-    return replace(curves, left_out=tuple(n for n in file_columns if n not in used))
+    return replace(curves, unused_columns=tuple(n for n in file_columns if n not in used))
 
 
 def _base(name: str) -> str:
@@ -120,10 +122,10 @@ def _base(name: str) -> str:
 
 
 def _travel(what: str, file_columns: Iterable[str], columns: dict[str, Array]) -> Array:
-    """Remove the travel from the columns and return it: of both wheels, or of the left one beside that of the other."""
-    names = [n for n in (TRAVEL, f"{TRAVEL}_left", f"{TRAVEL}_right") if n in columns]
-    if names in ([], [f"{TRAVEL}_right"]):
-        raise CarFileError(f"{what} has no column {TRAVEL}; its columns are {', '.join(file_columns)}.")
+    """Remove the travel of both wheels, or of the left one, from the columns and return it."""
+    names = [n for n in (WHEEL_TRAVEL, f"{WHEEL_TRAVEL}_left", f"{WHEEL_TRAVEL}_right") if n in columns]
+    if names in ([], [f"{WHEEL_TRAVEL}_right"]):
+        raise CarFileError(f"{what} has no column {WHEEL_TRAVEL}; its columns are {', '.join(file_columns)}.")
     travel = columns.pop(names[0])
     for name in names[1:]:
         values = columns.pop(name)
@@ -132,22 +134,22 @@ def _travel(what: str, file_columns: Iterable[str], columns: dict[str, Array]) -
             k = int(np.argmax(different))
             raise CarFileError(
                 f"{what}, row {k + 1} has a {names[0]} of {travel[k]:g} m and a {name} of {values[k]:g} m; both wheels "
-                f"must travel alike, or give {OTHER} in place of {name}."
+                f"must travel alike, or give {OTHER_TRAVEL} in place of {name}."
             )
     return travel
 
 
 def _check_sides(what: str, file_columns: Iterable[str], columns: Mapping[str, Array]) -> None:
-    """Check that the needed columns are there, for both wheels if the right wheel has a column of its own."""
+    """Raise `CarFileError` if a required column is missing; both wheels need one if the right wheel has any."""
     both = any(n.endswith("_right") for n in columns)
-    for names in NEEDED:
+    for names in REQUIRED_GROUPS:
         for side in ("left", "right") if both else ("left",):
             if not any(f"{n}_{side}" in columns or (side == "left" and n in columns) for n in names):
                 raise CarFileError(
                     f"{what} has no column {' or '.join(names)}{f' of the {side} wheel' if both else ''}; "
                     f"its columns are {', '.join(file_columns)}."
                 )
-    for name in OPTIONAL if both else ():
+    for name in OPTIONAL_COLUMNS if both else ():
         present = [n for n in (name, f"{name}_left", f"{name}_right") if n in columns]
         pair = [f"{name}_left", f"{name}_right"]
         if present and present != pair:
@@ -181,23 +183,25 @@ def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array
 def _grid(what: str, travel: Array, second: Array | None, second_name: str, columns: Mapping[str, Array]) -> CurveTable:
     """Make the table over equidistant points from the rows of a file."""
     if second is None:
-        if len(_points(travel)) < len(travel):
+        if len(_distinct_points(travel)) < len(travel):
             raise CarFileError(
-                f"{what} has values of {TRAVEL} twice, and no second column of travels beside it: {RACK} where the "
-                f"axle steers, {OTHER} where its wheels move each other."
+                f"{what} has values of {WHEEL_TRAVEL} twice, and no second column of travels beside it: {RACK} where "
+                f"the axle steers, {OTHER_TRAVEL} where its wheels move each other."
             )
-        _check_axis(what, TRAVEL, travel)
-        points = _equidistant(travel, LARGEST_SPACINGS[TRAVEL])
+        _check_axis(what, WHEEL_TRAVEL, travel)
+        points = _equidistant(travel, LARGEST_SPACINGS[WHEEL_TRAVEL])
         return CurveTable(
             points, np.zeros(1), "", {n: _resampled(travel, points, v[:, None], 0) for n, v in columns.items()}
         )
-    along, across = _points(travel), _points(second)
-    for name, points in ((TRAVEL, along), (second_name, across)):
+    along, across = _distinct_points(travel), _distinct_points(second)
+    for name, points in ((WHEEL_TRAVEL, along), (second_name, across)):
         _check_axis(what, name, points)
     travel_index, second_index = (np.searchsorted(p, v, "right") - 1 for p, v in ((along, travel), (across, second)))
     pairs = travel_index * len(across) + second_index
     if len(np.unique(pairs)) < len(pairs):
-        raise CarFileError(f"{what} has a pair of {TRAVEL} and {second_name} twice; there must be one row for each.")
+        raise CarFileError(
+            f"{what} has a pair of {WHEEL_TRAVEL} and {second_name} twice; there must be one row for each."
+        )
     i, k = int(np.argmin(np.abs(along))), int(np.argmin(np.abs(across)))
     has_drawing = abs(along[i]) < POINT_TOLERANCE and abs(across[k]) < POINT_TOLERANCE
     is_cross = (
@@ -208,14 +212,14 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     size = len(along) * len(across)
     if len(pairs) < size and not (is_cross and second_name == RACK):
         raise CarFileError(
-            f"{what} has {len(travel)} rows for {len(along)} values of {TRAVEL} and {len(across)} of {second_name}; "
-            f"there must be one for each pair, {size}, or of a rack those where one of both is 0."
+            f"{what} has {len(travel)} rows for {len(along)} values of {WHEEL_TRAVEL} and {len(across)} of "
+            f"{second_name}; there must be one for each pair, {size}, or of a rack those where one of both is 0."
         )
     order = np.argsort(pairs)
     # rows of the two curves through the drawing
     travel_rows, other_rows = order[second_index[order] == k], order[travel_index[order] == i]
     axes, resampled = (
-        (_equidistant(along, LARGEST_SPACINGS[TRAVEL]), _equidistant(across, LARGEST_SPACINGS[second_name])),
+        (_equidistant(along, LARGEST_SPACINGS[WHEEL_TRAVEL]), _equidistant(across, LARGEST_SPACINGS[second_name])),
         {},
     )
     for name, values in columns.items():
@@ -230,11 +234,11 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
 
 def _check_rates(what: str, table: CurveTable) -> None:
     """Raise `CarFileError` if a column changes too fast between neighbouring points."""
-    for axis, (name, points) in enumerate(((TRAVEL, table.travel), (table.second_name, table.second))):
+    for axis, (name, points) in enumerate(((WHEEL_TRAVEL, table.travel), (table.second_name, table.second))):
         for column, values in table.columns.items() if len(points) > 1 else ():
             unit, rates = COLUMNS[_base(column)], np.abs(np.diff(values, axis=axis)) / np.diff(points).mean()
             largest_rate = LARGEST_RATES[unit] * (RACK_FACTOR if name == RACK else 1.0)
-            if _base(column) in OPTIONAL:
+            if _base(column) in OPTIONAL_COLUMNS:
                 largest_rate *= LEVER_FACTOR
             if _base(column) == "track_change":
                 largest_rate *= 2.0
@@ -246,8 +250,8 @@ def _check_rates(what: str, table: CurveTable) -> None:
                 )
 
 
-def _points(values: Array) -> Array:
-    """Different values in ascending order; of equal ones the least."""
+def _distinct_points(values: Array) -> Array:
+    """Distinct values in ascending order; of equal ones the least."""
     distinct = np.unique(values)
     return np.asarray(distinct[np.concatenate([[True], np.diff(distinct) > POINT_TOLERANCE])])
 

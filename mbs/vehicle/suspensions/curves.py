@@ -24,7 +24,7 @@ from mbs.vehicle.suspensions.anti_roll_bar import LINK, RollStiffness
 from mbs.vehicle.suspensions.curve_compliance import Compliance
 from mbs.vehicle.suspensions.curve_links import CurveLink
 from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
-from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, read_curves
+from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK, Array, CurveTable, read_curves
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
 LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the origin belongs to the rear axle
@@ -115,8 +115,8 @@ class Curves(SuspensionSection):
 
     def oddities(self) -> Iterator[str]:
         """Yield a sentence on the columns of the file that are not used."""
-        if self.table.left_out:
-            yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.left_out)}."
+        if self.table.unused_columns:
+            yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.unused_columns)}."
 
     def steers_left(self, centre: Point) -> bool:
         """Whether rack travel to the left steers to the left by the table."""
@@ -248,7 +248,7 @@ class Curves(SuspensionSection):
             if self.compliance is not None:
                 rack = self.compliance.rack_end(b, side, rack, self._steer_rate(curves))
             return [travel, rack], curves
-        if self.table.second_name == OTHER:
+        if self.table.second_name == OTHER_TRAVEL:
             return [travel, travels["right" if side.name == "left" else "left"]], curves
         if self.compliance is not None:
             turn = self.compliance.turn(b, side)
