@@ -20,7 +20,7 @@ from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.side import Point
 
-COMPUTED = "stress.computed"
+COMPUTED_OUTPUT = "stress.computed"
 
 
 def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
@@ -86,8 +86,8 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
 
 
 def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
-    """Add moments and stresses at the gauges; they are zero on a rigid chassis, where the output `COMPUTED` is 0."""
-    note = f"; zero where {COMPUTED} is 0"
+    """Add moments and stresses at the gauges; zero on a rigid chassis, where the output `COMPUTED_OUTPUT` is 0."""
+    note = f"; zero where {COMPUTED_OUTPUT} is 0"
     for k, reading in enumerate(flexible.structure.readings):
         name, unit, text = reading.name, reading.unit, reading.description
         if fidelity.rigid:
@@ -103,7 +103,7 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
             m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
     computed = not fidelity.rigid
-    m.sense_constant(COMPUTED, float(computed), unit="1", description=text, whole=True, computed=computed)
+    m.sense_constant(COMPUTED_OUTPUT, float(computed), unit="1", description=text, whole=True, computed=computed)
 
 
 def amplitude_names(flexible: FlexibleFrame) -> list[str]:
@@ -121,7 +121,7 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
     rows = flexible.drawn_amplitudes(body.reduced) if isinstance(body, FlexibleBody) else None
     for k, (name, mode) in enumerate(zip(amplitude_names(flexible), drawn.mode_names, strict=True)):
         unit = "m" if k < drawn.n_static else "1"
-        text = f"amplitude of mode '{mode}' of the chassis, for pictures; zero where {COMPUTED} is 0"
+        text = f"amplitude of mode '{mode}' of the chassis, for pictures; zero where {COMPUTED_OUTPUT} is 0"
         if isinstance(body, FlexibleBody):
             assert rows is not None
             m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)

@@ -3,7 +3,7 @@
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.section import Chassis
 
-NUMBERS = {"com": ("com_x", "com_y", "com_z"), "inertia": ("xx", "yy", "zz"), "products": ("xy", "xz", "yz")}
+MODEL_NUMBERS = {"com": ("com_x", "com_y", "com_z"), "inertia": ("xx", "yy", "zz"), "products": ("xy", "xz", "yz")}
 """Numbers of the chassis in the model, by field of the file."""
 
 
@@ -17,6 +17,6 @@ def write_inertia(b: CarBuilder, data: Chassis) -> None:
         "chassis", b.chassis.place(data.com), axes, mass=data.mass, com=data.com, inertia=data.tensor
     )
     b.tie(data, "mass", chassis, "mass")
-    for field, reals in NUMBERS.items():
+    for field, reals in MODEL_NUMBERS.items():
         for (path, value), real in zip(data.numbers(field).items(), reals, strict=True):
             b.tie(data, field, chassis, real, value=value, part=path.rpartition(".")[2])

@@ -10,7 +10,7 @@ from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model.model import Model
 from mbs.simulation.unstepped_system import StandingSystem
-from mbs.vehicle.chassis.flexible_chassis import COMPUTED, amplitude_names
+from mbs.vehicle.chassis.flexible_chassis import COMPUTED_OUTPUT, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.gauges.reading import STRESS
 from mbs.vehicle.side import Point
@@ -36,7 +36,7 @@ def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point)
         amplitude_names(flexible),
         origin=body.origin - np.array(reference_point),
         start=start,
-        computed=COMPUTED,
+        computed=COMPUTED_OUTPUT,
         full_scale=full_scale,
         gauges=[
             {"name": r.gauge, "value": r.name, "unit": r.unit, "nodes": r.between, "along": r.along}

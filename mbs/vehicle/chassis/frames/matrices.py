@@ -27,7 +27,7 @@ class MatricesFrame(MatrixFrame):
     """Table of the nodes in the order of the matrices: name, x, y, z."""
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there."""
+        """Files of the matrices, all of which exist."""
         return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
