@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.worlds.obstacles import Footprint
 from mbs.worlds.terrain import Terrain
 
 Float = NDArray[np.float64]
@@ -112,12 +113,12 @@ def _axis_to_split_at_obstacles(
     return ""
 
 
-def _is_on_top(base: object, face: float, flank: float, rectangle: tuple[float, float, float, float]) -> bool:
+def _is_on_top(base: Footprint, face: float, flank: float, rectangle: tuple[float, float, float, float]) -> bool:
     """Whether a patch lies on the flat top of a kerb."""
     x, y, a, b = rectangle
-    u, v = base.local(np.array([x, x + a, x, x + a]), np.array([y, y, y + b, y + b]))  # type: ignore[attr-defined]
-    inside_u = (u >= face) & (u <= base.length - face)  # type: ignore[attr-defined]
-    inside_v = (v >= base.right + flank) & (v <= base.left - flank)  # type: ignore[attr-defined]
+    u, v = base.local(np.array([x, x + a, x, x + a]), np.array([y, y, y + b, y + b]))
+    inside_u = (u >= face) & (u <= base.length - face)
+    inside_v = (v >= base.right + flank) & (v <= base.left - flank)
     return bool((inside_u & inside_v).all())
 
 
