@@ -31,13 +31,13 @@ class _RecordingChassis(Body):
 
     def __init__(self, owner: Body, reference: Point) -> None:
         super().__init__(owner.model, owner.name, owner.com, owner.start)
-        self.reference = reference
+        self.reference_point = reference
         self.points: dict[Point, None] = {}
 
     def point(self, position: ArrayLike) -> AffineVector:
         """Record a point and return it as that of the chassis."""
         x, y, z = (float(v) for v in np.asarray(position))
-        if np.linalg.norm(np.subtract((x, y, z), self.reference)) > POINT_TOLERANCE:
+        if np.linalg.norm(np.subtract((x, y, z), self.reference_point)) > POINT_TOLERANCE:
             self.points[x, y, z] = None
         return super().point(position)
 
