@@ -21,23 +21,23 @@ from mbs.roads.rough_road import ISO_8608, rough_heights
 from mbs.roads.sampled_road import SampledRoad, warn_of_deviation
 
 Length = Annotated[float, Field(gt=0.0, le=1e5)]
-Place = Annotated[float, Field(ge=-1e6, le=1e6)]
+Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
 Height = Annotated[float, Field(ge=-1e4, le=1e4)]
 Friction = Annotated[float, Field(ge=0.0, le=2.0)]
-GRID_FRICTION = 0.9
-"""Of a grid whose friction nothing says."""
+DEFAULT_FRICTION = 0.9
+"""Friction of a grid without frictions."""
 Range = tuple[float, float]
-RESOLUTION = 2.0**-17
-"""m, 0.008 mm: heights of waves and rough roads are multiples of it, so that their files are the same everywhere."""
+HEIGHT_RESOLUTION = 2.0**-17
+"""Heights of washboards and rough roads are multiples of it, m: all machines compute the same file."""
 
 
-class _Road(BaseModel):
+class _Description(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     description: str = ""
 
 
-class Plane(_Road):
+class Plane(_Description):
     """z = height + grade_x x + grade_y y."""
 
     kind: Literal["plane"]
@@ -47,32 +47,32 @@ class Plane(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> PlaneRoad:
-        """The road as the kernel takes it."""
+        """Make the road of the kernel."""
         return PlaneRoad(self.height, self.grade_x, self.grade_y, self.friction)
 
 
-class Kerb(_Road):
-    """A step across the way at x = position."""
+class Kerb(_Description):
+    """A step across the road at x = position."""
 
     kind: Literal["kerb"]
-    position: Place
+    position: Coordinate
     step: Annotated[float, Field(gt=0.0, le=1.0)]
     lower_height: Height = 0.0
     upper: Literal["before", "after"] = "before"
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> KerbRoad:
-        """The road as the kernel takes it."""
+        """Make the road of the kernel."""
         return KerbRoad(self.position, self.step, self.lower_height, self.upper, self.friction)
 
 
-class GridOfFiles(_Road):
+class GridOfFiles(_Description):
     """Heights and frictions from CSV tables, NumPy arrays or pictures beside this file."""
 
     kind: Literal["grid"]
     heights: str
     frictions: str | Friction | None = None
-    origin: tuple[Place, Place] | None = None
+    origin: tuple[Coordinate, Coordinate] | None = None
     spacing: tuple[Length, Length] | None = None
     height_range: Range | None = None
     friction_range: Range | None = None
@@ -80,7 +80,7 @@ class GridOfFiles(_Road):
     up: Literal["y", "z"] | None = None
 
     def road(self, folder: Path) -> GridRoad:
-        """The road as the kernel takes it."""
+        """Make the road of the kernel."""
         frictions = folder / self.frictions if isinstance(self.frictions, str) else self.frictions
         mesh = {name: value for name in ("scale", "up") if (value := getattr(self, name)) is not None}
         return grid_road(
@@ -89,11 +89,11 @@ class GridOfFiles(_Road):
         )
 
 
-class Washboard(_Road):
-    """Waves across the way from x = start on; the first one grows."""
+class Washboard(_Description):
+    """Sine waves across the road from x = start on; the first and the last one are lower."""
 
     kind: Literal["washboard"]
-    start: Place
+    start: Coordinate
     length: Length
     width: Length
     wavelength: Annotated[float, Field(ge=0.1, le=100.0)]
@@ -101,20 +101,20 @@ class Washboard(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> GridRoad:
-        """The road as a grid with 24 points per wave."""
+        """Make a grid with 24 points per wave."""
         dx = self.wavelength / 24.0
         x = dx * np.arange(-24, math.ceil(self.length / dx) + 25)
         envelope = np.clip(x / self.wavelength, 0.0, 1.0) * np.clip((self.length - x) / self.wavelength, 0.0, 1.0)
         z = self.amplitude * envelope * np.sin(2.0 * np.pi * x / self.wavelength)
-        heights = np.repeat(_rounded(z)[:, None], 2, axis=1)
+        heights = np.repeat(_round_heights(z)[:, None], 2, axis=1)
         return GridRoad((self.start + x[0], -0.5 * self.width), (dx, self.width), heights, self.friction)
 
 
-class Rough(_Road):
-    """An uneven surface of a class of ISO 8608, in all directions alike; from x = start on, where it is level."""
+class Rough(_Description):
+    """An isotropic uneven surface of a class of ISO 8608 from x = start on, level at both ends."""
 
     kind: Literal["rough"]
-    start: Place
+    start: Coordinate
     length: Length
     width: Length
     spacing: Annotated[float, Field(ge=0.01, le=1.0)] = 0.1
@@ -123,25 +123,25 @@ class Rough(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> GridRoad:
-        """The road as a grid."""
+        """Make the grid."""
         n = [math.ceil(side / self.spacing) + 1 for side in (self.length, self.width)]
         heights = rough_heights(n[0], n[1], self.spacing, ISO_8608[self.roughness], self.seed)
         x = self.spacing * np.arange(n[0])
         heights *= np.clip(np.minimum(x, self.length - x) / 5.0, 0.0, 1.0)[:, None]
-        return GridRoad((self.start, -0.5 * self.width), (self.spacing,) * 2, _rounded(heights), self.friction)
+        return GridRoad((self.start, -0.5 * self.width), (self.spacing,) * 2, _round_heights(heights), self.friction)
 
 
-class Split(_Road):
-    """A level road with one friction for y > 0, the left of who drives along x, and one for y < 0."""
+class Split(_Description):
+    """A level road with one friction for y > 0, to the left of the x axis, and another for y < 0."""
 
     kind: Literal["split"]
-    start: Place
+    start: Coordinate
     length: Length
     left: Friction
     right: Friction
 
     def road(self, folder: Path) -> GridRoad:
-        """The road as a grid; the friction changes within 0.1 m."""
+        """Make a grid, on which the friction changes within 0.1 m."""
         y = 0.1 * np.arange(-2, 2) + 0.05
         frictions = np.where(y > 0.0, self.left, self.right)
         return GridRoad((self.start, y[0]), (self.length, 0.1), np.zeros((2, 4)), np.tile(frictions, (2, 1)))
@@ -151,12 +151,12 @@ _AnyRoad = Annotated[Plane | Kerb | GridOfFiles | Washboard | Rough | Split, Fie
 _ADAPTER: TypeAdapter[Any] = TypeAdapter(_AnyRoad)
 
 
-def _rounded(heights: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
-    return np.asarray(np.round(heights / RESOLUTION) * RESOLUTION + 0.0)
+def _round_heights(heights: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
+    return np.asarray(np.round(heights / HEIGHT_RESOLUTION) * HEIGHT_RESOLUTION + 0.0)
 
 
 def described_road(path: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
-    """The road that a TOML file describes. Raises `RoadFileError` with file, key, value and what would be right."""
+    """Read the road that a TOML file describes. Raises `RoadFileError`: the description is not valid."""
     table = read_toml(path, RoadFileError)
     try:
         description = _ADAPTER.validate_python(table, strict=False)
@@ -175,7 +175,7 @@ def grid_road(
     friction_range: Range | None = None,
     **mesh: Any,
 ) -> GridRoad:
-    """A grid from files; what is given here goes before what the files say. `mesh`: `scale` and `up` of `mesh_road`."""
+    """Read a grid; arguments override the files. `mesh`: `scale` and `up` of `mesh_road`."""
     for limits, name, file in ((height_range, "heights", heights), (friction_range, "frictions", frictions)):
         if limits is not None and Path(str(file)).suffix.lower() != PICTURE:
             raise RoadFileError(
@@ -184,7 +184,7 @@ def grid_road(
             )
     for step in spacing or ():
         positive(step, f"The spacing of the grid of {heights}", RoadFileError)
-    grid = _grid(heights, height_range, spacing, mesh)
+    grid = _read_heights(heights, height_range, spacing, mesh)
     values: Any = frictions
     if frictions is None:
         values = grid.frictions
@@ -196,10 +196,10 @@ def grid_road(
                 f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "
                 f"{np.shape(grid.heights)}; both must agree."
             )
-    least, most = np.min(values), np.max(values)
-    if not 0.0 <= least <= most <= ROAD_FRICTION:
+    lowest, highest = np.min(values), np.max(values)
+    if not 0.0 <= lowest <= highest <= ROAD_FRICTION:
         raise RoadFileError(
-            f"The frictions of {heights} are {least:g} to {most:g}; they must lie between 0 and {ROAD_FRICTION:g}."
+            f"The frictions of {heights} are {lowest:g} to {highest:g}; they must lie between 0 and {ROAD_FRICTION:g}."
         )
     road = replace(grid, frictions=values)
     if isinstance(road, SampledRoad):
@@ -209,13 +209,13 @@ def grid_road(
     return replace(road, origin=origin or road.origin)
 
 
-def _grid(
+def _read_heights(
     heights: str | os.PathLike[str],
     height_range: Range | None,
     spacing: tuple[float, float] | None,
     mesh: dict[str, Any],
 ) -> GridRoad:
-    """The grid of a table, array or picture, or one that is taken from another surface."""
+    """Read the heights of a table, array or picture, or sample those of a mesh or an OpenCRG file."""
     kind = Path(heights).suffix.lower()
     if mesh and kind not in MESHES:
         raise RoadFileError(f"{heights} is not a mesh, which {next(iter(mesh))} is of; {', '.join(MESHES)} are.")
@@ -232,5 +232,5 @@ def _grid(
     if step is None:
         raise RoadFileError(f"{heights} does not say how far its points are apart; give the spacing in x and y, m.")
     return GridRoad(
-        grid.origin or (0.0, 0.0), step, grid.values, GRID_FRICTION if grid.frictions is None else grid.frictions
+        grid.origin or (0.0, 0.0), step, grid.values, DEFAULT_FRICTION if grid.frictions is None else grid.frictions
     )

@@ -1,9 +1,9 @@
-"""Suffixes of files that roads are made of."""
+"""Suffixes of the files from which roads are read."""
 
 TABLES = (".csv", ".txt")
 PICTURE = ".png"
 GRIDS = (*TABLES, ".npy", ".npz", PICTURE)
-"""Endings of files that hold a grid of numbers."""
+"""Files that hold a grid of numbers."""
 CRG = ".crg"
 MESHES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
 ROADS = (".road", ".toml", *GRIDS, CRG, *MESHES)

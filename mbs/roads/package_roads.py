@@ -1,4 +1,4 @@
-"""Roads that come with the package."""
+"""Road files of the package."""
 
 import os
 from pathlib import Path
@@ -9,7 +9,7 @@ FOLDER = Path(__file__).with_name("files")
 
 
 def road_path(value: str | os.PathLike[str]) -> str:
-    """The path itself, or the road of the package with that name if there is no such file."""
+    """Path of a road file: the path itself, or the road of the package with that name if there is no such file."""
     text = os.fspath(value)
-    shipped = text in {path.name for path in FOLDER.glob("*.road")}
-    return str(FOLDER / text) if shipped and not (is_file(text) or is_folder(text)) else text
+    in_package = text in {path.name for path in FOLDER.glob("*.road")}
+    return str(FOLDER / text) if in_package and not (is_file(text) or is_folder(text)) else text

@@ -1,4 +1,4 @@
-"""A picture of a road."""
+"""Picture of a road: heights and frictions from above, and longitudinal sections."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -8,24 +8,24 @@ from numpy.typing import NDArray
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 
-FRAMED = 20.0
-"""m: shown of a plane, and to both sides of a kerb."""
+HALF_LENGTH = 20.0
+"""Drawn length to each side of the origin of a plane or of a kerb, m."""
 LABEL = {"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 0.5}
-MOST = 2000
-"""Points shown along a side of a grid."""
+MOST_POINTS = 2000
+"""Largest number of drawn points along a side of a grid."""
 
 
 def draw_road(
     road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str, starts: Mapping[str, tuple[float, float]]
 ) -> None:
-    """Draw heights and frictions from above, x to the right and y up, and the heights along the middle.
+    """Draw heights and frictions from above, x to the right and y up, and heights along three lines.
 
-    `file`: a PNG, or what Matplotlib writes by the suffix; `starts`: where a drive may begin, x and y by name, m.
+    `file`: a PNG, or what Matplotlib writes by the suffix; `starts`: start positions of a car, x and y by name, m.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    x, y, heights, frictions = shown(road)
+    x, y, heights, frictions = drawn_values(road)
     figure = Figure(figsize=(10.0, 7.5), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots(3, 1, sharex=True)
@@ -47,21 +47,21 @@ def draw_road(
     figure.savefig(file)
 
 
-def shown(
+def drawn_values(
     road: PlaneRoad | KerbRoad | GridRoad,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Coordinates x (nx,) and y (ny,), heights and frictions (nx, ny) to draw; of large grids every so many points."""
+    """Coordinates x (nx,) and y (ny,), heights and frictions (nx, ny) to draw; a large grid is thinned."""
     if isinstance(road, GridRoad):
         heights = np.asarray(road.heights, float)
         frictions = np.broadcast_to(np.asarray(road.frictions, float) * road.friction_factor, heights.shape)
-        strides = tuple(slice(None, None, -(-n // MOST)) for n in heights.shape)
+        strides = tuple(slice(None, None, -(-n // MOST_POINTS)) for n in heights.shape)
         x, y = (
             np.asarray(road.origin[k] + road.spacing[k] * np.arange(heights.shape[k]), np.float64) for k in range(2)
         )
         return x[strides[0]], y[strides[1]], np.asarray(heights[strides]), frictions[strides]
     middle = road.position if isinstance(road, KerbRoad) else 0.0
-    x = middle + np.linspace(-FRAMED, FRAMED, 401)
-    y = np.linspace(-FRAMED / 4.0, FRAMED / 4.0, 51)
+    x = middle + np.linspace(-HALF_LENGTH, HALF_LENGTH, 401)
+    y = np.linspace(-HALF_LENGTH / 4.0, HALF_LENGTH / 4.0, 51)
     if isinstance(road, PlaneRoad):
         heights = road.height + road.grade_x * x[:, None] + road.grade_y * y[None, :]
     else:

@@ -1,4 +1,4 @@
-"""Roads from files of any kind, whole in memory."""
+"""Reads a whole road from a file of any kind."""
 
 from __future__ import annotations
 

@@ -21,10 +21,10 @@ from mbs.roads.grid_files import read_grid
 from mbs.roads.road_header import HEADER, TRAILER, Header, RoadFileError, read_header
 from mbs.roads.shared_tiles import read_shared
 
-TEXTS = (".csv", ".txt")
-"""Suffixes of tables that the kernel reads by itself."""
-MOST_IN_MEMORY = 10**8
-"""Points of a grid that is read as a whole."""
+TABLE_SUFFIXES = (".csv", ".txt")
+"""Of tables that the kernel reads."""
+MOST_POINTS = 10**8
+"""Largest number of points of a grid that is read as a whole."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class RoadFile(RoadOfFile):
         RoadFileError
             The file is not there, no road file, or damaged.
         """
-        with _opened(self.path) as file:
+        with _open(self.path) as file:
             return read_header(file, self.path)
 
     def check(self) -> None:
@@ -64,7 +64,7 @@ class RoadFile(RoadOfFile):
         RoadFileError
             With the file and what is wrong with it.
         """
-        if Path(self.path).suffix.lower() in TEXTS:
+        if Path(self.path).suffix.lower() in TABLE_SUFFIXES:
             read_grid(self.path, None, "heights")
         else:
             _ = self.header
@@ -77,24 +77,25 @@ class RoadFile(RoadOfFile):
         RoadFileError
             As `header`; or a part is damaged, or the grid has more than 1e8 points.
         """
-        with _opened(self.path) as file:
+        with _open(self.path) as file:
             head = read_header(file, self.path)
             if head.kind == RoadType.PLANE:
                 return PlaneRoad(*head.real[:4])
             if head.kind == RoadType.KERB:
                 position, lower, step, side, friction = head.real[:5]
                 return KerbRoad(position, step, lower, "before" if side > 0.0 else "after", friction)
-            if head.nx * head.ny > MOST_IN_MEMORY:
+            if head.nx * head.ny > MOST_POINTS:
                 raise RoadFileError(f"{self.path} has {head.nx} x {head.ny} points, too many to be read as a whole.")
             heights, frictions = _read_grid(file, head, self.path)
         return GridRoad(head.real[0:2], head.real[2:4], heights, head.real[4] if frictions is None else frictions)
 
 
-def _opened(path: str | os.PathLike[str]) -> BinaryIO:
+def _open(path: str | os.PathLike[str]) -> BinaryIO:
     return open_file(path, LARGEST_IN_PARTS, RoadFileError, f"The road {path}")
 
 
 def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Heights and frictions of a grid (nx, ny) from the tiles of a file; `name`: of the file, for messages."""
     tiles_x, tiles_y = head.tiles
     values = np.empty((head.maps, tiles_x * ROAD_TILE, tiles_y * ROAD_TILE))
     checksums = []
@@ -102,7 +103,7 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
         for number, block in read_shared(file, head, name):
             i, j = (number // tiles_y) * ROAD_TILE, (number % tiles_y) * ROAD_TILE
             values[:, i : i + ROAD_TILE, j : j + ROAD_TILE] = block
-        return _maps(values, head)
+        return _grid_points(values, head)
     file.seek(HEADER.size)
     for number in range(tiles_x * tiles_y):
         data = file.read(head.tile_bytes)
@@ -115,10 +116,10 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
         checksums.append(crc)
     if head.contents != zlib.crc32(struct.pack(f"<{len(checksums)}I", *checksums)):
         raise RoadFileError(f"Parts of the road {name} belong to another file.")
-    return _maps(values, head)
+    return _grid_points(values, head)
 
 
-def _maps(values: NDArray[np.float64], head: Header) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Heights and frictions (None: the file has one friction) of the points of a grid, cut from whole tiles."""
+def _grid_points(values: NDArray[np.float64], head: Header) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Heights and frictions (nx, ny) of a grid, cut from whole tiles; no frictions if the file has one."""
     heights, *frictions = values[:, : head.nx, : head.ny]
     return heights.copy(), frictions[0].copy() if frictions else None

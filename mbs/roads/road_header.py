@@ -46,13 +46,13 @@ class Header:
     maps: int
     """1: heights, 2: heights and frictions."""
     real: tuple[float, ...]
-    """Eight numbers of the road."""
+    """Eight numbers, whose meaning depends on `kind`: `mbs/kernel/src/roads/road_file.h`."""
     contents: int = 0
     """CRC-32 of the checksums of all tiles, or of the table of them."""
     version: int = ROAD_VERSION
-    """1: each tile in its place; 2: equal tiles once."""
+    """1: tiles in the order of the grid; 2: equal tiles are stored once."""
     written_bytes: int = 0
-    """Size of the file, of version 2."""
+    """Size of a file of version 2."""
 
     @property
     def tiles(self) -> tuple[int, int]:
@@ -72,18 +72,18 @@ class Header:
         return HEADER.size + self.tiles[0] * self.tiles[1] * self.tile_bytes
 
     def to_bytes(self) -> bytes:
-        """The bytes of the header in a file. Raises `RoadFileError` if no reader accepts it."""
+        """Bytes of the header in a file. Raises `RoadFileError`: a number is not valid."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
         tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
-        if problem := _problem(int(self.kind), self.nx, self.ny, *tile, self.real):
-            raise RoadFileError(f"The road cannot be written: {problem}.")
+        if fault := _fault(int(self.kind), self.nx, self.ny, *tile, self.real):
+            raise RoadFileError(f"The road cannot be written: {fault}.")
         data = bytearray(HEADER.pack(MAGIC, self.version, 0, *fields, *tile, *self.real, 0.0))
         data[12:16] = struct.pack("<I", zlib.crc32(data[CHECKED_FROM:]))
         return bytes(data)
 
 
 def read_header(file: BinaryIO, name: object) -> Header:
-    """The checked header of an open road file."""
+    """Read and check the header of an open road file. `name`: of the file, for messages."""
     data = file.read(HEADER.size)
     if data[: len(MAGIC)] != MAGIC:
         raise RoadFileError(f"{name} is not a road file; ali3 road INPUT OUTPUT.road makes one.")
@@ -96,8 +96,8 @@ def read_header(file: BinaryIO, name: object) -> Header:
         )
     if crc != zlib.crc32(data[CHECKED_FROM:]):
         raise RoadFileError(f"The header of {name} was altered or damaged.")
-    if problem := _problem(kind, nx, ny, tile, maps, real):
-        raise RoadFileError(f"{name} is not a readable road file: {problem}.")
+    if fault := _fault(kind, nx, ny, tile, maps, real):
+        raise RoadFileError(f"{name} is not a readable road file: {fault}.")
     head = Header(RoadType(kind), nx, ny, maps, tuple(real[:REALS]), contents, version, size)
     file_size = file.seek(0, os.SEEK_END)
     if not size == head.file_bytes == file_size:
@@ -105,8 +105,8 @@ def read_header(file: BinaryIO, name: object) -> Header:
     return head
 
 
-def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[float]) -> str:
-    """Fault in the numbers of a header, by the checks of the kernel; empty if there is none."""
+def _fault(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[float]) -> str:
+    """First fault of the numbers of a header, by the checks of the kernel; empty if there is none."""
     if not RoadType.PLANE <= kind <= RoadType.GRID:
         return f"{kind} is not a kind of road"
     if invalid := [x for x in real if not abs(x) <= ROAD_FARTHEST]:
@@ -127,7 +127,7 @@ def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[f
 
 
 def check_grid(heights: NDArray[np.float64], frictions: NDArray[np.float64] | None, name: object) -> None:
-    """Check the values of a grid; the error is one sentence with the place of the first wrong value."""
+    """Check the values of a grid. Raises `ModelError`, which names the first point outside the limits."""
     for quantity, values, low, high, unit in (
         ("height", heights, -ROAD_HIGHEST, ROAD_HIGHEST, " m"),
         ("friction", frictions, 0.0, ROAD_FRICTION, ""),

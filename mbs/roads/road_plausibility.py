@@ -13,20 +13,20 @@ from scipy.ndimage import distance_transform_edt
 from ali3.plausibility import Mistake, Plausibility, Value, far_values, plausibility_of, quantities_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads.read_road import read_road
-from mbs.roads.road_file import TEXTS, RoadFile
+from mbs.roads.road_file import TABLE_SUFFIXES, RoadFile
 
-FEWEST_LEVELS = 5
-"""Fewest different heights from which a step of a number type is concluded."""
+LEAST_LEVELS = 5
+"""Least number of different heights from which the step of a number type is inferred."""
 MOST_LEVELS = 4096
-"""Most different heights for which such a step is sought."""
-MOST = 0.9
-"""Quantile of all slopes that is compared: kerbs and steps are few."""
-ROUND = (1.0, 2.0, 2.5, 5.0)
-"""Mantissas of steps of number types."""
+"""Largest number of different heights for which it is inferred."""
+SLOPE_QUANTILE = 0.9
+"""Quantile of the slopes that is compared: it excludes kerbs and steps."""
+STEP_MANTISSAS = (1.0, 2.0, 2.5, 5.0)
+"""Of steps of number types."""
 MOST_POINTS = 4e6
 """Most points of a file that is read as a whole; of a larger one only the position is compared."""
 UNITS = {1e-3: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
-"""Units that may have been taken for metres, by their length in m."""
+"""Units that are mistaken for metres, by their length in m."""
 TITLE = "road"
 KEYS = frozenset({"origin", "spacing"})
 HEIGHTS = frozenset({"heights"})
@@ -36,7 +36,7 @@ Start = tuple[float, float]
 
 @dataclass(frozen=True)
 class Place:
-    """Position of a grid: first point and spacing, m, and numbers of points along x and y."""
+    """Location of a grid: first point and spacing, m, and numbers of points along x and y."""
 
     origin: tuple[float, ...]
     spacing: tuple[float, ...]
@@ -64,13 +64,13 @@ class Place:
 
 
 def place_of(road: GridRoad) -> Place:
-    """Position of a grid road."""
+    """Location of a grid road."""
     origin, spacing = (tuple(map(float, pair)) for pair in (road.origin, road.spacing))
     return Place(origin, spacing, np.shape(road.heights))
 
 
 def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | None = None) -> Plausibility:
-    """Plausibility of a road. `what`: name of the file; `start`: x and y where a drive begins, m."""
+    """Plausibility of a road. `what`: name of the file; `start`: x and y of the start of a drive, m."""
     if not isinstance(road, GridRoad):
         return Plausibility(what, _plain_values(road), title=TITLE)
     place, z = place_of(road), np.asarray(road.heights, float)
@@ -78,18 +78,18 @@ def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: S
     usual = any(v.quantity is QUANTITIES["slope"] and v.mended() for v in values)
     for factor, unit in UNITS.items():
         scaled = place.scaled(factor)
-        for subject, keys, position, higher in (
+        for subject, keys, position, height_factor in (
             ("coordinates", KEYS, scaled, 1.0),
             ("heights", HEIGHTS, place, factor),
             ("coordinates and heights", KEYS | HEIGHTS, scaled, factor),
         ):
             if not (usual and keys is HEIGHTS):  # a single steep spot has another cause
                 text = f"{unit} in place of m in {subject}"
-                mistakes.append(Mistake(text, keys, partial(road_values, road, position, z, start, higher)))
+                mistakes.append(Mistake(text, keys, partial(road_values, road, position, z, start, height_factor)))
     if (missing := far_values(z)).any():
         filled = partial(road_values, road, place, filled_up(z, missing), start)
         mistakes.append(Mistake(f"{z[missing][0]:g} in the place of no value in heights", HEIGHTS, filled))
-    as_ratios = partial(road_values, road, place, z, start, rougher=0.01)
+    as_ratios = partial(road_values, road, place, z, start, friction_factor=0.01)
     mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), as_ratios))
     if start is not None:
         mistakes += start_mistakes(place, start)
@@ -100,13 +100,13 @@ def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
     """Plausibility of the position of a grid alone. `start`: x and y where a drive begins, m."""
     mistakes, small = start_mistakes(place, start), place.scaled(1e-3)
     if min(small.extent) > 1.0:
-        mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_placed, small, start)))
-    return Plausibility(what, _placed(place, start), mistakes, title=TITLE)
+        mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_position_values, small, start)))
+    return Plausibility(what, _position_values(place, start), mistakes, title=TITLE)
 
 
-def _placed(place: Place, start: Start) -> list[Value]:
-    """Values of extent and distance from the start."""
-    return [*_sides(place), *_distance_values(place, start)]
+def _position_values(place: Place, start: Start) -> list[Value]:
+    """Values of the extent and of the distance from the start."""
+    return [*_extent_values(place), *_distance_values(place, start)]
 
 
 def start_mistakes(place: Place, start: Start) -> list[Mistake]:
@@ -126,34 +126,39 @@ def _distance_values(place: Place, start: Start) -> list[Value]:
     return [Value(QUANTITIES["away"], place.distance(start), keys)]
 
 
-def _sides(place: Place) -> list[Value]:
+def _extent_values(place: Place) -> list[Value]:
     """Values of the extent along x and y."""
     sides = zip("xy", place.extent, strict=True)
     return [Value(QUANTITIES["extent"], side, {"spacing": list(place.spacing)}, axis) for axis, side in sides]
 
 
 def road_values(
-    road: GridRoad, place: Place, z: np.ndarray, start: Start | None, higher: float = 1.0, rougher: float = 1.0
+    road: GridRoad,
+    place: Place,
+    z: np.ndarray,
+    start: Start | None,
+    height_factor: float = 1.0,
+    friction_factor: float = 1.0,
 ) -> list[Value]:
     """Values of all quantities of a grid.
 
-    `place`: its position; `z`: its heights, m; `higher`, `rougher`: factors on its heights and frictions.
+    `place`: its position; `z`: heights, m; `height_factor`, `friction_factor`: on heights and frictions.
     """
-    z, frictions = higher * z, rougher * np.asarray(road.frictions, float)
+    z, frictions = height_factor * z, friction_factor * np.asarray(road.frictions, float)
     spacing = {"spacing": list(place.spacing)}
     step = height_step(z)
     heights = {"heights": [float(z.min()), float(z.max())]}
     rises = [np.abs(np.diff(z, axis=k)) for k in range(2)]
     over = max(max(float(r.max()) - h for r, h in zip(rises, place.spacing, strict=True)), 0.0)
-    slope = max(float(np.quantile(r, MOST)) / h for r, h in zip(rises, place.spacing, strict=True))
+    slope = max(float(np.quantile(r, SLOPE_QUANTILE)) / h for r, h in zip(rises, place.spacing, strict=True))
     return [
-        *_sides(place),
+        *_extent_values(place),
         Value(QUANTITIES["heights"], float(np.ptp(z)), heights),
         Value(QUANTITIES["spacing"], min(place.spacing), spacing, "least"),
         Value(QUANTITIES["rise"], over, heights | spacing),
         Value(QUANTITIES["step"], step, {"number type of heights": step}),
         *([Value(QUANTITIES["slope"], slope, heights | spacing)] if slope else []),
-        *_frictions(float(frictions.min()), float(frictions.max()), road.friction_factor),
+        *_friction_values(float(frictions.min()), float(frictions.max()), road.friction_factor),
         *([] if start is None else _distance_values(place, start)),
     ]
 
@@ -165,11 +170,12 @@ def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
     return [
         Value(QUANTITIES["rise"], step),
         Value(QUANTITIES["slope"], slope),
-        *_frictions(road.friction, road.friction, road.friction_factor),
+        *_friction_values(road.friction, road.friction, road.friction_factor),
     ]
 
 
-def _frictions(least: float, largest: float, factor: float) -> list[Value]:
+def _friction_values(least: float, largest: float, factor: float) -> list[Value]:
+    """Values of the least and the largest friction of a road."""
     keys = {"frictions": [least, largest], "friction_factor": factor}
     return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", least), ("largest", largest))]
 
@@ -177,20 +183,20 @@ def _frictions(least: float, largest: float, factor: float) -> list[Value]:
 def height_step(z: np.ndarray) -> float:
     """Step of which all heights are multiples, m; 0 if there is none, or if too few different heights show it."""
     levels = np.unique(z)
-    if not FEWEST_LEVELS <= len(levels) <= MOST_LEVELS:
+    if not LEAST_LEVELS <= len(levels) <= MOST_LEVELS:
         return 0.0
     gaps = np.diff(levels)
     steps = gaps / gaps.min()
-    # levels of a drawing are few and have any distances; those of a coarse number type are mostly one step apart
+    # the few levels of a designed road have any distances; those of a coarse number type are mostly one step apart
     integer_multiples = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
     step = float(gaps.min())
     mantissa = np.round(step / 10.0 ** np.floor(np.log10(step * (1.0 + 1e-6))), 3)
-    return step if integer_multiples and float(np.median(steps)) < 1.5 and mantissa in ROUND else 0.0
+    return step if integer_multiples and float(np.median(steps)) < 1.5 and mantissa in STEP_MANTISSAS else 0.0
 
 
-def filled_up(z: np.ndarray, none: np.ndarray) -> np.ndarray:
-    """Heights in which missing ones (`none`) have the value of the nearest point."""
-    nearest = distance_transform_edt(none, return_distances=False, return_indices=True)
+def filled_up(z: np.ndarray, missing: np.ndarray) -> np.ndarray:
+    """Heights with those of the nearest point where `missing` is true."""
+    nearest = distance_transform_edt(missing, return_distances=False, return_indices=True)
     return np.asarray(z[tuple(nearest)])
 
 
@@ -203,7 +209,7 @@ def _plausibility_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Plausib
 
 @plausibility_of.register
 def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POINTS) -> list[Plausibility]:
-    """Plausibility of a road file, and whether a drive begins on it.
+    """Plausibility of a road file, and of a start of a drive on it.
 
     `start`: x and y, m; `most`: number of points above which only the position is compared.
     """
@@ -219,7 +225,7 @@ def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = M
 
 
 def place_of_file(road: RoadFile) -> Place | None:
-    """Position of the grid of a file; None for a plane or a kerb. A table is cached until the file changes."""
+    """Location of the grid of a file; None for a plane or a kerb. A table is cached until the file changes."""
     if not _is_text(road):
         return _place_of_header(road)
     file = Path(road.path).absolute()
@@ -227,17 +233,18 @@ def place_of_file(road: RoadFile) -> Place | None:
 
 
 def _is_text(road: RoadFile) -> bool:
-    """Whether a road file is a text table, which has no header with the position of its grid."""
-    return Path(road.path).suffix.lower() in TEXTS
+    """Whether a road file is a text table, which has no header with the location of its grid."""
+    return Path(road.path).suffix.lower() in TABLE_SUFFIXES
 
 
 def _place_of_header(road: RoadFile) -> Place | None:
+    """Location of the grid in a road file; None without a grid."""
     head = road.header
     return Place(head.real[:2], head.real[2:4], (head.nx, head.ny)) if head.nx * head.ny else None
 
 
 @lru_cache(maxsize=8)
 def _place_of_table(file: Path, changed: int) -> Place | None:
-    """Position of the grid of a table. `changed`: time of the last change of the file, part of the key of the cache."""
+    """Location of the grid of a table. `changed`: time of the last change of the file, part of the key of the cache."""
     road = read_road(file)
     return place_of(road) if isinstance(road, GridRoad) else None

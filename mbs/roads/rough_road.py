@@ -9,32 +9,30 @@ from mbs.roads.road_header import RoadFileError
 
 ISO_8608 = {"A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6, "F": 16384e-6}
 """Displacement power spectral density Gd at 0.1 1/m, m3: geometric means of the classes (ISO 8608:2016, table C.2)."""
-REFERENCE = 0.1
-"""Spatial frequency of these, 1/m."""
-SQUARE = 2048
-"""Largest number of points per side of a road that is cut from a square."""
+REFERENCE_FREQUENCY = 0.1
+"""Spatial frequency of these values, 1/m."""
+LARGEST_SQUARE = 2048
+"""Largest number of points per side for which the surface is computed on a square."""
 MOST_POINTS = 2**25
-LOWEST, HIGHEST = 0.011, 2.83
+LOWEST_FREQUENCY, HIGHEST_FREQUENCY = 0.011, 2.83
 """Range of spatial frequencies, 1/m (ISO 8608:2016, 5.1.2)."""
 
 
 def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -> NDArray[np.float64]:
-    """Heights of an isotropic surface: along every straight line the one-sided density is Gd(n) = Gd(n0) (n0/n)^2.
+    """Heights of an isotropic surface, m, shape (nx, ny).
 
-    Near the highest frequency N of the surface it is less, sqrt(1 - (n/N)^2) of that.
-
-    A surface whose two-dimensional density is A n^-3 has the two-sided density 2 A n^-2 along a line (the integral over
-    the other component), so A = Gd(n0) n0^2 / 4. Random phases, amplitudes as given. The
-    coherence of two tracks b apart follows from the density: (x K1(x))^2 with x = 2 pi n b and the modified Bessel
+    Along every straight line the one-sided density is Gd(n) = Gd(n0) (n0/n)^2, near the highest frequency N of the
+    surface times sqrt(1 - (n/N)^2). A surface with the two-dimensional density A n^-3 has the two-sided density
+    2 A n^-2 along a line (the integral over the other component), so A = Gd(n0) n0^2 / 4. Phases are random, amplitudes
+    are not. The coherence of two tracks at a distance b is (x K1(x))^2 with x = 2 pi n b and the modified Bessel
     function K1.
 
-    `spacing`: in m; `density`: gd(n0), m3; `seed`: of the phases. Raises `RoadFileError`: it has too many points.
-    Returns an array of shape (nx, ny), m.
+    `spacing`: in m; `density`: Gd(n0), m3; `seed`: of the phases. Raises `RoadFileError`: there are too many points.
     """
-    longest = round(1.0 / (LOWEST * spacing))
-    sides = [max(n, longest) for n in (nx, ny)]
-    if max(sides) <= SQUARE:
-        sides = [max(sides)] * 2  # as files of earlier versions
+    longest_wave = round(1.0 / (LOWEST_FREQUENCY * spacing))
+    sides = [max(n, longest_wave) for n in (nx, ny)]
+    if max(sides) <= LARGEST_SQUARE:
+        sides = [max(sides)] * 2  # as in earlier versions
     if math.prod(sides) > MOST_POINTS:
         raise RoadFileError(
             f"A rough road of {nx} x {ny} points is computed on {sides[0]} x {sides[1]} points, which hold its longest "
@@ -44,8 +42,8 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     frequency = np.hypot(n[0][:, None], n[1][None, :])
     cell = 1.0 / math.prod(side * spacing for side in sides)
     with np.errstate(divide="ignore"):
-        spectrum = np.where(frequency > 0.0, 0.25 * density * REFERENCE**2 * frequency**-3.0, 0.0)
-    spectrum[(frequency < LOWEST) | (frequency > HIGHEST)] = 0.0
+        spectrum = np.where(frequency > 0.0, 0.25 * density * REFERENCE_FREQUENCY**2 * frequency**-3.0, 0.0)
+    spectrum[(frequency < LOWEST_FREQUENCY) | (frequency > HIGHEST_FREQUENCY)] = 0.0
     phases = np.exp(2j * np.pi * np.random.default_rng(seed).random(spectrum.shape))
     surface = np.fft.irfft2(np.sqrt(spectrum * cell) * phases, s=sides) * math.prod(sides)
     return np.asarray(surface[:nx, :ny])

@@ -18,21 +18,18 @@ from mbs.roads.steep_faces import RoadWarning
 Values = NDArray[np.float64]
 MOST_POINTS = 2**24
 """Largest number of points of a grid: 134 MB of heights."""
-TOLD = 0.01
-"""A larger deviation is warned about, m."""
-BETWEEN = 0.382, 0.618
-"""Place in each cell where heights are compared, shares of its sides: no fraction at which edges of a drawing lie."""
+WARNING_DEVIATION = 0.01
+"""Deviation above which a warning is given, m."""
+CELL_POINT = 0.382, 0.618
+"""Point of each cell at which heights are compared, relative to its sides: edges of a design rarely lie there."""
 
 
 @dataclass(frozen=True)
 class SampledRoad(GridRoad):
-    """A grid that was sampled from a surface of another form.
-
-    Its deviation is that of heights between the points of the grid and at those of the surface.
-    """
+    """A grid sampled from another surface, with its deviation between the grid points and at points of the surface."""
 
     source: str = ""
-    """What it was sampled from, in messages."""
+    """Name of the other surface, for messages."""
     largest: float = 0.0
     """Largest deviation, m."""
     rms: float = 0.0
@@ -49,7 +46,7 @@ class SampledRoad(GridRoad):
         )
 
     def moved_to(self, origin: Sequence[float]) -> SampledRoad:
-        """The same road with its first point at x and y, m."""
+        """Copy with the first grid point at `origin`, x and y, m."""
         x, y = (self.place[k] + origin[k] - self.origin[k] for k in range(2))
         return replace(self, origin=origin, place=(x, y))
 
@@ -57,10 +54,10 @@ class SampledRoad(GridRoad):
 def points_of_box(
     low: Values, high: Values, spacing: tuple[float, float], source: str, more: str = ""
 ) -> tuple[Values, Values]:
-    """Coordinates x (nx,) and y (ny,), m, of a grid from border to border of a box, at most a spacing apart.
+    """Coordinates x (nx,) and y (ny,), m, of a grid over a box, at most `spacing` apart.
 
-    `low`, `high`: x and y of the box's corners; `source`: the surface, in messages. Raises `RoadFileError`: the grid
-    has too many points; the message has a spacing that fits, and ends with `more`.
+    `low`, `high`: x and y of the corners of the box, m; `source`: name of the surface, for messages; `more`: end of the
+    message. Raises `RoadFileError`: the grid has too many points.
     """
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
@@ -75,34 +72,34 @@ def points_of_box(
     return x, y
 
 
-def between(road: GridRoad) -> tuple[Values, Values]:
-    """Coordinates x (nx - 1,) and y (ny - 1,), m, at which heights are compared, one place in each cell."""
+def cell_points(road: GridRoad) -> tuple[Values, Values]:
+    """Coordinates x (nx - 1,) and y (ny - 1,), m, of one point in each cell, at which heights are compared."""
     shape = np.shape(road.heights)
-    x, y = (road.origin[k] + road.spacing[k] * (np.arange(shape[k] - 1) + BETWEEN[k]) for k in range(2))
+    x, y = (road.origin[k] + road.spacing[k] * (np.arange(shape[k] - 1) + CELL_POINT[k]) for k in range(2))
     return x, y
 
 
-def compared(road: GridRoad, samples: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
-    """The road with its deviation from the surface that it was sampled from.
+def with_deviation(road: GridRoad, samples: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
+    """Make a road with its deviation from the surface that it was sampled from.
 
     `samples`: x and y (n, 2) and heights (n,) of the surface, m; NaN where it has none.
     """
     heights = np.ascontiguousarray(road.heights, np.float64)
     largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
-    for positions, heights_there in samples:
-        deviations = np.abs(grid_heights(road, heights, positions) - heights_there)
+    for positions, surface_heights in samples:
+        deviations = np.abs(grid_heights(road, heights, positions) - surface_heights)
         deviations = np.where(np.isnan(deviations), 0.0, deviations)
         k = int(deviations.argmax())
         if deviations[k] > largest:
             largest, place = float(deviations[k]), (float(positions[k, 0]), float(positions[k, 1]))
-        squares, count = squares + float(deviations @ deviations), count + int(np.isfinite(heights_there).sum())
+        squares, count = squares + float(deviations @ deviations), count + int(np.isfinite(surface_heights).sum())
     rms = float(np.sqrt(squares / max(count, 1)))
     return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
 
 
 def warn_of_deviation(road: SampledRoad) -> None:
-    """Warn of a large deviation."""
-    if road.largest > TOLD:
+    """Warn of a deviation above `WARNING_DEVIATION`."""
+    if road.largest > WARNING_DEVIATION:
         step = " by ".join(f"{h:.4g}" for h in road.spacing)
         warnings.warn(
             f"The grid with points {step} m apart {road.sentence}; a smaller spacing follows it more closely.",
@@ -116,9 +113,9 @@ def grid_heights(road: GridRoad, heights: Values, positions: Values) -> Values:
 
     `heights`: those of the road, contiguous, (nx, ny), m; `positions`: x and y, (n, 2), m.
     """
-    surface_heights = np.empty(len(positions))
+    interpolated_heights = np.empty(len(positions))
     grid = np.array((*road.origin, *road.spacing), np.float64)
     points = np.ascontiguousarray(positions, np.float64)
-    pointers = [a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, points, surface_heights)]
+    pointers = [a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, points, interpolated_heights)]
     load_library().ali3_grid_heights(*heights.shape, *pointers[:2], len(positions), *pointers[2:])
-    return surface_heights
+    return interpolated_heights

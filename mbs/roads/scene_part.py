@@ -16,37 +16,34 @@ from mbs.roads.road_file import RoadFile
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.shared_tiles import read_shared
 
-MOST_READ = 4_000_000
-"""Points of a large road file that are read to draw it."""
-MOST = 400
-"""Most points along a side of a drawn grid; a larger one is thinned, as its note says."""
-BESIDE = 10.0  # m, to which a level strip of frictions is drawn at least: the values of its border go on
-EDGE = 1e-3  # m, along which the step of a kerb is drawn
+MOST_READ_POINTS = 4_000_000
+"""Largest number of points of a road file that are read to draw it."""
+MOST_DRAWN_POINTS = 400
+"""Largest number along a side of a drawn grid; a larger grid is thinned."""
+LEAST_HALF_WIDTH = 10.0  # m, of a drawn level grid with several frictions: those at its border continue
+KERB_LENGTH = 1e-3  # m, of the drawn step of a kerb
 
 
 def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
-    """A road as what draws reads it. `road`: as `mbs.roads.read_road` reads it, or of a model.
-
-    Returns an entry of `roads` of the scene's format: flat, plane, profile or grid.
-    """
+    """Entry of the list `roads` of a scene for a road: flat, plane, profile or grid."""
     if isinstance(road, PlaneRoad):
-        return _plane(road) | _grip(road.friction, road.friction_factor)
+        return _plane_entry(road) | _friction_entries(road.friction, road.friction_factor)
     if isinstance(road, KerbRoad):
-        return _kerb(road) | _grip(road.friction, road.friction_factor)
-    return _grid(road)
+        return _kerb_entry(road) | _friction_entries(road.friction, road.friction_factor)
+    return _grid_entry(road)
 
 
-def _grip(friction: float | None, factor: float) -> dict[str, Any]:
-    """Entries of a road's friction in the scene. `friction`: None if it differs from place to place."""
+def _friction_entries(friction: float | None, factor: float) -> dict[str, Any]:
+    """Entries of a road's friction in the scene. `friction`: None if it varies over the road."""
     friction_entry = {} if friction is None else {"friction": friction}
     return friction_entry if factor == 1.0 else friction_entry | {"friction_factor": factor}
 
 
 def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
-    """A road file; of a large grid whose equal tiles are stored once every so many points, the others unread."""
+    """Read a road file; of a large grid with shared tiles only every n-th point in x and y."""
     road_file = RoadFile(file)
     head = road_file.header
-    stride = max(1, math.isqrt(head.nx * head.ny // MOST_READ))
+    stride = max(1, math.isqrt(head.nx * head.ny // MOST_READ_POINTS))
     if head.version != ROAD_SHARED or stride == 1:
         return road_file.read()
     x, y = np.arange(0, head.nx, stride), np.arange(0, head.ny, stride)
@@ -61,10 +58,9 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
 
 
 def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Roads of a scene with those of files read.
+    """Roads of a scene, with the content of files in place of their paths, which are paths of this machine.
 
-    `roads`: of a scene; the path of an entry of the kind "file" is one of this machine. Returns what can be drawn
-    without the files. Raises `mbs.roads.RoadFileError`: a file cannot be read.
+    Raises `RoadFileError`: a file cannot be read.
     """
     return [
         scene_part(read_road(road["path"])) if road["kind"] == "file" and road.get("path") else dict(road)
@@ -72,7 +68,8 @@ def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
-def _plane(road: PlaneRoad) -> dict[str, Any]:
+def _plane_entry(road: PlaneRoad) -> dict[str, Any]:
+    """Entry of a plane in the scene."""
     if road.grade_x == 0.0 and road.grade_y == 0.0:
         return {"kind": "flat", "height": float(road.height)}
     normal = np.array([-road.grade_x, -road.grade_y, 1.0])
@@ -80,28 +77,30 @@ def _plane(road: PlaneRoad) -> dict[str, Any]:
     return {"kind": "plane", "point": [0.0, 0.0, float(road.height)], "normal": unit}
 
 
-def _kerb(road: KerbRoad) -> dict[str, Any]:
+def _kerb_entry(road: KerbRoad) -> dict[str, Any]:
+    """Entry of a kerb in the scene: a profile over a limited length."""
     low, high = float(road.lower_height), float(road.lower_height + road.step)
     before, after = (high, low) if road.upper == "before" else (low, high)
     return {
         "kind": "profile",
-        "stations": [-0.5 * EDGE, 0.5 * EDGE],
+        "stations": [-0.5 * KERB_LENGTH, 0.5 * KERB_LENGTH],
         "heights": [before, after],
         "direction": [1.0, 0.0, 0.0],
         "origin": [float(road.position), 0.0, 0.0],
     }
 
 
-def _grid(road: GridRoad) -> dict[str, Any]:
+def _grid_entry(road: GridRoad) -> dict[str, Any]:
+    """Entry of a grid in the scene, with a limited number of points."""
     heights = np.asarray(road.heights, float)
     frictions = np.broadcast_to(np.asarray(road.frictions, float), heights.shape)
     origin = np.array(road.origin, float)
     if heights.min() == heights.max() and frictions.min() != frictions.max():
-        shortfall = BESIDE - 0.5 * (np.array(heights.shape) - 1) * road.spacing
+        shortfall = LEAST_HALF_WIDTH - 0.5 * (np.array(heights.shape) - 1) * road.spacing
         padding = np.maximum(np.ceil(shortfall / road.spacing), 0).astype(int)
         heights, frictions = (np.pad(values, [(n, n) for n in padding], mode="edge") for values in (heights, frictions))
         origin -= padding * np.array(road.spacing, float)
-    strides = [max(1, -(-(n - 1) // (MOST - 1))) for n in heights.shape]
+    strides = [max(1, -(-(n - 1) // (MOST_DRAWN_POINTS - 1))) for n in heights.shape]
     slices = tuple(slice(None, None, k) for k in strides)
     grid = heights[slices]
     entry: dict[str, Any] = {
@@ -112,7 +111,7 @@ def _grid(road: GridRoad) -> dict[str, Any]:
         "heights": encoded(grid),
     }
     uniform = frictions.min() == frictions.max()
-    entry |= _grip(float(frictions[0, 0]) if uniform else None, road.friction_factor)
+    entry |= _friction_entries(float(frictions[0, 0]) if uniform else None, road.friction_factor)
     if not uniform:
         entry["frictions"] = encoded(frictions[slices])
     if max(strides) > 1:

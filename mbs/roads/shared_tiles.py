@@ -15,17 +15,17 @@ from mbs.roads.road_header import HEADER, Header, RoadFileError, check_grid
 
 ENTRY = struct.Struct("<qiIII")
 RECORD = struct.Struct("<iiii")
-COEFFICIENTS = 8
+MOST_COEFFICIENTS = 8
 ORDERS = (2, 3, 4, 6, 8)
-"""Numbers of coefficients in x and y that are tried."""
-LEVELS = 255
+"""Numbers of polynomial coefficients in x and y that are tried."""
+MOST_FRICTIONS = 255
 TOLERANCE = 5e-6
-"""m: heights of a tile that are nearer to a polynomial are stored as it; where a tyre has 200 N/mm that is 1 N."""
+"""Largest deviation of the polynomial of a tile from its heights, m: 1 N for a tyre of 200 N/mm."""
 
 Float = NDArray[np.float64]
 _POINTS = ROAD_TILE * ROAD_TILE
-TILE_PLACES: Float = (np.arange(ROAD_TILE) - 0.5 * (ROAD_TILE - 1)) / (ROAD_TILE // 2)
-"""u and v of the points of a tile."""
+TILE_COORDINATES: Float = (np.arange(ROAD_TILE) - 0.5 * (ROAD_TILE - 1)) / (ROAD_TILE // 2)
+"""Coordinates of the points of a tile, -1 to 1, shape (32,)."""
 
 
 class SharedWriter:
@@ -34,17 +34,17 @@ class SharedWriter:
     Parameters
     ----------
     out : file
-        Open for writing and reading, empty.
+        Empty, open for reading and writing.
     shape : (int, int)
-        Points in x and y.
+        Numbers of points in x and y.
     origin, spacing : (float, float)
-        m.
+        First point and spacing, m.
     friction : float or None
-        Of all points; None: each tile comes with its own.
+        Of all points; None: each tile has its own.
     name : object
         Name of the file in errors.
     tolerance : float
-        m; 0: heights are stored as they are.
+        Of the polynomials, m; 0: heights are not approximated.
     """
 
     def __init__(
@@ -68,28 +68,29 @@ class SharedWriter:
         out.write(b"\0" * self.end)
 
     def row(self, heights: Float, frictions: Float | None) -> None:
-        """Add the next 32 points in x and all in y.
+        """Add the next row of tiles: 32 points in x and all in y.
 
-        `heights`, `frictions`: in m, shape (32 or what is left, ny); frictions None where the file has one.
+        `heights`: m, shape (32 or fewer in the last row, ny); `frictions`: likewise, None if the file has one friction.
         """
         check_grid(heights, frictions, self.name)
-        z = _whole(heights)
-        mu = None if frictions is None else _whole(frictions)
+        z = _padded(heights)
+        mu = None if frictions is None else _padded(frictions)
         tiles = z.shape[1] // ROAD_TILE
         blocks = z.reshape(ROAD_TILE, tiles, ROAD_TILE).transpose(1, 0, 2)
-        for k, form in enumerate(simplest(blocks, TILE_PLACES, self.tolerance)):
+        for k, form in enumerate(polynomials_of(blocks, TILE_COORDINATES, self.tolerance)):
             block_frictions = None if mu is None else np.ascontiguousarray(mu[:, k * ROAD_TILE : (k + 1) * ROAD_TILE])
             self.tile(np.ascontiguousarray(blocks[k]) if form is None else form, block_frictions)
 
     def tile(self, heights: Float, frictions: Float | None) -> None:
-        """Add the next tile, the values of which were checked.
+        """Add the next tile, with checked values.
 
-        `heights`: m, shape (32, 32), or coefficients, at most (8, 8); `frictions`: shape (32, 32) or (1, 1), None where
-        the file has one.
+        `heights`: m, shape (32, 32), or coefficients, at most (8, 8); `frictions`: shape (32, 32) or (1, 1), None if
+        the file has one friction.
         """
         self._add(record_bytes(heights, frictions))
 
     def _add(self, record: bytes) -> None:
+        """Append a tile; write its record unless an equal one has been written."""
         offset = self.places.get(record)
         if offset is None:
             offset = self.places[record] = self.end
@@ -110,31 +111,31 @@ class SharedWriter:
         self.out.write(head.to_bytes() + self.entries)
 
 
-def _whole(values: Float) -> Float:
-    """Filled up to whole tiles by the values at the border."""
+def _padded(values: Float) -> Float:
+    """Pad a grid to whole tiles with the values at its border."""
     padding = [-n % ROAD_TILE for n in values.shape]
     return np.pad(values, [(0, padding[0]), (0, padding[1])], mode="edge") if any(padding) else values
 
 
 def polynomial_values(c: Float) -> Float:
-    """Heights of the points of a tile by its coefficients, in the order of the kernel: the same bits.
+    """Heights of the points of a tile (32, 32), m, with sums in the order of the kernel, so with the same bits.
 
-    `c`: shape (rows, columns). Returns an array of shape (32, 32).
+    `c`: polynomial coefficients, shape (rows, columns).
     """
     z = np.zeros((ROAD_TILE, ROAD_TILE))
     for a in range(c.shape[0] - 1, -1, -1):
         row = np.zeros(ROAD_TILE)
         for b in range(c.shape[1] - 1, -1, -1):
-            row = row * TILE_PLACES + c[a, b]
-        z = z * TILE_PLACES[:, None] + row[None, :]
+            row = row * TILE_COORDINATES + c[a, b]
+        z = z * TILE_COORDINATES[:, None] + row[None, :]
     return z
 
 
-def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | None]:
-    """Fewest polynomial coefficients for the heights of each tile within the tolerance; None where none suffice.
+def polynomials_of(blocks: Float, coordinates: Float, tolerance: float) -> list[Float | None]:
+    """Coefficients of the smallest polynomial of each tile within the tolerance; None if there is none.
 
-    `blocks`: heights, m, shape (tiles, n, n); `places`: where in a tile they are, -1 to 1, shape (n,); `tolerance`: in
-    m; 0: only level tiles are polynomials.
+    `blocks`: heights, m, shape (tiles, n, n); `coordinates`: of their points in a tile, -1 to 1, shape (n,);
+    `tolerance`: m; 0: only level tiles have polynomials.
     """
     forms: list[Float | None] = [None] * len(blocks)
     first_heights = blocks[:, :1, :1]
@@ -145,7 +146,7 @@ def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | Non
     for order in ORDERS if tolerance > 0.0 else ():
         if len(remaining) == 0:
             break
-        power, fit = _fit(tuple(places.tolist()), order)
+        power, fit = _power_and_fit(tuple(coordinates.tolist()), order)
         c = fit @ blocks[remaining] @ fit.T
         deviations = np.abs(power @ c @ power.T - blocks[remaining]).max(axis=(1, 2))
         accepted = deviations <= tolerance
@@ -156,40 +157,35 @@ def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | Non
 
 
 @cache
-def _fit(places: tuple[float, ...], order: int) -> tuple[Float, Float]:
-    """Powers of places, shape (n, order), and the matrix that gives coefficients of least squares."""
-    power = np.vander(places, order, increasing=True)
+def _power_and_fit(coordinates: tuple[float, ...], order: int) -> tuple[Float, Float]:
+    """Powers of the coordinates (n, order), and the matrix of the least-squares coefficients (order, n)."""
+    power = np.vander(coordinates, order, increasing=True)
     return power, np.linalg.pinv(power)
 
 
 def record_bytes(heights: Float, frictions: Float | None) -> bytes:
-    """The bytes of a tile in a file. `heights`, `frictions`: as of `SharedWriter.tile`."""
-    levels, friction_bytes = 0, b""
+    """Bytes of a tile in a file. `heights`, `frictions`: as in `SharedWriter.tile`."""
+    friction_count, friction_bytes = 0, b""
     if frictions is not None:
-        levels, friction_bytes = _friction_bytes(frictions)
-    return RECORD.pack(*heights.shape, levels, 0) + heights.astype("<f8").tobytes() + friction_bytes
+        friction_count, friction_bytes = _friction_bytes(frictions)
+    return RECORD.pack(*heights.shape, friction_count, 0) + heights.astype("<f8").tobytes() + friction_bytes
 
 
 def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
+    """Number of different frictions in a tile, and their bytes."""
     first = frictions.flat[0]
     if (frictions == first).all():
         return 1, struct.pack("<d", first)
     values, indices = np.unique(frictions, return_inverse=True)
-    if len(values) > LEVELS:
+    if len(values) > MOST_FRICTIONS:
         return _POINTS, frictions.astype("<f8").tobytes()
     return len(values), values.astype("<f8").tobytes() + indices.astype(np.uint8).tobytes()
 
 
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
-    """Numbers and values of tiles.
+    """Yield the number and the values (maps, 32, 32) of each tile: heights, m, then frictions if there are two maps.
 
-    `file`: open; `name`: in errors. Raises `RoadFileError`: a part is damaged.
-
-    Yields
-    ------
-    int
-        Number of the tile.
-    ndarray, shape (maps, 32, 32)
+    `file`: open; `name`: for messages. Raises `RoadFileError`: a tile is damaged.
     """
     file.seek(HEADER.size)
     count = head.tiles[0] * head.tiles[1]
@@ -205,26 +201,35 @@ def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[in
             if len(record) != size or crc != zlib.crc32(record):
                 raise RoadFileError(f"Part {number} of the road {name} was altered or damaged.")
             tiles = tiles if len(tiles) < 4096 else {}
-            tiles[offset] = _values(record, head.maps, f"Part {number} of the road {name}")
+            tiles[offset] = _tile_values(record, head.maps, f"Part {number} of the road {name}")
         yield number, tiles[offset]
 
 
-def _values(record: bytes, maps: int, name: str) -> Float:
+def _tile_values(record: bytes, maps: int, name: str) -> Float:
+    """Heights and frictions of a tile from its record. Raises `RoadFileError`: the record is damaged."""
     try:
-        rows, columns, levels, zero = RECORD.unpack(record[: RECORD.size])
-        reals = np.frombuffer(record, "<f8", rows * columns + levels, RECORD.size)
+        rows, columns, friction_count, zero = RECORD.unpack(record[: RECORD.size])
+        reals = np.frombuffer(record, "<f8", rows * columns + friction_count, RECORD.size)
         heights = reals[: rows * columns].reshape(rows, columns)
         tail = record[RECORD.size + reals.nbytes :]
-        is_polynomial = min(rows, columns) >= 1 and max(rows, columns) <= COEFFICIENTS
-        if levels > LEVELS and levels != _POINTS:
+        is_polynomial = min(rows, columns) >= 1 and max(rows, columns) <= MOST_COEFFICIENTS
+        if friction_count > MOST_FRICTIONS and friction_count != _POINTS:
             raise ValueError
-        if zero or (maps == 2) != (levels > 0) or not (is_polynomial or (rows, columns) == (ROAD_TILE, ROAD_TILE)):
+        if (
+            zero
+            or (maps == 2) != (friction_count > 0)
+            or not (is_polynomial or (rows, columns) == (ROAD_TILE, ROAD_TILE))
+        ):
             raise ValueError
         values = [polynomial_values(heights) if is_polynomial else heights]
         if maps == 2:
             mu = reals[rows * columns :]
-            indices = np.frombuffer(tail, np.uint8, _POINTS) if 1 < levels <= LEVELS else np.zeros(_POINTS, np.uint8)
-            values.append((mu if levels == _POINTS else mu[indices]).reshape(ROAD_TILE, ROAD_TILE))
+            indices = (
+                np.frombuffer(tail, np.uint8, _POINTS)
+                if 1 < friction_count <= MOST_FRICTIONS
+                else np.zeros(_POINTS, np.uint8)
+            )
+            values.append((mu if friction_count == _POINTS else mu[indices]).reshape(ROAD_TILE, ROAD_TILE))
     except (ValueError, IndexError, struct.error):
         raise RoadFileError(f"{name} has a form that is not known.") from None
     return np.stack(values)

@@ -8,9 +8,9 @@ from mbs.elements.road import GridRoad
 
 WHEEL_RADIUS = 0.3
 """Radius of a car's wheel where no car is known, m."""
-STEEPEST = 2.0
-"""Rise over run of a face that a wheel does not roll up, 63 degrees."""
-_ROWS = 4096  # looked at in one piece
+LARGEST_SLOPE = 2.0
+"""Rise over run of a face that a wheel climbs, 63 degrees."""
+BLOCK_ROWS = 4096  # grid rows that are evaluated at once
 
 
 class RoadWarning(UserWarning):
@@ -18,20 +18,20 @@ class RoadWarning(UserWarning):
 
 
 def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> str:
-    """A sentence on the highest wall of a grid for a wheel; empty if there is none.
+    """Sentence on the highest wall of a grid for a wheel; empty if there is none.
 
     The contact of a wheel with a grid is the deepest point of the surface in the disc, whose centre must lie above the
-    surface. A face that rises by more than the radius over half of it, or from one point to the next, can be run into
-    so deeply that the centre gets below the surface.
+    surface. At a face that rises by more than the radius over half the radius, or from one point to the next, the
+    centre can get below the surface.
 
-    `name`: how the sentence calls it; `radius`: of the wheel, m.
+    `name`: of the road in the sentence; `radius`: of the wheel, m.
     """
     heights = np.asarray(road.heights, float)
     highest, index, run = radius, None, 0.0
     for axis in range(2):
-        points = min(max(1, int(radius / STEEPEST / road.spacing[axis])), heights.shape[axis] - 1)
-        for first in range(0, max(len(heights) - points, 1), _ROWS):
-            block = heights[first : first + _ROWS + points]
+        points = min(max(1, int(radius / LARGEST_SLOPE / road.spacing[axis])), heights.shape[axis] - 1)
+        for first in range(0, max(len(heights) - points, 1), BLOCK_ROWS):
+            block = heights[first : first + BLOCK_ROWS + points]
             rise = (
                 np.abs(block[points:] - block[:-points])
                 if axis == 0

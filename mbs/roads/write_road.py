@@ -31,11 +31,11 @@ def write_road(
     road : PlaneRoad, KerbRoad or GridRoad
         Its friction factor is multiplied into the frictions.
     file : path
-        Whole or not at all; an older file is replaced.
+        Written completely or not at all; an existing file is replaced.
     shared : bool
-        Of a grid: equal tiles are stored once, which FMUs of version 0.1.0 do not read.
+        Whether equal tiles of a grid are stored once, which FMUs of version 0.1.0 do not read.
     tolerance : float
-        m, with `shared`: parts of the grid that are nearer to a polynomial are stored as it.
+        With `shared`: largest deviation of polynomials that are stored in place of the heights of tiles, m.
 
     Raises
     ------
@@ -52,14 +52,15 @@ def write_road(
     instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
     with atomic_file(file) as target, target.open("wb") as out:
         if shared and isinstance(road, GridRoad):
-            _write_shared(road, out, file, tolerance)
+            _write_shared_tiles(road, out, file, tolerance)
         else:
-            _write(road, out, file)
+            _write_content(road, out, file)
     if isinstance(road, GridRoad) and (warning := steep_face(road, file)):
         warnings.warn(warning, RoadWarning, stacklevel=2)
 
 
-def _write_shared(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:
+def _write_shared_tiles(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:
+    """Write a grid with equal tiles stored once. `name`: of the file, for messages; `tolerance`: as in `write_road`."""
     nx, ny, x0, y0, dx, dy, factor, *_ = road.real
     heights, frictions = np.asarray(road.heights, float), np.asarray(road.frictions, float) * factor
     check_grid(heights, np.atleast_2d(frictions), name)
@@ -71,7 +72,8 @@ def _write_shared(road: GridRoad, out: BinaryIO, name: object, tolerance: float)
     writer.finish()
 
 
-def _write(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -> None:
+def _write_content(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -> None:
+    """Write a road without shared tiles. `name`: of the file, for messages."""
     if isinstance(road, GridRoad):
         _write_grid(road, out, name)
         return
@@ -79,41 +81,44 @@ def _write(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -
     real[-1] *= factor
     if real[-1] > ROAD_FRICTION:
         raise RoadFileError(f"The friction of {name} is {real[-1]:g}; it must lie between 0 and {ROAD_FRICTION:g}.")
-    out.write(Header(road.type, 0, 0, 0, _padded(real)).to_bytes())
+    out.write(Header(road.type, 0, 0, 0, _padded_numbers(real)).to_bytes())
 
 
-def _padded(real: list[float]) -> tuple[float, ...]:
+def _padded_numbers(real: list[float]) -> tuple[float, ...]:
+    """Numbers of a header, filled up with zeros."""
     return (*real, *([0.0] * (REALS - len(real))))
 
 
 def _write_grid(road: GridRoad, out: BinaryIO, name: object) -> None:
+    """Write a grid with a checksum of each tile. `name`: of the file, for messages."""
     nx, ny, x0, y0, dx, dy, factor, *_ = road.real
     heights = np.asarray(road.heights, float)
     frictions = np.asarray(road.frictions, float) * factor
     check_grid(heights, np.atleast_2d(frictions), name)
     uniform = frictions.ndim == 0
-    head = Header(
+    header = Header(
         RoadType.GRID,
         int(nx),
         int(ny),
         1 if uniform else 2,
-        _padded([x0, y0, dx, dy, float(frictions) if uniform else 1.0]),
+        _padded_numbers([x0, y0, dx, dy, float(frictions) if uniform else 1.0]),
     )
-    out.write(head.to_bytes())
+    out.write(header.to_bytes())
     maps = [heights] if uniform else [heights, frictions]
-    tiles_y, checksums = head.tiles[1], []
-    for number in range(head.tiles[0] * tiles_y):
+    tiles_y, checksums = header.tiles[1], []
+    for number in range(header.tiles[0] * tiles_y):
         i, j = (number // tiles_y) * ROAD_TILE, (number % tiles_y) * ROAD_TILE
-        data = b"".join(_tile(values[i : i + ROAD_TILE, j : j + ROAD_TILE]) for values in maps)
+        data = b"".join(_tile_bytes(values[i : i + ROAD_TILE, j : j + ROAD_TILE]) for values in maps)
         data += struct.pack("<qI", number, 0)
         checksums.append(zlib.crc32(data))
         out.write(data + struct.pack("<I", checksums[-1]))
     out.seek(0)
     contents = zlib.crc32(struct.pack(f"<{len(checksums)}I", *checksums))
-    out.write(Header(head.kind, head.nx, head.ny, head.maps, head.real, contents).to_bytes())
+    out.write(Header(header.kind, header.nx, header.ny, header.maps, header.real, contents).to_bytes())
 
 
-def _tile(values: NDArray[np.float64]) -> bytes:
+def _tile_bytes(values: NDArray[np.float64]) -> bytes:
+    """Bytes of a tile of at most `ROAD_TILE` rows and columns, filled up with zeros."""
     tile = np.zeros((ROAD_TILE, ROAD_TILE), "<f8")
     tile[: values.shape[0], : values.shape[1]] = values
     return tile.tobytes()

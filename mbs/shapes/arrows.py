@@ -11,23 +11,23 @@ from mbs.shapes.frames import FrameNames, place_drawn
 from mbs.shapes.joint_points import Line
 
 Arrow = dict[str, Any]
-TYRE = {
+TYRE_OUTPUTS = {
     "contact": [f"contact_{c}" for c in "xyz"],
     "normal": [f"normal_{c}" for c in "xyz"],
     "forces": ["longitudinal_force", "lateral_force", "vertical_force"],
 }
-"""Outputs of a tyre that its arrow takes."""
+"""Outputs of a tyre that its arrow needs, by part of the arrow."""
 
 
 def arrows_of(model: Model, names: FrameNames, lines: Sequence[Line]) -> list[Arrow]:
-    """Forces of springs and rods along their lines, tension pulling the ends together, and of joints on their first
-    bodies, of which sensors read all components.
+    """Arrows of forces that sensors read: of springs and rods along their lines, of tyres, and of joints on their first
+    bodies.
     """
-    return [*_along_lines(model, lines), *_tyre_arrows(model), *_joint_arrows(model, names)]
+    return [*_line_arrows(model, lines), *_tyre_arrows(model), *_joint_arrows(model, names)]
 
 
 def _tyre_arrows(model: Model) -> list[Arrow]:
-    """Forces of tyres whose contact, forces and axis sensors read."""
+    """Arrows of tyres whose contact, forces and axis are all read by sensors."""
     outputs: dict[tuple[int, str], str] = {}
     vectors: dict[tuple[tuple[int, float], ...], str] = {}
     for sensor in model.sensors:
@@ -35,23 +35,25 @@ def _tyre_arrows(model: Model) -> list[Arrow]:
             element, k = sensor.integers
             outputs.setdefault((element, model.elements[element].outputs[k].name), sensor.name)
         elif sensor.type == SensorType.SIGNAL and list(sensor.reals) == [1.0]:
-            vectors.setdefault(_key(sensor.signals[0]), sensor.name)
+            vectors.setdefault(_signal_key(sensor.signals[0]), sensor.name)
     arrows = []
     for k, record in enumerate(model.elements):
         if record.type not in (ElementType.TYRE, ElementType.MAGIC_TYRE):
             continue
-        sensor_names = {part: [outputs.get((k, name)) for name in names] for part, names in TYRE.items()}
-        sensor_names["axis"] = [vectors.get(_key(record.signals[3 + i])) for i in range(3)]
+        sensor_names = {part: [outputs.get((k, name)) for name in names] for part, names in TYRE_OUTPUTS.items()}
+        sensor_names["axis"] = [vectors.get(_signal_key(record.signals[3 + i])) for i in range(3)]
         if all(name is not None for names in sensor_names.values() for name in names):
             arrows.append({"name": record.name, "unit": "N", "tyre": sensor_names})
     return arrows
 
 
-def _key(signal: Affine) -> tuple[tuple[int, float], ...]:
+def _signal_key(signal: Affine) -> tuple[tuple[int, float], ...]:
+    """Hashable form of an affine expression."""
     return (*sorted(signal.terms.items()), (-1, signal.constant))
 
 
-def _along_lines(model: Model, lines: Sequence[Line]) -> list[Arrow]:
+def _line_arrows(model: Model, lines: Sequence[Line]) -> list[Arrow]:
+    """Arrows of springs and rods whose force a sensor reads; positive values pull the ends together."""
     arrows: dict[str, Arrow] = {}
     by_name = {line.name: line for line in lines}
     for sensor in model.sensors:
@@ -64,7 +66,7 @@ def _along_lines(model: Model, lines: Sequence[Line]) -> list[Arrow]:
 
 
 def _tension(model: Model, sensor: Sensor) -> tuple[str, float]:
-    """Spring or rod whose force a sensor reads, and its factor on the tension."""
+    """Name of the spring or rod whose force a sensor reads, and the factor from tension to its value; 0: none."""
     if sensor.unit != "N":
         return "", 0.0
     if sensor.type == SensorType.ELEMENT_OUTPUT:
@@ -76,6 +78,7 @@ def _tension(model: Model, sensor: Sensor) -> tuple[str, float]:
 
 
 def _joint_arrows(model: Model, names: FrameNames) -> list[Arrow]:
+    """Arrows of joints of whose force sensors read all components in earth axes."""
     components: dict[str, dict[int, str]] = {}
     joints = {joint.name: joint for joint in model.joints}
     for sensor in model.sensors:
@@ -90,7 +93,7 @@ def _joint_arrows(model: Model, names: FrameNames) -> list[Arrow]:
         ends = joints[name].ends
         if len(sensor_names) < model.dimension or ends is None:
             continue
-        # in the plane the third component is a place that is always 0
+        # the third component of a planar model is the coordinate z, which is 0
         moving = next(b for b in ends.bodies if not b.is_ground)
         vector = [sensor_names.get(k) or names.columns[f"{moving.owner.name}.z"] for k in range(3)]
         at = list(names.anchor(ends.bodies[0], place_drawn(drawn, ends.points[0])))

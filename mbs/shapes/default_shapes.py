@@ -1,4 +1,4 @@
-"""Shapes of bodies that have none: tubes and plates through their joints, wheels, springs, rails and pins."""
+"""Default shapes of bodies and joints: tubes and plates through joints, wheels, springs, rails and pins."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,16 +16,15 @@ from mbs.model.joints.joint import RollingBody, RollingSpin
 from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.shapes.frames import FrameNames, numbers
-from mbs.shapes.joint_points import SAME, JointGeometry, Line, Pivot, Slide, apart, sensed_points
+from mbs.shapes.joint_points import POINT_TOLERANCE, JointGeometry, Line, Pivot, Slide, distinct_points, sensed_points
 
 COLORS = ("#c8553d", "#3d7ea6", "#6a994e", "#e09f3e", "#7d5ba6", "#2a9d8f", "#b56576", "#8d99ae")
 GROUND, RAIL, SPRING, ROD = "#4a4e57", "#8b9099", "#d9a441", "#aeb4bd"
-TUBE, LONGEST_TUBE = 0.014, 0.09
-"""Radius of a tube in parts of the extent, and of the length of its body at most."""
-SLENDER = 0.2  # height of a triangle over its longest side below which it is drawn as tubes
-
-SMALL = 1.1  # distance of the joints of a slider in edges of its box, below which the box is drawn
-BEYOND = 0.1  # parts of a tube's length by which a centre of mass may be beyond its ends
+TUBE_RADIUS, LARGEST_RADIUS = 0.014, 0.09
+"""Radius of a tube relative to the extent of the drawing, and its largest value relative to the length of its body."""
+LEAST_TRIANGLE_HEIGHT = 0.2  # over its longest side, below which it is drawn as tubes
+LEAST_SLIDER_LENGTH = 1.1  # distance of the joints of a slider over the edge of its box, below which the box is drawn
+LARGEST_OVERHANG = 0.1  # of a centre of mass beyond the ends of a tube, over the length of the tube
 
 Shape = dict[str, Any]
 
@@ -41,15 +40,15 @@ class Defaults:
     """Size of the drawing, m."""
 
     @cached_property
-    def tube(self) -> float:
-        """Radius of tubes, m: slender relative to the scene, and to its longest body if many are in a row."""
+    def tube_radius(self) -> float:
+        """Radius of tubes, m: small relative to the extent and to the longest body."""
         bodies = [points for frame, points in self.geometry.points.items() if frame != "ground" and len(points) > 1]
         longest = max((float(np.linalg.norm(np.ptp(points, axis=0))) for points in bodies), default=0.0)
-        return min(TUBE * self.extent, LONGEST_TUBE * longest) if longest > 0.0 else TUBE * self.extent
+        return min(TUBE_RADIUS * self.extent, LARGEST_RADIUS * longest) if longest > 0.0 else TUBE_RADIUS * self.extent
 
     @cached_property
-    def _discs(self) -> dict[Body, list[RollingBody]]:
-        """Discs that roll, by their body."""
+    def _rolling_discs(self) -> dict[Body, list[RollingBody]]:
+        """Rolling discs by their body."""
         discs: dict[Body, list[RollingBody]] = {}
         for joint in self.model.joints:
             if isinstance(joint.rolls, RollingBody):
@@ -57,53 +56,56 @@ class Defaults:
         return discs
 
     @cached_property
-    def _sensed(self) -> dict[Body, list[Vector]]:
+    def _sensed_points(self) -> dict[Body, list[Vector]]:
         return sensed_points(self.model)
 
     @cached_property
-    def _turning(self) -> set[str]:
-        """Frames with a joint that turns."""
+    def _turning_frames(self) -> set[str]:
+        """Frames with a revolute, spherical or universal joint."""
         return {self.names.of_body(body) for pivot in self.geometry.pivots for body in pivot.bodies}
 
     @cached_property
-    def _sliding(self) -> dict[str, list[Slide]]:
-        """Slides by the frame that slides."""
+    def _slides_by_frame(self) -> dict[str, list[Slide]]:
+        """Sliding joints by the frame of the sliding body."""
         slides: dict[str, list[Slide]] = {}
         for slide in self.geometry.slides:
             slides.setdefault(self.names.of_body(slide.bodies[0]), []).append(slide)
         return slides
 
     @cached_property
-    def _middle(self) -> Vector:
+    def _mean_point(self) -> Vector:
         """Mean of all points at which joints, wheels and springs act, m."""
         return np.asarray(np.mean([p for points in self.geometry.points.values() for p in points], axis=0))
 
     def all(self, drawn: set[str], named: set[str]) -> list[Shape]:
-        """Shapes of all frames and lines but those that are drawn by the user, by frame and by name."""
+        """Shapes of all frames and joints but those that the user draws: `drawn` frames and `named` shapes."""
         shapes: list[Shape] = []
         for body in self.model.bodies:
             frame = self.names.of_body(body)
             if frame not in drawn:
                 color = COLORS[body.number % len(COLORS)]
-                shapes += [s | {"body": body.name, "color": s.get("color", color)} for s in self._body(body, frame)]
-        for spin in (s for s in self.model.spins if s.name in self.names.turns):  # what a table moves is not drawn
+                shapes += [
+                    s | {"body": body.name, "color": s.get("color", color)} for s in self._body_shapes(body, frame)
+                ]
+        for spin in (s for s in self.model.spins if s.name in self.names.turns):  # a tabled wheel is not drawn
             if self.names.turns[spin.name] not in drawn:
-                shapes.append(self._wheel(spin) | {"body": spin.name})
+                shapes.append(self._wheel_shape(spin) | {"body": spin.name})
         for line in self.geometry.lines:
             if line.name not in named:
-                shapes += self._line(line)
+                shapes += self._line_shapes(line)
         for pivot in self.geometry.pivots:
             if pivot.joint.name not in named:
-                shapes += self._pivot(pivot, drawn)
+                shapes += self._pivot_shapes(pivot, drawn)
         for slide in self.geometry.slides:
             if slide.joint.name not in named:
-                shapes += self._rail(slide, drawn)
+                shapes += self._rail_shapes(slide, drawn)
         return shapes
 
-    def _body(self, body: Body, frame: str) -> list[Shape]:
+    def _body_shapes(self, body: Body, frame: str) -> list[Shape]:
+        """Shapes of a body by its kind, its points and its inertia."""
         if isinstance(body, FlexibleBody):
             return []  # its beams are drawn
-        discs = self._discs.get(body)
+        discs = self._rolling_discs.get(body)
         if discs:
             return [
                 {
@@ -118,85 +120,91 @@ class Defaults:
                 for disc in discs
             ]
         if body.is_point:
-            return [{"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.5 * self.tube}]
-        least = SAME * self.extent
+            return [{"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.5 * self.tube_radius}]
+        least = POINT_TOLERANCE * self.extent
         com = origin_of(body)
-        points = apart(self.geometry.points.get(frame, []), least)
+        points = distinct_points(self.geometry.points.get(frame, []), least)
         if len(points) < 2:
-            points = apart([*points, *self._sensed.get(body, [])], least)
+            points = distinct_points([*points, *self._sensed_points.get(body, [])], least)
             outer_points = [p for p in points if np.linalg.norm(p - com) > least]
             if not outer_points:
-                return [self._lump(body, frame)]
+                return [self._inertia_shape(body, frame)]
             if len(points) == 1:
-                return [*self._tubes(frame, [*points, com], com), self._ball(frame)]
-        if self._only_slides(frame) and np.linalg.norm(np.ptp(points, axis=0)) < SMALL * self._edges(body).max():
-            return [self._lump(body, frame)]
-        shapes = self._plate(frame, points, com) or self._tubes(frame, points, com)
+                return [*self._tube_shapes(frame, [*points, com], com), self._com_ball(frame)]
+        if (
+            self._is_slider(frame)
+            and np.linalg.norm(np.ptp(points, axis=0)) < LEAST_SLIDER_LENGTH * self._inertia_box(body).max()
+        ):
+            return [self._inertia_shape(body, frame)]
+        shapes = self._plate_shapes(frame, points, com) or self._tube_shapes(frame, points, com)
         if len(points) > 2:
             return shapes
         if _is_beyond(com, points[0], points[1]):
-            shapes = [*self._tubes(frame, [*points, com], com), self._ball(frame)]
-        return shapes + [self._block(frame, com, slide) for slide in self._sliding.get(frame, [])]
+            shapes = [*self._tube_shapes(frame, [*points, com], com), self._com_ball(frame)]
+        return shapes + [self._slider_shape(frame, com, slide) for slide in self._slides_by_frame.get(frame, [])]
 
-    def _only_slides(self, frame: str) -> bool:
-        return frame in self._sliding and frame not in self._turning
+    def _is_slider(self, frame: str) -> bool:
+        """Whether all joints of a frame are sliding joints."""
+        return frame in self._slides_by_frame and frame not in self._turning_frames
 
-    def _edges(self, body: Body) -> Vector:
+    def _inertia_box(self, body: Body) -> Vector:
         """Edges of the box with the second moments of a body along the earth axes as drawn, m."""
         J = np.diag(body.second_moment) / body.mass
         if self.model.dimension == 2:
             J = J + np.array([0.0, 0.0, 0.25 * J[0]])
         return np.asarray(np.sqrt(12.0 * np.clip(J, 0.0, None)))
 
-    def _ball(self, frame: str) -> Shape:
-        return {"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.2 * self.tube}
+    def _com_ball(self, frame: str) -> Shape:
+        """Sphere at the centre of mass."""
+        return {"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.2 * self.tube_radius}
 
-    def _tubes(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
+    def _tube_shapes(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
         """Tubes along the shortest tree through the points."""
-        radius = min(self.tube, LONGEST_TUBE * float(np.linalg.norm(np.ptp(points, axis=0))))
+        radius = min(self.tube_radius, LARGEST_RADIUS * float(np.linalg.norm(np.ptp(points, axis=0))))
         return [
             {"kind": "tube", "points": [[frame, numbers(p - com)] for p in (points[i], points[j])], "radius": radius}
             for i, j in _shortest_tree(points)
         ]
 
-    def _plate(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
-        """A plate where the points are the corners of a triangle that is not slender."""
+    def _plate_shapes(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
+        """Plate if there are three points that form a triangle that is not slender."""
         if len(points) != 3:
             return []
         sides = [float(np.linalg.norm(a - b)) for a, b in combinations(points, 2)]
         height = float(np.linalg.norm(np.cross(points[1] - points[0], points[2] - points[0]))) / max(sides)
-        if height < SLENDER * max(sides):
+        if height < LEAST_TRIANGLE_HEIGHT * max(sides):
             return []
-        thickness = min(self.tube, LONGEST_TUBE * max(sides))
+        thickness = min(self.tube_radius, LARGEST_RADIUS * max(sides))
         return [{"kind": "plate", "points": [[frame, numbers(p - com)] for p in points], "thickness": thickness}]
 
-    def _lump(self, body: Body, frame: str) -> Shape:
-        """A box with the inertia of a body that nothing but its centre of mass places; a slider lies along its rail."""
+    def _inertia_shape(self, body: Body, frame: str) -> Shape:
+        """Box with the principal moments and axes of inertia of a body."""
         J = body.second_moment / body.mass
         oblique = not np.allclose(J, np.diag(np.diag(J)), atol=1e-9 * float(np.abs(J).max()))
-        edges, axes = self._edges(body), np.eye(3)
+        edges, axes = self._inertia_box(body), np.eye(3)
         if oblique:
             values, axes = np.linalg.eigh(J)
             axes = axes * (1.0 if np.linalg.det(axes) > 0.0 else -1.0)
             edges = np.sqrt(12.0 * np.clip(values, 0.0, None))
-        least = 0.02 * max(float(edges.max()), self.tube)
+        least = 0.02 * max(float(edges.max()), self.tube_radius)
         size = np.clip(edges, least, 0.35 * self.extent if len(self.model.bodies) > 1 else None)
         shape: Shape = {"kind": "box", "frame": frame, "at": [0.0, 0.0, 0.0], "size": numbers(size)}
         return shape | ({"axes": [numbers(column) for column in axes.T]} if oblique else {})
 
-    def _block(self, frame: str, com: Vector, slide: Slide) -> Shape:
-        edge = 4.0 * self.tube
+    def _slider_shape(self, frame: str, com: Vector, slide: Slide) -> Shape:
+        """Box around the rail of a sliding joint."""
+        edge = 4.0 * self.tube_radius
         axes = _axes_along(slide.axis)
         return {
             "kind": "box",
             "frame": frame,
-            "at": numbers(slide.place - com),
+            "at": numbers(slide.point - com),
             "size": [1.6 * edge, edge, edge],
             "axes": [numbers(column) for column in axes.T],
         }
 
-    def _wheel(self, spin: Spin) -> Shape:
-        """The wheel of a spin: as large as its tyre or its rolling joint says."""
+    def _wheel_shape(self, spin: Spin) -> Shape:
+        """Wheel of a spin with the radius of its tyre or of its rolling joint."""
         rolling = [
             j.rolls.radius for j in self.model.joints if isinstance(j.rolls, RollingSpin) and j.rolls.spin is spin
         ]
@@ -216,56 +224,63 @@ class Defaults:
             "rim": (0.88 if thin else 0.62) * radius,
         }
 
-    def _line(self, line: Line) -> list[Shape]:
+    def _line_shapes(self, line: Line) -> list[Shape]:
+        """Actuator, rod, spring or damper between two anchors."""
         ends = [list(end) for end in line.ends]
         if line.drives:
-            return [{"kind": "damper", "ends": ends, "radius": 1.2 * self.tube, "color": ROD, "name": line.name}]
+            return [{"kind": "damper", "ends": ends, "radius": 1.2 * self.tube_radius, "color": ROD, "name": line.name}]
         if line.record is None:
-            return [{"kind": "tube", "points": ends, "radius": 0.6 * self.tube, "color": ROD, "name": line.name}]
+            return [{"kind": "tube", "points": ends, "radius": 0.6 * self.tube_radius, "color": ROD, "name": line.name}]
         real = dict(zip(line.record.real_names, line.record.real, strict=False))
-        spring = {"kind": "spring", "ends": ends, "radius": 2.0 * self.tube, "wire": 0.7 * self.tube, "coils": 8}
-        damper = {"kind": "damper", "ends": ends, "radius": 1.0 * self.tube}
+        spring = {
+            "kind": "spring",
+            "ends": ends,
+            "radius": 2.0 * self.tube_radius,
+            "wire": 0.7 * self.tube_radius,
+            "coils": 8,
+        }
+        damper = {"kind": "damper", "ends": ends, "radius": 1.0 * self.tube_radius}
         both = "stiffness" not in real
         shapes = [s for s, key in ((spring, "stiffness"), (damper, "damping")) if both or real.get(key, 0.0) > 0.0]
         return [s | {"color": SPRING if s is spring else ROD, "name": line.name} for s in shapes]
 
-    def _pivot(self, pivot: Pivot, drawn: set[str]) -> list[Shape]:
-        """A pin through a revolute joint, a ball in the others; larger and darker on the ground."""
+    def _pivot_shapes(self, pivot: Pivot, drawn: set[str]) -> list[Shape]:
+        """Cylinder along the axis of a revolute joint, sphere for other joints; larger and darker on the ground."""
         bodies = sorted(pivot.bodies, key=lambda b: not b.is_ground)
         if any(isinstance(b, (FlexibleBody, Interface)) for b in bodies) and not bodies[0].is_ground:
             return []
         if not bodies[0].is_ground and self.names.of_body(bodies[0]) in drawn:
             return []
         grounded = bodies[0].is_ground
-        frame, local = self.names.anchor(bodies[0], pivot.place)
-        radius = (1.7 if grounded else 1.25) * self.tube
+        frame, local = self.names.anchor(bodies[0], pivot.point)
+        radius = (1.7 if grounded else 1.25) * self.tube_radius
         appearance: Shape = {"color": GROUND if grounded else RAIL, "name": pivot.joint.name}
         if pivot.axis is None:
             return [{"kind": "sphere", "frame": frame, "at": local, "radius": 1.2 * radius} | appearance]
-        half_length = (1.8 if grounded else 1.5) * self.tube * pivot.axis / np.linalg.norm(pivot.axis)
+        half_length = (1.8 if grounded else 1.5) * self.tube_radius * pivot.axis / np.linalg.norm(pivot.axis)
         ends = [numbers(np.array(local) - half_length), numbers(np.array(local) + half_length)]
         return [{"kind": "cylinder", "frame": frame, "ends": ends, "radius": radius} | appearance]
 
-    def _rail(self, slide: Slide, drawn: set[str]) -> list[Shape]:
-        """The line along which a body slides, on the body that has it."""
+    def _rail_shapes(self, slide: Slide, drawn: set[str]) -> list[Shape]:
+        """Cylinder along the axis of a sliding joint, on the body that has the axis."""
         base = slide.bodies[1]
         unit = slide.axis / np.linalg.norm(slide.axis)
-        middle = slide.place
+        middle = slide.point
         if base.is_ground:
-            middle = slide.place + np.dot(self._middle - slide.place, unit) * unit
+            middle = slide.point + np.dot(self._mean_point - slide.point, unit) * unit
         frame, local = self.names.anchor(base, middle)
         if not base.is_ground and (frame in drawn or len(self.geometry.points.get(frame, [])) > 2):
             return []
         half_length = (1.2 if base.is_ground else 0.25) * self.extent * unit
         ends = [numbers(np.array(local) - half_length), numbers(np.array(local) + half_length)]
         return [
-            {"kind": "cylinder", "frame": frame, "ends": ends, "radius": 0.4 * self.tube}
+            {"kind": "cylinder", "frame": frame, "ends": ends, "radius": 0.4 * self.tube_radius}
             | {"color": RAIL, "name": slide.joint.name}
         ]
 
 
 def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
-    """Pairs of points that join all of them with the least length."""
+    """Edges of the minimum spanning tree of points, as pairs of indices (Prim's algorithm)."""
     tree, pairs = [0], []
     while len(tree) < len(points):
         remaining = [k for k in range(len(points)) if k not in tree]
@@ -280,11 +295,11 @@ def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
 def _is_beyond(com: Vector, a: Vector, b: Vector) -> bool:
     """Whether a centre of mass lies beyond the ends of a tube from a to b."""
     share = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
-    return not -BEYOND <= share <= 1.0 + BEYOND
+    return not -LARGEST_OVERHANG <= share <= 1.0 + LARGEST_OVERHANG
 
 
 def _axes_along(axis: Vector) -> Vector:
-    """Axes (3, 3), columns, of which the first goes along an axis."""
+    """Right-handed axes (3, 3), as columns, the first along `axis`."""
     x = axis / np.linalg.norm(axis)
     auxiliary = np.eye(3)[int(np.argmin(np.abs(x)))]
     y = np.cross(auxiliary, x)

@@ -1,4 +1,4 @@
-"""Frames of a scene: one for each body, wheel and turning of a model, with the columns that move them."""
+"""Frames of a scene: one for each body, wheel and turning part of a model, with the columns of its pose."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from mbs.model.table_bodies import TabledBody
 from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace, matrices
 
 Anchor = tuple[str, list[float]]
-"""Frame and place in it, m."""
+"""Name of a frame, and a point in it, m."""
 
 
 def numbers(v: NDArray[np.float64] | Sequence[float]) -> list[float]:
-    """Plain numbers of a vector, negative zeros made positive."""
+    """Components of a vector as Python floats, without negative zeros."""
     return [float(x) + 0.0 for x in v]
 
 
@@ -37,15 +37,15 @@ class FrameNames:
     """Names of the frames and of their columns in recordings."""
 
     bodies: Mapping[int, str]
-    """Frame by number of the body."""
+    """Frame by the number of the body."""
     turns: Mapping[str, str]
-    """Frame by name of the spin or turning."""
+    """Frame by the name of the spin or turning part."""
     columns: Mapping[str, str]
-    """Column by name as `Poses` has it: sensors of that name go first."""
+    """Column by its name in `Poses`; it differs if a sensor has that name."""
 
     @classmethod
     def of(cls, model: Model) -> FrameNames:
-        """Names that are unique among the frames, and columns that are no sensors."""
+        """Names of a model's frames, which are unique, and of columns that differ from all sensors."""
         bodies = {b.number: "body ground" if b.name == "ground" else b.name for b in model.bodies}
         used = {*bodies.values(), "ground"}
         turns = {t.name: f"wheel {t.name}" if t.name in used else t.name for t in turns_of(model)}
@@ -60,43 +60,44 @@ class FrameNames:
         return cls(bodies, turns, columns)
 
     def of_body(self, body: Body) -> str:
-        """Frame of a body, of the node of a flexible one or of a body with ports."""
+        """Frame of a body, or of the owner of a node or port."""
         if body.is_tabled:
             return body.name
         return "ground" if body.is_ground else self.bodies[body.owner.number]
 
     def of_owner(self, owner: Owner) -> str:
-        """Frame of what has a shape."""
+        """Frame of the owner of a shape."""
         return self.of_body(owner) if isinstance(owner, Body) else self.turns[owner.name]
 
-    def anchor(self, body: Body, place: Vector) -> Anchor:
-        """A place of the drawing, m, as an anchor of a body."""
+    def anchor(self, body: Body, point: Vector) -> Anchor:
+        """Anchor of a body at a point as drawn, earth axes, m."""
         origin = np.zeros(3) if body.is_ground else origin_of(body.owner)
-        return self.of_body(body), numbers(in_space(place) - origin)
+        return self.of_body(body), numbers(in_space(point) - origin)
 
 
 def turns_of(model: Model) -> list[Spin | Turning]:
-    """Wheels and parts that turn about an axis of a body; on a tabled body only wheels that sensors place."""
+    """Wheels and turning parts; of those on tabled bodies only wheels whose pose sensors read."""
     turns: list[Spin | Turning] = [*model.spins, *model.turnings]
-    return [t for t in turns if not _body_of(t).is_tabled or _outputs_of(t)]
+    return [t for t in turns if not _carrier_of(t).is_tabled or _pose_sensors(t)]
 
 
-def _outputs_of(turn: Spin | Turning) -> tuple[str, ...]:
-    """Sensors that place a wheel on a tabled body; empty where there are none, and on other bodies."""
+def _pose_sensors(turn: Spin | Turning) -> tuple[str, ...]:
+    """Sensors of the pose of a wheel on a tabled body; empty if there are none, and on other bodies."""
     return turn.carrier.outputs if isinstance(turn, Spin) and isinstance(turn.carrier, TabledBody) else ()
 
 
-def _body_of(turn: Spin | Turning) -> Body:
+def _carrier_of(turn: Spin | Turning) -> Body:
+    """Body that carries a wheel or turning part."""
     return turn.carrier if isinstance(turn, Spin) else turn.body
 
 
 def modes_of(body: FlexibleBody) -> tuple[str, ...]:
-    """Names of the amplitudes of a body among the columns."""
+    """Names of the columns of a body's amplitudes, without the name of the body."""
     return tuple(f"mode_{k + 1}" for k in range(body.n_modes))
 
 
 def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]) -> dict[str, Any]:
-    """The frames of the scene; poses at the start are those of the coordinates `q` (nq,)."""
+    """Frames of the scene by name, with poses at the start. `q`: coordinates at the start, shape (nq,)."""
     frames: dict[str, Any] = {}
     for body, place, (pose,) in zip(model.bodies, places.bodies, places.poses(q[None]), strict=True):
         frames[names.bodies[body.number]] = {
@@ -105,7 +106,7 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
             "start": [numbers(pose[:3]), numbers(pose[3:])],
         }
     for spin in model.spins:
-        if outputs := _outputs_of(spin):
+        if outputs := _pose_sensors(spin):
             assert isinstance(spin.carrier, TabledBody), "it has outputs"
             base = spin.carrier.base
             place, quaternion = frames[names.of_body(base)]["start"]
@@ -116,74 +117,77 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
                 "start": [numbers(np.array(place) + turn @ (origin_of(spin) - origin_of(base))), quaternion],
             }
     for turn in turns_of(model):
-        along, value = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
+        axis_key, angle_key = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
         frames[names.turns[turn.name]] = {
             "parent": names.of_owner(turn.carrier),
-            "at": numbers(np.zeros(3) if _outputs_of(turn) else origin_of(turn) - origin_of(turn.carrier)),
-            along: numbers(turn.axis_reference),
-            value: _angle_column(turn, names),
+            "at": numbers(np.zeros(3) if _pose_sensors(turn) else origin_of(turn) - origin_of(turn.carrier)),
+            axis_key: numbers(turn.axis_reference),
+            angle_key: _angle_column(turn, names),
         }
     return frames
 
 
 def _angle_column(turn: Spin | Turning, names: FrameNames) -> str:
+    """Column of the angle or the travel of a turning part."""
     if isinstance(turn, Turning) and isinstance(turn.angle, str):
         return turn.angle
-    if outputs := _outputs_of(turn):
+    if outputs := _pose_sensors(turn):
         return outputs[7]
     return names.columns[f"{turn.name}.angle"]
 
 
 def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
-    """Rows that place the frames of a model whose full coordinates are ``T q + constant``."""
-    full: list[int] = []
+    """Rows that give the poses of a model's frames; its full coordinates are ``T q + constant``."""
+    indices: list[int] = []
     rows: list[sparse.csr_matrix] = []
     angles: list[NDArray[np.float64]] = []
     bodies: list[BodyPlace] = []
     turns: list[TurnPlace] = []
     amplitudes: list[AmplitudePlace] = []
 
-    def add(start: int, end: int) -> int:
-        full.extend(range(start, end))
-        return len(full) - (end - start)
+    def append(start: int, end: int) -> int:
+        """Append coordinates from `start` to `end` and return the row of the first one."""
+        indices.extend(range(start, end))
+        return len(indices) - (end - start)
 
     for body in model.bodies:
         kind = ("planar " if model.dimension == 2 else "") + "point" if body.is_point else ""
         kind = kind or ("planar" if model.dimension == 2 else "rigid")
         size = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2}[kind]
         columns = tuple(names.columns[f"{body.name}.{p}"] for p in POSE)
-        bodies.append(BodyPlace(body.name, kind, add(body.start, body.start + size), columns))
+        bodies.append(BodyPlace(body.name, kind, append(body.start, body.start + size), columns))
         if isinstance(body, FlexibleBody):
-            modes, row = modes_of(body), add(body.start + 12, body.start + body.size)
+            modes, row = modes_of(body), append(body.start + 12, body.start + body.size)
             columns = tuple(names.columns[f"{body.name}.{m}"] for m in modes)
             amplitudes.append(AmplitudePlace(body.name, modes, row, columns))
     for turn in turns_of(model):
         angle = turn.affine if isinstance(turn, Spin) else turn.angle
-        if isinstance(angle, str) or _outputs_of(turn):
+        if isinstance(angle, str) or _pose_sensors(turn):
             continue
         weights = sparse.csr_matrix(
             (list(angle.terms.values()), ([0] * len(angle.terms), list(angle.terms))), shape=(1, len(constant))
         )
         rows.append((weights @ T).tocsr())
         angles.append(np.asarray(weights @ constant) + angle.constant)
-        row = len(full) + len(turns)
+        row = len(indices) + len(turns)
         column = names.columns[f"{turn.name}.angle"]
-        carrier, axis = _body_of(turn).owner.name, tuple(numbers(turn.axis_reference))
+        carrier, axis = _carrier_of(turn).owner.name, tuple(numbers(turn.axis_reference))
         turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
-    matrix = sparse.vstack([T[full], *rows]).tocsr()
+    matrix = sparse.vstack([T[indices], *rows]).tocsr()
     matrix.sort_indices()
-    fixed = np.concatenate([constant[full], *angles])
-    return Places(matrix, fixed, tuple(bodies), tuple(turns), tuple(amplitudes))
+    constants = np.concatenate([constant[indices], *angles])
+    return Places(matrix, constants, tuple(bodies), tuple(turns), tuple(amplitudes))
 
 
 def anchors_of_difference(
     model: Model, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
 ) -> tuple[Anchor, Anchor] | None:
-    """Both ends of a difference ``p2 - p1`` of points of two bodies, given by their first coordinate; None where it is
-    not one.
+    """Anchors of p1 and p2 for a difference ``p2 - p1`` of points of two bodies; None if `gap` is no such difference.
 
-    The coefficient of the position of a body says which end it has, those of its axes where; coordinates of a node or a
-    port count as drawn.
+    The coefficient of a body's position is 1 for p2 and -1 for p1; those of its axes are the coordinates of the point.
+    Coordinates of a node or a port are replaced by their values as drawn.
+
+    `bodies`: by their first coordinate; `drawn`: full coordinates as drawn; `gap`: components of the difference.
     """
     d = model.dimension
     anchors: dict[float, Anchor] = {}
@@ -212,5 +216,5 @@ def anchors_of_difference(
 
 
 def place_drawn(drawn: Vector, point: AffineVector) -> Vector:
-    """A point, three components, m, at the full coordinates of the drawing."""
+    """A point (3,), m, at the full coordinates of the drawing."""
     return in_space(point.value(drawn))

@@ -1,4 +1,4 @@
-"""Points for default shapes of a model: where joints, wheels and springs act on bodies."""
+"""Points of bodies at which joints, wheels and springs act, for the default shapes of a model."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -18,8 +18,8 @@ from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, numbers, place_drawn
 
-SAME = 1e-6  # parts of the extent: nearer points count as the same
-LINES = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
+POINT_TOLERANCE = 1e-6  # distance over the extent up to which points coincide
+LINE_ELEMENTS = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
 
 
 @dataclass(frozen=True)
@@ -34,21 +34,21 @@ class Line:
 
 @dataclass(frozen=True)
 class Pivot:
-    """A joint that turns, with both bodies, its point and its axis as drawn (None: any axis)."""
+    """A revolute, spherical or universal joint: its bodies, and its point and axis as drawn (None: no single axis)."""
 
     joint: Joint
     bodies: tuple[Body, Body]
-    place: Vector
+    point: Vector
     axis: Vector | None
 
 
 @dataclass(frozen=True)
 class Slide:
-    """A joint whose point on the first body slides along an axis of the second; as drawn."""
+    """A joint whose point on the first body slides along an axis of the second, as drawn."""
 
     joint: Joint
     bodies: tuple[Body, Body]
-    place: Vector
+    point: Vector
     axis: Vector
 
 
@@ -62,13 +62,13 @@ class JointGeometry:
     slides: list[Slide] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     sliding: list[str] = field(default_factory=list)
-    """Names of rods with an end that slides by a guide without a sensor; they are not drawn."""
+    """Names of rods with an end moved by a guide without a sensor; they are not drawn."""
     frames: dict[str, dict[str, Any]] = field(default_factory=dict)
-    """Frames of the ends of rods that slide by guides with sensors, by name."""
+    """Frames of the ends of rods moved by guides with sensors, by name."""
 
 
 def joint_geometry(model: Model, names: FrameNames) -> JointGeometry:
-    """Joints, springs and wheels of a model, with the points at which they act on its bodies."""
+    """Joints, springs and wheels of a model, with their points on its bodies."""
     geometry, drawn = JointGeometry(), model.drawn()
     for joint in model.joints:
         action = joint.ends or joint.actuator
@@ -91,13 +91,13 @@ def joint_geometry(model: Model, names: FrameNames) -> JointGeometry:
         elif action.slides and action.axis is not None:
             geometry.slides.append(Slide(joint, bodies, points[0], place_drawn(drawn, action.axis)))
         elif joint.type in ("revolute", "spherical", "universal"):
-            geometry.pivots.append(Pivot(joint, bodies, points[0], _axis(model.dimension, drawn, joint)))
+            geometry.pivots.append(Pivot(joint, bodies, points[0], _joint_axis(model.dimension, drawn, joint)))
         for body, point in zip(bodies, points, strict=True):
             geometry.points.setdefault(names.of_body(body), []).append(point)
     origins = {names.of_body(b): origin_of(b) for b in model.bodies} | {"ground": np.zeros(3)}
     starts = {body.start: body for body in model.bodies}
     for record in model.elements:
-        if record.type not in LINES:
+        if record.type not in LINE_ELEMENTS:
             continue
         if (line_ends := anchors_of_difference(model, names, starts, drawn, record.signals)) is not None:
             geometry.lines.append(Line(record.name, line_ends, record))
@@ -109,7 +109,7 @@ def joint_geometry(model: Model, names: FrameNames) -> JointGeometry:
 
 
 def _guide_sensor(model: Model, guide: int) -> str:
-    """Name of the sensor that reads a guide in m; empty if there is none."""
+    """Name of the sensor of a guide in m; empty if there is none."""
     for sensor in model.sensors:
         if sensor.type == SensorType.GUIDE and list(sensor.integers) == [guide, 0] and list(sensor.reals) == [1.0]:
             return sensor.name
@@ -117,7 +117,7 @@ def _guide_sensor(model: Model, guide: int) -> str:
 
 
 def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint) -> dict[str, dict[str, Any]]:
-    """Frames of a sliding point by name, each on the one before; empty if a sensor of a guide is missing."""
+    """Frames of a sliding point by name, each the parent of the next; empty if a guide has no sensor."""
     parent, at = names.anchor(slide.body, place_drawn(drawn, slide.start))
     names_in_use = {"ground", *names.bodies.values(), *names.turns.values()}
     name = f"end of {slide.name}" if slide.name in names_in_use else slide.name
@@ -134,7 +134,8 @@ def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: Slidi
     return frames
 
 
-def _axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:
+def _joint_axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:
+    """Axis of a revolute joint as drawn; None for other joints."""
     if joint.type != "revolute":
         return None
     if dimension == 2:
@@ -143,38 +144,38 @@ def _axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:
 
 
 def sensed_points(model: Model) -> dict[Body, list[Vector]]:
-    """Points of rigid bodies whose position a sensor reads, by body; earth axes as drawn, m."""
+    """Points of rigid bodies whose position a sensor reads, by body, earth axes as drawn, m."""
     bodies = {body.start + k: body for body in model.bodies for k in range(model.dimension)}
     points: dict[Body, list[Vector]] = {}
     for sensor in model.sensors:
         if sensor.type != SensorType.SIGNAL or len(sensor.signals) != 1 or list(sensor.reals) != [1.0]:
             continue
         for body in {bodies[i] for i in sensor.signals[0].terms if i in bodies}:
-            local = _local(body, sensor.signals[0])
+            local = _sensed_point(body, sensor.signals[0])
             if local is not None:
                 points.setdefault(body, []).append(in_space(body.com) + local)
     return points
 
 
-def _local(body: Body, signal: Affine) -> Vector | None:
-    """Point of a rigid body, in its axes, m, of which a signal is one component; None if it is not one."""
+def _sensed_point(body: Body, signal: Affine) -> Vector | None:
+    """Point of a rigid body, in its axes, m, of which a signal is a coordinate; None if there is none."""
     d, s = body.dimension, body.start
     terms = dict(signal.terms)
     k = next((k for k in range(d) if terms.pop(s + k, None) == 1.0), -1)
     if k < 0 or signal.constant != 0.0:
         return None
     if d == 3:
-        local = np.array([terms.pop(s + 3 * (m + 1) + k, 0.0) for m in range(3)])
+        point = np.array([terms.pop(s + 3 * (m + 1) + k, 0.0) for m in range(3)])
     else:
         x, y = terms.pop(s + 2 + k, 0.0), terms.pop(s + 3 - k, 0.0)
-        local = np.array([x, -y if k == 0 else y, 0.0])
-    return None if terms else local
+        point = np.array([x, -y if k == 0 else y, 0.0])
+    return None if terms else point
 
 
-def apart(points: Sequence[Vector], least: float) -> list[Vector]:
-    """Points, without those within `least` (m) of an earlier one."""
+def distinct_points(points: Sequence[Vector], tolerance: float) -> list[Vector]:
+    """Points without those within `tolerance`, m, of an earlier one."""
     distinct: list[Vector] = []
     for p in points:
-        if all(np.linalg.norm(p - q) > least for q in distinct):
+        if all(np.linalg.norm(p - q) > tolerance for q in distinct):
             distinct.append(p)
     return distinct

@@ -1,4 +1,4 @@
-"""Roads of a model as parts of its scene."""
+"""Entries of a scene for the roads of a model."""
 
 from typing import Any
 
@@ -8,16 +8,16 @@ from mbs.roads.scene_part import scene_part
 
 
 def roads_of(model: Model) -> list[dict[str, Any]]:
-    """Scene parts of all roads, and of the level planes on which wheels roll without slip.
+    """Entries of all roads, and of the level planes on which wheels roll without slip.
 
-    A road file is given by its path only. A road at ports is omitted, as only the program at the port knows it; the
-    roads after it keep their numbers.
+    The entry of a road file is its path. A road at ports is omitted, as only the program at the port knows it; the
+    following roads keep their numbers.
     """
     files = {file.road: file for file in model.road_files if file.start}
     parts: list[tuple[int, dict[str, Any]]] = []
     for k, road in enumerate(model.roads):
         if isinstance(road, PortRoad):
-            continue  # only the program that answers knows it
+            continue
         file = files.get(k)
         road_part = scene_part(road) if file is None else {"kind": "file", "variable": file.name, "path": file.start}
         parts.append((k, road_part))

@@ -1,4 +1,4 @@
-"""Scene of a model: everything needed for drawing but the columns of a run."""
+"""Scene of a model: all that is drawn but the columns of a run."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -24,23 +24,23 @@ from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
 from mbs.system.drawing import Drawing, Places, matrices
 
-TABLED = "a table moves it, and pictures follow coordinates"
-SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
+TABLED_REASON = "a table moves it, and pictures follow coordinates"
+SLIDING_REASON = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
 
 
 def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
-    """The scene of a model and the places of its frames.
+    """Scene of a model, with its rows for the poses of frames.
 
-    `places`: of its bodies among the coordinates; `q`: coordinates at the start, shape (nq,).
+    `places`: rows of its frames over the coordinates; `q`: coordinates at the start, shape (nq,).
     """
     geometry = joint_geometry(model, names)
     meshes: dict[str, Any] = {}
-    shapes = [s for shape in model.shapes if (s := _drawn(shape, names, meshes)) is not None]
-    extent = _extent([*_places_of_bodies(model), *(p for ps in geometry.points.values() for p in ps)])
+    shapes = [s for shape in model.shapes if (s := _shape_entry(shape, names, meshes)) is not None]
+    extent = _extent([*_body_points(model), *(p for ps in geometry.points.values() for p in ps)])
     defaults = Defaults(model, names, geometry, extent)
     for shape in shapes:
-        _fill(shape, defaults)
+        _set_default_sizes(shape, defaults)
     named = {s.name for s in model.shapes} - {""}
     if model.default_shapes:
         drawn_frames = {names.of_owner(s.owner) for s in model.shapes}
@@ -55,24 +55,26 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "version": 1,
         "name": model.name,
         "description": "",
-        "up": _up(model),
+        "up": _up_direction(model),
         "planar": model.dimension == 2,
-        "extent": _extent([*_places_of_shapes(measured_shapes, frames), *_nodes(model)]) if measured_shapes else extent,
-        "focus": _focus(model, names),
+        "extent": _extent([*_shape_points(measured_shapes, frames), *_flexible_nodes(model)])
+        if measured_shapes
+        else extent,
+        "focus": _focus_frame(model, names),
         "frames": frames,
         "shapes": shapes,
         "meshes": meshes,
         "flexible": list(model.flexible_scene),
         "arrows": arrows_of(model, names, geometry.lines),
         "roads": roads_of(model),
-        "missing": [{"name": name, "why": SLIDES} for name in geometry.sliding if name not in named]
-        + [{"name": t.name, "why": TABLED} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],
+        "missing": [{"name": name, "why": SLIDING_REASON} for name in geometry.sliding if name not in named]
+        + [{"name": t.name, "why": TABLED_REASON} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],
     }
-    return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
+    return Drawing(scene, places, shared_points(model, names), _flexible_part_makers(model, names, places, q))
 
 
-def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | None:
-    """Entry of the scene for a shape of the user; None for one that is not drawn."""
+def _shape_entry(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | None:
+    """Entry of the scene for a shape of the user; None for a hidden shape."""
     if shape.kind == "none":
         return None
     entry: Scene = {"kind": shape.kind}
@@ -101,25 +103,26 @@ def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | N
 
 
 def _mesh_name(file: str, meshes: Mapping[str, Any]) -> str:
+    """Name of a file, with a number if a mesh has this name."""
     name, k = file, 2
     while name in meshes:
         name, k = f"{file} ({k})", k + 1
     return name
 
 
-def _fill(shape: Scene, defaults: Defaults) -> None:
-    """Sizes that the user left to the drawing."""
-    tube = defaults.tube
+def _set_default_sizes(shape: Scene, defaults: Defaults) -> None:
+    """Set the sizes that the user omitted."""
+    tube = defaults.tube_radius
     if shape["kind"] in ("tube", "spring", "damper"):
         shape.setdefault("radius", tube * {"tube": 1.0, "spring": 2.0, "damper": 1.0}[shape["kind"]])
     if shape["kind"] == "plate":
         shape.setdefault("thickness", tube)
 
 
-def _flexible(
+def _flexible_part_makers(
     model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]
 ) -> tuple[Callable[[], list[Scene]], ...]:
-    """Functions that make beams, modes and rows of stress of flexible bodies."""
+    """Functions that make the scene parts of flexible bodies: beams, modes and stress rows."""
     functions = []
     bodies = [body for body in model.bodies if isinstance(body, FlexibleBody)]
     hidden = {shape.owner for shape in model.shapes if shape.kind == "none"}
@@ -132,22 +135,23 @@ def _flexible(
     return tuple(functions)
 
 
-def _up(model: Model) -> list[float]:
-    """Against gravity; of planar models y."""
+def _up_direction(model: Model) -> list[float]:
+    """Unit vector against gravity, z without gravity; y in planar models."""
     if model.dimension == 2:
         return [0.0, 1.0, 0.0]
     size = float(np.linalg.norm(model.gravity))
     return numbers(-model.gravity / size) if size > 0.0 else [0.0, 0.0, 1.0]
 
 
-def _focus(model: Model, names: FrameNames) -> str:
-    """The heaviest body of what nothing ties to the ground."""
+def _focus_frame(model: Model, names: FrameNames) -> str:
+    """Frame of the heaviest body of a model that is not joined to the ground; else empty."""
     if model.grounded and not model.floating:
         return ""
     return names.of_body(max(model.bodies, key=lambda body: body.mass))
 
 
-def _places_of_bodies(model: Model) -> list[Vector]:
+def _body_points(model: Model) -> list[Vector]:
+    """Nodes and centres of mass as drawn, m; of a single rigid body the box of its radius of gyration."""
     positions: list[Vector] = []
     for body in model.bodies:
         nodes = body.node_positions if isinstance(body, FlexibleBody) else [body.com]
@@ -159,20 +163,21 @@ def _places_of_bodies(model: Model) -> list[Vector]:
     return positions
 
 
-def _nodes(model: Model) -> list[Vector]:
+def _flexible_nodes(model: Model) -> list[Vector]:
+    """Nodes of all flexible bodies as drawn, m."""
     return [p for body in model.bodies if isinstance(body, FlexibleBody) for p in body.node_positions]
 
 
-def _extent(places: list[Vector]) -> float:
-    """Diagonal of the box around all places, m; 1 m where they coincide."""
-    size = float(np.linalg.norm(np.ptp(places, axis=0))) if places else 0.0
+def _extent(points: list[Vector]) -> float:
+    """Diagonal of the bounding box of points, m; 1 m if they coincide."""
+    size = float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
     return size if size > 0.0 else 1.0
 
 
-def _places_of_shapes(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Vector]:
-    """Places of all shapes at the start, earth axes, m."""
+def _shape_points(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Vector]:
+    """Corners of the boxes around the points of all shapes at the start, earth axes, m."""
     corners: list[Vector] = []
-    starts = _starts(frames)
+    starts = _initial_poses(frames)
     for shape in shapes:
         anchors = [*shape.get("points", ()), *(shape.get("ends", ()) if "frame" not in shape else ())]
         if "frame" in shape:
@@ -180,26 +185,28 @@ def _places_of_shapes(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Ve
             anchors = [[shape["frame"], p] for p in local]
         reach = shape["radius"] if shape["kind"] in ("sphere", "wheel") else 0.5 * max(shape.get("size", [0.0]))
         for frame, p in anchors:
-            position = _at_start(frames, starts, frame, np.array(p))
+            position = _initial_position(frames, starts, frame, np.array(p))
             corners += [position - reach, position + reach]
     return corners
 
 
-def _starts(frames: Mapping[str, Any]) -> dict[str, tuple[Vector, Vector]]:
+def _initial_poses(frames: Mapping[str, Any]) -> dict[str, tuple[Vector, Vector]]:
     """Origin and axes of the frames of bodies at the start."""
-    initial_poses = {name: frame["start"] for name, frame in frames.items() if "parent" not in frame}
-    if not initial_poses:
+    poses = {name: frame["start"] for name, frame in frames.items() if "parent" not in frame}
+    if not poses:
         return {}
-    axes = matrices(np.array([quaternion for _, quaternion in initial_poses.values()]))
-    return {name: (np.array(origin), R) for (name, (origin, _)), R in zip(initial_poses.items(), axes, strict=True)}
+    axes = matrices(np.array([quaternion for _, quaternion in poses.values()]))
+    return {name: (np.array(origin), R) for (name, (origin, _)), R in zip(poses.items(), axes, strict=True)}
 
 
-def _at_start(frames: Mapping[str, Any], starts: Mapping[str, tuple[Vector, Vector]], name: str, at: Vector) -> Vector:
-    """A place of a frame at the start, earth axes, m."""
+def _initial_position(
+    frames: Mapping[str, Any], starts: Mapping[str, tuple[Vector, Vector]], name: str, point: Vector
+) -> Vector:
+    """Position at the start of a point of the frame `name`, earth axes, m; `point`: in the frame, m."""
     if name == "ground":
-        return at
-    if name not in starts:  # the turn at the start changes no size
+        return point
+    if name not in starts:  # the angle at the start is neglected: it does not change the extent
         frame = frames[name]
-        return _at_start(frames, starts, frame["parent"], np.array(frame["at"]) + at)
+        return _initial_position(frames, starts, frame["parent"], np.array(frame["at"]) + point)
     origin, axes = starts[name]
-    return np.asarray(origin + axes @ at)
+    return np.asarray(origin + axes @ point)

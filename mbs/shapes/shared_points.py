@@ -1,4 +1,4 @@
-"""Points that two bodies have in common through their joints: they give the pose of a body from its neighbours."""
+"""Points that two bodies have in common through a joint, by which the pose of a body follows from its neighbours."""
 
 import numpy as np
 
@@ -7,9 +7,9 @@ from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.shapes.frames import FrameNames, numbers, place_drawn
 
-JOINTS = ("spherical", "revolute", "universal", "weld")
-"""Types of joints whose bodies have a point in common."""
-ALONG = 0.1  # m, from the point of a joint to further common points
+JOINT_TYPES = ("spherical", "revolute", "universal", "weld")
+"""Types of joints that constrain a common point."""
+OFFSET = 0.1  # m, from the point of a joint to further common points
 
 
 def shared_points(model: Model, names: FrameNames) -> list[tuple[str, list[float], str, list[float]]]:
@@ -21,7 +21,7 @@ def shared_points(model: Model, names: FrameNames) -> list[tuple[str, list[float
     points, drawn = [], model.drawn()
     for joint in model.joints:
         ends = joint.ends
-        if ends is None or joint.type not in JOINTS or joint.switch is not None:
+        if ends is None or joint.type not in JOINT_TYPES or joint.switch is not None:
             continue
         if any(body.is_point for body in ends.bodies):
             continue
@@ -38,9 +38,9 @@ def _offsets(dimension: int, drawn: Vector, joint: Joint) -> list[Vector]:
     """Vectors from the point of a joint to all common points of its bodies, m."""
     offsets = [np.zeros(3)]
     if joint.type == "weld":
-        offsets += [ALONG * e for e in np.eye(3)[:2]]
+        offsets += [OFFSET * e for e in np.eye(3)[:2]]
     elif joint.type == "revolute" and dimension == 2:
-        offsets.append(np.array([0.0, 0.0, ALONG]))
+        offsets.append(np.array([0.0, 0.0, OFFSET]))
     elif joint.type == "revolute" and joint.ends is not None and joint.ends.axis is not None:
-        offsets.append(ALONG * place_drawn(drawn, joint.ends.axis))
+        offsets.append(OFFSET * place_drawn(drawn, joint.ends.axis))
     return offsets

@@ -1,4 +1,4 @@
-"""Bounds of the numbers of a tyre property file, in SI units."""
+"""Bounds of the numbers of a tyre property file, SI units."""
 
 from collections.abc import Mapping
 from math import atan
@@ -29,24 +29,21 @@ _BOUNDS = {
     "QSY7": (0.0, 3.0, ""),
     "QSY8": (-3.0, 3.0, ""),
 }
-_PAIRS = (("FZMIN", "FZMAX", "N"), ("PRESMIN", "PRESMAX", "Pa"))
-_COEFFICIENT = 1e4  # the largest of public files is 760, a PEY4
-_PLAIN = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
+_RANGES = (("FZMIN", "FZMAX", "N"), ("PRESMIN", "PRESMAX", "Pa"))
+_LARGEST_COEFFICIENT = 1e4  # the largest in public files is a PEY4 of 760
+_COEFFICIENTS = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
 
 
 def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
-    """Refuse what no tyre has; 0 counts as not given. `numbers`: by their keys, in SI units.
-
-    Raises `TyreFileError`: one sentence with the key, its value and its bounds.
-    """
+    """Raise `TyreFileError` if a number is outside its bounds; 0 counts as missing. `numbers`: by key, SI units."""
     for key, value in numbers.items():
-        if key not in _BOUNDS and key not in _PLAIN:
+        if key not in _BOUNDS and key not in _COEFFICIENTS:
             continue
-        least, most, unit = _BOUNDS.get(key, (-_COEFFICIENT, _COEFFICIENT, ""))
+        least, most, unit = _BOUNDS.get(key, (-_LARGEST_COEFFICIENT, _LARGEST_COEFFICIENT, ""))
         if value and not least <= value <= most:
-            of_unit = f" {unit}" if unit else ""
-            raise text.fault(f"{key} is {value:g}{of_unit}; it must lie between {least:g} and {most:g}{of_unit}.")
-    for lower, upper, unit in _PAIRS:
+            suffix = f" {unit}" if unit else ""
+            raise text.fault(f"{key} is {value:g}{suffix}; it must lie between {least:g} and {most:g}{suffix}.")
+    for lower, upper, unit in _RANGES:
         least, most = (numbers.get(key, 0.0) for key in (lower, upper))
         if most and not least < most:
             raise text.fault(f"{lower} is {least:g} {unit} and {upper} {most:g} {unit}; the first must be the smaller.")

@@ -1,4 +1,4 @@
-"""A Magic Formula tyre from its property file."""
+"""Reads a Magic Formula tyre from its property file."""
 
 import math
 from collections.abc import Mapping
@@ -12,13 +12,13 @@ from mbs.elements.magic_tyre import SIGNS, MagicTyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files.bounds import check_bounds
 from mbs.tyre_files.property_text import PropertyText, TyreFileError, read_properties
-from mbs.tyre_files.units import POWERS, PRESSURES, in_si
+from mbs.tyre_files.units import POWERS, PRESSURES, to_si
 
-FITS = {5: "MF52", 6: "MF52", 51: "MF52", 52: "MF52", 61: "MF61", 62: "MF62"}
+VERSION_BY_FITTYP = {5: "MF52", 6: "MF52", 51: "MF52", 52: "MF52", 61: "MF61", 62: "MF62"}
 """Version by FITTYP."""
-FORMATS = {"MF_05": "MF52", "MF05": "MF52", "MF52": "MF52", "MF61": "MF61", "MF62": "MF62"}
-"""Version by PROPERTY_FILE_FORMAT where FITTYP is missing, without separators but that of MF_05."""
-_BY_FIT = ("MF-TYRE", "MFTYRE", "MF-SWIFT", "MFSWIFT", "USER", "MF_05", "MF05")
+VERSION_BY_FORMAT = {"MF_05": "MF52", "MF05": "MF52", "MF52": "MF52", "MF61": "MF61", "MF62": "MF62"}
+"""Version by PROPERTY_FILE_FORMAT if FITTYP is missing; without separators except in MF_05."""
+_FORMATS_WITH_FITTYP = ("MF-TYRE", "MFTYRE", "MF-SWIFT", "MFSWIFT", "USER", "MF_05", "MF05")
 SIDES = ("left", "right")
 SIDE_OF_FILE = "file"
 _ALIASES = {
@@ -39,14 +39,27 @@ _ALIASES = {
     "IP_NOM": "NOMPRES",
 }
 _SECTIONS = ("UNITS", "MODEL", "DIMENSION", "VERTICAL", "LONGITUDINAL_COEFFICIENTS", "LATERAL_COEFFICIENTS")
-_NEEDED = ("UNLOADED_RADIUS", "FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1", "PKY2", "QBZ1", "QCZ1", "QDZ1")
-_WEIGHTS = ("RBX1", "RCX1", "RBY1", "RCY1")
-_ONE_SIDED = (  # 0 for a tyre whose sides are alike
+_REQUIRED_NUMBERS = (
+    "UNLOADED_RADIUS",
+    "FNOMIN",
+    "PCX1",
+    "PDX1",
+    "PKX1",
+    "PCY1",
+    "PDY1",
+    "PKY1",
+    "PKY2",
+    "QBZ1",
+    "QCZ1",
+    "QDZ1",
+)
+_WEIGHTING_COEFFICIENTS = ("RBX1", "RCX1", "RBY1", "RCY1")
+_ASYMMETRIC = (  # 0 for a symmetric tyre
     *("PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "RHX1", "RBY3", "RVY1", "RVY2"),
     *("QBZ4", "QDZ6", "QDZ7", "QEZ4", "QHZ1", "QHZ2", "SSZ1", "QSX1"),
 )
-_ONE_SIDED_OLD = ("QDZ3",)  # up to 5.2 a factor of the camber angle, from 6.1 on of its magnitude
-_NEW = (  # from 6.1 on
+_ASYMMETRIC_OLD = ("QDZ3",)  # up to 5.2 a factor of the camber angle, later of its magnitude
+_SINCE_61 = (  # coefficients of 6.1 and later
     *(f"PP{name}" for name in ["X1", "X2", "X3", "X4", "Y1", "Y2", "Y3", "Y4", "Y5", "Z1", "Z2", "MX1"]),
     *("PFZ1", "NOMPRES"),
     *("PEY5", "PKY4", "PKY5", "PKY6", "PKY7", "RBX3", "RBY4", "QBZ6", "QDZ10", "QDZ11", "LKYC", "LKZC", "LMUV", "LVMX"),
@@ -54,65 +67,65 @@ _NEW = (  # from 6.1 on
     *("QSY5", "QSY6", "QSY7", "QSY8", "Q_RE0", "Q_V1", "Q_V2"),
     *("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS", "PCFX1", "PCFX2", "PCFX3", "PCFY1", "PCFY2", "PCFY3"),
 )
-_OLD = ("PHY3", "PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LGAX", "LGAY", "LGAZ", "LSGKP", "LSGAL", "QBZ4")
+_UNTIL_52 = ("PHY3", "PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LGAX", "LGAY", "LGAZ", "LSGKP", "LSGAL", "QBZ4")
 _VERTICAL_UNUSED = (
     *("Q_FCX", "Q_FCY", "Q_FCY2", "QFCX1", "QFCY1", "Q_FZ3"),
     *("Q_CAM", "Q_CAM1", "Q_CAM2", "Q_CAM3", "Q_FYS1", "Q_FYS2", "Q_FYS3"),
 )
-_NUMBERS = {  # keys that are read and must be numbers
-    *(*MAGIC_COEFFICIENTS, *_NEEDED, *_ALIASES, *POWERS, *PRESSURES),
+_NUMBERS = {  # keys whose values must be numbers
+    *(*MAGIC_COEFFICIENTS, *_REQUIRED_NUMBERS, *_ALIASES, *POWERS, *PRESSURES),
     *("FITTYP", "USE_MODE", "LCZ", "Q_FZ1", "Q_FZ2", *_VERTICAL_UNUSED),
     *("KPUMIN", "KPUMAX", "ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"),
 }
-_ALIKE = 0.05  # of the vertical stiffness: what the file may say in two ways
-_RIM = 0.010  # m of rubber under a tyre that bottoms
-_BOTTOMS = 5.0  # stiffness of the rim over that of the tyre, where a file has none
-_LEAST = 0.05  # of friction and slip stiffness at the nominal load: below it a fit has left its range
-_LOADS = 400  # at which that is seen
-_NARROW = 0.01  # of slips and angles
-_MOST_LOAD = 5.0  # nominal loads, where a file has no range
+_STIFFNESS_TOLERANCE = 0.05  # relative difference of VERTICAL_STIFFNESS and Q_FZ1
+_BOTTOMED_RUBBER = 0.010  # m between rim and road of a bottomed tyre
+_BOTTOMING_STIFFNESS = 5.0  # default, over the stiffness of the tyre
+_LEAST_SHARE = 0.05  # of friction and slip stiffness at the nominal load, below which a fit is out of its range
+_LOADS = 400  # number of loads at which these are checked
+_LEAST_RANGE = 0.01  # of slips and angles, rad
+_DEFAULT_LARGEST_LOAD = 5.0  # over the nominal load
 
 
 @dataclass(frozen=True)
 class TyreFile(Summarised):
-    """A Magic Formula tyre as its file has it."""
+    """Content of the property file of a Magic Formula tyre."""
 
     name: str
     """Of the file, for messages."""
     values: Mapping[str, Any]
-    """Arguments of `MagicTyre` but for side, signs and pressure."""
+    """Arguments of `MagicTyre` except side, signs and pressure."""
     side: str
-    """Where it was measured, "left" or "right"; or "symmetric"."""
+    """Side of the measured tyre, "left" or "right", or "symmetric"."""
     pressure: float
     nominal_pressure: float
-    """`pressure`, `nominal_pressure`: Pa; 0 where the file has none."""
+    """`pressure`, `nominal_pressure`: Pa; 0 if the file has none."""
     pressure_range: tuple[float, float]
-    """Pa, within which the coefficients hold."""
+    """Range in which the coefficients hold, Pa."""
     notes: tuple[str, ...]
-    """What the file lacks or what is not used, a sentence each."""
+    """Sentences on what the file lacks and what is not used."""
     numbers: Mapping[str, float]
-    """All of the file by their keys, SI units."""
+    """All numbers of the file by key, SI units."""
 
     def tyre(
         self, mounted: str = SIDE_OF_FILE, signs: str = "iso", pressure: float | None = None, **more: float
     ) -> MagicTyre:
-        """The tyre of the engine.
+        """Make the tyre element.
 
         Parameters
         ----------
         mounted : {"file", "left", "right"}
-            Side of the vehicle; on the other side than in the file it is mirrored.
+            Side of the vehicle; a tyre of the other side is mirrored.
         signs : {"iso", "sae", "adapted_sae"}
-            Axes of the coefficients.
+            Sign convention of the coefficients.
         pressure : float, optional
-            Of inflation, Pa; by default that of the file.
+            Inflation pressure, Pa; by default that of the file.
         more
             Other fields of `MagicTyre`, such as `friction_factor`.
 
         Raises
         ------
         TyreFileError
-            The coefficients are not of these axes, or the file does not know the pressure.
+            The coefficients do not have these signs, or they do not hold at the pressure.
         """
         one_of(mounted, (SIDE_OF_FILE, *SIDES), f"{self.name}: the side of the tyre", TyreFileError)
         slip, _, force = SIGNS[one_of(signs, tuple(SIGNS), f"{self.name}: the signs of the tyre", TyreFileError)]
@@ -129,33 +142,35 @@ class TyreFile(Summarised):
             raise TyreFileError(f"{self.name} has no NOMPRES, so it knows nothing of a pressure of {pressure:g} Pa.")
         least, most = self.pressure_range
         if pressure is not None and not least <= pressure <= most:
-            raise TyreFileError(f"{self.name}: the pressure is {pressure:g} Pa; {_pressures(least, most)}.")
+            raise TyreFileError(f"{self.name}: the pressure is {pressure:g} Pa; {_pressure_text(least, most)}.")
         relative = inflation / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and inflation > 0.0 else 0.0
         factor = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
-        if not factor >= _LEAST:
+        if not factor >= _LEAST_SHARE:
             raise TyreFileError(f"{self.name}: at {inflation:g} Pa PFZ1 leaves {factor:.2g} of the vertical stiffness.")
         mirrored = mounted in SIDES and self.side in SIDES and mounted != self.side
         return MagicTyre(**{**self.values, **more}, signs=signs, pressure=relative, mirrored=mirrored)
 
 
 def read_tyre(file: str | Path) -> TyreFile:
-    """A tyre from a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2. `file`: usually with the extension .tir.
+    """Read a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2. `file`: usually with the extension .tir.
 
-    Raises `TyreFileError`: it cannot be read, is of another format, lacks a needed number or has an impossible one; one
-    sentence.
+    Raises `TyreFileError`: it cannot be read, is of another format, or lacks a number or has one out of bounds.
     """
     text = read_properties(file)
     notes: list[str] = []
     file_numbers = text.numbers(_NUMBERS)
-    version = _version(text, notes) if "MODEL" in text.sections else ""  # first: other formats have other sections
-    missing = [section for section in _SECTIONS if section not in text.sections]
-    if missing:
-        raise text.fault(f"it has no section [{missing[0]}]; it may be cut, or no tyre property file.")
+    # before the sections are checked: other formats have other ones
+    version = _version(text, notes) if "MODEL" in text.sections else ""
+    missing_sections = [section for section in _SECTIONS if section not in text.sections]
+    if missing_sections:
+        raise text.fault(f"it has no section [{missing_sections[0]}]; it may be cut, or no tyre property file.")
     entries = {_ALIASES.get(key, key): value for key, value in file_numbers.items()}
-    numbers = in_si(text, entries)
-    lacking = [key for key in _NEEDED if not numbers.get(key)]
-    if lacking:
-        raise text.fault(f"{', '.join(lacking)} {'is' if len(lacking) == 1 else 'are'} missing or 0; it may be cut.")
+    numbers = to_si(text, entries)
+    missing_numbers = [key for key in _REQUIRED_NUMBERS if not numbers.get(key)]
+    if missing_numbers:
+        raise text.fault(
+            f"{', '.join(missing_numbers)} {'is' if len(missing_numbers) == 1 else 'are'} missing or 0; it may be cut."
+        )
     check_bounds(text, numbers)
     if numbers["PKX1"] < 0.0:
         raise text.fault(
@@ -164,11 +179,11 @@ def read_tyre(file: str | Path) -> TyreFile:
         )
     coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
     if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):
-        coefficients |= dict.fromkeys(one_sided(version), 0.0)
+        coefficients |= dict.fromkeys(asymmetric_coefficients(version), 0.0)
     absent = [
         key
         for key in MAGIC_COEFFICIENTS
-        if key not in numbers and key not in (_NEW if version in ("PAC2002", "MF52") else _OLD)
+        if key not in numbers and key not in (_SINCE_61 if version in ("PAC2002", "MF52") else _UNTIL_52)
     ]
     if version == "MF61":
         absent = [key for key in absent if key not in ("QSX12", "QSX13", "QSX14")]
@@ -178,7 +193,7 @@ def read_tyre(file: str | Path) -> TyreFile:
         "version": version,
         "coefficients": coefficients,
         "combination": _combination(text, numbers, notes),
-        **_vertical(text, numbers, notes),
+        **_vertical_arguments(text, numbers, notes),
         **_ranges(text, numbers, notes),
     }
     values["largest_load"] = _largest_load(text, coefficients, numbers, notes)
@@ -196,58 +211,60 @@ def read_tyre(file: str | Path) -> TyreFile:
     pressure, least, most = numbers.get("INFLPRES", nominal), numbers.get("PRESMIN", 0.0), numbers.get("PRESMAX", 0.0)
     most = most or math.inf
     if pressure and not least <= pressure <= most:
-        notes.append(f"INFLPRES is {pressure:g} Pa; {_pressures(least, most)}.")
+        notes.append(f"INFLPRES is {pressure:g} Pa; {_pressure_text(least, most)}.")
     return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes), numbers)
 
 
-def _pressures(least: float, most: float) -> str:
+def _pressure_text(least: float, most: float) -> str:
+    """Sentence on the range of the pressure, Pa."""
     limits = [f"from PRESMIN, {least:g} Pa"] * (least > 0.0) + [f"to PRESMAX, {most:g} Pa"] * (most < math.inf)
     return f"the coefficients hold {', '.join(limits)}"
 
 
-def one_sided(version: str) -> tuple[str, ...]:
-    """Coefficients of a version of `MagicTyre` that are 0 for a tyre whose sides are alike."""
-    return (*_ONE_SIDED, *_ONE_SIDED_OLD) if version in ("PAC2002", "MF52") else _ONE_SIDED
+def asymmetric_coefficients(version: str) -> tuple[str, ...]:
+    """Coefficients of a version of `MagicTyre` that are 0 for a symmetric tyre."""
+    return (*_ASYMMETRIC, *_ASYMMETRIC_OLD) if version in ("PAC2002", "MF52") else _ASYMMETRIC
 
 
 def _version(text: PropertyText, notes: list[str]) -> str:
-    form = text.word("PROPERTY_FILE_FORMAT", "MODEL")
-    fit = text.sections["MODEL"].get("FITTYP")
-    if form == "PAC2002":
-        if isinstance(fit, float) and FITS.get(int(fit), "MF52") != "MF52":
-            notes.append(f"FITTYP is {fit:g} and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002.")
-        return form
-    if isinstance(fit, float) and (form in _BY_FIT or form.startswith("MF")):
-        if fit in FITS:
-            return FITS[int(fit)]
-        available = ", ".join(map(str, FITS))
-        raise text.fault(f"FITTYP is {fit:g}; Magic Formulas that are known have {available}.")
-    compact = form.replace("-", "").replace("_", "").replace("TYRE", "")
-    if form in FORMATS or compact in FORMATS:
-        return FORMATS.get(form) or FORMATS[compact]
-    fault = f"is '{form}'" if form else "is missing"
+    """Version of the formula. Raises `TyreFileError`: the format is not known."""
+    format_name = text.word("PROPERTY_FILE_FORMAT", "MODEL")
+    fittyp = text.sections["MODEL"].get("FITTYP")
+    if format_name == "PAC2002":
+        if isinstance(fittyp, float) and VERSION_BY_FITTYP.get(int(fittyp), "MF52") != "MF52":
+            notes.append(f"FITTYP is {fittyp:g} and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002.")
+        return format_name
+    if isinstance(fittyp, float) and (format_name in _FORMATS_WITH_FITTYP or format_name.startswith("MF")):
+        if fittyp in VERSION_BY_FITTYP:
+            return VERSION_BY_FITTYP[int(fittyp)]
+        available = ", ".join(map(str, VERSION_BY_FITTYP))
+        raise text.fault(f"FITTYP is {fittyp:g}; Magic Formulas that are known have {available}.")
+    compact = format_name.replace("-", "").replace("_", "").replace("TYRE", "")
+    if format_name in VERSION_BY_FORMAT or compact in VERSION_BY_FORMAT:
+        return VERSION_BY_FORMAT.get(format_name) or VERSION_BY_FORMAT[compact]
+    fault = f"is '{format_name}'" if format_name else "is missing"
     raise text.fault(
         f"PROPERTY_FILE_FORMAT in [MODEL] {fault}; it must be PAC2002, or MF-Tyre 5.2, 6.1 or 6.2 (FITTYP 6, 61, 62)."
     )
 
 
 def _combination(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> str:
-    """USE_MODE 3 does not combine; without coefficients, or as FE_METHOD says, the friction ellipse does."""
+    """Method of combined slip: "weighting", or "ellipse" by FE_METHOD or if weighting coefficients are missing."""
     mode = abs(numbers.get("USE_MODE", 4.0)) % 10.0
     if mode in (0.0, 1.0, 2.0, 3.0):
         notes.append(f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined nevertheless, by what the file has.")
     elif mode != 4.0:
         notes.append(f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined as by 4, without turn slip.")
-    lacking = [key for key in _WEIGHTS if not numbers.get(key)]
-    if text.word("FE_METHOD", "MODEL") != "YES" and not lacking:
+    missing = [key for key in _WEIGHTING_COEFFICIENTS if not numbers.get(key)]
+    if text.word("FE_METHOD", "MODEL") != "YES" and not missing:
         return "weighting"
-    if lacking:
-        notes.append(f"{', '.join(lacking)} missing or 0: slips are combined by the friction ellipse of PAC2002.")
+    if missing:
+        notes.append(f"{', '.join(missing)} missing or 0: slips are combined by the friction ellipse of PAC2002.")
     return "ellipse"
 
 
-def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> dict[str, float]:
-    """Spring, damper and rim."""
+def _vertical_arguments(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> dict[str, float]:
+    """Arguments of spring, damper and rim."""
     radius, load = numbers["UNLOADED_RADIUS"], numbers["FNOMIN"]
     stiffness, scale = numbers.get("VERTICAL_STIFFNESS", 0.0), numbers.get("LCZ", 1.0)
     first, second = numbers.get("Q_FZ1", 0.0), numbers.get("Q_FZ2", 0.0)
@@ -261,7 +278,7 @@ def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -
         first = math.sqrt(max(at_load, 0.0))
     if first:
         nominal = math.sqrt(max(first**2 + 4.0 * second, 0.0)) * load / radius
-        if stiffness and abs(nominal / stiffness - 1.0) > _ALIKE:
+        if stiffness and abs(nominal / stiffness - 1.0) > _STIFFNESS_TOLERANCE:
             notes.append(
                 f"VERTICAL_STIFFNESS is {stiffness:.4g} N/m and Q_FZ1 and Q_FZ2 give {nominal:.4g} N/m at FNOMIN; "
                 "the latter are used."
@@ -276,7 +293,7 @@ def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -
         if numbers.get(key):
             notes.append(f"{key} is not used: horizontal forces and camber do not change the vertical stiffness.")
     rim = numbers.get("BOTTOMING_RADIUS") or (
-        numbers["RIM_RADIUS"] + _RIM if numbers.get("RIM_RADIUS") else 0.6 * radius
+        numbers["RIM_RADIUS"] + _BOTTOMED_RUBBER if numbers.get("RIM_RADIUS") else 0.6 * radius
     )
     if not 0.0 < rim < radius:
         raise text.fault(f"the rim bears at {rim:g} m; that must be below UNLOADED_RADIUS, {radius:g} m.")
@@ -290,13 +307,13 @@ def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -
         "stiffness": stiffness * scale,
         "progression": progression,
         "damping": damping,
-        "bottoming_stiffness": numbers.get("BOTTOM_STIFF", _BOTTOMS * stiffness),
+        "bottoming_stiffness": numbers.get("BOTTOM_STIFF", _BOTTOMING_STIFFNESS * stiffness),
         "nominal_load": load,
     }
 
 
 def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> dict[str, tuple[float, float]]:
-    """Ranges of the slips; one of one side is widened to both."""
+    """Ranges of slip, slip angle and camber; a range on one side of 0 is mirrored."""
     ranges = {}
     for name, first, last, default in (
         ("slip_range", "KPUMIN", "KPUMAX", 1.5),
@@ -304,8 +321,10 @@ def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> 
         ("camber_range", "CAMMIN", "CAMMAX", 0.5),
     ):
         low, high = numbers.get(first, -default), numbers.get(last, default)
-        if not low <= 0.0 <= high or high - low < _NARROW:
-            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_NARROW:g} apart.")
+        if not low <= 0.0 <= high or high - low < _LEAST_RANGE:
+            raise text.fault(
+                f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_LEAST_RANGE:g} apart."
+            )
         if low * high == 0.0:
             notes.append(f"{first} is {low:g} and {last} {high:g}: the other side is taken as wide.")
             low, high = -max(-low, high), max(-low, high)
@@ -316,17 +335,17 @@ def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> 
 def _largest_load(
     text: PropertyText, coefficients: dict[str, float], numbers: dict[str, float], notes: list[str]
 ) -> float:
-    """FZMAX, or less where friction or slip stiffness fade or turn round before it."""
+    """FZMAX, or the load at which friction or slip stiffness become small, N."""
     c = {**MAGIC_COEFFICIENTS, **coefficients}
-    most = numbers.get("FZMAX", 0.0) or _MOST_LOAD * numbers["FNOMIN"]
+    largest = numbers.get("FZMAX", 0.0) or _DEFAULT_LARGEST_LOAD * numbers["FNOMIN"]
     nominal = numbers["FNOMIN"] * c["LFZO"]
-    if most < numbers["FNOMIN"]:
-        notes.append(f"FZMAX is {most:g} N, below FNOMIN, {numbers['FNOMIN']:g} N; above FZMAX the forces stay.")
+    if largest < numbers["FNOMIN"]:
+        notes.append(f"FZMAX is {largest:g} N, below FNOMIN, {numbers['FNOMIN']:g} N; above FZMAX the forces stay.")
     for key in ("LFZO", "LMUX", "LMUY", "LKX", "LKY", "LCX", "LCY", "LONGVL"):
         if not c[key] > 0.0:
             raise text.fault(f"{key} is {coefficients[key]:g}; it must be positive.")
 
-    def shares(load: float) -> dict[str, float]:
+    def shares_at(load: float) -> dict[str, float]:
         dfz = load / nominal - 1.0
         turn = c["PKY4"] * math.atan2(load / nominal, c["PKY2"])
         return {
@@ -339,14 +358,14 @@ def _largest_load(
         }
 
     for k in range(1, _LOADS + 1):
-        load = most * k / _LOADS
-        for quantity, share in shares(load).items():
-            if share >= _LEAST:
+        load = largest * k / _LOADS
+        for quantity, share in shares_at(load).items():
+            if share >= _LEAST_SHARE:
                 continue
             if load < nominal:
                 raise text.fault(
                     f"{quantity} is {share:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
                 )
-            notes.append(f"{quantity} fades at {load:.0f} N; above it the forces stay, FZMAX is {most:.0f} N.")
-            return most * (k - 1) / _LOADS
-    return most
+            notes.append(f"{quantity} fades at {load:.0f} N; above it the forces stay, FZMAX is {largest:.0f} N.")
+            return largest * (k - 1) / _LOADS
+    return largest

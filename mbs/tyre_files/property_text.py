@@ -1,4 +1,4 @@
-"""The text of a tyre property file: sections of keys and values, comments, tables."""
+"""Reads the text of a tyre property file: sections of keys and values, comments, tables."""
 
 import math
 import re
@@ -10,9 +10,9 @@ from ali3.message_text import brief, one_line
 from ali3.reading import read_bytes
 from mbs.common.errors import ModelError
 
-LARGEST = 1_000_000
-"""Bytes; such files have some ten thousand."""
-_LONGEST = 1000  # characters of a line
+MOST_BYTES = 1_000_000
+"""Usual files have some ten thousand bytes."""
+_LONGEST_LINE = 1000  # characters
 _SECTION = re.compile(r"\[\s*([A-Za-z0-9_]+)\s*\]")
 _ENTRY = re.compile(r"([A-Za-z][A-Za-z0-9_]*)\s*=\s*(.*)")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?", re.ASCII)
@@ -20,7 +20,7 @@ _WITH_COMMA = re.compile(r"[+-]?\d+,\d+([eEdD][+-]?\d+)?", re.ASCII)
 
 
 class TyreFileError(ModelError):
-    """A tyre property file that cannot be read or describes no tyre: one sentence with the file."""
+    """A tyre property file that cannot be read or does not describe a tyre; the message names the file."""
 
 
 @dataclass(frozen=True)
@@ -29,23 +29,23 @@ class PropertyText:
 
     name: str
     sections: dict[str, dict[str, str | float]] = field(default_factory=dict)
-    """Of keys to words or numbers, all in capitals; words without quotation marks."""
+    """Words (without quotation marks) or numbers by section and key, all in capitals."""
     tables: frozenset[str] = frozenset()
     """Sections with lines of numbers."""
 
     def fault(self, sentence: str) -> TyreFileError:
-        """An error that names the file."""
+        """Make an error that names the file."""
         return TyreFileError(f"{self.name}: {sentence}")
 
     def word(self, key: str, section: str) -> str:
-        """A word in capitals; empty where there is none."""
+        """Word of a key in capitals; empty if there is none."""
         return str(self.sections.get(section, {}).get(key, "")).upper()
 
     def numbers(self, expected: Container[str] = ()) -> dict[str, float]:
-        """All numbers by their keys.
+        """All numbers by key.
 
-        `expected`: keys whose values must be numbers. Raises `TyreFileError`: a key has two values in two sections, or
-        a text where a number is expected.
+        `expected`: keys whose values must be numbers. Raises `TyreFileError`: a key has different values in two
+        sections, or a text where a number is expected.
         """
         numbers: dict[str, float] = {}
         for section, entries in self.sections.items():
@@ -63,11 +63,11 @@ class PropertyText:
 
 
 def read_properties(file: str | Path) -> PropertyText:
-    """Sections of a tyre property file. `file`: text in UTF-8 or Latin-1; what counts is ASCII.
+    """Read the sections of a tyre property file. `file`: text in UTF-8 or Latin-1; keys and values are ASCII.
 
-    Raises `TyreFileError`: it is no such text; the message has file and line.
+    Raises `TyreFileError`: it is not such a text.
     """
-    data = read_bytes(file, LARGEST, TyreFileError)
+    data = read_bytes(file, MOST_BYTES, TyreFileError)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:
         raise TyreFileError(f"{file} is not text of single bytes; it must be in UTF-8 or Latin-1.")
     try:
@@ -76,17 +76,18 @@ def read_properties(file: str | Path) -> PropertyText:
         text = data.decode("latin-1")
     if not text.strip():
         raise TyreFileError(f"{file} is empty; it must be a tyre property file.")
-    return _parsed(text, str(file))
+    return _parse(text, str(file))
 
 
-def _parsed(text: str, name: str) -> PropertyText:
+def _parse(text: str, name: str) -> PropertyText:
+    """Sections of a text. `name`: of the file, for messages."""
     sections: dict[str, dict[str, str | float]] = {}
     tables: set[str] = set()
     section = ""
     for k, raw in enumerate(text.splitlines(), 1):
         where = f"{name}, line {k}"
-        if len(raw) > _LONGEST:
-            raise TyreFileError(f"{where} has {len(raw)} characters; it must have at most {_LONGEST}.")
+        if len(raw) > _LONGEST_LINE:
+            raise TyreFileError(f"{where} has {len(raw)} characters; it must have at most {_LONGEST_LINE}.")
         line = _without_comment(raw)
         if not line or line.startswith("{"):
             continue
@@ -104,14 +105,14 @@ def _parsed(text: str, name: str) -> PropertyText:
                 raise TyreFileError(f"{where}: {brief(line)} is neither a section, a key with its value nor a comment.")
             tables.add(section)
             continue
-        key, value = entry[1].upper(), _value(entry[2].strip(), f"{where}: {entry[1].upper()}")
+        key, value = entry[1].upper(), _parse_value(entry[2].strip(), f"{where}: {entry[1].upper()}")
         if sections[section].setdefault(key, value) != value:
             raise TyreFileError(f"{where}: {key} stands twice in [{section}], with another value.")
     return PropertyText(name, sections, frozenset(tables))
 
 
 def _without_comment(line: str) -> str:
-    """A line up to its comment: `$` and `!` outside of quotation marks begin one."""
+    """Part of a line before its comment, which begins with `$` or `!` outside quotation marks."""
     quoted = ""
     for k, c in enumerate(line):
         if quoted:
@@ -123,19 +124,20 @@ def _without_comment(line: str) -> str:
     return line.strip()
 
 
-def _value(text: str, what: str) -> str | float:
+def _parse_value(text: str, subject: str) -> str | float:
+    """Word or number of an entry. `subject`: file, line and key, for messages."""
     if text[:1] in ("'", '"'):
         if len(text) < 2 or text[-1] != text[0]:
-            raise TyreFileError(f"{what} is {brief(text)}; its quotation mark is not closed.")
+            raise TyreFileError(f"{subject} is {brief(text)}; its quotation mark is not closed.")
         return text[1:-1].strip()
     if _WITH_COMMA.fullmatch(text):
         raise TyreFileError(
-            f"{what} is {brief(text)}; its decimal mark must be a point, as in {text.replace(',', '.')}."
+            f"{subject} is {brief(text)}; its decimal mark must be a point, as in {text.replace(',', '.')}."
         )
     if not _NUMBER.fullmatch(text):
         fault = f"{one_line(text, 60)}, without quotation marks" if text else "empty"
-        raise TyreFileError(f"{what} is {fault}; it must be a number, or a word in quotation marks.")
+        raise TyreFileError(f"{subject} is {fault}; it must be a number, or a word in quotation marks.")
     number = float(re.sub("[dD]", "e", text))
     if not math.isfinite(number):
-        raise TyreFileError(f"{what} is {brief(text)}; it must be finite.")
+        raise TyreFileError(f"{subject} is {brief(text)}; it must be finite.")
     return number

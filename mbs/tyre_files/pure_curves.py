@@ -1,4 +1,4 @@
-"""Steady forces of both tyre formulas over one slip alone, and the trail, without camber and shifts, for fits."""
+"""Steady forces at pure slip and trail of both tyre formulas, without camber and shifts, for fits."""
 
 from collections.abc import Mapping, Sequence
 
@@ -11,33 +11,32 @@ Array = NDArray[np.float64]
 
 
 def at_load(pair: Sequence[float], q: float) -> float:
-    """A force of TMeasy at q nominal loads from those at one and two: a parabola through 0.
-
-    `q`: load over the nominal load.
-    """
+    """Force or stiffness of TMeasy at q nominal loads from the values at one and two: a parabola through 0."""
     first, second = pair
     return q * (2.0 * first - 0.5 * second - (first - 0.5 * second) * q)
 
 
-def tmeasy_force(slope: float, most: float, most_at: float, slides: float, slides_at: float, slip: ArrayLike) -> Array:
+def tmeasy_force(
+    slope: float, peak: float, peak_slip: float, sliding: float, sliding_slip: float, slip: ArrayLike
+) -> Array:
     """Force of TMeasy over a slip, odd in it (Hirschberg, Rill and Weinfurter, 2007).
 
-    `slope`, `most`, `slides`: initial slope, largest and sliding force, N; `most_at`, `slides_at`: slips where the
-    force is largest and from which on it slides; `slip`: refers to the speed of the rolling wheel. Result: in N, with
+    `slope`, `peak`, `sliding`: initial slope, largest and sliding force, N; `peak_slip`, `sliding_slip`: slips of the
+    largest force and of the beginning of sliding; `slip`: relative to the speed of the rolling wheel. Result: N, with
     the sign of the slip.
     """
     s = np.abs(np.asarray(slip, float))
-    x = s / most_at
-    rising = slope * s / ((1.0 - x) ** 2 + slope * s / most)
-    progress = np.clip((s - most_at) / (slides_at - most_at), 0.0, 1.0)
-    falling = most - (most - slides) * progress**2 * (3.0 - 2.0 * progress)
-    return np.asarray(np.sign(slip) * np.where(s < most_at, rising, falling))
+    x = s / peak_slip
+    rising = slope * s / ((1.0 - x) ** 2 + slope * s / peak)
+    progress = np.clip((s - peak_slip) / (sliding_slip - peak_slip), 0.0, 1.0)
+    falling = peak - (peak - sliding) * progress**2 * (3.0 - 2.0 * progress)
+    return np.asarray(np.sign(slip) * np.where(s < peak_slip, rising, falling))
 
 
 def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Array:
     """Trail of TMeasy over the length of the patch, at a lateral slip.
 
-    `first`, `zero`, `end`: at no slip; slips where it first vanishes and where it ends.
+    `first`: at no slip; `zero`, `end`: slips of its zero and of its end.
     """
     s = np.abs(np.asarray(slip, float))
     w, x = zero / end, s / zero
@@ -46,7 +45,8 @@ def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Arra
     return np.where(s >= end, 0.0, np.where(s >= zero, after_zero, before_zero))
 
 
-def _sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
+def _magic_sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
+    """Sine version of the Magic Formula (4.E9)."""
     scaled = B * x
     return np.asarray(D * np.sin(C * np.arctan(scaled - min(E, 1.0) * (scaled - np.arctan(scaled)))))
 
@@ -62,7 +62,7 @@ def magic_longitudinal(coefficients: Mapping[str, float], nominal: float, load: 
     C, D = c["PCX1"] * c["LCX"], (c["PDX1"] + c["PDX2"] * dfz) * c["LMUX"] * load
     K = load * (c["PKX1"] + c["PKX2"] * dfz) * np.exp(c["PKX3"] * dfz) * c["LKX"]
     E = (c["PEX1"] + c["PEX2"] * dfz + c["PEX3"] * dfz**2) * c["LEX"]
-    return _sine(K / (C * D), C, D, E, np.asarray(kappa, float))
+    return _magic_sine(K / (C * D), C, D, E, np.asarray(kappa, float))
 
 
 def cornering_stiffness(coefficients: Mapping[str, float], nominal: float, load: float) -> float:
@@ -74,7 +74,7 @@ def cornering_stiffness(coefficients: Mapping[str, float], nominal: float, load:
 
 
 def magic_lateral(coefficients: Mapping[str, float], nominal: float, load: float, alpha: ArrayLike) -> Array:
-    """Lateral force against the slip at pure slip (4.E19 to 4.E30), N.
+    """Lateral force, opposite to the slip, at pure slip (4.E19 to 4.E30), N.
 
     `alpha`: the slip angle, rad, up to 5.2; its tangent from 6.1 on.
     """
@@ -82,7 +82,7 @@ def magic_lateral(coefficients: Mapping[str, float], nominal: float, load: float
     dfz = load / (nominal * c["LFZO"]) - 1.0
     C, D = c["PCY1"] * c["LCY"], (c["PDY1"] + c["PDY2"] * dfz) * c["LMUY"] * load
     E = (c["PEY1"] + c["PEY2"] * dfz) * c["LEY"]
-    return _sine(cornering_stiffness(coefficients, nominal, load) / (C * D), C, D, E, np.asarray(alpha, float))
+    return _magic_sine(cornering_stiffness(coefficients, nominal, load) / (C * D), C, D, E, np.asarray(alpha, float))
 
 
 def magic_trail(

@@ -13,23 +13,23 @@ from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, qua
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
-from mbs.tyre_files.fits import carcass
+from mbs.tyre_files.fits import carcass_stiffness_of
 from mbs.tyre_files.magic_file import TyreFile
 from mbs.tyre_files.pure_curves import at_load, cornering_stiffness, magic_lateral, magic_longitudinal, tmeasy_force
 
 Array = NDArray[np.float64]
 AnyTyre: TypeAlias = "MagicTyre | Tyre"
 DEG = math.pi / 180.0
-FARTHEST = 0.6
-"""Slip, and slip angle, rad, up to which a peak is sought."""
-BEYOND = 0.5
-"""Slip at which a curve is compared with its peak."""
-NEAR = 0.95
-"""Of a peak: some curves rise for ever and have none."""
-SLIPS = np.linspace(0.0, FARTHEST, 1201)
+LARGEST_SLIP = 0.6
+"""Slip, and slip angle, rad, up to which the peak is sought."""
+COMPARED_SLIP = 0.5
+"""Slip at which the force is compared with its peak."""
+PEAK_SHARE = 0.95
+"""Share of the largest force that counts as the peak: some curves rise without end."""
+SLIPS = np.linspace(0.0, LARGEST_SLIP, 1201)
 
 QUANTITIES = quantities_of("tyre")
-OWN = {  # the coefficients that a value follows from first
+SOURCE_KEYS = {  # the main coefficients of each value
     "ky": ("PKY1", "PKY2", "LKY", "FNOMIN"),
     "muy": ("PDY1", "PDY2", "PCY1", "LMUY", "FNOMIN"),
     "peaky": ("PCY1", "PKY1", "PDY1", "PEY1"),
@@ -43,7 +43,7 @@ OWN = {  # the coefficients that a value follows from first
     "ratio": ("PDY1", "PCY1", "LMUY", "PDX1", "PCX1", "LMUX"),
     "trail": ("QDZ1", "LTR"),
 }
-SCALED = (  # keys, factor that undoes the mistake, words; of a factor before the coefficient it multiplies
+SCALING_MISTAKES = (  # keys, factor that undoes the mistake, words; scaling factors before their coefficients
     *(((key,), 1.0 / DEG, "per degree in place of per radian in") for key in ("LKY", "PKY1")),
     (("PKX1",), 100.0, "per percent in place of per slip in"),
     (("PHY1",), DEG, "degrees in place of radians in"),
@@ -60,9 +60,9 @@ RANGES = {
     "camber_range": ("CAMMIN", "CAMMAX"),
 }
 FACTORS = [key for key, usual in MAGIC_COEFFICIENTS.items() if key[0] == "L" and usual == 1.0]
-LEANING = 5.0 * DEG
-"""Camber at which the friction is compared with that of an upright wheel."""
-RELATIONS: tuple[tuple[str, tuple[str, ...], str, Callable[..., float]], ...] = (  # quantity, keys, of, how it follows
+COMPARED_CAMBER = 5.0 * DEG
+"""Camber angle at which the friction is compared with that of an upright wheel, rad."""
+RELATIONS: tuple[tuple[str, tuple[str, ...], str, Callable[..., float]], ...] = (  # quantity, keys, subject, formula
     (
         "section",
         ("RIM_RADIUS", "WIDTH", "ASPECT_RATIO", "UNLOADED_RADIUS"),
@@ -81,12 +81,12 @@ RELATIONS: tuple[tuple[str, tuple[str, ...], str, Callable[..., float]], ...] = 
         for row in (
             ("shape", (f"PC{axis}1", f"LC{axis}"), of, lambda shape, factor: shape * factor),
             ("curvature", (f"PE{axis}1", f"LE{axis}"), of, lambda bend, factor: bend * factor),
-            ("leaning", (f"PD{axis}3",), of, lambda falls: 1.0 - falls * LEANING**2),
+            ("leaning", (f"PD{axis}3",), of, lambda falls: 1.0 - falls * COMPARED_CAMBER**2),
         )
     ),
 )
-FORCES = ((9.80665, "kilograms"), (4.4482216, "pounds"))
-VERTICAL = {  # fields of a tyre that have no curve, with the keys of the file and that of [UNITS]
+FORCE_UNITS = ((9.80665, "kilograms"), (4.4482216, "pounds"))
+VERTICAL_FIELDS = {  # fields of a tyre without a curve, with the keys of the file
     "nominal_load": "FNOMIN",
     "stiffness": "VERTICAL_STIFFNESS",
     "damping": "VERTICAL_DAMPING",
@@ -94,18 +94,18 @@ VERTICAL = {  # fields of a tyre that have no curve, with the keys of the file a
     "bottoming_radius": "RIM_RADIUS",
     "largest_load": "FZMAX",
 }
-PART = {1.0: "", 0.5: "at half the nominal load"}
-"""Loads at which curves are looked at, over the nominal one."""
+LOADS = {1.0: "", 0.5: "at half the nominal load"}
+"""Loads at which curves are compared, relative to the nominal load, with their words."""
 
 
 @dataclass(frozen=True)
 class _Curve:
     slope: float
-    """Over the load, 1/rad or 1."""
+    """At no slip, over the load, 1/rad or 1."""
     force: Array
-    """Over the load, at `SLIPS`, without shifts."""
+    """Force over the load at `SLIPS`, without shifts."""
     at_zero: float
-    """Over the load, with shifts."""
+    """Force at no slip over the load, with shifts."""
 
 
 def magic_plausibility(
@@ -113,13 +113,13 @@ def magic_plausibility(
 ) -> Plausibility:
     """Plausibility of a Magic Formula tyre.
 
-    `what`: the file; `numbers`: of the file, SI units; `kind`: of the vehicle, else the widest range; `prefix`: of its
-    keys, for those of a car.
+    `what`: name of the file; `numbers`: of the file, SI units; `kind`: of vehicle, by default any; `prefix`: of keys,
+    for those of a car file.
     """
     tyre = replace(tyre, largest_load=numbers.get("FZMAX") or tyre.largest_load)
     values = partial(_magic_values, prefix=prefix, numbers=numbers)
     coefficients, mistakes = {**numbers, **tyre.coefficients}, []
-    for keys, factor, words in SCALED:
+    for keys, factor, words in SCALING_MISTAKES:
         changed = {key: factor * coefficients[key] for key in keys if coefficients.get(key)}
         if not changed or all(key[0] == "L" and coefficients[key] == 1.0 for key in changed):
             continue
@@ -128,8 +128,10 @@ def magic_plausibility(
             f: (changed[a], changed[b]) for f, (a, b) in RANGES.items() if a in changed and b in changed
         }
         corrected = replace(tyre, coefficients={**tyre.coefficients, **changed_coefficients}, **changed_ranges)
-        undo = partial(values, corrected, numbers={**numbers, **changed})
-        mistakes.append(Mistake(f"{words} {' and '.join(keys)}", frozenset(prefix + key for key in keys), undo))
+        corrected_values = partial(values, corrected, numbers={**numbers, **changed})
+        mistakes.append(
+            Mistake(f"{words} {' and '.join(keys)}", frozenset(prefix + key for key in keys), corrected_values)
+        )
     return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
 
@@ -150,25 +152,25 @@ def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "")
     return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
 
-def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
-    """Cornering stiffness without camber at a load, N/rad. `load`: in N."""
+def cornering_stiffness_at(tyre: MagicTyre | Tyre, load: float) -> float:
+    """Cornering stiffness without camber at a load, N/rad. `load`: N."""
     if isinstance(tyre, MagicTyre):
         return cornering_stiffness(tyre.coefficients, tyre.nominal_load, load) * tyre.lky
     return at_load(tyre.lateral.slope, load / tyre.nominal_load)
 
 
 def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
-    """Keys of the fields of `VERTICAL`."""
-    return {f: prefix + (key if isinstance(tyre, MagicTyre) else f) for f, key in VERTICAL.items()}
+    """Keys of `VERTICAL_FIELDS` in messages, by field."""
+    return {f: prefix + (key if isinstance(tyre, MagicTyre) else f) for f, key in VERTICAL_FIELDS.items()}
 
 
 def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[Value]]) -> list[Mistake]:
-    """Mistakes in radii, loads and stiffness. `values`: of a tyre."""
+    """Mistakes in radii, loads and stiffness. `values`: function of a tyre."""
     names = _vertical_names(tyre, prefix)
     corrections = [
         (f"{unit} in place of newtons in {names[field]}", {field: factor})
         for field in ("nominal_load", "stiffness", "largest_load")
-        for factor, unit in FORCES
+        for factor, unit in FORCE_UNITS
         if hasattr(tyre, field)
     ]
     corrections.append((f"the diameter in place of the radius in {names['radius']}", {"radius": 0.5}))
@@ -178,7 +180,7 @@ def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[
     forces = [f for f in ("nominal_load", "stiffness", "damping", "largest_load") if hasattr(tyre, f)]
     corrections += [
         (f"numbers in newtons called {unit} in the unit of force", dict.fromkeys(forces, 1.0 / factor))
-        for factor, unit in FORCES
+        for factor, unit in FORCE_UNITS
         if isinstance(tyre, MagicTyre)
     ]
     return [
@@ -192,23 +194,29 @@ def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[
 
 
 def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> list[Value]:
+    """Values of all quantities of a Magic Formula tyre."""
     nominal = tyre.nominal_load
     c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
     coefficients = {**c, "FNOMIN": nominal}
-    keys = {name: {prefix + k: coefficients[k] for k in sources if k in coefficients} for name, sources in OWN.items()}
-    curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
+    keys = {
+        name: {prefix + k: coefficients[k] for k in sources if k in coefficients}
+        for name, sources in SOURCE_KEYS.items()
+    }
+    curves = {q: (_lateral_curve(tyre, q), _longitudinal_curve(tyre, q)) for q in LOADS}
     values = [*_curve_values(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
-    slips = tyre.along[0], cornering(tyre, nominal)
-    lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
-    for of, slip, across, sources in zip(("longitudinal", "lateral"), slips, carcass(tyre, c), lengths, strict=True):
+    slip_stiffnesses = tyre.along[0], cornering_stiffness_at(tyre, nominal)
+    sources_of_lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
+    for of, slip_stiffness, stiffness, sources in zip(
+        ("longitudinal", "lateral"), slip_stiffnesses, carcass_stiffness_of(tyre, c), sources_of_lengths, strict=True
+    ):
         if any(c[k] for k in sources):
             nonzero = {prefix + k: c[k] for k in sources if c[k]}
-            values.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, nonzero, of))
-    return [*values, *_vertical(tyre, prefix), *_number_values(tyre, prefix, numbers)]
+            values.append(Value(QUANTITIES["relaxation"], slip_stiffness / stiffness / tyre.radius, nonzero, of))
+    return [*values, *_vertical_values(tyre, prefix), *_number_values(tyre, prefix, numbers)]
 
 
 def _number_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
-    """Values of single numbers of the file, and of those that belong together."""
+    """Values of single numbers of the file, and of related ones."""
     n = {**MAGIC_COEFFICIENTS, **numbers, **tyre.coefficients, "FNOMIN": tyre.nominal_load}
     n |= {"UNLOADED_RADIUS": tyre.radius}
     for name, keys, of, formula in RELATIONS:
@@ -225,23 +233,25 @@ def _number_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -
         )
 
 
-def _lateral(tyre: MagicTyre, part: float) -> _Curve:
+def _lateral_curve(tyre: MagicTyre, q: float) -> _Curve:
+    """Lateral curve at q nominal loads."""
     c, nominal = {**MAGIC_COEFFICIENTS, **tyre.coefficients}, tyre.nominal_load
-    load = part * nominal
+    load = q * nominal
     dfz = load / (nominal * c["LFZO"]) - 1.0
     horizontal = (c["PHY1"] + c["PHY2"] * dfz) * c["LHY"]
     vertical = (c["PVY1"] + c["PVY2"] * dfz) * c["LVY"] * c["LMUY"]
     at_zero = magic_lateral(c, nominal, load, abs(horizontal)).item() / load * math.copysign(1.0, horizontal)
     slope = cornering_stiffness(c, nominal, load) / load
-    # with 'adapted_sae' the slip angle has the other sign
+    # with the signs 'adapted_sae' the slip angle is opposite
     return _Curve(
         slope, magic_lateral(c, nominal, load, SLIPS) / load, at_zero + vertical * math.copysign(1.0, c["PKY1"])
     )
 
 
-def _longitudinal(tyre: MagicTyre, part: float) -> _Curve:
+def _longitudinal_curve(tyre: MagicTyre, q: float) -> _Curve:
+    """Longitudinal curve at q nominal loads."""
     c, nominal = {**MAGIC_COEFFICIENTS, **tyre.coefficients}, tyre.nominal_load
-    load = part * nominal
+    load = q * nominal
     dfz = load / (nominal * c["LFZO"]) - 1.0
     force = magic_longitudinal(c, nominal, load, np.array([1e-6, (c["PHX1"] + c["PHX2"] * dfz) * c["LHX"]])) / load
     vertical = (c["PVX1"] + c["PVX2"] * dfz) * c["LVX"] * c["LMUX"]
@@ -249,23 +259,24 @@ def _longitudinal(tyre: MagicTyre, part: float) -> _Curve:
 
 
 def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
+    """Values of all quantities of a TMeasy tyre."""
     nominal = tyre.nominal_load
     curves = {}
-    for part in PART:
+    for q in LOADS:
         pair = []
         for curve in (tyre.lateral, tyre.longitudinal):
-            slope, peak, sliding = (at_load(getattr(curve, f), part) for f in ("slope", "max_force", "slide_force"))
-            peak_slip, sliding_slip = (v[0] + (part - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
+            slope, peak, sliding = (at_load(getattr(curve, f), q) for f in ("slope", "max_force", "slide_force"))
+            peak_slip, sliding_slip = (v[0] + (q - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
             # the lateral slip is the tangent of the angle
             slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
             pair.append(
                 _Curve(
-                    slope / (part * nominal),
-                    tmeasy_force(slope, peak, peak_slip, sliding, sliding_slip, slips) / (part * nominal),
+                    slope / (q * nominal),
+                    tmeasy_force(slope, peak, peak_slip, sliding, sliding_slip, slips) / (q * nominal),
                     0.0,
                 )
             )
-        curves[part] = (pair[0], pair[1])
+        curves[q] = (pair[0], pair[1])
     keys: dict[str, dict[str, Any]] = {}
     for axis, name in (("y", "lateral"), ("x", "longitudinal")):
         curve = getattr(tyre, name)
@@ -274,38 +285,50 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
             for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")
         }
         curve_keys[f"{prefix}nominal_load"] = nominal
-        for q, stem in (("k", "slope"), ("mu", "max_force"), ("peak", "max_slip"), ("zero", ""), ("left", "slide")):
-            keys[q + axis] = {
-                k: v for k, v in curve_keys.items() if (stem and stem in k) or (q in ("k", "mu") and "nominal" in k)
+        for symbol, stem in (
+            ("k", "slope"),
+            ("mu", "max_force"),
+            ("peak", "max_slip"),
+            ("zero", ""),
+            ("left", "slide"),
+        ):
+            keys[symbol + axis] = {
+                k: v
+                for k, v in curve_keys.items()
+                if (stem and stem in k) or (symbol in ("k", "mu") and "nominal" in k)
             }
     keys["ratio"] = keys["muy"] | keys["mux"]
-    return [*_curve_values(curves, keys), *_vertical(tyre, prefix)]
+    return [*_curve_values(curves, keys), *_vertical_values(tyre, prefix)]
 
 
 def _curve_values(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
+    """Values of the lateral and longitudinal curves at each load. `keys`: keys with their values, by quantity."""
     results = []
-    for part, pair in curves.items():
+    for q, pair in curves.items():
         peaks: list[float] = []
         for axis, curve in zip("yx", pair, strict=True):
             to_deg, peak = 1.0 / DEG if axis == "y" else 1.0, float(np.max(curve.force))
             peaks.append(peak)
-            k, beyond_peak = int(np.argmax(curve.force >= NEAR * peak)), float(np.interp(BEYOND, SLIPS, curve.force))
+            k, compared_force = (
+                int(np.argmax(curve.force >= PEAK_SHARE * peak)),
+                float(np.interp(COMPARED_SLIP, SLIPS, curve.force)),
+            )
             values = {
                 "k": curve.slope / to_deg,
                 "mu": peak,
                 "peak": float(SLIPS[k]) * to_deg,
                 "zero": abs(curve.at_zero),
-                "left": beyond_peak / peak if peak > 0.0 else math.nan,
+                "left": compared_force / peak if peak > 0.0 else math.nan,
             }
             for name, value in values.items():
                 quantity = QUANTITIES[name + axis]
-                results.append(Value(quantity, value, keys[name + axis], PART[part]))
+                results.append(Value(quantity, value, keys[name + axis], LOADS[q]))
         ratio = peaks[0] / peaks[1] if peaks[1] > 0.0 else math.inf
-        results.append(Value(QUANTITIES["ratio"], ratio, keys["ratio"], PART[part]))
+        results.append(Value(QUANTITIES["ratio"], ratio, keys["ratio"], LOADS[q]))
     return results
 
 
-def _vertical(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
+def _vertical_values(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
     """Values of radii, loads and stiffness."""
     load, radius, names = tyre.nominal_load, tyre.radius, _vertical_names(tyre, prefix)
     for name, value, fields in (
@@ -321,5 +344,6 @@ def _vertical(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
 
 @plausibility_of.register
 def _file_plausibility(file: TyreFile) -> list[Plausibility]:
+    """Plausibility of the tyre in a tyre property file."""
     signs = "adapted_sae" if file.values["coefficients"]["PKY1"] > 0.0 else "iso"
     return [magic_plausibility(file.name, file.tyre(signs=signs), file.numbers)]

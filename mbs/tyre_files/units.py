@@ -1,4 +1,4 @@
-"""Units of tyre property files."""
+"""Conversion of the numbers of tyre property files to SI units."""
 
 from mbs.tyre_files.property_text import PropertyText
 
@@ -34,7 +34,7 @@ _UNITS = {
         "PSI": _POUND / 0.0254**2,
     },
 }
-POWERS = {  # of length, force and time
+POWERS = {  # exponents of length, force and time
     **dict.fromkeys(("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH", "BOTTOMING_RADIUS"), (1, 0, 0)),
     **dict.fromkeys(("FNOMIN", "FZMIN", "FZMAX"), (0, 1, 0)),
     **dict.fromkeys(("VERTICAL_STIFFNESS", "BOTTOM_STIFF", "LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS"), (-1, 1, 0)),
@@ -44,10 +44,10 @@ POWERS = {  # of length, force and time
 PRESSURES = ("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX")
 
 
-def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
-    """Numbers of a file in SI units. `numbers`: as the file gives them.
+def to_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
+    """Convert the numbers of a file to SI units.
 
-    Raises `TyreFileError`: the file has no units of length, force and time, or one that is not known. Angles must be
+    Raises `TyreFileError`: a unit of length, force or time is missing, a unit is not known, or angles are not in
     radians, for which the coefficients of the Magic Formula hold.
     """
     scales = {}

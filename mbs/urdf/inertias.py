@@ -1,4 +1,4 @@
-"""Mass, centre and inertia of links that are fixed to each other, corrected where no mass distribution has them."""
+"""Mass, centre of mass and inertia of links fixed to each other, and the correction of impossible inertias."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -12,10 +12,10 @@ from mbs.model.inertia import inertia_matrix
 
 Array = NDArray[np.float64]
 
-SLIGHT = 0.05
-"""Largest correction of an inertia, part of its largest principal value."""
-THIN = 1e-6
-"""Smallest second moment of mass of a corrected inertia, part of the largest: a rod has a thickness."""
+LARGEST_CORRECTION = 0.05
+"""Largest correction of an inertia, relative to its largest principal value."""
+LEAST_SECOND_MOMENT = 1e-6
+"""Least second moment of mass of a corrected inertia, relative to the largest: a rod has a thickness."""
 
 
 class UrdfWarning(UserWarning):
@@ -28,9 +28,9 @@ def pose_of(origin: Any) -> Array:
 
 
 def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
-    """Mass (kg), centre of mass (3,) (m) and inertia (3, 3) about it (kg m2) of several links together, in earth axes.
+    """Mass, kg, centre of mass (3,), m, and inertia about it (3, 3), kg m2, of several links together, in earth axes.
 
-    A rotor may have an inertia without a mass; if the sum of all masses is zero, the centre is the origin.
+    A link may have an inertia without a mass, as a rotor; if the sum of the masses is 0, the centre is the origin.
 
     `parts`: links with their frames, (4, 4), in earth axes. Raises `ModelError`: a link with a mass has no inertia.
     """
@@ -53,30 +53,31 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
     return mass, com, inertia
 
 
-def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
-    """An inertia (3, 3), kg m2, corrected if no mass distribution can have it, and a sentence on the correction.
+def corrected_inertia(inertia: Array, subject: str) -> tuple[Array, str]:
+    """Correct an inertia (3, 3), kg m2, that no mass distribution has; return it with a sentence, else empty.
 
-    The correction makes the second moments of mass, tr(I)/2 - I, positive; the sentence is empty if there is none.
+    The correction makes the second moments of mass, tr(I)/2 - I, positive.
 
-    `what`: file and link, for messages. Raises `ModelError`: the correction is larger than `SLIGHT`.
+    `subject`: file and link, for messages. Raises `ModelError`: the correction is larger than `LARGEST_CORRECTION`.
     """
     try:
-        return inertia_matrix(inertia, 3, what), ""
+        return inertia_matrix(inertia, 3, subject), ""
     except ModelError as error:
         symmetric = 0.5 * (inertia + inertia.T)
         eigenvalues, axes = np.linalg.eigh(symmetric)
         moments = 0.5 * np.sum(eigenvalues) - eigenvalues
-        if not np.max(moments) > 0.0 or np.max(np.abs(inertia - symmetric)) > SLIGHT * eigenvalues[-1]:
+        if not np.max(moments) > 0.0 or np.max(np.abs(inertia - symmetric)) > LARGEST_CORRECTION * eigenvalues[-1]:
             raise
-        moments = np.maximum(moments, THIN * np.max(moments))
+        moments = np.maximum(moments, LEAST_SECOND_MOMENT * np.max(moments))
         corrected = np.sum(moments) - moments
         change = float(np.max(np.abs(corrected - eigenvalues))) / eigenvalues[-1]
-        values, nearest = (", ".join(f"{v:.6g}" for v in principal) for principal in (eigenvalues, corrected))
-        fault = f"{what} has the principal values {values} kg m2, which no mass distribution can have"
-        if change > SLIGHT:
+        values, corrected_values = (", ".join(f"{v:.6g}" for v in principal) for principal in (eigenvalues, corrected))
+        fault = f"{subject} has the principal values {values} kg m2, which no mass distribution can have"
+        if change > LARGEST_CORRECTION:
             raise ModelError(
-                f"{fault}; the nearest possible ones are {nearest}, {100.0 * change:.2g} % of the largest away. "
-                f"Correct the file, for example to those; up to {100.0 * SLIGHT:g} % are corrected here with a warning."
+                f"{fault}; the nearest possible ones are {corrected_values}, {100.0 * change:.2g} % of the largest "
+                f"away. Correct the file, for example to those; up to {100.0 * LARGEST_CORRECTION:g} % are corrected "
+                "here with a warning."
             ) from error
-        note = f"{fault}; {nearest} are used instead, {100.0 * change:.2g} % of the largest away."
+        note = f"{fault}; {corrected_values} are used instead, {100.0 * change:.2g} % of the largest away."
         return np.asarray((axes * corrected) @ axes.T), note

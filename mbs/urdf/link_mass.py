@@ -1,4 +1,4 @@
-"""Mass properties of a link as its URDF file gives them, with factors that undo mistakes of units."""
+"""Mass properties of a link in a URDF file, with factors that undo mistakes of units."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from mbs.urdf.source import INERTIA, Element
 
-THIN = 0.01
-"""Lower bound of the ratio of the second moments of mass: a plate has a thickness."""
-SOLID = 1000.0  # kg/m3
+LEAST_SECOND_MOMENT = 0.01
+"""Least second moment of mass of a link, relative to the largest: a plate has a thickness."""
+SOLID_DENSITY = 1000.0  # kg/m3
 
 
 class Factors(NamedTuple):
-    """Factors on groups of numbers of the file, by which a mistake is undone."""
+    """Factors on groups of numbers of the file that undo a mistake."""
 
     lengths: float = 1.0
     masses: float = 1.0
@@ -24,16 +24,17 @@ class Factors(NamedTuple):
     limits: float = 1.0
     angles: float = 1.0
     centres: float = 1.0
-    """On origins of inertias alone."""
+    """Factor on origins of inertias, in addition to `lengths`."""
     efforts: float = 1.0
     speeds: float = 1.0
     solid: bool = False
-    """Moments of a ball of density `SOLID` in place of 1, 0.1, ... kg m2 about all axes, which are placeholders."""
+    """Whether placeholder inertias of 1, 0.1, ... kg m2 about all axes are replaced by those of a ball of
+    `SOLID_DENSITY`."""
     only: str = ""
-    """The only link that is affected; empty: all."""
+    """Name of the only link to which the factors apply; empty: all links."""
 
     def of(self, name: str) -> Factors:
-        """The factors for one link."""
+        """Factors that apply to a link."""
         return self if self.only in ("", name) else Factors()
 
 
@@ -42,28 +43,28 @@ class LinkMass(NamedTuple):
 
     mass: float
     centre: NDArray[np.float64]
-    """In the frame of the link, m."""
+    """Centre of mass in the frame of the link, m, shape (3,)."""
     inertia: NDArray[np.float64]
     """Shape (3, 3), kg m2."""
     line: int
 
     @property
     def moment(self) -> float:
-        """The largest principal one, kg m2."""
+        """Largest principal moment of inertia, kg m2."""
         return float(np.linalg.eigvalsh(self.inertia)[-1])
 
     @property
     def density(self) -> float:
-        """Density of the ellipsoid with this mass and inertia, kg/m3; 0 without inertia."""
-        seconds = 0.5 * np.trace(self.inertia) - np.linalg.eigvalsh(self.inertia)
-        if not max(seconds) > 0.0:
+        """Density of the homogeneous ellipsoid with this mass and inertia, kg/m3; 0 without inertia."""
+        second_moments = 0.5 * np.trace(self.inertia) - np.linalg.eigvalsh(self.inertia)
+        if not max(second_moments) > 0.0:
             return 0.0
-        axes = np.sqrt(5.0 * np.maximum(seconds, THIN * max(seconds)) / self.mass)
+        axes = np.sqrt(5.0 * np.maximum(second_moments, LEAST_SECOND_MOMENT * max(second_moments)) / self.mass)
         return float(self.mass / (4.0 / 3.0 * math.pi * np.prod(axes)))
 
 
 def link_mass(link: Element, factors: Factors) -> LinkMass:
-    """Mass, centre of mass and inertia of a link, with the factors applied; without `inertial` all are zero."""
+    """Mass, centre of mass and inertia of a link, times the factors; 0 without an element `inertial`."""
     inertial = link.first("inertial")
     if inertial is None:
         return LinkMass(0.0, np.zeros(3), np.zeros((3, 3)), link.line)
@@ -76,5 +77,5 @@ def link_mass(link: Element, factors: Factors) -> LinkMass:
     tensor = upper + np.triu(upper, 1).T
     moment = tensor[0, 0]
     if factors.solid and moment > 0.0 and abs(math.log10(moment) % 1.0) < 1e-9 and np.all(tensor == moment * np.eye(3)):
-        tensor = 0.4 * mass_value * (mass_value / (4.0 / 3.0 * math.pi * SOLID)) ** (2.0 / 3.0) * np.eye(3)
+        tensor = 0.4 * mass_value * (mass_value / (4.0 / 3.0 * math.pi * SOLID_DENSITY)) ** (2.0 / 3.0) * np.eye(3)
     return LinkMass(mass_value, centre, tensor, inertial.line)

@@ -1,4 +1,4 @@
-"""Joints of a URDF file that follow others: ``mimic``."""
+"""Mimic joints of a URDF file, whose value is a linear function of that of another joint."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -17,18 +17,19 @@ class MimicJoint:
     offset: float
 
 
-def mimic_joints_of(joints: Mapping[str, Any], prescribed: Collection[str], what: str) -> dict[str, MimicJoint]:
-    """The joints that follow others, by their names, each after those that it follows.
+def mimic_joints_of(joints: Mapping[str, Any], prescribed: Collection[str], file_name: str) -> dict[str, MimicJoint]:
+    """Mimic joints by name, each after its leader.
 
-    `prescribed`: joints that the user places or moves; `what`: the robot, for messages. Raises `ModelError`: one
-    follows a joint that does not move or is not there, or itself; its multiplier is zero; it is prescribed.
+    `joints`: moving joints by name; `prescribed`: joints with a value or a motion of the user; `file_name`: for
+    messages. Raises `ModelError`: a leader is missing or does not move, joints follow each other in a cycle, a
+    multiplier is zero, or a mimic joint is prescribed.
     """
     pending: dict[str, MimicJoint] = {}
     for name, joint in joints.items():
         mimic = joint.mimic
         if mimic is None:
             continue
-        subject = f"{what}: the joint '{name}' follows '{mimic.joint}' (mimic)"
+        subject = f"{file_name}: the joint '{name}' follows '{mimic.joint}' (mimic)"
         if mimic.joint not in joints:
             raise ModelError(f"{subject}, which is not a moving joint; these are {', '.join(joints)}.")
         if name in prescribed:
@@ -41,15 +42,15 @@ def mimic_joints_of(joints: Mapping[str, Any], prescribed: Collection[str], what
     while pending:
         ready = {n: f for n, f in pending.items() if f.leader not in pending}
         if not ready:
-            raise ModelError(f"{what}: the joints {', '.join(pending)} follow each other in a ring (mimic).")
+            raise ModelError(f"{file_name}: the joints {', '.join(pending)} follow each other in a ring (mimic).")
         ordered |= ready
         pending = {n: f for n, f in pending.items() if n not in ready}
     return ordered
 
 
-def start_of(followers: Mapping[str, MimicJoint], at: Mapping[str, float]) -> dict[str, float]:
-    """Values of the joints that follow others, rad or m. `at`: values of joints by name; those left out are 0."""
+def mimic_values(followers: Mapping[str, MimicJoint], at: Mapping[str, float]) -> dict[str, float]:
+    """Values of mimic joints, rad or m. `at`: values of joints by name; missing ones are 0."""
     values = dict(at)
-    for name, f in followers.items():
-        values[name] = f.multiplier * values.get(f.leader, 0.0) + f.offset
+    for name, joint in followers.items():
+        values[name] = joint.multiplier * values.get(joint.leader, 0.0) + joint.offset
     return {name: values[name] for name in followers}

@@ -1,4 +1,4 @@
-"""Plausibility of a robot's file: masses, sizes, inertias and ranges of joints."""
+"""Plausibility of a robot: masses, sizes, inertias and ranges of joints."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ from numpy.typing import NDArray
 
 from ali3.plausibility import Mistake, Plausibility, Value
 from mbs.urdf.link_mass import Factors, LinkMass, link_mass
-from mbs.urdf.link_pairs import QUANTITIES, SMALLEST, pair_values
+from mbs.urdf.link_pairs import LEAST_SIZE, QUANTITIES, pair_values
 from mbs.urdf.source import Element
 
 GRAVITY = 9.81  # m/s2
 DEG = math.pi / 180.0
 
-NO_LIMIT = 1e4  # rad, m: a larger limit stands for none
-LEAST_SHARE = 0.02
-"""Share of the mass: lighter links are often frames with a placeholder mass,
-unless they have more than `LARGE_SHARE` of the moments of inertia."""
-LARGE_SHARE = 0.1
-FEW = 3
-"""Largest number of links to which a mistake may be confined."""
+UNLIMITED_RANGE = 1e4  # rad, m: a larger range means no limit
+LEAST_MASS_SHARE = 0.02
+"""Share of the mass below which a link is ignored, as a frame with a placeholder mass."""
+LEAST_MOMENT_SHARE = 0.1
+"""Share of the moments of inertia from which it is not ignored."""
+MOST_LINKS = 3
+"""Largest number of links to which a mistake is confined."""
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
 MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
 MASSES = {"grams": 1e-3, "tonnes": 1e3, "pounds": 0.45359237}
 Pose: TypeAlias = NDArray[np.float64]
 
 
-UNDONE = (  # words, beginnings of keys, what undoes it
+MISTAKES = (  # words, first words of keys, factors that undo the mistake
     ("degrees in place of radians in the limits", ("limit",), Factors(limits=DEG)),
     ("degrees in place of radians in rpy", ("rpy",), Factors(angles=DEG)),
     ("degrees per second in place of rad/s in velocities", ("velocity",), Factors(speeds=DEG)),
@@ -50,10 +50,10 @@ UNDONE = (  # words, beginnings of keys, what undoes it
     ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Factors(masses=1e-3, inertias=1e-9)),
     ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Factors(lengths=1e-3, inertias=1e-6)),
 )
-ALONE = ("mass", "inertia", "centre")
-"""Quantities that may be wrong in a few links alone."""
-EVERYWHERE = (Factors(masses=MASSES["pounds"]),)
-"""Factors smaller than the scatter between links, which only show in all links together."""
+CONFINED = ("mass", "inertia", "centre")
+"""Quantities in which a mistake may be confined to a few links."""
+UNIFORM = (Factors(masses=MASSES["pounds"]),)
+"""Factors that are smaller than the scatter between links, so that only all links together show them."""
 
 
 def robot_plausibility(
@@ -63,21 +63,19 @@ def robot_plausibility(
     at: Mapping[str, float],
     turning: Container[str],
 ) -> Plausibility:
-    """The quantities of a robot and the mistakes that would explain unusual ones.
+    """Values of the quantities of a robot, and mistakes that would explain unusual ones.
 
-    `what`: the file; `root`: its elements; `poses`: of the frames of links, shape (4, 4), m; `at`: values of joints;
-    `turning`: links whose inertia has an effect.
+    `what`: name of the file; `root`: its root element; `poses`: frames of links in earth axes, shape (4, 4), m; `at`:
+    values of joints, rad or m; `turning`: links whose inertia has an effect.
     """
     values = partial(_values, root, poses, at, turning)
     current = values(Factors())
     keys = {key for v in current if not v.inside() for key in v.keys}
     mistakes = []
-    for words, names, factors in UNDONE:
-        affected = {
-            key for key in keys if key.split(" of ")[0] in names and (factors not in EVERYWHERE or "'" not in key)
-        }
+    for words, names, factors in MISTAKES:
+        affected = {key for key in keys if key.split(" of ")[0] in names and (factors not in UNIFORM or "'" not in key)}
         single = {match[1] for key in affected if (match := re.search("'(.*)'", key))}
-        confined = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
+        confined = names[0] in CONFINED and 0 < len(single) <= min(MOST_LINKS, len(poses) // 2)
         if not confined or len(single) > 1:
             mistakes.append(Mistake(words, frozenset(affected), partial(values, factors), guessed=confined))
         for name in sorted(single) if confined else ():
@@ -86,10 +84,11 @@ def robot_plausibility(
     return Plausibility(what, current, mistakes)
 
 
-@np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
+@np.errstate(divide="ignore")  # an inertia may be so small that its ellipsoid has no volume
 def _values(
     root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], factors: Factors
 ) -> list[Value]:
+    """Values of all quantities with factors on the numbers of the file."""
     frames = np.array([pose[:3, 3] for pose in poses.values()]) * factors.lengths
     links = {link.attributes.get("name", ""): link for link in root.all("link")}
     link_masses = {
@@ -99,13 +98,13 @@ def _values(
         sum(p.mass for p in link_masses.values()),
         [float(np.linalg.norm(p.centre)) for p in link_masses.values()],
     )
-    scale = max(_spread(frames), float(np.median(distances or [0.0])))
+    scale = max(_extent(frames), float(np.median(distances or [0.0])))
     size = max(scale, 2.0 * max(distances, default=0.0))
     if not total > 0.0:
-        return list(_joints(root, at, factors))
+        return list(_joint_values(root, at, factors))
     masses: dict[str, Any] = {"mass of links": total}
     values = [Value(QUANTITIES["mass"], total, masses)]
-    if size > SMALLEST:
+    if size > LEAST_SIZE:
         lengths = {"xyz of origins": scale, "centre of links": max(distances)}
         values.append(Value(QUANTITIES["size"], size, lengths))
         values.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
@@ -113,42 +112,43 @@ def _values(
         name = max(link_masses, key=lambda n: link_masses[n].mass)
         heaviest, rest_mass = link_masses[name].mass, sum(p.mass for n, p in link_masses.items() if n != name)
         values.append(Value(QUANTITIES["heaviest"], heaviest / rest_mass, {f"mass of '{name}'": heaviest}))
-    least, most = LEAST_SHARE * total, LARGE_SHARE * sum(p.moment for p in link_masses.values())
+    least, most = LEAST_MASS_SHARE * total, LEAST_MOMENT_SHARE * sum(p.moment for p in link_masses.values())
     considered = {n: p for n, p in link_masses.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
-    values += _densities({n: p for n, p in considered.items() if n in turning}, masses)
-    values += _reaches(root, considered, factors) + pair_values(considered, poses, scale, factors)
+    values += _density_values({n: p for n, p in considered.items() if n in turning}, masses)
+    values += _centre_values(root, considered, factors) + pair_values(considered, poses, scale, factors)
     efforts = {
         (joint.attributes.get("name", ""), limit.line): factors.efforts * limit.numbers("effort")[0]
         for joint in root.all("joint")
         if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
         if _is_meaningful(limit.numbers("effort")[0])
     }
-    if efforts and scale > SMALLEST and all(v.inside() for v in values[:3]) and max(efforts.values()) > 0.0:
+    if efforts and scale > LEAST_SIZE and all(v.inside() for v in values[:3]) and max(efforts.values()) > 0.0:
         name, line = max(efforts, key=efforts.__getitem__)
         most = efforts[name, line]
         keys = {f"effort of '{name}' in line {line}": most}
         values.append(Value(QUANTITIES["effort"], most / (GRAVITY * total * scale), keys))
-    return [*values, *_joints(root, at, factors)]
+    return [*values, *_joint_values(root, at, factors)]
 
 
 def _is_meaningful(limit: float) -> bool:
     """Whether a limit is meaningful: 100, 1000, ... are placeholders."""
-    return limit < 100.0 or abs(math.log10(limit) % 1.0) > SMALLEST
+    return limit < 100.0 or abs(math.log10(limit) % 1.0) > LEAST_SIZE
 
 
-def _densities(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list[Value]:
+def _density_values(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list[Value]:
+    """Densities of links, and their median if all are usual."""
     values = []
     for name, p in parts.items():
         keys = {f"inertia of '{name}' in line {p.line}": p.moment, f"mass of '{name}'": p.mass}
         values.append(Value(QUANTITIES["density"], p.density, keys, f"link '{name}',"))
-    if len(values) > 1 and all(v.inside() for v in values):  # else those outside are reported
+    if len(values) > 1 and all(v.inside() for v in values):
         keys = {"inertia of links": max(p.moment for p in parts.values()), **masses}
         values.append(Value(QUANTITIES["densities"], float(np.median([v.value for v in values])), keys))
     return values
 
 
-def _reaches(root: Element, parts: Mapping[str, LinkMass], factors: Factors) -> list[Value]:
-    """Centres of mass and positions of joints, relative to those of their neighbours."""
+def _centre_values(root: Element, parts: Mapping[str, LinkMass], factors: Factors) -> list[Value]:
+    """Distances of centres of mass and of joints, relative to the size of the link and to the other joints."""
     distances: dict[str, list[float]] = {}
     offsets = {}
     for joint in root.all("joint"):
@@ -164,40 +164,41 @@ def _reaches(root: Element, parts: Mapping[str, LinkMass], factors: Factors) -> 
         keys: dict[str, Any] = {f"centre of '{name}' in line {p.line}": p.centre.tolist()}
         keys[f"inertia of '{name}' in line {p.line}"] = p.moment
         values.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
-    if len(offsets) > FEW and (remainder := sum(offsets.values()) - max(offsets.values())) > SMALLEST:
+    if len(offsets) > MOST_LINKS and (remainder := sum(offsets.values()) - max(offsets.values())) > LEAST_SIZE:
         key = max(offsets, key=offsets.__getitem__)
         values.append(Value(QUANTITIES["longest"], offsets[key] / remainder, {key: offsets[key]}))
     return values
 
 
-def _joints(root: Element, at: Mapping[str, float], factors: Factors) -> Iterator[Value]:
+def _joint_values(root: Element, at: Mapping[str, float], factors: Factors) -> Iterator[Value]:
+    """Orientations, speeds, ranges and start values of joints."""
     for joint in root.all("joint"):
         name, kind = joint.attributes.get("name", ""), joint.attributes.get("type", "")
-        of, limit, origin = f"joint '{name}',", joint.first("limit"), joint.first("origin")
+        subject, limit, origin = f"joint '{name}',", joint.first("limit"), joint.first("origin")
         if origin is not None:
             rpy = [factors.angles * v for v in origin.numbers("rpy")]
             key = {f"rpy of '{name}' in line {origin.line}": rpy}
-            yield Value(QUANTITIES["angle"], max(map(abs, rpy)), key, of)
+            yield Value(QUANTITIES["angle"], max(map(abs, rpy)), key, subject)
         if limit is None or kind not in ("revolute", "prismatic"):
             continue
         speed = limit.numbers("velocity")[0]
         if kind == "revolute" and speed > 0.0 and _is_meaningful(speed):
             key = {f"velocity of '{name}' in line {limit.line}": [speed]}
-            yield Value(QUANTITIES["speed"], factors.speeds * speed, key, of)
+            yield Value(QUANTITIES["speed"], factors.speeds * speed, key, subject)
         scale = factors.limits if kind == "revolute" else factors.lengths
         low, high = (scale * limit.numbers(end)[0] for end in ("lower", "upper"))
-        if low == high == 0.0 or high - low > NO_LIMIT:
+        if low == high == 0.0 or high - low > UNLIMITED_RANGE:
             continue
         keys: dict[str, Any] = {
             f"{'limit' if kind == 'revolute' else 'xyz'} of '{name}' in line {limit.line}": [low, high]
         }
-        yield Value(QUANTITIES["range" if kind == "revolute" else "slide"], high - low, keys, of)
+        yield Value(QUANTITIES["range" if kind == "revolute" else "slide"], high - low, keys, subject)
         value = at.get(name, 0.0)
         if high > low:
             beyond = max(low - value, value - high, 0.0) / (high - low)
-            yield Value(QUANTITIES["start"], beyond, keys | {"start": value}, of)
+            yield Value(QUANTITIES["start"], beyond, keys | {"start": value}, subject)
 
 
-def _spread(points: NDArray[np.float64]) -> float:
-    """Diagonal of the box of points, m."""
+def _extent(points: NDArray[np.float64]) -> float:
+    """Diagonal of the bounding box of points, m; 0 without points."""
     return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0

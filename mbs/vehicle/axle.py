@@ -18,7 +18,7 @@ from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
 from mbs.vehicle.tyres import Tyre
 
-MOST_CAMBER = 0.2  # rad, the end of its range
+LARGEST_CAMBER = 0.2  # rad, the end of the range of `AlignmentAngle`
 
 
 class Wheel(Section):
@@ -60,15 +60,15 @@ class Axle(Section):
         return 2.0 * self.wheel.centre[1]
 
     def open(self, folder: Path) -> None:
-        """Read the files of its tyres and its suspension; done once by the reader of the car.
+        """Read the files of the tyres and the suspension.
 
-        Raises `CarFileError`: a file is missing or not right.
+        Raises `CarFileError`: a file is missing or not valid.
         """
         self.tyre.open(folder)
         self.suspension.open(folder, self.wheel.centre)
 
     def faults(self) -> Iterator[str]:
-        """The anti-roll bar hangs on a part that is there; a table reaches to the stops."""
+        """Yield faults of an anti-roll bar without its part of the suspension, or a table short of the stops."""
         suspension, bar = self.suspension, self.anti_roll_bar
         parts = list(type(suspension.bodies).model_fields)
         if bar is not None and not suspension.linked:
@@ -81,7 +81,7 @@ class Axle(Section):
     def corners(self, b: CarBuilder, axle: str, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add suspension and springs of the left side, then of the right one, then the anti-roll bar.
 
-        `axle`, `tie_rod`: as of `build`.
+        `axle`, `tie_rod`: as in `build`.
         """
         springs, corners = AxleSprings(self.spring, self.damper, self.stops), []
         for corner in self.suspension.corners(b, axle, springs, tie_rod):
@@ -95,18 +95,18 @@ class Axle(Section):
     ) -> dict[str, Spin]:
         """Add the axle and return the spins of its wheels by the wheels' names.
 
-        `axle`: "front" or "rear"; `tie_rod`: gives the owner of the inner ends of the tie rods; `brake`: adds the brake
-        of a wheel, of which it is given the spin inertia, kg.m2.
+        `axle`: "front" or "rear"; `tie_rod`: returns the owner of the inner end of a tie rod; `brake`: adds the brake
+        of a wheel with a spin inertia, kg m2.
         """
         spins = {}
         for corner in self.corners(b, axle, tie_rod):
-            spin = self._wheel(b, corner)
+            spin = self._add_wheel(b, corner)
             brake(b, corner, spin, self.wheel.spin_inertia)
             spins[corner.side.wheel] = spin
         return spins
 
-    def _wheel(self, b: CarBuilder, corner: Corner) -> Spin:
-        """Spin on the carrier and tyre on the road."""
+    def _add_wheel(self, b: CarBuilder, corner: Corner) -> Spin:
+        """Add the spin on the carrier, and the tyre or its port."""
         w = corner.side.wheel
         _, axis, up = self.alignment.axes(corner.side)
         spin = b.m.spin(
@@ -119,9 +119,10 @@ class Axle(Section):
             spin_inertia=self.wheel.spin_inertia,
             diametral_inertia=self.wheel.diametral_inertia,
         )
-        by_lean = 1.0 / math.cos(MOST_CAMBER) - 1.0  # a secant: most tyres are linear in it
-        upright, leaned = (self.tyre.rolling_radius(self.wheel.centre[2] * (1.0 + grown)) for grown in (0.0, by_lean))
-        written = b.m.written_axis(spin, leaning=(leaned - upright) / by_lean)
+        # stretch of the centre height in the wheel plane; a secant, as most tyres are linear in it
+        stretch = 1.0 / math.cos(LARGEST_CAMBER) - 1.0
+        upright, inclined = (self.tyre.rolling_radius(self.wheel.centre[2] * (1.0 + ratio)) for ratio in (0.0, stretch))
+        written = b.m.written_axis(spin, leaning=(inclined - upright) / stretch)
         for name, real in (("toe", "azimuth"), ("camber", "elevation")):
             b.tie(self.alignment, f"{name}_{corner.side.name}", written, real, -corner.side.sign)
         if b.ports.tyre is not None:

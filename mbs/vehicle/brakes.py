@@ -34,12 +34,12 @@ class Brakes(Section):
     """Brakes of the rear wheels."""
 
     def shares(self, wheel: str) -> tuple[float, float]:
-        """Share of a wheel, as "FL", in `torque`, and the factor of its side of the car."""
+        """Share of a wheel, such as "FL", in `torque`, and the factor of its side of the car."""
         share = 1.0 - self.balance if wheel.startswith("R") else self.balance
         return share, 1.0 + (self.side if wheel.endswith("L") else -self.side)
 
     def build(self, b: CarBuilder, corner: Corner, spin: Spin, spin_inertia: float) -> None:
-        """Add the brake of a wheel. `spin_inertia`: of the wheel, kg.m2."""
+        """Add the brake of a wheel. `spin_inertia`: of the wheel, kg m2."""
         is_rear = corner.side.axle == "rear"
         stiffness = (self.rear if is_rear else self.front).stick_stiffness
         damping = 2.0 * math.sqrt(stiffness * spin_inertia)

@@ -1,4 +1,4 @@
-"""State of the construction of the model of a car, shared by its parts, and parameters tied to numbers of the file."""
+"""Model of a car under construction, and parameters that are tied to numbers of the car file."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -15,16 +15,17 @@ from mbs.vehicle.quantities import Quantity
 from mbs.vehicle.section import Section
 
 Target: TypeAlias = "tuple[Owner, str | int, float, float, bool]"
+"""Owner, number, scale, offset and whether the value is inverted."""
 
 
 @dataclass
-class _Tied:
+class _TiedNumber:
     """A number of the car file that becomes a parameter, and the numbers of the model that it sets."""
 
     section: Section
     """Section of the file with the number."""
     name: str
-    """Its field."""
+    """Name of its field."""
     quantity: Quantity
     """Range, unit and changeability of the field."""
     value: float
@@ -32,12 +33,12 @@ class _Tied:
     part: str = ""
     """Component of a field with several numbers, else empty."""
     targets: list[Target] = field(default_factory=list)
-    """Owner, number, scale, offset and whether the value is inverted."""
+    """Numbers of the model that the parameter sets."""
 
 
 @dataclass
 class CarBuilder:
-    """Model of a car under construction, its inputs, and the parameters that are to be added."""
+    """Model of a car under construction with its inputs, and the parameters to add to it."""
 
     m: Model
     """The model, to which bodies, joints and elements are added."""
@@ -50,18 +51,18 @@ class CarBuilder:
     port_inputs: list[Input] = field(default_factory=list)
     """Inputs of the ports added so far."""
     wheel_roads: Mapping[str, int] = field(default_factory=dict)
-    """Numbers of the roads of wheels that have a road of their own, by wheel."""
+    """Numbers of the roads under wheels whose road is not that under the chassis, by wheel."""
     port_senses: list[Callable[[], object]] = field(default_factory=list)
-    """Functions that add the outputs of ports, called after all other outputs are there."""
+    """Functions that add the outputs of ports, called after all other outputs have been added."""
     rack: Coordinate | None = None
     """Travel of the rack, m, if the front axle is given by kinematic curves."""
     _chassis: Mount | None = None
-    _tied: dict[str, _Tied] = field(default_factory=dict)
+    _tied: dict[str, _TiedNumber] = field(default_factory=dict)
 
     @property
     def chassis(self) -> Mount:
         """Mount of the chassis, to which the other parts are attached; set when the chassis is built."""
-        assert self._chassis is not None, "the chassis is made first"
+        assert self._chassis is not None, "the chassis is built first"
         return self._chassis
 
     @chassis.setter
@@ -106,7 +107,7 @@ class CarBuilder:
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
         path = section.key(name) + (f".{part}" if part else "")
-        tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part))
+        tied = self._tied.setdefault(path, _TiedNumber(section, name, quantity, start, part))
         tied.targets.append((owner, real, scale, offset, inverse))
 
     def tie_numbers(self, section: Section, element: ElementRecord) -> None:

@@ -1,4 +1,4 @@
-"""A car in a model: the content of a car file, checked, and its parts."""
+"""A car as checked content of a file, which adds its parts to a model."""
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -51,7 +51,7 @@ MOST_FAULTS = 8
 
 C = TypeVar("C", bound="BuiltCar")
 Outputs: TypeAlias = Callable[[CarBuilder, Steered, Mapping[str, Spin]], None]
-"""Adds the outputs of a car. Arguments: the car without its drawing, its steering, its wheels by name."""
+"""Adds the outputs of a car. Arguments: the builder, the steering, the spins of the wheels by name."""
 
 
 class BuiltCar(Summarised, CarContent):
@@ -70,7 +70,7 @@ class BuiltCar(Summarised, CarContent):
 
     @cached_property
     def misfit(self) -> str:
-        """Why a frame with `or_rigid` does not fit the car, which is rigid then; empty where it does."""
+        """Why a frame with `or_rigid` does not fit the car, which is then rigid; empty if it fits."""
         if self.chassis.frame is None or not self.chassis.frame.or_rigid:
             return ""
         try:
@@ -83,12 +83,12 @@ class BuiltCar(Summarised, CarContent):
 
     @cached_property
     def rest(self) -> Rest:
-        """The car at rest, of a model with no more than that asks for; a tyre at a port is the car's own.
+        """The car at rest on its own tyres, computed with a model of few outputs.
 
         Raises
         ------
         ModelError
-            It does not come to rest.
+            The car has no equilibrium.
         """
         car = self
         if self.ports.tyre is not None:
@@ -97,7 +97,7 @@ class BuiltCar(Summarised, CarContent):
 
     @property
     def has_frame(self) -> bool:
-        """Whether it has a flexible frame that fits it."""
+        """Whether the car has a flexible frame that fits it."""
         return self.chassis.frame is not None and not self.misfit
 
     def build(
@@ -108,10 +108,10 @@ class BuiltCar(Summarised, CarContent):
         fidelity: Fidelity = Fidelity.RIGID,
         drive: Callable[[Affine], object] | None = None,
     ) -> CarBuilder:
-        """Add the car to an empty model (`empty`); the arguments are those of `Car.model`.
+        """Add the car to a model from `empty`; `road` and `fidelity` are those of `Car.model`.
 
-        `outputs`: adds the outputs of the car; `drive`: adds a drive of the x coordinate of the chassis' reference
-        point, m; the selector is then in neutral.
+        `outputs`: adds the outputs of the car; `drive`: prescribes the x coordinate of the chassis' reference point, m;
+        the selector is then in neutral.
         """
         if not fidelity.rigid and not self.steering.on_flexible_chassis:
             raise ModelError(
@@ -135,16 +135,16 @@ class BuiltCar(Summarised, CarContent):
         fidelity: Fidelity = Fidelity.RIGID,
         drive: Callable[[Affine], object] | None = None,
     ) -> CarBuilder:
-        """`build` with all that an FMU of the car reports, which its drawing follows."""
+        """`build` with all outputs of an FMU of the car."""
         frame = self.flexible_frame if self.has_frame else None
         return self.build(m, partial(car_outputs, m, self, frame, fidelity), road, fidelity, drive)
 
     @property
     def offered(self) -> tuple[Fidelity, ...]:
-        """Fidelities that an FMU offers, by its parameter `fidelity`.
+        """Fidelities of an FMU of the car.
 
-        The rigid one alone where the car has no frame or a steering that needs a rigid chassis; no load paths where the
-        frame has no table of loads.
+        Only the rigid one if the car has no frame or a steering that needs a rigid chassis; no load paths if the frame
+        has no table of loads.
         """
         frame = self.chassis.frame
         if frame is None or not (self.has_frame and self.steering.on_flexible_chassis):
@@ -192,23 +192,23 @@ class BuiltCar(Summarised, CarContent):
         m.put_off(partial(self._draw, b, spins, fidelity))
 
     def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
-        """Add all shapes when the drawing is first used."""
+        """Add all shapes."""
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def plausibility(self, what: str = "") -> list[Plausibility]:
         """Plausibility of the car, then of the tyres of each axle, then of its flexible frame.
 
-        `what`: the file, for messages. Raises `ModelError`: it does not come to rest.
+        `what`: name of the file. Raises `ModelError`: the car has no equilibrium.
         """
-        plausibilities = car_plausibility(what or str(self.folder), self, self.rest, self._data, self._remade)
+        plausibilities = car_plausibility(what or str(self.folder), self, self.rest, self._data, self._changed_car)
         titles = ["car", *(f"{name} tyres" for name in self.axles)]
         if self.has_frame:
             plausibilities += self.flexible_frame.plausibility()
             titles.append("flexible frame")
         return [replace(plausibility, title=title) for plausibility, title in zip(plausibilities, titles, strict=True)]
 
-    def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
-        """The car of altered content at rest, or None where that is not a car."""
+    def _changed_car(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
+        """The car of altered content, and the same car at rest; None if the content is not valid."""
         try:
             car = checked_car(type(self), data, self.folder, self.name, at_rest=False)
             return car, car.rest
@@ -216,11 +216,11 @@ class BuiltCar(Summarised, CarContent):
             return None
 
     def empty(self) -> Model:
-        """An empty model for the car."""
+        """Make an empty model for the car."""
         return Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
 
     def _builder(self, m: Model, road: Road | RoadOfFile | None) -> CarBuilder:
-        """An empty model with road and inputs."""
+        """Add road and inputs to an empty model."""
         m.floating = True
         m.start_in_equilibrium = self.ports.tyre is None and level_within(road, self.footprint)
         m.stop_time, m.step = 10.0, 0.002
@@ -241,7 +241,7 @@ class BuiltCar(Summarised, CarContent):
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
     def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
-        """Add the steering, and both axles with suspensions by tables."""
+        """Add the steering, and both axles with tables in place of links."""
         steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:
             raise ModelError(
@@ -258,6 +258,8 @@ class BuiltCar(Summarised, CarContent):
 
     @staticmethod
     def _fixed_end(b: CarBuilder) -> TieRodEnd:
+        """Inner ends of tie rods on the chassis."""
+
         def end(side: Side, point: Coordinates) -> End:
             return b.chassis.body, point
 
@@ -279,11 +281,11 @@ def checked_car(
     warn: bool = False,
     stacklevel: int = 4,
 ) -> C:
-    """The car that the content of a file describes.
+    """Make a car from the content of a file and check it.
 
-    `kind`: class of the car; `folder`: where its tables lie; `at_rest`: whether the car must be seen to come to rest;
-    `warn`: whether to warn of what is odd; `stacklevel`: of the warning, by default of who calls `mbs.vehicle.load`.
-    Raises `CarFileError`: it does not describe a car.
+    `kind`: class of the car; `folder`: of its tables; `what`: name of the file; `at_rest`: whether the equilibrium is
+    checked; `warn`: whether to warn of unusual properties; `stacklevel`: of the warnings, by default for the caller of
+    `mbs.vehicle.load`. Raises `CarFileError`: the content does not describe a car.
     """
     check_version(data, what)
     try:
@@ -301,7 +303,7 @@ def checked_car(
     faults = car_faults(car)
     if faults:
         raise CarFileError(_fault_text(what, faults))
-    if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
+    if at_rest and car.ports.tyre is not None:  # the equilibrium is that on its own tyres
         checked_car(kind, _without_tyre_port(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
         return car
     if not at_rest:
@@ -324,7 +326,7 @@ def checked_car(
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
         lines = [
             sentence
-            for plausibility in car_plausibility("", car, rest, car._data, car._remade)
+            for plausibility in car_plausibility("", car, rest, car._data, car._changed_car)
             for sentence in plausibility.warnings()
         ]
         for sentence in (*misfit, *car_oddities(car, rest), *lines):
@@ -338,6 +340,7 @@ def _without_tyre_port(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _fault_text(what: str, faults: Sequence[str]) -> str:
+    """Lines of a message with the first `MOST_FAULTS` faults."""
     lines = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
     if len(faults) > MOST_FAULTS:
         lines.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")

@@ -35,8 +35,8 @@ class Car(BuiltCar):
     ) -> Model:
         """Model of the car at rest in static equilibrium, with its front axle above the origin.
 
-        On a road that is not level there only the brakes could hold it: it starts level, as drawn, and settles; a pose
-        must raise it above the road. On a road from a file it is raised automatically.
+        On a road that is not level at the origin, it starts level, as drawn, and settles; a pose must raise it above
+        the road. On a road from a file it is raised automatically.
 
         Parameters
         ----------
@@ -44,7 +44,7 @@ class Car(BuiltCar):
             By default level ground with a kerb, down by `road.kerb_height` at `road.kerb_x` (parameters; far away
             unless set), and the friction `road.friction`. The parameter `road.file` exchanges it for a file.
         fidelity : Fidelity, int or str
-            How much of the chassis is modelled, a member of `Fidelity`, its number or its name.
+            Model of the chassis: a member of `Fidelity`, its number or its name.
         guide : callable, optional
             Adds the guide that prescribes x of the chassis' reference point, m; the selector is then in neutral.
 
@@ -60,7 +60,7 @@ class Car(BuiltCar):
         """
         fidelity = Fidelity.of(fidelity)
         m = self.empty()
-        drive = None if guide is None else lambda way: m.drive("guided way", way, guide(m))
+        drive = None if guide is None else lambda travel: m.drive("guided way", travel, guide(m))
         b = self.reported(m, road, fidelity, drive)
         if Fidelity.DYNAMIC in self.offered:
             m.more_poses.append(partial(self._frame_poses, m, b))
@@ -83,7 +83,7 @@ class Car(BuiltCar):
         return flexible_part(self.flexible_frame, self.model(fidelity=Fidelity.DYNAMIC), self.vehicle.reference_point)
 
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
-        """Functions that make the models of all fidelities in `offered`, by fidelity."""
+        """Functions that build the models of all fidelities in `offered`, by fidelity."""
         return {fidelity: partial(self.model, None, fidelity) for fidelity in self.offered}
 
     def changed(self, values: Mapping[str, Any]) -> Car:

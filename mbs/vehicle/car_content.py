@@ -1,4 +1,4 @@
-"""The typed content of a car file."""
+"""Typed content of a car file."""
 
 from collections.abc import Iterator
 from functools import cached_property
@@ -103,7 +103,7 @@ class CarContent(Section):
         return self.chassis.frame
 
     def faults(self) -> Iterator[str]:
-        """Contradictions of tables: steering and axles, frame and links, ports and the parts that they replace."""
+        """Yield contradictions between tables: steering and axles, frame and links, ports and the replaced parts."""
         yield from self.front.suspension.steering_faults(self.steering)
         yield from self.rear.suspension.steering_faults(None)
         if not self.front.suspension.linked and self.steering.without_travel:
@@ -118,11 +118,13 @@ class CarContent(Section):
                 "ports.tyre and ports.road are both given; the road under a tyre at a port is that of the program that "
                 "has the tyre, so leave one of them out."
             )
-        for port, action in (("gear", "asks for a gear"), ("clutch", "opens the clutch")):
+        for port, effect in (("gear", "asks for a gear"), ("clutch", "opens the clutch")):
             if getattr(self.ports, port) is None or (self.ports.torque is None and self.drive.kind == "automatic"):
                 continue
-            why = "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
-            yield f"ports.{port} {action} of an automatic drive, and {why}; leave it out."
+            reason = (
+                "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
+            )
+            yield f"ports.{port} {effect} of an automatic drive, and {reason}; leave it out."
         port_of_rack = self.ports.steering
         if port_of_rack is not None and port_of_rack != self.steering.rack_port:
             yield (
@@ -133,7 +135,7 @@ class CarContent(Section):
             yield from self.steering.port_faults()
 
     def values(self) -> dict[str, float]:
-        """Numbers that a finished FMU of the car has as parameters, by key path."""
+        """Parameters of an FMU of the car by key path, SI units."""
         values: dict[str, float] = {}
         for section in sections_of(self):
             for field in type(section).model_fields:
@@ -143,11 +145,12 @@ class CarContent(Section):
         return values
 
     def order(self, path: str) -> int:
-        """Place of a key path in the file's type. `path`: of a number."""
+        """Index of the key path of a number in the type of the file."""
         return self._paths.index(path)
 
     @cached_property
     def _paths(self) -> list[str]:
+        """Key paths of all fields in the order of the type of the file."""
         return [section.key(field) for section in sections_of(self) for field in type(section).model_fields]
 
     @property
@@ -159,12 +162,12 @@ class CarContent(Section):
 
     @property
     def rack_direction(self) -> float:
-        """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
+        """1 if a rack that moves to the left steers to the left, else -1."""
         return 1.0 if self.front.suspension.steers_left(self.front.wheel.centre) else -1.0
 
     @property
     def linked(self) -> bool:
-        """Whether links carry all wheels."""
+        """Whether both axles have links."""
         return len(self.linked_axles) == len(self.axles)
 
     @property
@@ -174,7 +177,7 @@ class CarContent(Section):
 
     @property
     def footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and largest x and y of the car as drawn, with a hand's breadth around."""
+        """Least and largest x and y of the car as drawn, with a margin of 0.13 m."""
         margin = 0.13
         x = self.rear.wheel.centre[0] - self.rear.tyre.radius, self.front.wheel.centre[0] + self.front.tyre.radius
         half_width = 0.5 * self.vehicle.width

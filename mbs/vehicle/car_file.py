@@ -1,4 +1,4 @@
-"""Cars by name, folder or file."""
+"""Reads cars by name, folder or file."""
 
 from pathlib import Path
 
@@ -27,6 +27,6 @@ def load(car: str | Path) -> Car:
     Warns
     -----
     CarWarning
-        A car of the user's that can be but is odd, such as one that does not come to rest where it is drawn.
+        The car has unusual properties, such as an equilibrium that differs from the drawing.
     """
     return read_car(Car, car)

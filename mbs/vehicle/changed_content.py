@@ -1,4 +1,4 @@
-"""The content of a car file with other values, by key path."""
+"""Changes the content of a car file by key paths."""
 
 import copy
 from collections.abc import Mapping
@@ -10,14 +10,14 @@ from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.section import AXES, PRODUCTS
 
-PARTS = {part: str(k) for parts in (AXES, PRODUCTS) for k, part in enumerate(parts)}
-"""Places in a list by the names that parameters have behind the field's."""
+INDICES = {part: str(k) for parts in (AXES, PRODUCTS) for k, part in enumerate(parts)}
+"""Indices in a list by the last name of a parameter."""
 
 
 def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: str) -> dict[str, Any]:
-    """A copy with other values.
+    """Copy the content of a car file with other values.
 
-    `data`: tables of the file; `values`: by key path; keys that are not there yet are added. Raises `CarFileError`: a
+    `data`: tables of the file; `values`: by key path; missing keys are added. Raises `CarFileError`: a
     key path is malformed, or leads through a value.
     """
     if not isinstance(values, Mapping):
@@ -39,29 +39,29 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
                     f"{what}: {path} is not known; {'.'.join(tables[: k + 1])} is {shown(table)}, which has no keys."
                 )
         if isinstance(table, list):
-            table[_index(table, last, tables, what)] = _plain(value)
+            table[_index(table, last, tables, what)] = _to_python(value)
         else:
-            table[last] = _plain(value)
+            table[last] = _to_python(value)
     return content
 
 
 def _index(table: list[Any], key: str, tables: list[str], what: str) -> int:
-    """Index of an element of a list, by its number or as parameters call it."""
-    key = PARTS.get(key, key)
+    """Index of an element of a list by its number or by the name of a parameter."""
+    key = INDICES.get(key, key)
     if not key.isdigit() or int(key) >= len(table):
         path = ".".join(tables)
         raise CarFileError(f"{what}: {path}.{key} is not known; {path} is a list of {len(table)}, counted from 0.")
     return int(key)
 
 
-def _plain(value: Any) -> Any:
-    """A value with NumPy numbers and arrays as numbers and lists of Python."""
+def _to_python(value: Any) -> Any:
+    """Value with NumPy numbers and arrays converted to numbers and lists of Python."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, np.generic):
         return value.item()
     if isinstance(value, Mapping):
-        return {key: _plain(inner) for key, inner in value.items()}
+        return {key: _to_python(inner) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(inner) for inner in value]
+        return [_to_python(inner) for inner in value]
     return value

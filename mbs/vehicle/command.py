@@ -14,11 +14,11 @@ from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.units import quantity
 
-_OF_KINEMATICS = ("travel", "fidelity", "points", "out")
+_KINEMATICS_OPTIONS = ("travel", "fidelity", "points", "out")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.command") -> int:
-    """Run the command; `prog` is how the user typed it."""
+    """Run the command, which the user typed as `prog`; returns the exit code."""
     parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("car", nargs="?", metavar="CAR", help="a car of the package, or the folder or file of a car")
     parser.add_argument("folder", nargs="?", type=Path, metavar="FOLDER", help="copy the car there; it must not exist")
@@ -57,43 +57,47 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
 
 
 def _cheapest(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    """Measure the levels of a car; returns the exit code."""
     from mbs.vehicle.levels.report import report
 
     if options.folder is not None:
         raise UserError("A car is copied to a FOLDER, or its levels are compared by --cheapest; give one of them.")
-    _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
+    _check_unused(given_of(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
     return report(options)
 
 
-def _refuse(given: Sequence[str], where: str) -> None:
-    if given:
-        raise UserError(f"{given[0]} needs {where}.")
+def _check_unused(options: Sequence[str], requirement: str) -> None:
+    """Raise `UserError` if there are options that need another one."""
+    if options:
+        raise UserError(f"{options[0]} needs {requirement}.")
 
 
 def _kinematics(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    """Draw the kinematics of a car; returns the exit code."""
     from ali3.extras import command_needs
     from mbs.common.errors import ModelError
 
     command_needs("hosts")
 
-    def work() -> int:
+    def run() -> int:
         from mbs.vehicle.kinematics.report import report
 
         if options.folder is not None:
             raise UserError("A car is copied to a FOLDER, or its curves are drawn by --kinematics; give one of them.")
-        _refuse(given_of(parser, options, ("cheapest",)), "a call without --kinematics")
+        _check_unused(given_of(parser, options, ("cheapest",)), "a call without --kinematics")
         return report(options)
 
-    return run_command(work, (ModelError,))
+    return run_command(run, (ModelError,))
 
 
 def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    """List, copy or check cars; returns the exit code."""
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.read_car import car_names, read_car
 
-    _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
+    _check_unused(given_of(parser, options, _KINEMATICS_OPTIONS), "--kinematics")
     if options.list or options.folder is not None:
-        _refuse(given_of(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
+        _check_unused(given_of(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
     if options.list:
         print("\n".join(in_columns([(name, read_car(BuiltCar, name).description) for name in car_names()])))
         return 0
@@ -107,6 +111,7 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | None) -> int:
+    """Check a car and print its summary; returns the exit code."""
     import sys
     import warnings
 

@@ -1,4 +1,4 @@
-"""Constants of the FMU that a driver or a course needs."""
+"""Constants of the FMU for drivers and courses."""
 
 from mbs.model.model import Model
 from mbs.vehicle.car_content import CarContent
@@ -6,7 +6,7 @@ from mbs.vehicle.car_content import CarContent
 
 def vehicle_constants(m: Model, car: CarContent) -> None:
     """Add dimensions, steering and tyre friction as constants ``vehicle.*``, and the tables of springs and dampers."""
-    drawn = ", with the ratio of the car file"  # a constant of FMI stays where a parameter changes the ratio
+    drawn = ", with the ratio of the car file"  # a constant of FMI does not depend on the parameter of the ratio
     wheel_angle, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
     for name, value, unit, text in (
         ("wheelbase", car.wheelbase, "m", "distance between the axles"),
@@ -34,7 +34,7 @@ def vehicle_constants(m: Model, car: CarContent) -> None:
             f"largest longitudinal force of a {name} tyre over its nominal load, on a road with the coefficient of "
             "friction 1",
         )
-    for name, axle in car.axles.items():  # behind the others, whose references stay
+    for name, axle in car.axles.items():  # after the others, whose value references must not change
         for part, table, columns in (
             ("spring", axle.spring.table, (("compression", "m"), ("force", "N"))),
             ("damper", axle.damper.table, (("speed", "m/s"), ("force", "N"))),

@@ -1,4 +1,4 @@
-"""Copies a car of the package, so that its file can be changed, with the schema that editors check it by."""
+"""Copies a car of the package, with the JSON Schema of its file, so that it can be changed."""
 
 import shutil
 from pathlib import Path

@@ -9,7 +9,7 @@ from mbs.model.joint_ends import End
 from mbs.vehicle.side import Point, Side
 
 TieRodEnd: TypeAlias = Callable[[Side, Point], End]
-"""From a side and the inner end of its tie rod as drawn to what it hangs on."""
+"""Returns the owner of the inner end of a tie rod from its side and the end as drawn, m."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,6 @@ class Corner:
     side: Side
     """Axle, and left or right."""
     carrier: Body
-    """Carries the wheel."""
+    """Body that carries the wheel."""
     parts: Mapping[str, Body]
-    """Bodies by their names in the file, for anti-roll bars."""
+    """Bodies by their names in the file, to which anti-roll bars can be joined."""

@@ -10,15 +10,14 @@ from mbs.common.errors import ModelError
 class Fidelity(IntEnum):
     """Model of the chassis; inputs, parameters and outputs of the car are the same with each.
 
-    The numbers only identify: a simpler model, or one with compliances, takes a free number. Those from 100 on are for
-    comparison.
+    The numbers are identifiers without an order; those from 100 on are for comparison.
     """
 
     description: str
     """What the model contains."""
 
     def __new__(cls, number: int, description: str) -> Fidelity:
-        """The number with its description."""
+        """Make a member of a number with its description."""
         member = int.__new__(cls, number)
         member._value_ = number
         member.description = description
@@ -57,4 +56,4 @@ class Fidelity(IntEnum):
 
 
 OFFERED = (Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC)
-"""The choice of an FMU by its parameter `fidelity`."""
+"""Levels between which an FMU chooses by its parameter `fidelity`."""

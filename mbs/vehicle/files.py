@@ -1,4 +1,4 @@
-"""The files that a car file names lie in its folder."""
+"""Paths of the files that a car file names."""
 
 from pathlib import Path
 
@@ -8,10 +8,10 @@ from mbs.vehicle.errors import CarFileError
 
 
 def beside(folder: Path, name: str, key: str) -> Path:
-    """A file of the car's folder.
+    """Path of a file in the car's folder.
 
-    `name`: as the car file gives it; `key`: key path that gives it. Raises `CarFileError`: it lies elsewhere, or is no
-    regular file.
+    `name`: value in the car file; `key`: its key path. Raises `CarFileError`: the file is not in the folder or not
+    a regular file.
     """
     if not name or "\0" in name or "\\" in name or Path(name).is_absolute() or ".." in Path(name).parts:
         raise CarFileError(

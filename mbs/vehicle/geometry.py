@@ -1,4 +1,4 @@
-"""Conditions on the hard points of a template; each gives a sentence where the points do not meet it."""
+"""Conditions on the hard points of a template, which yield a sentence if they are violated."""
 
 import math
 from collections.abc import Iterator
@@ -7,13 +7,13 @@ import numpy as np
 
 from mbs.vehicle.section import Section
 
-LEAST = 0.02  # m: shorter links, arms and levers are refused
+LEAST_LENGTH = 0.02  # m, of links, arms and levers
 
 
-def apart(points: Section, first: str, second: str, what: str, least: float = LEAST) -> Iterator[str]:
+def apart(points: Section, first: str, second: str, what: str, least: float = LEAST_LENGTH) -> Iterator[str]:
     """Fault of two points at one place.
 
-    `what`: stands between them, as in "the tie rod"; `least`: distance, m.
+    `what`: part between them, such as "the tie rod"; `least`: distance, m.
     """
     distance = math.dist(getattr(points, first), getattr(points, second))
     if distance < least:
@@ -21,17 +21,17 @@ def apart(points: Section, first: str, second: str, what: str, least: float = LE
 
 
 def off_line(
-    points: Section, name: str, ends: tuple[str, str], what: str, line: str, least: float = LEAST
+    points: Section, name: str, ends: tuple[str, str], what: str, line: str, least: float = LEAST_LENGTH
 ) -> Iterator[str]:
     """Fault of a point on the line through two others.
 
-    `what`: what is between point and line, as in "the steering arm"; `line`: what the line is, as in "the steering
+    `what`: part between point and line, such as "the steering arm"; `line`: name of the line, such as "the steering
     axis"; `least`: distance, m.
     """
     point, a, b = (np.array(getattr(points, n)) for n in (name, *ends))
     length = float(np.linalg.norm(b - a))
     if length < 1e-6:
-        return  # `apart` says so
+        return  # a fault of `apart`
     distance = float(np.linalg.norm(np.cross(point - a, (b - a) / length)))
     if distance < least:
         yield f"{points.key(name)} is {distance:.3g} m from {line}; {what} is {least:g} m long or more."
@@ -45,13 +45,13 @@ def farther(
     Parameters
     ----------
     axis : {"x", "y", "z"}
-        Of the drawing.
+        Axis of the drawing.
     way : str
-        Where the first must be, as in "above".
+        Required position of the first point, such as "above".
     what : str
-        Why, as in "the spring carries the car".
+        Reason, such as "the spring carries the car".
     least : float
-        By at least, m.
+        Least difference, m.
     """
     k = "xyz".index(axis)
     a, b = getattr(points, first)[k], getattr(points, second)[k]
@@ -67,7 +67,7 @@ def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
     """Faults of a steering axis that is not nearly upright."""
     x, y, z = np.subtract(getattr(points, upper), getattr(points, lower))
     if z <= 0.0:
-        return  # `farther` says so
+        return  # a fault of `farther`
     for name, run, low, high in (("caster", -x, -20.0, 30.0), ("inclination", -y, -10.0, 35.0)):
         angle = math.degrees(math.atan2(run, z))
         if not low <= angle <= high:
@@ -81,7 +81,7 @@ def arm(points: Section, part: str, what: str) -> Iterator[str]:
     """Faults of an arm with two pivots and a ball joint: no axis, no length, or ends not where their names say.
 
     `points`: table of the points, with those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
-    ``{part}_ball_joint``; `part`: "lower" or "upper"; `what`: what it is, as in "wishbone".
+    ``{part}_ball_joint``; `part`: "lower" or "upper"; `what`: kind of the arm, such as "wishbone".
     """
     pivots, ball = (f"{part}_pivot_front", f"{part}_pivot_rear"), f"{part}_ball_joint"
     yield from apart(points, *pivots, f"the axis of the {part} {what}")
@@ -99,11 +99,11 @@ def steering_rod(points: Section, rod: str, axis: tuple[str, str], line: str) ->
     points : Section
         Table of the points, with those of the rod as its name with underscores, `_inner` and `_outer`.
     rod : str
-        Its name, as in "tie rod".
+        Name of the rod, such as "tie rod".
     axis : (str, str)
         Lower and upper point of the steering axis.
     line : str
-        Name of the axis, as in "the steering axis".
+        Name of the axis, such as "the steering axis".
     """
     inner, outer = (f"{rod.replace(' ', '_')}_{end}" for end in ("inner", "outer"))
     yield from steering_axis(points, *axis)

@@ -1,4 +1,4 @@
-"""Forces and moments of other programs on the hub of a wheel, in place of its tyre."""
+"""Port for forces and moments of another program on the hub of a wheel, in place of its tyre."""
 
 from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried_parts import Spin
@@ -7,30 +7,33 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.tyres import Tyre
 
-LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
-"""Unit, end of the range and word by the letter."""
+INPUT_RANGES = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
+"""Unit, largest value and quantity of the inputs, by the letter in their names."""
 
 
 def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) -> None:
-    """Add inputs, their element, and constants of the wheel for a tyre model in another program.
+    """Add the inputs, their element and the outputs for a tyre model of another program.
 
-    `wheel`: its name, as "FL"; `tyre`: the one left out, to which that of the other program is taken to be
-    similar; `inertia`: of the wheel about its axis, kg m2.
+    `wheel`: its name, such as "FL"; `tyre`: the replaced one, which determines numbers for the check of the inputs;
+    `inertia`: of the wheel about its axis, kg m2.
     """
-    by_slip, stiffness, settling, fading = tyre.carcass
-    lever = tyre.radius**2 / inertia
-    figures = (settling, fading, 1.0 / (by_slip * lever), stiffness * lever)
+    slip_stiffness, stiffness, settling, fading = tyre.carcass
+    inverse_inertia = tyre.radius**2 / inertia
+    figures = (settling, fading, 1.0 / (slip_stiffness * inverse_inertia), stiffness * inverse_inertia)
     channels: list[int] = []
-    for letter, (unit, largest, quantity) in LARGEST.items():
+    for letter, (unit, largest, quantity) in INPUT_RANGES.items():
         for c in "xyz":
             text = f"{quantity} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
             name = f"wheel_{wheel}.hub_{letter}{c}"
-            watched = () if channels else (Role.HUB, f"wheel_{wheel}.earth_vx")
-            channel = new_port(b, name, -largest, largest, unit, text, *watched, figures=() if channels else figures)
+            role_and_sensor = () if channels else (Role.HUB, f"wheel_{wheel}.earth_vx")
+            channel = new_port(
+                b, name, -largest, largest, unit, text, *role_and_sensor, figures=() if channels else figures
+            )
             channels.append(channel.index)
     b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
 
     def outputs() -> None:
+        """Add the outputs for the other program."""
         for k, c in enumerate("xyz"):
             text = f"rate of the spin axis along the earth's {c} axis"
             name = f"wheel_{wheel}.axis_rate_{c}"

@@ -1,4 +1,4 @@
-"""Outputs of the car: names, units and axes of ISO 8855."""
+"""Outputs of the car, with the axes of ISO 8855."""
 
 from collections.abc import Mapping
 
@@ -29,34 +29,34 @@ def car_outputs(
     steered: Steered,
     spins: Mapping[str, Spin],
 ) -> None:
-    """All outputs and constants of a car. `m`: of `b`; `frame`: where it has one."""
-    _chassis(m, b, car)
+    """Add all outputs and constants of a car. `m`: model of `b`; `frame`: None without a flexible frame."""
+    _add_chassis(m, b, car)
     steered.outputs()
     if car.ports.torque is None:
         car.drive.outputs(b)
     for channel in b.inputs.values():
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     for name, spin in spins.items():
-        _wheel(m, b, spin, name)
-    _health(m)
+        _add_wheel(m, b, spin, name)
+    _add_energies_and_solver(m)
     if frame is not None:
         stress_outputs(m, b.chassis, frame, fidelity)
     if car.chassis.ground_contact is not None:
-        _ground(m)
-    _work_sensors(m)
+        _add_ground_contact(m)
+    _add_work(m)
     vehicle_constants(m, car)
     steered.torque_outputs()
     for name, spin in spins.items():
-        _wheel_pose(m, b, spin, name)
-    _levers(m)
+        _add_wheel_pose(m, b, spin, name)
+    _add_levers(m)
     if car.ports.any:
         port_outputs(m, b, car, spins)
-    _steering_work(m, car.ports)
+    _add_steering_work(m, car.ports)
     m.book_of_added = "energy.added", "work of elements that are not the car's since the start, without what is stored"
 
 
-def _chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
-    """Pose, velocity and acceleration of the reference point; accelerometers."""
+def _add_chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
+    """Add pose, velocity and acceleration of the chassis at the reference point, and the accelerometers."""
     chassis, origin = b.chassis.frame, car.vehicle.reference_point
     for c in "xyz":
         m.sense_position(
@@ -124,8 +124,8 @@ def _chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
             )
 
 
-def _wheel(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
-    """Attitude, travel, spin and tyre forces of one wheel; the FMU puts the wheel's name before the descriptions."""
+def _add_wheel(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
+    """Add angles, travel, spin and tyre forces of a wheel; the FMU puts its name before the descriptions."""
     chassis = b.chassis.frame
     forward, left, up = (chassis.vector(v) for v in (FORWARD, LEFT, UP))
     m.sense_angle(
@@ -167,7 +167,7 @@ def _wheel(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
     m.sense_element(f"spring_{w}.force", f"spring {w}", "force")
 
 
-def _wheel_pose(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
+def _add_wheel_pose(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
     """Add outputs of the pose of one wheel and its carrier, and of its contact point."""
     for k, c in enumerate("xyz"):
         text = f"{c} of the centre of the wheel, earth"
@@ -194,8 +194,8 @@ def _wheel_pose(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
             m.sense_element(f"wheel_{w}.{name}_{c}", f"tyre {w}", f"{name}_{c}")
 
 
-def _levers(m: Model) -> None:
-    """Angles of the levers of anti-roll bars."""
+def _add_levers(m: Model) -> None:
+    """Add the angles of the levers of anti-roll bars."""
     for index, coordinate in enumerate(m.coordinates):
         if coordinate.name.startswith(LINK):
             m.sense_coordinate(
@@ -207,7 +207,7 @@ def _levers(m: Model) -> None:
 
 
 STEERING_WORK = "energy.steering"
-WORKS = {  # what works on the car: first words of the names of its elements, description
+WORKS = {  # prefixes of the names of the elements, description
     "drive": (("drive",), "the drive on the car"),
     "brakes": (("brake ",), "the brakes"),
     "tyres": (("tyre ",), "the tyres, by rolling, slip and damping,"),
@@ -217,21 +217,21 @@ WORKS = {  # what works on the car: first words of the names of its elements, de
 }
 
 
-def _work_sensors(m: Model) -> None:
-    """Work since the start of all that may give or take energy, without what it stores."""
+def _add_work(m: Model) -> None:
+    """Add the nonconservative work of groups of elements since the start."""
     for name, (starts, text) in WORKS.items():
         elements = [e for e in m.elements if e.name.startswith(starts)]
         description = f"work of {text} since the start, without what is stored; negative: energy lost"
         if elements:
             m.sense_energy(f"energy.{name}", "nonconservative", elements, description=description)
-        else:  # a chassis without points that touch the ground
+        else:  # a chassis without contact points
             m.sense_constant(f"energy.{name}", 0.0, unit="J", description=description)
 
 
-def _steering_work(m: Model, ports: Ports) -> None:
-    """Work of a steering without a column since the start, behind all other outputs.
+def _add_steering_work(m: Model, ports: Ports) -> None:
+    """Add the work of a steering without a column since the start, after all other outputs.
 
-    `ports`: one for the travel of the rack has its work in `energy.ports`.
+    The work of a port for the travel of the rack is in `energy.ports`.
     """
     friction = [e for e in m.elements if e.name == "steering friction"]
     of_port = ports.steering == "rack_position"
@@ -246,8 +246,8 @@ def _steering_work(m: Model, ports: Ports) -> None:
     )
 
 
-def _health(m: Model) -> None:
-    """Energies and the work of the solver."""
+def _add_energies_and_solver(m: Model) -> None:
+    """Add the energies and the statistics of the solver."""
     for kind in ("kinetic", "gravity", "elastic", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
     for kind in ("iterations", "violation", "residual", "halvings", "status"):
@@ -255,7 +255,7 @@ def _health(m: Model) -> None:
         m.sense_solver(f"solver.{kind}", kind, description=f"{kind} of the solver, {when}")
 
 
-def _ground(m: Model) -> None:
+def _add_ground_contact(m: Model) -> None:
     """Add outputs of the contact forces of the ground on the chassis."""
     force = m.sense_element(
         "chassis.ground_force",

@@ -1,4 +1,4 @@
-"""A picture of a car as its file draws it: from the side and from above, with all points that were read."""
+"""Picture of a car as drawn, from the side and from above, with all points of its file."""
 
 from pathlib import Path
 
@@ -8,13 +8,13 @@ from mbs.vehicle.checks.places import contact_points
 from mbs.vehicle.section import sections_of
 
 COLOURS = {"front": "#1c5fd0", "rear": "#e8590c"}
-OTHERS, TYRE_WIDTH, ROWS = "#2b8a3e", 0.2, 30
+OTHER_COLOUR, TYRE_WIDTH, ROWS = "#2b8a3e", 0.2, 30
 WORDS = ("x, m (ahead)", "y, m (left)", "z, m (up)")
 LABEL = {"facecolor": "white", "alpha": 0.7, "linewidth": 0.0, "pad": 0.3}
 
 
 def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
-    """Every point of a car's file by its key path, m, with the places of masses."""
+    """All points and centres of mass of a car file by key path, m."""
     points: dict[str, tuple[float, ...]] = {
         section.key(field): value
         for section in sections_of(car)
@@ -28,7 +28,7 @@ def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
 
 
 def draw_car(car: CarContent, file: Path) -> None:
-    """Draw wheels and points, numbered as in the list beside them, and each axle larger.
+    """Draw the wheels and the points, with numbers and a list of their names, and each axle enlarged.
 
     Points of the right side, which are mirrored, have no numbers. `file`: a PNG, or what Matplotlib writes by the
     suffix.
@@ -42,7 +42,7 @@ def draw_car(car: CarContent, file: Path) -> None:
     figure = Figure(figsize=(17.0 + 2.4 * columns, 9.0), layout="constrained")
     FigureCanvasAgg(figure)
     grid = figure.add_gridspec(2, 4, width_ratios=(9.0, 4.0, 4.0, 2.4 * columns))
-    views = [  # axes, which coordinates, whose points have numbers
+    views = [  # axes, coordinates, table whose points have numbers, title
         (figure.add_subplot(grid[0, 0]), (0, 2), "", f"{car.name} from the side"),
         (figure.add_subplot(grid[1, 0]), (0, 1), "", f"{car.name} from above"),
     ]
@@ -67,7 +67,7 @@ def draw_car(car: CarContent, file: Path) -> None:
             owner = key.split(".", 1)[0]
             if axle_filter not in ("", owner):
                 continue
-            position, colour = (point[i], point[j]), COLOURS.get(owner, OTHERS)
+            position, colour = (point[i], point[j]), COLOURS.get(owner, OTHER_COLOUR)
             axes.plot(*position, "o", color=colour, markersize=4)
             if axle_filter or owner not in COLOURS:
                 axes.annotate(str(number), position, (3.0, 3.0), textcoords="offset points", fontsize=8, bbox=LABEL)
@@ -81,12 +81,12 @@ def draw_car(car: CarContent, file: Path) -> None:
     for number, key in enumerate(points, 1):
         column, row = divmod(number - 1, ROWS)
         text_position = (column / columns, 1.0 - (row + 1.0) / (ROWS + 1.0))
-        colour = COLOURS.get(key.split(".", 1)[0], OTHERS)
+        colour = COLOURS.get(key.split(".", 1)[0], OTHER_COLOUR)
         names.text(*text_position, f"{number:2d} {_short(key)}", fontsize=8, color=colour, va="center")
     names.set_axis_off()
     figure.savefig(file, dpi=110, metadata=png_metadata(figure) if file.suffix.lower() == ".png" else None)
 
 
 def _short(key: str) -> str:
-    """A key path without the tables that all points stand in."""
+    """Key path without tables that all points have in common."""
     return ".".join(part for part in key.split(".") if part not in ("suspension", "points", "bodies"))

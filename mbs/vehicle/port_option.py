@@ -1,4 +1,4 @@
-"""Ports of a car given as a list on a command line."""
+"""Ports of a car from an option of the command line."""
 
 from typing import get_args
 
@@ -6,7 +6,7 @@ from mbs.vehicle.ports import PORTS, Ports
 
 
 def chosen_ports(text: str) -> dict[str, str]:
-    """Kinds of ports by key of `Ports`, from a list such as ``torque,brakes=pressure``; by default the first kind.
+    """Parse a list of ports such as ``torque,brakes=pressure``; return kinds by port, by default the first kind.
 
     Raises `ValueError`: the text is not such a list; the message names the ports and their kinds.
     """

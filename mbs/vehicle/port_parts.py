@@ -1,4 +1,4 @@
-"""Substitutes in the model for parts of the car that ports replace, with the outputs that co-simulation needs."""
+"""Inputs and outputs of ports in place of parts of the car."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -24,7 +24,7 @@ from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
-LARGEST_TORQUE = 1e4  # N m on a wheel: end of the range of the port
+LARGEST_TORQUE = 1e4  # N m, on a wheel
 LARGEST_FORCE, LARGEST_MOMENT = 1e5, 1e5  # N, N m, on the chassis
 FASTEST_WIND = 100.0  # m/s
 
@@ -32,14 +32,14 @@ FASTEST_WIND = 100.0  # m/s
 def torque_ports(
     b: CarBuilder, spins: Mapping[str, Spin], drive: Drive, kind: Literal["half_shafts", "hub_motors"]
 ) -> None:
-    """Torques on the wheels in place of a drive.
+    """Add torques on the wheels in place of a drive.
 
-    `spins`: of the wheels, by their names; `drive`: the one they replace; with half shafts its parts that turn with the
-    wheels stay; `kind`: "half_shafts" or "hub_motors": with half shafts the reaction is about the lateral axis of the
-    chassis, as that of `drive` is; with hub motors about the axis of the wheel on its carrier.
+    `spins`: of the wheels by name; `drive`: the replaced one, whose parts that turn with the wheels remain with half
+    shafts; `kind`: with "half_shafts" the reaction is about the lateral axis of the chassis, with "hub_motors" about
+    the axis of the wheel on its carrier.
     """
-    taker = "chassis" if kind == "half_shafts" else "carrier of the wheel"
-    text = f"torque on the wheel about its axis, positive forward, with its reaction on the {taker}"
+    reaction_body = "chassis" if kind == "half_shafts" else "carrier of the wheel"
+    text = f"torque on the wheel about its axis, positive forward, with its reaction on the {reaction_body}"
     for w, spin in spins.items():
         channel = new_port(b, f"wheel_{w}.drive_torque", -LARGEST_TORQUE, LARGEST_TORQUE, "N.m", text)
         axes = b.chassis.drive_axes if kind == "half_shafts" else (spin.f, spin.g)
@@ -49,21 +49,21 @@ def torque_ports(
 
 
 def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"]) -> None:
-    """Forces and torques of other programs on the chassis, and how its points there move.
+    """Add forces and torques of another program on the chassis, and the motion of their points as outputs.
 
-    `axes`: "earth" or "vehicle": of forces and torques.
+    `axes`: of forces and torques, "earth" or "vehicle".
     """
     m = b.m
     frame = [AffineVector.constant(v) for v in np.eye(3)] if axes == "earth" else b.chassis.contact_frame[1]
     for name, position in (car.ports.force_points or {"reference": car.vehicle.reference_point}).items():
         point = b.chassis.place(position)
-        sets = []
+        channels = []
         for letter, unit, largest, kind in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
             for c in "xyz":
                 text = f"{kind} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
-                sets.append(new_port(b, f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
-        m.add(BodyForce(sets[:3]).record(f"port force {name}", point, frame))
-        torque = BodyTorque(sets[3:], "earth" if axes == "earth" else "body")
+                channels.append(new_port(b, f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
+        m.add(BodyForce(channels[:3]).record(f"port force {name}", point, frame))
+        torque = BodyTorque(channels[3:], "earth" if axes == "earth" else "body")
         m.add(torque.record(f"port torque {name}", b.chassis.contact_frame[1]))
         for order, prefix, kind in ((0, "", "place"), (1, "v", "velocity")):
             for k, c in enumerate("xyz"):
@@ -74,7 +74,7 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
 
 
 def wind_port(b: CarBuilder) -> Wind | None:
-    """Air that moves by inputs, where there is the port."""
+    """Add speed and heading of the wind; None without the port."""
     if b.ports.wind is None:
         return None
     turn = 2.0 * np.pi
@@ -85,16 +85,16 @@ def wind_port(b: CarBuilder) -> Wind | None:
 
 
 def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
-    """Answers of another program on the road under each wheel, and the mean of them under the chassis.
+    """Add the road under each wheel as inputs, and their mean under the chassis.
 
-    `road`: friction until there are answers.
+    `road`: its friction holds until the inputs are set.
 
     Returns
     -------
     int
-        The road under the chassis.
+        Number of the road under the chassis.
     dict of str to int
-        Those under the wheels.
+        Numbers of the roads under the wheels by wheel.
     """
     friction = road.friction * road.friction_factor
     answers = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
@@ -103,7 +103,7 @@ def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
 
 
 def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
-    """Radius and moments of the tyre of a wheel. `w`: the wheel, as "FL"."""
+    """Add radius and moments of the tyre of a wheel. `w`: name of the wheel, such as "FL"."""
     m.sense_element(f"wheel_{w}.loaded_radius", tyre, "loaded_radius")
     if "overturning_moment" in {output.name for output in tyre.outputs}:
         m.sense_element(f"wheel_{w}.Mx", tyre, "overturning_moment")
@@ -114,7 +114,7 @@ def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
 
 
 def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
-    """Add outputs that co-simulation through ports needs in addition. `spins`: of the wheels, by their names."""
+    """Add the outputs for co-simulation through ports. `spins`: of the wheels by name."""
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     reference = b.chassis.frame.point(car.vehicle.reference_point)

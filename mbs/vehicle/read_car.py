@@ -1,4 +1,4 @@
-"""Reader of car files: every fault is one sentence with file, key path, value and the allowed values."""
+"""Reads car files."""
 
 import warnings
 from functools import cache
@@ -21,10 +21,10 @@ def car_names() -> list[str]:
 
 
 def read_car(kind: type[C], car: str | Path) -> C:
-    """`mbs.vehicle.load`, which describes the argument `car`, for a car of any class."""
+    """Read a car of any class; see `mbs.vehicle.load`."""
     if isinstance(car, str) and car in car_names():
-        shipped: C = _shipped_car(kind, car)
-        return shipped
+        package_car: C = _package_car(kind, car)
+        return package_car
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
@@ -38,7 +38,7 @@ def read_car(kind: type[C], car: str | Path) -> C:
 
 
 def file_of(car: str | Path) -> Path:
-    """The file of a car that is given by its folder or file. Raises `CarFileError`: there is none."""
+    """Path of the file of a car from its folder or file. Raises `CarFileError`: there is none."""
     path = Path(car)
     try:
         if path.is_dir():
@@ -55,9 +55,10 @@ def file_of(car: str | Path) -> Path:
 
 
 @cache
-def _shipped_car(kind: type[C], name: str) -> C:
+def _package_car(kind: type[C], name: str) -> C:
+    """Read a car of the package, cached."""
     path = CARS / name / FILE
     content = read_toml(path, CarFileError)
-    # a test holds that they stand as drawn
-    shipped: C = checked_car(kind, content, path.parent, str(path), at_rest=False)
-    return shipped
+    # the equilibrium is checked by a test
+    car: C = checked_car(kind, content, path.parent, str(path), at_rest=False)
+    return car

@@ -13,83 +13,88 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.quantities import Quantity, quantities_in
 from mbs.vehicle.schema import SCHEMA_FILE, schema_text
 
-WIDTH = 118
-NAME = "NAME"  # stands for a name that the user chooses
-AXLE = "AXLE"  # stands for front or rear
-TOP = "At the top of the file"
+LINE_WIDTH = 118
+NAME_PLACEHOLDER = "NAME"  # of a name that the user chooses
+AXLE_PLACEHOLDER = "AXLE"  # of "front" or "rear"
+TOP_HEADING = "At the top of the file"
 COLUMNS = ("key", "value", "unit", "range", "default", "FMU", "what it is")
 
 
 def tables() -> str:
-    """A heading and a table of keys for each table of the file."""
+    """Reference of the car file: a heading and a table of keys for each table of the file."""
     sections = []
-    for table, locations in _tables().items():
+    for table, locations in _locations_by_table().items():
         paths = list(dict.fromkeys(path for path, _ in locations))
         kinds = list(dict.fromkeys(kind for _, kind in locations if kind))
         text = inspect.cleandoc(table.__doc__ or "").replace("``", "`")
-        blocks = [textwrap.fill(" ".join(p.split()), WIDTH) for p in text.split("\n\n")]
+        blocks = [textwrap.fill(" ".join(p.split()), LINE_WIDTH) for p in text.split("\n\n")]
         quoted = [f"`{path}`" for path in paths]
         if len(paths) > 2:
-            heading = _name(table)
-            blocks.append(textwrap.fill(f"Stands at {', '.join(quoted)}.", WIDTH, break_on_hyphens=False))
+            heading = _heading(table)
+            blocks.append(textwrap.fill(f"Stands at {', '.join(quoted)}.", LINE_WIDTH, break_on_hyphens=False))
         else:
             kind = f", {kinds[0]}" if len(kinds) == 1 else ""
-            heading = (TOP if paths == [""] else " and ".join(quoted)) + kind
-        rows = [_row(key, field) for key, field in keys_of(table).items()]
-        blocks.append("\n".join(_line(row) for row in [COLUMNS, ("---",) * len(COLUMNS), *rows]))
+            heading = (TOP_HEADING if paths == [""] else " and ".join(quoted)) + kind
+        rows = [_key_row(key, field) for key, field in keys_of(table).items()]
+        blocks.append("\n".join(_table_line(row) for row in [COLUMNS, ("---",) * len(COLUMNS), *rows]))
         sections.append("\n\n".join([f"## {heading}", *blocks]) + "\n")
     return "\n".join(sections)
 
 
-def _name(table: Table) -> str:
-    """Heading of a table that stands at many places: the first words of its docstring."""
+def _heading(table: Table) -> str:
+    """Heading of a table with more than two key paths: the first words of its docstring."""
     return inspect.cleandoc(table.__doc__ or "").partition("\n")[0].partition(";")[0].partition(",")[0].rstrip(".")
 
 
-def _tables() -> dict[Table, list[tuple[str, str]]]:
-    """Tables with the places and templates where they stand, in the order of the file."""
+def _locations_by_table() -> dict[Table, list[tuple[str, str]]]:
+    """Tables with their key paths and templates, in the order of the file."""
     locations: dict[Table, list[tuple[str, str]]] = {}
-    for table, path, kind in _walk(Car, "", ""):
+    for table, path, kind in _nested_tables(Car, "", ""):
         head, dot, tail = path.partition(".")
-        location = f"{AXLE}{dot}{tail}" if head in ("front", "rear") else path
+        location = f"{AXLE_PLACEHOLDER}{dot}{tail}" if head in ("front", "rear") else path
         locations.setdefault(table, []).append((location, kind))
     return locations
 
 
-def _walk(table: Table, path: str, kind: str) -> Iterator[tuple[Table, str, str]]:
-    """Tables in the order of the file; `kind` names the template that they belong to."""
+def _nested_tables(table: Table, path: str, kind: str) -> Iterator[tuple[Table, str, str]]:
+    """Yield a table and the tables in it with their key paths and templates, in the order of the file."""
     kind = ", ".join(kinds_of(table)) or kind
     yield table, path, kind
     for key, field in keys_of(table).items():
         key_path = f"{path}.{key}" if path else key
         named = value_type_of(field.annotation)
         for inner in templates(field.annotation if named is None else named):
-            yield from _walk(inner, key_path if named is None else f"{key_path}.{NAME}", kind)
+            yield from _nested_tables(inner, key_path if named is None else f"{key_path}.{NAME_PLACEHOLDER}", kind)
 
 
-def _row(key: str, field: FieldInfo) -> tuple[str, ...]:
+def _key_row(key: str, field: FieldInfo) -> tuple[str, ...]:
+    """Cells of a key, one per column."""
     annotation = annotation_of(field)
     quantities = quantities_in(annotation)
     text = " ".join((field.description or "").split())
     if field.is_required():
         default = ""
     else:
-        default = "optional" if field.default_factory or field.default is None else _shown(field.default)
+        default = "optional" if field.default_factory or field.default is None else _default_text(field.default)
     units = "; ".join(quantity.unit for quantity in quantities)
-    limits = "; ".join(map(_range, quantities))
+    limits = "; ".join(map(_range_text, quantities))
     change = next((q.change for q in quantities if q.change is not None), "")
-    return f"`{key}`", _value(annotation), units, limits, default, change, text
+    return f"`{key}`", _value_text(annotation), units, limits, default, change, text
 
 
-def _range(quantity: Quantity) -> str:
+def _range_text(quantity: Quantity) -> str:
+    """Range of a quantity as text."""
     limits = f"{quantity.low:g}" if quantity.low == quantity.high else f"{quantity.low:g} to {quantity.high:g}"
     return f"0 or {limits}" if quantity.zero and quantity.low > 0.0 else limits
 
 
-def _value(annotation: Any) -> str:
+def _value_text(annotation: Any) -> str:
+    """Type of a value in words, without its range."""
     named = value_type_of(annotation)
     if named is not None:
-        return f"tables by `{NAME}`" if templates(named) else f"{_value(named)} by `{NAME}`"
+        return (
+            f"tables by `{NAME_PLACEHOLDER}`" if templates(named) else f"{_value_text(named)} by `{NAME_PLACEHOLDER}`"
+        )
     tables = templates(annotation)
     if tables:
         kinds = [kind for table in tables for kind in kinds_of(table)]
@@ -100,13 +105,15 @@ def _value(annotation: Any) -> str:
     return text.removeprefix("a ")
 
 
-def _shown(value: object) -> str:
+def _default_text(value: object) -> str:
+    """A default value as text."""
     if isinstance(value, tuple):
-        return "[" + ", ".join(map(_shown, value)) + "]"
+        return "[" + ", ".join(map(_default_text, value)) + "]"
     return f"{value:g}" if isinstance(value, float) else f"`{value!r}`"
 
 
-def _line(cells: tuple[str, ...]) -> str:
+def _table_line(cells: tuple[str, ...]) -> str:
+    """A line of a Markdown table."""
     return "| " + " | ".join(cells) + " |"
 
 

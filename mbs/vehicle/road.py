@@ -12,7 +12,7 @@ from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 from mbs.vehicle.tyres import Tyre
 
-FAR_AWAY = 2.0 * FARTHEST  # m: the default kerb lies where no car can start
+DEFAULT_KERB_X = 2.0 * FARTHEST  # m, where no car can start
 KERB_HEIGHT = 0.08  # m, of the paper's test
 BUILT_IN = "of the built-in road, without effect on one from a file"
 
@@ -26,11 +26,11 @@ class RoadSection(Section):
     """Factor on `friction`, and on the frictions of a road from a file."""
 
     def default(self) -> KerbRoad:
-        """The road without a file: level ground with a kerb."""
-        return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
+        """Make the road without a file: level ground with a kerb."""
+        return KerbRoad(DEFAULT_KERB_X, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
 
     def grip_of(self, tyre: Tyre) -> float:
-        """Factor on the largest forces of a tyre's file."""
+        """Factor of road and tyre on the largest forces in the file of the tyre."""
         return self.friction * self.friction_factor * tyre.grip / tyre.reference_friction
 
     def parameters(
@@ -43,8 +43,8 @@ class RoadSection(Section):
     ) -> None:
         """Add the parameters of the road.
 
-        `road`: under it; None: `default`; `hold_at`: the frictions at which the curves of the tyres hold, for the
-        description; `works`: by key path, between which values the car works.
+        `road`: of the model; None: `default`; `hold_at`: frictions at which the curves of the tyres hold, for the
+        description; `works`: ranges in which the car works, by key path.
         """
         base_road = self.default() if road is None else road.road if isinstance(road, RoadOfFile) else road
         target = ("road", ground)
@@ -71,12 +71,13 @@ class RoadSection(Section):
 
     @staticmethod
     def _kerb(m: Model, ground: int) -> None:
+        """Add the parameters of the kerb."""
         target = ("road", ground)
         m.parameter(
             "road.kerb_x",
-            FAR_AWAY,
-            -FAR_AWAY,
-            FAR_AWAY,
+            DEFAULT_KERB_X,
+            -DEFAULT_KERB_X,
+            DEFAULT_KERB_X,
             "m",
             f"x of the kerb's edge; {BUILT_IN}",
             targets=[(target, "position", 1.0)],
@@ -93,7 +94,7 @@ class RoadSection(Section):
 
 
 def _range(section: Section, field: str) -> tuple[float, float, str]:
-    """Limits and unit of a parameter as the file's type has them."""
+    """Range and unit of a parameter by the type of its field."""
     q = section.quantity(field)
     assert q is not None, f"{section.key(field)} is not a quantity"
     return q.least, q.high, q.unit
@@ -105,7 +106,7 @@ def level_within(road: Road | RoadOfFile | None, footprint: tuple[tuple[float, f
     Parameters
     ----------
     road : Road, RoadFile or None
-        None: level. Of a file that which stands in its place: the kernel lifts a start to the height of the file.
+        None: level. Of a file the road in its place, as the kernel raises the start to the height of the file.
     footprint : pair of (float, float)
         Least and largest x and y of the car, m.
     """

@@ -10,7 +10,7 @@ from pydantic_core import core_schema
 from mbs.vehicle.car import Car
 
 SCHEMA_FILE = Path(__file__).with_name("car.schema.json")
-DRAFT = "http://json-schema.org/draft-07/schema#"  # what the TOML plugins of editors read
+DRAFT = "http://json-schema.org/draft-07/schema#"  # the version that TOML plugins of editors read
 NULL = {"type": "null"}
 
 
@@ -26,21 +26,22 @@ def json_schema() -> dict[str, Any]:
     """
     schema = Car.model_json_schema(ref_template="#/definitions/{model}", schema_generator=_Generator)
     schema["definitions"] = dict(sorted(schema.pop("$defs").items()))
-    schema["definitions"] = {name: _plain(table) for name, table in schema["definitions"].items()}
+    schema["definitions"] = {name: _simplified(table) for name, table in schema["definitions"].items()}
     head: dict[str, Any] = {"$schema": DRAFT, "title": "Car file of ALi3"}
-    head.update(_plain({key: value for key, value in schema.items() if key != "title"}))
+    head.update(_simplified({key: value for key, value in schema.items() if key != "title"}))
     return head
 
 
 def schema_text() -> str:
-    """The schema as the file in the package has it."""
+    """Text of the schema file of the package."""
     return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
 
 
 class _Generator(GenerateJsonSchema):
-    """Lists of numbers as draft 7 has them."""
+    """Generator of schemas with lists as in draft 7."""
 
     def tuple_schema(self, schema: core_schema.TupleSchema) -> JsonSchemaValue:
+        """Schema of an array with one schema for all its elements if these are equal."""
         items = schema["items_schema"]
         inner = [self.generate_inner(item) for item in items]
         alike = all(item == inner[0] for item in inner)
@@ -51,10 +52,10 @@ class _Generator(GenerateJsonSchema):
         return array_schema | {key: value for key, value in limits.items() if value is not None}
 
 
-def _plain(schema: Any) -> Any:
-    """Without what only this library reads: null, which TOML has not, titles, and the names of templates."""
+def _simplified(schema: Any) -> Any:
+    """Schema without null, which TOML does not have, titles, and discriminators."""
     if isinstance(schema, list):
-        return [_plain(item) for item in schema]
+        return [_simplified(item) for item in schema]
     if not isinstance(schema, dict):
         return schema
     plain = {key: value for key, value in schema.items() if key not in ("title", "discriminator", "definitions")}
@@ -67,14 +68,16 @@ def _plain(schema: Any) -> Any:
     if "patternProperties" in plain:
         plain["additionalProperties"] = False
     converted = {
-        key: {name: _field(_plain(value)) for name, value in inner.items()} if key == "properties" else _plain(inner)
+        key: {name: _with_unit(_simplified(value)) for name, value in inner.items()}
+        if key == "properties"
+        else _simplified(inner)
         for key, inner in plain.items()
     }
     return converted | ({"definitions": schema["definitions"]} if "definitions" in schema else {})
 
 
-def _field(schema: Any) -> Any:
-    """Schema of a field with its unit in the description, which editors show."""
+def _with_unit(schema: Any) -> Any:
+    """Schema of a field with its unit in the description, which editors display."""
     items = schema.get("items", {})
     unit = schema.get("unit") or (items.get("unit") if isinstance(items, dict) else None)
     text = " ".join(schema.get("description", "").split())

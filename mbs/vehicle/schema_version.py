@@ -1,4 +1,4 @@
-"""Version of the form of a car file, written as ``schema = 2`` in its first lines."""
+"""Version of the format of a car file, written as ``schema = 2`` in its first lines."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,11 +7,11 @@ from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
 
 SCHEMA = 2
-"""Version that this release reads and writes."""
+"""Version that is read."""
 
 
 def check_version(data: Mapping[str, Any], what: str) -> None:
-    """Raise `CarFileError` unless `data`, the content of a file, says that it has this form."""
+    """Raise `CarFileError` unless `data`, the content of a file, has this version."""
     if "schema" not in data:
         raise CarFileError(f"{what}: schema is missing; a car file says schema = {SCHEMA} above its first table.")
     version = data["schema"]

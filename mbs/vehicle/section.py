@@ -33,24 +33,24 @@ class Section(BaseModel):
         texts, namespace = {} if of is None else texts_of(of), vars(sys.modules[cls.__module__])
         for name in texts.keys() & cls.__annotations__.keys():
             field = cls.__dict__.get(name, ...)
-            if not isinstance(field, FieldInfo):  # else it has a text of its own
+            if not isinstance(field, FieldInfo):  # else the field has its own text
                 annotation = cls.__annotations__[name]
-                if isinstance(annotation, str):  # of a module that defers its annotations
+                if isinstance(annotation, str):  # in a module with deferred annotations
                     annotation = eval(annotation, namespace)
                 text = _without_unit(" ".join(texts[name].split()), annotation)
                 setattr(cls, name, Field(field, description=text))
 
     def element(self, kind: type[Element], **more: Any) -> Element:
-        """An element that has the numbers of this table in its fields of the same names.
+        """Make an element with the numbers of this table in its fields of the same names.
 
-        `kind`: its class; `more`: its other fields, and those that are not as in the file.
+        `kind`: class of the element; `more`: further fields, which override those of the table.
         """
         fields = {name: getattr(self, name) for name in signature(kind).parameters if name in type(self).model_fields}
         return kind(**(fields | more))
 
     @property
     def path(self) -> str:
-        """Key path of the section in the file, as "front.spring"; of the whole file ""."""
+        """Key path of the section in the file, such as "front.spring"; "" for the whole file."""
         return self._path
 
     def key(self, field: str) -> str:
@@ -58,11 +58,11 @@ class Section(BaseModel):
         return f"{self._path}.{field}" if self._path else field
 
     def faults(self) -> Iterator[str]:
-        """Sentences on what cannot be between the numbers of this table; a template overrides it."""
+        """Yield a sentence for each contradiction between the numbers of this table."""
         yield from ()
 
     def oddities(self) -> Iterator[str]:
-        """Sentences on what is odd of this table, where it can be; a template overrides it."""
+        """Yield a sentence for each unusual property of this table."""
         yield from ()
 
     @classmethod
@@ -76,9 +76,9 @@ class Section(BaseModel):
         return None
 
     def numbers(self, field: str) -> dict[str, float]:
-        """Numbers of a field by the names of parameters; those of a list have a part behind the field's name.
+        """Numbers of a field by the names of parameters; those of a list have the name of the component as a suffix.
 
-        `field`: one with a quantity, whose value is not None.
+        `field`: with a quantity and a value that is not None.
         """
         value, path = getattr(self, field), self.key(field)
         if not isinstance(value, tuple):
@@ -87,7 +87,7 @@ class Section(BaseModel):
         return {f"{path}.{component}": float(number) for component, number in zip(components, value, strict=True)}
 
     def locate(self, path: str) -> None:
-        """Tell this section and those in it where they stand; done once by the reader.
+        """Set the key paths of this section and of those in it.
 
         `path`: key path of this section.
         """
@@ -98,7 +98,7 @@ class Section(BaseModel):
 
 
 def _without_unit(text: str, annotation: Any) -> str:
-    """A sentence on a number without its unit, which a quantity states separately."""
+    """Text of a field without its unit, which is part of the quantity."""
     units = {q.unit.replace(".", " ") for q in quantities_in(annotation)} - {"1"}
     assert all(f", {unit}" in text for unit in units), f"{text!r} must say its unit, {units}"
     for unit in units or {"a ratio"}:
@@ -107,7 +107,7 @@ def _without_unit(text: str, annotation: Any) -> str:
 
 
 def sections_of(section: Section) -> Iterator[Section]:
-    """A section and all in it, in the order of their types. `section`: the first."""
+    """Yield a section and all sections in it, in the order of their types."""
     yield section
     for name in type(section).model_fields:
         for _, inner in _sections(name, getattr(section, name)):
@@ -115,7 +115,7 @@ def sections_of(section: Section) -> Iterator[Section]:
 
 
 def _sections(name: str, value: Any) -> list[tuple[str, Section]]:
-    """Sections in a value with their keys."""
+    """Sections in the value of a field, with their keys."""
     if isinstance(value, Section):
         return [(name, value)]
     if isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""Left and right: a file gives the left side, the right one mirrors y."""
+"""Left and right side of an axle: a file has the left side, y of the right one is mirrored."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,17 +24,17 @@ class Side:
         return self.axle[0].upper() + self.name[0].upper()
 
     def point(self, left: Sequence[float]) -> Point:
-        """A point of this side from the one of the left side. `left`: in m, as drawn."""
+        """Point of this side from that of the left side. `left`: as drawn, m."""
         return (left[0], self.sign * left[1], left[2])
 
     def body(self, model: Model, name: str, part: Part) -> Body:
-        """A part of this side; its principal inertias are along the earth axes.
+        """Add a part of this side as a body with principal axes along the earth axes.
 
-        `name`: the wheel's name follows it; `part`: mass, centre and inertia of the left one.
+        `name`: before the name of the wheel; `part`: mass, centre and inertia of the left part.
         """
         return model.body(f"{name} {self.wheel}", mass=part.mass, com=self.point(part.com), inertia=part.inertia)
 
 
 def sides(axle: str) -> tuple[Side, Side]:
-    """Left and right of an axle. `axle`: "front" or "rear"."""
+    """Left and right side of an axle. `axle`: "front" or "rear"."""
     return Side(axle, "left", 1.0), Side(axle, "right", -1.0)

@@ -38,7 +38,7 @@ Rows: TypeAlias = "tuple[tuple[float, float], ...]"
 
 
 @dataclass(frozen=True)
-class _Plausible:
+class _PlausibleRange:
     """Plausible range of a table of a force."""
 
     span: float
@@ -49,12 +49,12 @@ class _Plausible:
     """Units of the first column and of the slopes."""
 
 
-SPRING_TABLE = _Plausible(0.01, (200.0, 2e6), ("m", "N/m"))
-DAMPER_TABLE = _Plausible(0.1, (20.0, 1e5), ("m/s", "N.s/m"))
+SPRING_TABLE = _PlausibleRange(0.01, (200.0, 2e6), ("m", "N/m"))
+DAMPER_TABLE = _PlausibleRange(0.1, (20.0, 1e5), ("m/s", "N.s/m"))
 
 
 def law_faults(
-    section: Section, name: str, number: float | None, table: Rows | None, plausible: _Plausible
+    section: Section, name: str, number: float | None, table: Rows | None, plausible: _PlausibleRange
 ) -> Iterator[str]:
     """Yield a sentence if a force is not given by either a number or a plausible table.
 
@@ -186,7 +186,7 @@ class Stops(Section, of=EndStops):
     """chi."""
 
     def around(self, drawn: float) -> EndStops:
-        """Stops of a spring. `drawn`: length as drawn, m."""
+        """Make the stops of a spring. `drawn`: length as drawn, m."""
         return self.element(
             EndStops,
             bump_length=drawn - self.bump_gap,
@@ -200,7 +200,7 @@ class Stops(Section, of=EndStops):
 
 @dataclass(frozen=True)
 class AxleSprings:
-    """Spring, damper and stops of the wheels of an axle; None for what acts elsewhere."""
+    """Spring, damper and stops along one line at each wheel of an axle; None if they are elsewhere."""
 
     spring: Spring | None
     damper: Damper | None
@@ -208,14 +208,14 @@ class AxleSprings:
 
     @property
     def beside_damper(self) -> tuple[AxleSprings, AxleSprings]:
-        """The spring with its stops, and the damper, each alone."""
+        """The spring with its stops alone, and the damper alone."""
         return replace(self, damper=None), AxleSprings(None, self.damper, None)
 
 
 def spring_and_damper(
     b: CarBuilder, name: str, lower: tuple[Body, Point], upper: tuple[Body, Point], springs: AxleSprings
 ) -> ElementRecord:
-    """Add the spring of a wheel with its damper and stops between two ends; its numbers are tied to the file's.
+    """Add the spring of a wheel with its damper and stops between two ends, with the numbers of the file as parameters.
 
     `lower`, `upper`: the ends as drawn, m.
     """
@@ -247,7 +247,7 @@ def spring_of_length(
 ) -> None:
     """Add the spring of a wheel with damper and stops by their lengths in place of their ends.
 
-    `spring`: length and the same as drawn, m; `damper`: of a damper beside it.
+    `spring`, `damper`: length, and length as drawn, m; `damper`: None if it acts along the spring.
     """
     pairs = ((spring, springs),) if damper is None else zip((spring, damper), springs.beside_damper, strict=True)
     for name, ((length, drawn), alone) in zip(("spring", "damper"), pairs, strict=False):

@@ -1,14 +1,14 @@
-"""Warns of roads with walls for the wheels of a car."""
+"""Warns of roads with faces that the wheels of a car cannot climb."""
 
 import warnings
 from pathlib import Path
 
 from mbs.elements.road import GridRoad, Road, RoadOfFile
 from mbs.roads.read_road import read_road
-from mbs.roads.road_file import TEXTS, RoadFile
+from mbs.roads.road_file import TABLE_SUFFIXES, RoadFile
 from mbs.roads.steep_faces import RoadWarning, steep_face
 
-MOST_LOOKED_AT = 4e6
+MOST_POINTS = 4e6
 
 
 def warn_of_steep_face(road: Road | RoadOfFile, radius: float) -> None:
@@ -17,15 +17,15 @@ def warn_of_steep_face(road: Road | RoadOfFile, radius: float) -> None:
     Parameters
     ----------
     road : Road or RoadFile
-        Under a car. A file of more than 4e6 points is not looked at: it was when it was made.
+        Road of a car. A file of more than `MOST_POINTS` points is not checked: it was when it was made.
     radius : float
-        Of the largest wheel, m.
+        Radius of the largest wheel, m.
     """
     grid: Road | RoadOfFile | None = road
     name: object = "The grid road"
     if isinstance(road, RoadFile):
-        table = Path(road.path).suffix.lower() in TEXTS
-        name, small = road.path, table or road.header.nx * road.header.ny <= MOST_LOOKED_AT
+        table = Path(road.path).suffix.lower() in TABLE_SUFFIXES
+        name, small = road.path, table or road.header.nx * road.header.ny <= MOST_POINTS
         grid = read_road(name) if small else None
     if isinstance(grid, GridRoad) and (warning := steep_face(grid, name, radius)):
         warnings.warn(warning, RoadWarning, stacklevel=3)

@@ -6,7 +6,7 @@ from mbs.vehicle.section import sections_of
 
 
 def summary(car: BuiltCar) -> str:
-    """Masses, loads and dimensions. `car`: its equilibrium is found."""
+    """Table of loads, dimensions and parts of a car, with its equilibrium."""
     rest = car.rest
     load = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
     total = load["front"] + load["rear"]

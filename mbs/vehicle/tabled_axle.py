@@ -31,10 +31,10 @@ JOINTS = frozenset({"spherical", "distance", "point_on_line", "cylindrical", "re
 
 
 class TabledParts:
-    """Stand-in for the model in templates of suspensions: adds parts as lookup-table bodies and ignores joints.
+    """Substitute for the model in templates of suspensions, which adds parts as lookup-table bodies and no joints.
 
-    `m`: the model, which gets the bodies and every call that adds neither a part nor a joint; `base`: the chassis;
-    `grid`: poses of the parts; `compressions`: of the springs, by wheel; `rack`: travel of the rack, m, if it steers.
+    `m`: the model, which receives the bodies and all other calls; `base`: the chassis; `grid`: poses of the parts;
+    `compressions`: of the springs by wheel, m; `rack`: travel of the rack of a steered axle, m.
     """
 
     def __init__(
@@ -78,6 +78,7 @@ class TabledParts:
         return self._angle(name)
 
     def _angle(self, name: str) -> Coordinate:
+        """Add a full coordinate of the linkage as a lookup-table number."""
         (k,) = (k for k, c in enumerate(self._grid.linkage.model.coordinates) if c.name == name)
         parameters, axes, values = self._table_of(name, self._grid.full(k, 1))
         return self._m.tabled_number(name, parameters=parameters, axes=axes, values=values[..., 0])

@@ -1,4 +1,4 @@
-"""Centre line of a course: curve through points, stations, and offsets to its sides."""
+"""Centre line of a course: a spline through points or segments, its stations and its lateral offsets."""
 
 import math
 from collections.abc import Sequence
@@ -13,25 +13,25 @@ from mbs.worlds.world_types import Segment
 
 Float = NDArray[np.float64]
 STEP = 1.0
-"""m, about: distance of the points of the spline."""
+"""Approximate distance of the points of the spline, m."""
 ITERATIONS = 3
-"""Of Newton's method for the nearest station."""
-LEAST_SLOPE, LONGEST = 0.3, 5.0
-"""Of its derivative, which is 0 at the centre of curvature, and of one correction, m: guards where a place is far."""
-GAP = 0.05
-"""m: largest gap between the ends of a closed course."""
+"""Number of iterations of Newton's method for the nearest station."""
+LEAST_SLOPE, LARGEST_CORRECTION = 0.3, 5.0
+"""Bounds of its derivative, which is 0 at the centre of curvature, and of its correction, m, for distant points."""
+LARGEST_GAP = 0.05
+"""Largest distance between the ends of a closed course, m."""
 
 
 @dataclass(frozen=True)
 class CentreLine:
-    """A cubic spline through points at equal distances."""
+    """A cubic spline through points at equal distances, m."""
 
     step: float
-    """Of the points, m."""
+    """Distance of the points along the line, m."""
     points: Float
-    """Shape (n, 2): the first one again at the end of a closed line, m."""
+    """Shape (n, 2), m; the last point of a closed line is its first."""
     coefficients: Float
-    """Shape (2, 4, n - 1): of x and y by powers of the way behind a point."""
+    """Shape (2, 4, n - 1): coefficients of x and y in powers of the distance along the line from each point."""
     closed: bool
     straight: bool
 
@@ -46,7 +46,7 @@ class CentreLine:
         return np.asarray(self.step * np.arange(len(self.points)))
 
     def at(self, s: Float) -> tuple[Float, Float, Float]:
-        """Position and its first two derivatives by the station, each of shape (2, ...)."""
+        """Position, m, and its first two derivatives with respect to the station s, m, each of shape (2, ...)."""
         k = np.clip((s / self.step).astype(np.int64), 0, len(self.points) - 2)
         t = s - k * self.step
         c = self.coefficients[:, :, k]
@@ -55,7 +55,7 @@ class CentreLine:
         return position, first, 6.0 * c[:, 3] * t + 2.0 * c[:, 2]
 
     def beside(self, x: Float, y: Float, guess: Float) -> tuple[Float, Float, Float]:
-        """Nearest station, offset to the left and distance of places, m; `guess` lies near the station."""
+        """Nearest station, offset to the left and distance of points, m; `guess`: approximate station, m."""
         if self.straight:
             chord = self.points[-1] - self.points[0]
             unit = chord / np.hypot(*chord)
@@ -68,17 +68,20 @@ class CentreLine:
             p, tangent, tangent_rate = self.at(s)
             difference = p - np.stack([x, y])
             slope = np.maximum((tangent * tangent).sum(axis=0) + (difference * tangent_rate).sum(axis=0), LEAST_SLOPE)
-            s = self._within(s - np.clip((difference * tangent).sum(axis=0) / slope, -LONGEST, LONGEST))
+            s = self._within(
+                s - np.clip((difference * tangent).sum(axis=0) / slope, -LARGEST_CORRECTION, LARGEST_CORRECTION)
+            )
         p, tangent, _ = self.at(s)
         dx, dy = x - p[0], y - p[1]
         norm = np.hypot(tangent[0], tangent[1])
         return s, (tangent[0] * dy - tangent[1] * dx) / norm, np.hypot(dx, dy)
 
     def _within(self, s: Float) -> Float:
+        """Stations on the line: periodic on a closed line, else clipped."""
         return np.asarray(np.mod(s, self.length) if self.closed else np.clip(s, 0.0, self.length))
 
-    def place(self, s: float, offset: float = 0.0) -> tuple[float, float, float]:
-        """x, y and yaw beside a station, m and rad."""
+    def pose(self, s: float, offset: float = 0.0) -> tuple[float, float, float]:
+        """Position x, y, m, and yaw, rad, at a station and an offset to the left, m."""
         p, tangent, _ = self.at(np.array(self._within(np.array(s))))
         norm = math.hypot(tangent[0], tangent[1])
         return (
@@ -89,9 +92,9 @@ class CentreLine:
 
 
 def curve_through(points: Float, closed: bool, name: str) -> tuple[CubicSpline, Float]:
-    """A spline through any points, at least two, and where along it they are, the first again at the end if closed.
+    """Spline through two or more points, and their parameters on it; a closed one repeats the first point at its end.
 
-    `name`: how the sentence calls the course. Raises `RoadFileError`: points coincide.
+    `name`: of the course, for messages. Raises `RoadFileError`: points coincide.
     """
     if closed and np.hypot(*(points[0] - points[-1])) > 1e-9:
         points = np.vstack([points, points[:1]])
@@ -103,22 +106,24 @@ def curve_through(points: Float, closed: bool, name: str) -> tuple[CubicSpline, 
     return CubicSpline(u, points, bc_type="periodic" if closed else "natural"), u
 
 
-def through(points: Float, closed: bool, name: str) -> CentreLine:
-    """A line through any points, at least two. Raises `RoadFileError`: points coincide."""
+def line_through(points: Float, closed: bool, name: str) -> CentreLine:
+    """Line through two or more points (n, 2), m. Raises `RoadFileError`: points coincide."""
     curve, u = curve_through(points, closed, name)
     if len(u) == 2:
-        return _equal(points, closed)
+        return _line_through_equidistant(points, closed)
     parameters = np.linspace(0.0, u[-1], max(20 * len(u), int(u[-1] / 0.05)))
     samples = curve(parameters)
     s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(samples, axis=0).T))])
     n = max(4, math.ceil(s[-1] / STEP))
-    return _equal(curve(np.interp(np.linspace(0.0, s[-1], n + 1), s, parameters)), closed, s[-1])
+    return _line_through_equidistant(curve(np.interp(np.linspace(0.0, s[-1], n + 1), s, parameters)), closed, s[-1])
 
 
-def of_segments(start: tuple[float, float, float], segments: Sequence[Segment], closed: bool, name: str) -> CentreLine:
-    """A line of straights and arcs.
+def line_of_segments(
+    start: tuple[float, float, float], segments: Sequence[Segment], closed: bool, name: str
+) -> CentreLine:
+    """Line of straights and arcs.
 
-    Raises `RoadFileError`: a segment is neither, or the ends of a closed line miss each other.
+    `start`: x, y, m, and yaw, degrees. Raises `RoadFileError`: a segment is neither, or a closed line has a gap.
     """
     lengths, curvatures = [], []
     for k, segment in enumerate(segments):
@@ -143,31 +148,33 @@ def of_segments(start: tuple[float, float, float], segments: Sequence[Segment], 
         (x,), (y,) = _arc(x, y, yaw, curvature, np.array([length]))
         yaw += curvature * length
     gap = float(np.hypot(*(points[-1] - points[0])))
-    if closed and gap > GAP:
+    if closed and gap > LARGEST_GAP:
         raise RoadFileError(
             f"The course '{name}' is closed, but its end misses its start by {gap:.3g} m; change its segments."
         )
     if closed:
         points[-1] = points[0]
-    return _equal(points, closed, float(ends[-1]))
+    return _line_through_equidistant(points, closed, float(ends[-1]))
 
 
 def _arc(x: float, y: float, yaw: float, curvature: float, s: Float) -> tuple[Float, Float]:
+    """Points x, y, m, of an arc or a straight at distances s from its start, m. `curvature`: 1/m."""
     if curvature == 0.0:
         return x + s * math.cos(yaw), y + s * math.sin(yaw)
     end = yaw + curvature * s
     return x + (np.sin(end) - math.sin(yaw)) / curvature, y - (np.cos(end) - math.cos(yaw)) / curvature
 
 
-def _equal(points: Float, closed: bool, length: float | None = None) -> CentreLine:
+def _line_through_equidistant(points: Float, closed: bool, length: float | None = None) -> CentreLine:
+    """Line through points at equal distances. `length`: m, along the line; by default that of the chord."""
     chord = points[-1] - points[0]
-    size = float(np.hypot(*chord))
+    chord_length = float(np.hypot(*chord))
     deviations = np.abs(chord[0] * (points[:, 1] - points[0, 1]) - chord[1] * (points[:, 0] - points[0, 0]))
-    straight = not closed and bool((deviations <= 1e-9 * size * max(size, 1.0)).all())
+    straight = not closed and bool((deviations <= 1e-9 * chord_length * max(chord_length, 1.0)).all())
     if straight:
-        points = np.linspace(points[0], points[-1], max(5, math.ceil(size / STEP) + 1))
-        length = size
-    step = (length if length is not None else size) / (len(points) - 1)
+        points = np.linspace(points[0], points[-1], max(5, math.ceil(chord_length / STEP) + 1))
+        length = chord_length
+    step = (length if length is not None else chord_length) / (len(points) - 1)
     if closed:
         points = np.vstack([points[:-1], points[:1]])
     spline = CubicSpline(step * np.arange(len(points)), points, bc_type="periodic" if closed else "not-a-knot")

@@ -12,7 +12,7 @@ from ali3.command_run import run_command
 from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of
 from ali3.units import quantity
-from mbs.worlds.package_worlds import shipped_worlds
+from mbs.worlds.package_worlds import world_names
 
 _EPILOG = """\
 inputs:
@@ -29,12 +29,12 @@ inputs:
 worlds: DIR gets NAME.road, what wheels feel (road.file of an FMU), and NAME.json, what is drawn and where a car may
 start. A world is kept and copied when it is asked for again; ALI3_CACHE names the folder.
 """
-_OF_ROADS = ("input", "output", "frictions", "origin", "spacing", "range", "friction_range", "part", "start")
+_ROAD_OPTIONS = ("input", "output", "frictions", "origin", "spacing", "range", "friction_range", "part", "start")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int:
     """Run the command, which the user typed as `prog`."""
-    epilog = f"{_EPILOG}worlds of the package: {', '.join(shipped_worlds())}"
+    epilog = f"{_EPILOG}worlds of the package: {', '.join(world_names())}"
     parser = Parser(prog=prog, description=__doc__, epilog=epilog)
     parser.add_argument("input", type=Path, nargs="?", metavar="INPUT", help="source of the road, see below")
     parser.add_argument("output", type=Path, nargs="?", metavar="OUTPUT.road", help="the road file to write")
@@ -44,21 +44,21 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
         help="of a grid: one number, or a file of its shape; default: as INPUT says, else 0.9",
     )
     parser.add_argument(
-        "--origin", type=_metres, nargs=2, metavar=("X", "Y"), help="of a grid: its first point, m; default: 0 0"
+        "--origin", type=_length, nargs=2, metavar=("X", "Y"), help="of a grid: its first point, m; default: 0 0"
     )
     parser.add_argument(
-        "--spacing", type=_metres, nargs=2, metavar=("DX", "DY"), help="of a grid: distances of its points, m"
+        "--spacing", type=_length, nargs=2, metavar=("DX", "DY"), help="of a grid: distances of its points, m"
     )
     parser.add_argument(
         "--start",
-        type=_metres,
+        type=_length,
         nargs=2,
         metavar=("X", "Y"),
         help="where a drive begins (a warning if it is beside the road), m; default: 0 0",
     )
-    parser.add_argument("--range", type=_metres, nargs=2, metavar=("BLACK", "WHITE"), help="heights in a picture, m")
+    parser.add_argument("--range", type=_length, nargs=2, metavar=("BLACK", "WHITE"), help="heights in a picture, m")
     parser.add_argument(
-        "--friction-range", type=_finite, nargs=2, metavar=("BLACK", "WHITE"), help="frictions in a picture"
+        "--friction-range", type=_finite_number, nargs=2, metavar=("BLACK", "WHITE"), help="frictions in a picture"
     )
     add_option(parser, "--picture", "none; the road with its starts, or a map of the world")
     parser.add_argument(
@@ -69,22 +69,24 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     add_option(parser, "--world", "none, the road of INPUT")
     add_option(parser, "--out", "out/worlds")
     options = parser.parse_args(arguments)
-    return run_command(lambda: _work(options, parser), (ValueError,))
+    return run_command(lambda: _run(options, parser), (ValueError,))
 
 
-def _finite(text: str, unit: str = "1") -> float:
-    """A number of the command line in a unit, which another of the same quantity may stand behind."""
+def _finite_number(text: str, unit: str = "1") -> float:
+    """Number of an option in a unit; the text may have another unit of the same quantity."""
     value = quantity(unit)(text)
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"{text} is not a finite number")
     return value
 
 
-def _metres(text: str) -> float:
-    return _finite(text, "m")
+def _length(text: str) -> float:
+    """Length of an option, m."""
+    return _finite_number(text, "m")
 
 
-def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    """Make a road or a world; returns the exit code."""
     from mbs.worlds.road import make_road
     from mbs.worlds.world import world
 
@@ -96,7 +98,7 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         if options.out is not None:
             raise UserError("--out needs --world; name a road file as OUTPUT.road.")
         return make_road(options)
-    road_options = given_of(parser, options, _OF_ROADS)
+    road_options = given_of(parser, options, _ROAD_OPTIONS)
     if road_options:
         raise UserError(f"{road_options[0]} cannot be combined with --world.")
     return world(options.world, options.out or Path("out", "worlds"), options.picture, options.thin, options.json)

@@ -1,4 +1,4 @@
-"""Courses of a description from segments, points or a CSV file, converted to layers and checked."""
+"""Makes checked layers of courses from segments, points or CSV files."""
 
 import itertools
 import math
@@ -15,7 +15,7 @@ from ali3.named_files import NamedFiles
 from ali3.tables import LARGEST, TextTable
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.steep_faces import RoadWarning
-from mbs.worlds.centre_line import CentreLine, curve_through, of_segments, through
+from mbs.worlds.centre_line import CentreLine, curve_through, line_of_segments, line_through
 from mbs.worlds.layers import CourseLayer, HeightOf
 from mbs.worlds.world_types import Course
 
@@ -35,49 +35,49 @@ COLUMNS = {
     "w_tr_right": "right",
     "w_tr_left": "left",
 }
-"""What a column is by its heading. `right`, `left`: from the line of the file to the edges of the road."""
-UNNAMED = ("x", "y", "z", "width")
-_IN_METRES = re.compile(r"(.*?)(?:_m|_?\[m\]|_?\(m\))?")
-KNOWN = (
+"""Quantity of a column by its heading. `right`, `left`: distances from the line of the file to the edges."""
+DEFAULT_COLUMNS = ("x", "y", "z", "width")
+_HEADING_IN_METRES = re.compile(r"(.*?)(?:_m|_?\[m\]|_?\(m\))?")
+KNOWN_COLUMNS = (
     "x, y, z, width, or right and left (widths from the line to each edge, as w_tr_right_m and w_tr_left_m), all in "
     "metres, and bank (a slope)"
 )
-STEEP = 0.3
-"""A course that climbs more is warned about: the steepest streets have 0.35."""
-GAP = 25.0
-"""Two points this many times as far apart as the others, and 10 m or more, are a gap."""
+LARGEST_GRADE = 0.3
+"""Grade above which a warning is given: the steepest streets have 0.35."""
+GAP_RATIO = 25.0
+"""Distance of two points over the median distance from which it is a gap, if it is 10 m or more."""
 
 
 def course_layer(
     course: Course, folder: Path, bounds: tuple[float, float, float, float], ground: HeightOf
 ) -> CourseLayer:
-    """Layer of a course on the ground. Raises `RoadFileError` with the fault of the course."""
+    """Make the layer of a course on the ground. `bounds`: of the world, m. Raises `RoadFileError`: it is not valid."""
     sources = [name for name in ("segments", "points") if getattr(course, name) is not None]
     if len(sources) != 1:
         raise RoadFileError(f"The course '{course.name}' must have segments or points, one of them.")
     if course.segments is not None:
         if course.start is None:
             raise RoadFileError(f"The course '{course.name}' has segments; it needs a start, [x, y, yaw in degrees].")
-        line = of_segments(course.start, course.segments, course.closed, course.name)
+        line = line_of_segments(course.start, course.segments, course.closed, course.name)
         table: dict[str, Float] = {}
     else:
-        table = _table(course, folder)
-        line = through(np.stack([table["x"], table["y"]], axis=1), course.closed, course.name)
-    _inside(line, course, bounds)
-    columns = _along(line, table)
-    _crossings(line, course, columns.get("width", np.full(len(line.points), course.width)))
+        table = _points_table(course, folder)
+        line = line_through(np.stack([table["x"], table["y"]], axis=1), course.closed, course.name)
+    _check_bounds(line, course, bounds)
+    columns = _at_stations(line, table)
+    _check_crossings(line, course, columns.get("width", np.full(len(line.points), course.width)))
     if course.heights is not None:
-        _rising([s for s, _ in course.heights], course, "heights")
+        _check_rising([s for s, _ in course.heights], course, "heights")
     if course.bank is not None:
-        _rising([s for s, _ in course.bank.grades], course, "bank.grades")
+        _check_rising([s for s, _ in course.bank.grades], course, "bank.grades")
     layer = CourseLayer(course, line, ground, *(columns.get(name) for name in ("z", "width", "bank")))
-    if warning := _climb(layer):
+    if warning := _grade_warning(layer):
         warnings.warn(warning, RoadWarning, stacklevel=2)
     return layer
 
 
-def _table(course: Course, folder: Path) -> dict[str, Float]:
-    """Columns of a course's points."""
+def _points_table(course: Course, folder: Path) -> dict[str, Float]:
+    """Read and check the columns of a course's points."""
     if not isinstance(course.points, str):
         assert course.points is not None
         table = dict(zip("xy", np.array(course.points, float).T, strict=True)) if course.points else {}
@@ -97,7 +97,7 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
             f"{name} is {distances.sum():.3g} long; x and y must be in metres, not in degrees or kilometres."
         )
     k = int(np.argmax(distances))
-    if len(distances) > 3 and distances[k] > max(GAP * float(np.median(distances)), 10.0):
+    if len(distances) > 3 and distances[k] > max(GAP_RATIO * float(np.median(distances)), 10.0):
         raise RoadFileError(
             f"{name} has a gap of {distances[k]:.4g} m between points {k + 1} and {k + 2}, where others are "
             f"{float(np.median(distances)):.3g} m apart."
@@ -122,7 +122,7 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
 
 
 def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
-    """Move the points of a file with widths to both edges to the middle between these."""
+    """Move points with widths to both edges to the middle between the edges."""
     right, left = table["right"], table["left"]
     for side, widths in (("right", right), ("left", left)):
         if (widths < 0.0).any():
@@ -150,38 +150,38 @@ def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
         table["z"] = table["z"] - table["bank"] * offset
 
 
-def _climb(layer: CourseLayer) -> str:
-    """A sentence on the steepest place of a course that is steeper than `STEEP`, else nothing."""
+def _grade_warning(layer: CourseLayer) -> str:
+    """Sentence on the steepest point of a course that is steeper than `LARGEST_GRADE`, else empty."""
     s = np.linspace(0.0, layer.line.length, len(layer.line.points))
     height = layer.height(s)
     grades = np.abs(np.diff(height)) / np.diff(s)
     k = int(np.argmax(grades))
-    if grades[k] <= STEEP:
+    if grades[k] <= LARGEST_GRADE:
         return ""
-    x, y, _ = layer.line.place(s[k])
+    x, y, _ = layer.line.pose(s[k])
     return (
         f"The course '{layer.name}' climbs by {100.0 * grades[k]:.0f} % at station {s[k]:.0f} m, x = {x:.5g}, y = "
         f"{y:.5g}; it lies between {height.min():.4g} and {height.max():.4g} m. Roads have at most "
-        f"{100.0 * STEEP:.0f} %: z must be heights in metres, not a width."
+        f"{100.0 * LARGEST_GRADE:.0f} %: z must be heights in metres, not a width."
     )
 
 
 def read_course(file: Path) -> dict[str, Float]:
-    """Columns of a course file by name.
+    """Read the columns of a course file by name.
 
-    `file`: CSV; its first line or a comment above it may name the columns, see `COLUMNS`, else they are x, y and then z
-    and width as far as there are any. Raises `RoadFileError` with the file, the line and what is wrong.
+    `file`: CSV; its first line or a comment above it may name the columns by `COLUMNS`, by default they are the first
+    of `DEFAULT_COLUMNS`. Raises `RoadFileError`: it is not such a file.
     """
     headings = {f"{name}{unit}" for name in COLUMNS for unit in ("", "_m")}
     table = TextTable(file, RoadFileError, headed=None, known=headings)
-    if table.width > len(UNNAMED) and not table.names:
+    if table.width > len(DEFAULT_COLUMNS) and not table.names:
         raise RoadFileError(
-            f"{file} has {table.width} columns without names, which are {', '.join(UNNAMED)} as far as there are any; "
-            f"write a heading above them. Known are {KNOWN}."
+            f"{file} has {table.width} columns without names, which are {', '.join(DEFAULT_COLUMNS)} as far as there "
+            f"are any; write a heading above them. Known are {KNOWN_COLUMNS}."
         )
-    names = [_column(name) for name in table.names] or list(UNNAMED[: table.width])
+    names = [_quantity_of(name) for name in table.names] or list(DEFAULT_COLUMNS[: table.width])
     if "" in names:
-        raise RoadFileError(f"{file} has a column {brief(table.names[names.index('')])}; known are {KNOWN}.")
+        raise RoadFileError(f"{file} has a column {brief(table.names[names.index('')])}; known are {KNOWN_COLUMNS}.")
     if not {"x", "y"} <= set(names) or len(set(names)) < len(names):
         raise RoadFileError(f"{file} must have a column x and a column y, each once, and no other twice.")
     if (sides := {"right", "left"} & set(names)) and (len(sides) < 2 or "width" in names):
@@ -189,14 +189,15 @@ def read_course(file: Path) -> dict[str, Float]:
     return dict(zip(names, table.values(least=0).T, strict=True))
 
 
-def _column(heading: str) -> str:
-    """Meaning of a column by its heading; empty: unknown, or not in metres."""
+def _quantity_of(heading: str) -> str:
+    """Quantity of a column by its heading; empty: unknown, or not in metres."""
     name = re.sub("[ -]+", "_", heading.strip().lower())
-    match = _IN_METRES.fullmatch(name)
+    match = _HEADING_IN_METRES.fullmatch(name)
     return COLUMNS.get(match[1] if match and name != "bank_m" else name, "")
 
 
-def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float, float]) -> None:
+def _check_bounds(line: CentreLine, course: Course, bounds: tuple[float, float, float, float]) -> None:
+    """Raise `RoadFileError` if a course leaves the world."""
     x0, y0, x1, y1 = bounds
     x, y = line.points.T
     outside = (x < x0) | (x > x1) | (y < y0) | (y > y1)
@@ -208,8 +209,8 @@ def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float,
         )
 
 
-def _crossings(line: CentreLine, course: Course, width: Float) -> None:
-    """Refuse a course that crosses itself, where it would have two heights. `width`: at each point of the line, m."""
+def _check_crossings(line: CentreLine, course: Course, width: Float) -> None:
+    """Raise `RoadFileError` if a course crosses itself. `width`: at each point of the line, m."""
     s = line.stations[:-1] if line.closed else line.stations
     points = line.points[: len(s)]
     pairs = cKDTree(points).query_pairs(0.9 * width.max(), output_type="ndarray")
@@ -229,13 +230,14 @@ def _crossings(line: CentreLine, course: Course, width: Float) -> None:
         )
 
 
-def _rising(stations: list[float], course: Course, what: str) -> None:
+def _check_rising(stations: list[float], course: Course, key: str) -> None:
+    """Raise `RoadFileError` if stations do not rise."""
     if any(b <= a for a, b in itertools.pairwise(stations)):
-        raise RoadFileError(f"The stations of {what} of the course '{course.name}' do not rise: {stations}.")
+        raise RoadFileError(f"The stations of {key} of the course '{course.name}' do not rise: {stations}.")
 
 
-def _along(line: CentreLine, table: dict[str, Float]) -> dict[str, Float]:
-    """Columns of a file at the points of the line."""
+def _at_stations(line: CentreLine, table: dict[str, Float]) -> dict[str, Float]:
+    """Interpolate the columns of a file at the points of the line."""
     names = [name for name in ("z", "width", "bank") if name in table]
     if not names:
         return {}

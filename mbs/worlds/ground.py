@@ -1,4 +1,4 @@
-"""The ground of a world before anything is laid on it."""
+"""Ground of a world without courses, areas and obstacles."""
 
 import math
 from pathlib import Path
@@ -30,7 +30,7 @@ class Surface:
         self._weights = heights if self._level is not None else spline_filter(heights, order=3, mode="mirror")
 
     def on_grid(self, x: Float, y: Float) -> Float:
-        """Heights at all pairs of coordinates, shape (n, m)."""
+        """Heights at all pairs of coordinates x (n,) and y (m,), m, shape (n, m)."""
         if self._level is not None:
             return np.full((len(x), len(y)), self._level)
         (i, a), (j, b) = self._basis(x, 0), self._basis(y, 1)
@@ -43,7 +43,7 @@ class Surface:
         return heights
 
     def _basis(self, values: Float, axis: int) -> tuple[list[NDArray[np.int64]], list[Float]]:
-        """Four points about each value, mirrored at the border, and the weights of cubic B-splines."""
+        """Indices of the four grid points around each value, mirrored at the border, and cubic B-spline weights."""
         n = self._weights.shape[axis]
         position = np.clip((values - (self.x, self.y)[axis][0]) / self._steps[axis], 0.0, n - 1.0)
         first = np.minimum(np.floor(position), n - 2.0)
@@ -58,7 +58,7 @@ class Surface:
         return [np.where(k > n - 1, 2 * (n - 1) - k, k) for k in neighbours], weights
 
     def at(self, x: Float, y: Float) -> Float:
-        """Heights at places."""
+        """Heights at points of one shape, m."""
         if self._level is not None:
             return np.full(np.shape(x), self._level)
         positions = [(v - (self.x, self.y)[k][0]) / self._steps[k] for k, v in enumerate((x, y))]
@@ -67,7 +67,7 @@ class Surface:
 
 
 def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
-    """The ground, and the distance of its points where it is a height map, else infinity.
+    """Make the ground of a world; return it with the spacing of its height map, m, or infinity without one.
 
     Raises `RoadFileError`: the height map cannot be read, or does not cover the world.
     """
@@ -75,7 +75,7 @@ def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     if ground.heights is not None and ground.variation is not None:
         raise RoadFileError("The ground has heights and a variation; it may have one of them.")
     if ground.heights is not None:
-        return _map(world, folder)
+        return _height_map(world, folder)
     step = ground.variation.length if ground.variation is not None else max(x1 - x0, y1 - y0)
     x = spaced(x0 - 2.0 * step, step, math.ceil((x1 - x0) / step) + 5)
     y = spaced(y0 - 2.0 * step, step, math.ceil((y1 - y0) / step) + 5)
@@ -86,7 +86,8 @@ def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     return Surface(x, y, heights), math.inf
 
 
-def _map(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
+def _height_map(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
+    """Read the ground from a height map; return it with the least spacing of the map, m."""
     ground = world.ground
     assert ground.heights is not None
     file = NamedFiles(folder, MOST_BYTES, RoadFileError).file(ground.heights, folder, "The heights of the ground")

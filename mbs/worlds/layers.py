@@ -1,4 +1,4 @@
-"""Layers on the ground of a world, courses and level areas: height and weight at every position."""
+"""Layers on the ground of a world, courses and level areas: their height and weight at any point."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,22 +16,22 @@ from mbs.worlds.world_types import Area, Course
 
 Float = NDArray[np.float64]
 HeightOf = Callable[[Float, Float], Float]
-FAR = 1e6
-"""m: where a layer is out of reach."""
+OUT_OF_REACH = 1e6
+"""Distance of points beyond the reach of a layer, m."""
 
 
 @dataclass(frozen=True)
 class LayerPoints:
-    """A layer at places."""
+    """Values of a layer at points, arrays of one shape."""
 
     excess: Float
-    """Distance from its surface, m; 0 or less on it."""
+    """Distance from the surface of the layer, m; 0 or less on it."""
     height: Float
-    """m."""
+    """Height of the layer, m."""
     station: Float
-    """Of a course, m."""
+    """Station on a course, m."""
     offset: Float
-    """From the middle of a course to the left, m."""
+    """Offset from the centre line of a course to the left, m."""
 
 
 class Layer(Protocol):
@@ -43,22 +43,22 @@ class Layer(Protocol):
     blend: float
 
     def near(self, x: Float, y: Float) -> tuple[Float, Float]:
-        """Approximate distances of points from the surface, m, and their stations; FAR beyond its reach."""
+        """Approximate distances of points from the surface and their stations, m; `OUT_OF_REACH` beyond its reach."""
 
     def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
-        """The layer at places whose stations are about known."""
+        """Values at points. `guess`: approximate stations, m."""
 
 
 def weight(layer: Layer, excess: Float) -> Float:
-    """1 on a layer and its shoulder, 0 where the ground is as it was: C2."""
+    """Weight of a layer against the ground, C2: 1 on the layer and its shoulder, 0 beyond its blend."""
     return np.asarray(1.0 - soft_rise((excess - layer.shoulder) / layer.blend))
 
 
 class CourseLayer:
     """A course on the ground.
 
-    `ground`: heights of what lies below, which a course without heights of its own follows; `heights`, `widths`,
-    `banks`: at the points of the line, of a course from a file, shape (n,).
+    `ground`: heights of the ground, which a course without heights follows; `heights`, `widths`, `banks`: of a course
+    from a file at the points of the line, shape (n,).
     """
 
     def __init__(
@@ -77,7 +77,7 @@ class CourseLayer:
         self.widths, self.banks = widths, banks
         self.reach = 0.5 * (course.width if widths is None else float(widths.max())) + self.shoulder + self.blend
         self.height: Callable[[Float], Float]
-        """Of the line at stations, m."""
+        """Heights of the centre line at stations, m."""
         if course.heights is not None:
             roundings = [course.rounding] * len(course.heights)
             vertices = course.heights
@@ -95,7 +95,7 @@ class CourseLayer:
         return np.asarray(0.5 * np.interp(s, self.line.stations, self.widths))
 
     def bank(self, s: Float) -> Float:
-        """Slope across at stations, positive where the right side is higher."""
+        """Cross slope at stations, positive if the right side is higher."""
         if self.banks is not None:
             return np.asarray(np.interp(s, self.line.stations, self.banks))
         bank = self.course.bank
@@ -104,7 +104,7 @@ class CourseLayer:
     def near(self, x: Float, y: Float) -> tuple[Float, Float]:
         distance, k = self.tree.query(np.stack([x, y], axis=-1), distance_upper_bound=self.reach + 5.0)
         s = self.line.step * np.minimum(k, len(self.line.points) - 1)
-        return np.where(np.isfinite(distance), distance - self.half(s), FAR), s
+        return np.where(np.isfinite(distance), distance - self.half(s), OUT_OF_REACH), s
 
     def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
         s, offset, distance = self.line.beside(x, y, guess)
@@ -116,7 +116,7 @@ class CourseLayer:
 
 
 def _smoothed(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:
-    """A spline through heights at the points of a line, smoothed by a Gaussian whose deviation is so many points."""
+    """Spline through heights at the points of a line, smoothed by a Gaussian; `width`: its deviation in points."""
     if not line.closed:
         spline = CubicSpline(line.stations, gaussian_filter1d(heights, width, mode="nearest"), bc_type="natural")
     else:
@@ -142,6 +142,7 @@ class AreaLayer:
         return LayerPoints(self._excess(x, y), zero + self.area.height, zero, zero)
 
     def _excess(self, x: Float, y: Float) -> Float:
+        """Distances from the border of the area, m; negative inside."""
         dx, dy = x - self.area.at[0], y - self.area.at[1]
         if self.area.radius is not None:
             return np.asarray(np.hypot(dx, dy) - self.area.radius)

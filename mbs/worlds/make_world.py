@@ -1,4 +1,4 @@
-"""From a file to a world: its road file and its record."""
+"""Makes a world from its file: the road file and the record."""
 
 import shutil
 import zlib
@@ -17,23 +17,23 @@ from mbs.roads.scene_part import read_thinned, scene_part
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 from mbs.worlds.terrain import Terrain
-from mbs.worlds.thinned_world import STEP, off_by, thinner
+from mbs.worlds.thinned_world import STEP, deviation_of, thinned_spacing
 from mbs.worlds.world_file import is_world
 from mbs.worlds.world_plausibility import world_plausibility
 from mbs.worlds.world_record import record_of, world_record
-from mbs.worlds.world_road_file import points_of, write_world_road
+from mbs.worlds.world_road_file import grid_shape, write_world_road
 from mbs.worlds.world_types import WorldDescription
 
-PLAIN = 250.0
-"""m: bounds of a world that is a plane or a kerb, to all sides."""
+PLANE_HALF_WIDTH = 250.0
+"""Distance from the origin to the bounds of a world that is a plane or a kerb, m."""
 MOST_POINTS = 1.2e9
-"""Largest number of points that wheels feel."""
-MOST_AREA = 1e8
-"""m2. Where all is smooth, 64 m x 64 m of the drawing have 3 kB: 77 MB, and what reads it takes at most 100 MB."""
+"""Largest number of points of the road file."""
+LARGEST_AREA = 1e8
+"""Largest area, m2: a smooth drawing has 3 kB per 64 m x 64 m, so 77 MB, and readers accept 100 MB."""
 
 
 def read_world(file: Path) -> WorldDescription:
-    """A checked description. Raises `RoadFileError` with file, key, value and what would be right."""
+    """Read and check the description of a world. Raises `RoadFileError`: the description is not valid."""
     table = read_toml(file, RoadFileError)
     try:
         world = WorldDescription.model_validate(table)
@@ -51,24 +51,24 @@ def read_world(file: Path) -> WorldDescription:
     return world
 
 
-def described(file: Path) -> WorldDescription | None:
-    """The checked description where a file is one of a world, and none where it is a road."""
-    of_world = file.suffix.lower() == ".toml" and is_world(read_toml(file, RoadFileError))
-    return read_world(file) if of_world else None
+def description_of(file: Path) -> WorldDescription | None:
+    """Read and check the description of a world; None if the file describes a road."""
+    describes_world = file.suffix.lower() == ".toml" and is_world(read_toml(file, RoadFileError))
+    return read_world(file) if describes_world else None
 
 
 def make_world(
     file: Path, name: str, road: Path, tell: Callable[[str, float], None], thin: bool = False
 ) -> dict[str, Any]:
-    """Write the road file of a world, and return its record.
+    """Write the road file of a world to `road` and return its record.
 
     `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with the name of a stage and its completed
-    share, 0 to 1; `thin`: fewer and rounder numbers, for a page; their deviation is under ``thin`` in the record.
-    Raises `RoadFileError` with the fault.
+    share, 0 to 1; `thin`: whether points and digits are reduced for a page; the key ``thin`` of the record has the
+    deviation. Raises `RoadFileError`: the world cannot be made.
     """
-    if (world := described(file)) is not None:
+    if (world := description_of(file)) is not None:
         if thin:
-            world = world.model_copy(update={"spacing": thinner(world.spacing)})
+            world = world.model_copy(update={"spacing": thinned_spacing(world.spacing)})
         _check_size(world, file)
         world_plausibility(str(file), world).warn(RoadWarning)
         tell("ground and courses", 0.0)
@@ -78,20 +78,20 @@ def make_world(
         except RoadFileError as error:
             raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
         write_world_road(terrain, road, lambda share: tell("road", share), thin)
-        deviation = {"thin": off_by(terrain, road).sentence} if thin else {}
+        deviation = {"thin": deviation_of(terrain, road).sentence} if thin else {}
         return record | {"checksum": checksum_of(road)} | deviation
     return _road_record(file, name, road)
 
 
 def _check_size(world: WorldDescription, file: Path) -> None:
-    """Refuse what would take hours and be too large in the end, before anything is made."""
+    """Raise `RoadFileError` if the area or the number of points is too large."""
     x0, y0, x1, y1 = world.bounds
-    if (x1 - x0) * (y1 - y0) > MOST_AREA:
+    if (x1 - x0) * (y1 - y0) > LARGEST_AREA:
         raise RoadFileError(
-            f"{file}: the world is {x1 - x0:g} m x {y1 - y0:g} m; at most {MOST_AREA / 1e6:g} km2 can be drawn, as "
+            f"{file}: the world is {x1 - x0:g} m x {y1 - y0:g} m; at most {LARGEST_AREA / 1e6:g} km2 can be drawn, as "
             "10 km x 10 km: make its bounds smaller."
         )
-    n = points_of(world)
+    n = grid_shape(world)
     if n[0] * n[1] > MOST_POINTS:
         raise RoadFileError(
             f"{file}: the world has {n[0]} x {n[1]} points, more than {MOST_POINTS:g}; make its bounds smaller or its "
@@ -100,19 +100,19 @@ def _check_size(world: WorldDescription, file: Path) -> None:
 
 
 def checksum_of(road: Path) -> int:
-    """CRC-32 of the header of a road file, which holds that of its parts: what its world's record is bound to."""
+    """CRC-32 of the header of a road file, which contains that of its tiles; a record belongs to one checksum."""
     with open_file(road, LARGEST_IN_PARTS) as file:
         return zlib.crc32(file.read(HEADER.size)[CHECKED_FROM:])
 
 
-def part_of_world(road: Path) -> dict[str, Any] | None:
-    """Drawing of a road from the record beside its file; None if there is no record of this road."""
+def road_entry_of_world(road: Path) -> dict[str, Any] | None:
+    """Scene entry of a road from the record beside its file; None if there is no record of this road."""
     record = record_of_road(road)
     return None if record is None or not record.get("roads") else record["roads"][0]
 
 
 def record_of_road(road: Path) -> dict[str, Any] | None:
-    """The record of the world beside a road file, where there is one and it is of this road."""
+    """Read the record of a world beside a road file; None if there is none of this road."""
     try:
         record: dict[str, Any] = read_json(road.with_suffix(".json"))
         if record["format"] == "ALi3 world" and record["road"] == road.name and record["checksum"] == checksum_of(road):
@@ -123,14 +123,14 @@ def record_of_road(road: Path) -> dict[str, Any] | None:
 
 
 def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
-    """A world that is a road alone."""
+    """Copy or write the road file of a world without description, and return its record."""
     road = read_thinned(file) if file.suffix.lower() == ".road" else read_road(file)
     if file.suffix.lower() == ".road":
         shutil.copyfile(file, target)
     else:
         write_road(road, target)
-    bounds, entry = (-PLAIN, -PLAIN, PLAIN, PLAIN), scene_part(road)
-    if entry["kind"] == "grid":  # which goes on beside a level strip of frictions
+    bounds, entry = (-PLANE_HALF_WIDTH, -PLANE_HALF_WIDTH, PLANE_HALF_WIDTH, PLANE_HALF_WIDTH), scene_part(road)
+    if entry["kind"] == "grid":  # beyond a level strip of frictions the grid continues
         (x, y), (dx, dy), (nx, ny) = entry["origin"], entry["spacing"], entry["shape"]
         bounds = (x, y, x + dx * (nx - 1), y + dy * (ny - 1))
     return record_of(name, bounds, [], [entry], []) | {"checksum": checksum_of(target)}

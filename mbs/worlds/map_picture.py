@@ -1,4 +1,4 @@
-"""The map of a world as a picture."""
+"""Picture of the map of a world."""
 
 import math
 from pathlib import Path
@@ -23,9 +23,9 @@ CONES = {"orange": "#e8590c", "yellow": "#f2c200", "blue": "#1c5fd0"}
 
 
 def draw_map(record: dict[str, Any], file: Path) -> None:
-    """Draw a world from above, x to the right and y up, with its scenery and places.
+    """Draw a world from above, x to the right and y up, with its scenery and start positions.
 
-    `record`: the JSON file of the world; `file`: a PNG, or what Matplotlib writes by the suffix.
+    `record`: content of the JSON file of the world; `file`: PNG, or another format of Matplotlib by the suffix.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.colors import LightSource, to_rgb
@@ -41,7 +41,7 @@ def draw_map(record: dict[str, Any], file: Path) -> None:
             surface = road["surface"]
             classes = octets(surface["classes"]).reshape(surface["shape"])
             colours = np.array([to_rgb(COLOURS[name]) for name in surface["names"]])
-            heights = _heights(road, record["bounds"])
+            heights = _patch_heights(road, record["bounds"])
             shade = LightSource(315.0, 45.0).hillshade(heights.T, vert_exag=3.0)
             rows = np.linspace(0, heights.shape[0] - 1, classes.shape[0]).round().astype(int)
             columns = np.linspace(0, heights.shape[1] - 1, classes.shape[1]).round().astype(int)
@@ -49,7 +49,7 @@ def draw_map(record: dict[str, Any], file: Path) -> None:
             image = np.clip(colours[classes] * light[:, :, None], 0.0, 1.0)
             axes.imshow(image.transpose(1, 0, 2), origin="lower", extent=(x0, x1, y0, y1), interpolation="antialiased")
     for item in record["scenery"]:
-        _scenery(axes, item)
+        _draw_object(axes, item)
     for place in record["places"]:
         axes.annotate(
             "",
@@ -67,8 +67,8 @@ def draw_map(record: dict[str, Any], file: Path) -> None:
     figure.savefig(file, dpi=110, metadata=png_metadata(figure) if file.suffix.lower() == ".png" else None)
 
 
-def _heights(road: dict[str, Any], bounds: list[float]) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Heights about every 2 m, from the patches."""
+def _patch_heights(road: dict[str, Any], bounds: list[float]) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Heights at points about 2 m apart from the patches, m."""
     x0, y0, x1, y1 = bounds
     n = [max(2, math.ceil(side / 2.0)) for side in (x1 - x0, y1 - y0)]
     heights = np.zeros(n)
@@ -91,29 +91,30 @@ def _heights(road: dict[str, Any], bounds: list[float]) -> np.ndarray[Any, np.dt
     return heights
 
 
-def _scenery(axes: Any, part: dict[str, Any]) -> None:
-    kind = part["kind"]
+def _draw_object(axes: Any, entry: dict[str, Any]) -> None:
+    """Draw an object of the scenery."""
+    kind = entry["kind"]
     if kind in ("line", "barrier"):
-        points = np.array(part["points"])
-        colour = "#666666" if kind == "barrier" else part.get("colour", "white")
-        style = "--" if "dash" in part else "-"
+        points = np.array(entry["points"])
+        colour = "#666666" if kind == "barrier" else entry.get("colour", "white")
+        style = "--" if "dash" in entry else "-"
         axes.plot(points[:, 0], points[:, 1], style, color=colour, linewidth=1.2 if kind == "barrier" else 0.6)
         return
-    x, y, _ = part["at"]
+    x, y, _ = entry["at"]
     if kind == "cone":
-        axes.plot(x, y, "^", color=CONES[part["colour"]], markersize=2.5)
+        axes.plot(x, y, "^", color=CONES[entry["colour"]], markersize=2.5)
     elif kind == "tree":
-        axes.plot(x, y, "o", color="#3f6b35", markersize=0.35 * part["height"], alpha=0.8)
+        axes.plot(x, y, "o", color="#3f6b35", markersize=0.35 * entry["height"], alpha=0.8)
     elif kind == "building":
-        c, s = math.cos(part["yaw"]), math.sin(part["yaw"])
-        a, b = 0.5 * part["size"][0], 0.5 * part["size"][1]
+        c, s = math.cos(entry["yaw"]), math.sin(entry["yaw"])
+        a, b = 0.5 * entry["size"][0], 0.5 * entry["size"][1]
         corners = [(x + c * u - s * v, y + s * u + c * v) for u, v in ((a, b), (-a, b), (-a, -b), (a, -b))]
         axes.fill(*zip(*corners, strict=True), color="#8c5a4a")
     elif kind == "sign":
         axes.text(
             x,
             y,
-            part["text"],
+            entry["text"],
             fontsize=5,
             color="black",
             ha="center",

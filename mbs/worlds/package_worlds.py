@@ -6,6 +6,6 @@ WORLDS = Path(__file__).parent
 ROADS = Path(__file__).parents[1] / "roads" / "files"
 
 
-def shipped_worlds() -> list[str]:
+def world_names() -> list[str]:
     """Names of the worlds and roads of the package."""
     return [path.stem for path in sorted(WORLDS.glob("*.toml"))] + [path.stem for path in sorted(ROADS.glob("*.road"))]

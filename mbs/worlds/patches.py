@@ -1,4 +1,4 @@
-"""Drawn surface of a terrain: patches of regular points, refined where linear interpolation would be inaccurate."""
+"""Drawn surface of a terrain: patches of regular points, refined by the error of linear interpolation."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,24 +6,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.worlds.obstacles import Footprint
 from mbs.worlds.terrain import Terrain
 
 Float = NDArray[np.float64]
 CELLS = 16
-"""Along each side of a patch."""
-COARSEST = 4.0
-"""m: distance of the points where the ground is smooth."""
-FINEST = 1.0 / 64.0
+"""Number of cells along each side of a patch."""
+LARGEST_SPACING = 4.0
+"""Distance of the points on smooth ground, m."""
+LEAST_SPACING = 1.0 / 64.0  # m
 TOLERANCE = 4e-3
-"""m: the lines between points are as near to the terrain, at the places that are looked at."""
+"""Largest deviation of the linear interpolation at the sampled points, m."""
 BOUND = 5e-3
-"""m: what is promised of any place."""
-BATCH = 256
+"""Stated bound of the deviation at any point, m."""
+BATCH = 256  # patches that are sampled at once
 
 
 @dataclass(frozen=True)
 class DrawnPatch:
-    """A rectangle of 17 x 17 points."""
+    """A rectangular patch of 17 x 17 points."""
 
     x: float
     y: float
@@ -36,31 +37,31 @@ class DrawnPatch:
 
 
 def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
-    """Patches that cover a world, those of finer points on the edges of their coarser neighbours.
+    """Patches that cover a world; the edges of fine patches lie on those of their coarser neighbours.
 
-    `tell`: called with the part that is done, 0 to 1.
+    `tell`: called with the completed share, 0 to 1.
     """
     x0, y0, x1, y1 = terrain.world.bounds
-    nx, ny = (max(1, round(side / (CELLS * COARSEST))) for side in (x1 - x0, y1 - y0))
+    nx, ny = (max(1, round(side / (CELLS * LARGEST_SPACING))) for side in (x1 - x0, y1 - y0))
     sx, sy = (x1 - x0) / nx, (y1 - y0) / ny
-    waiting = [(x0 + i * sx, y0 + j * sy, sx, sy) for i in range(nx) for j in range(ny)]
+    pending = [(x0 + i * sx, y0 + j * sy, sx, sy) for i in range(nx) for j in range(ny)]
     area, completed_area = (x1 - x0) * (y1 - y0), 0.0
     patches: list[DrawnPatch] = []
-    while waiting:
-        batch, waiting = waiting[-BATCH:], waiting[:-BATCH]
+    while pending:
+        batch, pending = pending[-BATCH:], pending[:-BATCH]
         fine = _sampled(terrain, np.array(batch))
         for (x, y, a, b), z in zip(batch, fine, strict=True):
-            axis = _cut(terrain, (x, y, a, b), z)
+            axis = _axis_to_split(terrain, (x, y, a, b), z)
             if axis == "x":
-                waiting += [(x, y, 0.5 * a, b), (x + 0.5 * a, y, 0.5 * a, b)]
+                pending += [(x, y, 0.5 * a, b), (x + 0.5 * a, y, 0.5 * a, b)]
             elif axis == "y":
-                waiting += [(x, y, a, 0.5 * b), (x, y + 0.5 * b, a, 0.5 * b)]
+                pending += [(x, y, a, 0.5 * b), (x, y + 0.5 * b, a, 0.5 * b)]
             else:
                 patches.append(DrawnPatch(x, y, a / CELLS, b / CELLS, z[::2, ::2].copy()))
                 completed_area += a * b
         tell(completed_area / area)
     patches.sort(key=lambda patch: (patch.x, patch.y))
-    _close(patches)
+    _close_gaps(patches)
     return patches
 
 
@@ -72,18 +73,18 @@ def _sampled(terrain: Terrain, rectangles: Float) -> Float:
     return terrain.at(x, y)
 
 
-def _cut(terrain: Terrain, rectangle: tuple[float, float, float, float], z: Float) -> str:
-    """The side that is cut in two, "x" or "y"; "" where the patch is good."""
+def _axis_to_split(terrain: Terrain, rectangle: tuple[float, float, float, float], z: Float) -> str:
+    """Axis along which a patch is halved, "x" or "y"; empty if it is accurate."""
     _, _, a, b = rectangle
     dx, dy = a / CELLS, b / CELLS
-    if (axis := _detail(terrain, rectangle, dx, dy)) != "":
+    if (axis := _axis_to_split_at_obstacles(terrain, rectangle, dx, dy)) != "":
         return axis
-    along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > FINEST else 0.0
-    along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > FINEST else 0.0
+    along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > LEAST_SPACING else 0.0
+    along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > LEAST_SPACING else 0.0
     middle = z[1::2, 1::2]
     rising = 0.5 * (z[:-1:2, :-1:2] + z[2::2, 2::2])
     falling = 0.5 * (z[:-1:2, 2::2] + z[2::2, :-1:2])
-    across = np.maximum(np.abs(middle - rising), np.abs(middle - falling)).max() if max(dx, dy) > FINEST else 0.0
+    across = np.maximum(np.abs(middle - rising), np.abs(middle - falling)).max() if max(dx, dy) > LEAST_SPACING else 0.0
     if max(along_x, along_y, across) <= TOLERANCE:
         return ""
     if max(along_x, along_y) > TOLERANCE:
@@ -91,8 +92,10 @@ def _cut(terrain: Terrain, rectangle: tuple[float, float, float, float], z: Floa
     return "x" if dx >= dy else "y"
 
 
-def _detail(terrain: Terrain, rectangle: tuple[float, float, float, float], dx: float, dy: float) -> str:
-    """Axis along which a patch is cut so that its points cannot miss an obstacle; empty if it is fine enough."""
+def _axis_to_split_at_obstacles(
+    terrain: Terrain, rectangle: tuple[float, float, float, float], dx: float, dy: float
+) -> str:
+    """Axis along which a patch is halved because an obstacle is finer than its points; empty if none is."""
     x, y, a, b = rectangle
     for base, obstacle in terrain.obstacles:
         x0, y0, x1, y1 = base.box()
@@ -101,7 +104,7 @@ def _detail(terrain: Terrain, rectangle: tuple[float, float, float, float], dx: 
         along = {"kerb": "face", "washboard": "wavelength"}.get(obstacle.kind)
         detail = getattr(obstacle, along) / 4.0 if along else obstacle.roundings[1] / 2.0  # type: ignore[union-attr]
         contained = x >= x0 and y >= y0 and x + a <= x1 and y + b <= y1
-        if obstacle.kind == "kerb" and contained and _level(base, obstacle.face, obstacle.flank, rectangle):
+        if obstacle.kind == "kerb" and contained and _is_on_top(base, obstacle.face, obstacle.flank, rectangle):
             continue
         oblique = abs(np.sin(base.yaw)) > 1e-9, abs(np.cos(base.yaw)) > 1e-9
         limit = [detail if along_x else obstacle.flank / 2.0 for along_x in (oblique[1], oblique[0])]
@@ -110,23 +113,23 @@ def _detail(terrain: Terrain, rectangle: tuple[float, float, float, float], dx: 
     return ""
 
 
-def _level(base: object, face: float, flank: float, rectangle: tuple[float, float, float, float]) -> bool:
-    """Whether a patch lies on the top of a kerb."""
+def _is_on_top(base: Footprint, face: float, flank: float, rectangle: tuple[float, float, float, float]) -> bool:
+    """Whether a patch lies on the flat top of a kerb."""
     x, y, a, b = rectangle
-    u, v = base.local(np.array([x, x + a, x, x + a]), np.array([y, y, y + b, y + b]))  # type: ignore[attr-defined]
-    inside_u = (u >= face) & (u <= base.length - face)  # type: ignore[attr-defined]
-    inside_v = (v >= base.right + flank) & (v <= base.left - flank)  # type: ignore[attr-defined]
+    u, v = base.local(np.array([x, x + a, x, x + a]), np.array([y, y, y + b, y + b]))
+    inside_u = (u >= face) & (u <= base.length - face)
+    inside_v = (v >= base.right + flank) & (v <= base.left - flank)
     return bool((inside_u & inside_v).all())
 
 
-def _close(patches: list[DrawnPatch]) -> None:
-    """Put the points of an edge onto the edge of the coarser neighbour, from coarse to fine."""
+def _close_gaps(patches: list[DrawnPatch]) -> None:
+    """Move the edge points of fine patches to the edges of coarser neighbours, which closes the gaps between them."""
     edges: dict[tuple[str, float], list[tuple[float, float, float, int, bool]]] = {}
     for k, p in enumerate(patches):
         for last in (False, True):
             at_x, at_y = p.x + (CELLS * p.dx if last else 0.0), p.y + (CELLS * p.dy if last else 0.0)
-            edges.setdefault(("x", _key(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
-            edges.setdefault(("y", _key(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
+            edges.setdefault(("x", _rounded(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
+            edges.setdefault(("y", _rounded(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
     for _ in range(4):
         largest_shift = 0.0
         for (side, _at), neighbours in edges.items():
@@ -146,11 +149,12 @@ def _close(patches: list[DrawnPatch]) -> None:
             return
 
 
-def _key(value: float) -> float:
+def _rounded(value: float) -> float:
+    """A coordinate rounded to 1/1024 m, by which edges are matched."""
     return round(value * 1024.0) / 1024.0
 
 
 def _edge(heights: Float, side: str, last: bool) -> Float:
-    """A view of the points of one edge."""
+    """View of the heights along one edge."""
     k = -1 if last else 0
     return heights[k, :] if side == "x" else heights[:, k]

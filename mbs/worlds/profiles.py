@@ -1,4 +1,4 @@
-"""Smooth curves of one variable, of which worlds are made."""
+"""Smooth functions of one variable for the surfaces of worlds."""
 
 import itertools
 from collections.abc import Sequence
@@ -10,12 +10,12 @@ Float = NDArray[np.float64]
 
 
 def spaced(first: float, step: float, count: int) -> Float:
-    """So many numbers at equal distances."""
+    """Return `count` equidistant numbers."""
     return np.asarray(first + step * np.arange(count), np.float64)
 
 
 def rise(t: Float) -> Float:
-    """Two parabolas, from 0 at t <= 0 to 1 at t >= 1, with the least bend that a C1 rise can have: 4."""
+    """Two parabolas, from 0 at t <= 0 to 1 at t >= 1: C1, with the least possible second derivative, 4."""
     t = np.clip(t, 0.0, 1.0)
     return np.where(t < 0.5, 2.0 * t * t, 1.0 - 2.0 * (1.0 - t) ** 2)
 
@@ -27,15 +27,14 @@ def soft_rise(t: Float) -> Float:
 
 
 def vertical_curve(s: Float, vertices: Sequence[tuple[float, float]], roundings: Sequence[float]) -> Float:
-    """Heights of a line through vertices, with a parabola at each; level before the first and behind the last.
+    """Heights, m, of a line through vertices with a parabola at each; level before the first and behind the last.
 
-    `s`: stations, m; `vertices`: station, rising, and height, m; `roundings`: length of the parabola at each vertex, m.
-    Result: in m.
+    `s`: stations, m; `vertices`: rising station and height, m; `roundings`: length of the parabola at each vertex, m.
     """
-    at = np.array(vertices, float)
-    grades = np.concatenate([[0.0], np.diff(at[:, 1]) / np.diff(at[:, 0]), [0.0]])
-    z = np.full(np.shape(s), at[0, 1])
-    for station, change, length in zip(at[:, 0], np.diff(grades), roundings, strict=True):
+    points = np.array(vertices, float)
+    grades = np.concatenate([[0.0], np.diff(points[:, 1]) / np.diff(points[:, 0]), [0.0]])
+    z = np.full(np.shape(s), points[0, 1])
+    for station, change, length in zip(points[:, 0], np.diff(grades), roundings, strict=True):
         if change != 0.0:
             t = np.asarray(s) - station
             inside = np.clip(t + 0.5 * length, 0.0, length)
@@ -44,9 +43,9 @@ def vertical_curve(s: Float, vertices: Sequence[tuple[float, float]], roundings:
 
 
 def steps(s: Float, vertices: Sequence[tuple[float, float]]) -> Float:
-    """Values at stations, between them by soft rises, constant outside.
+    """Values at stations: soft rises between vertices, constant outside.
 
-    `s`: stations, m; `vertices`: station, rising, and value.
+    `s`: stations, m; `vertices`: rising station, m, and value.
     """
     value = np.full(np.shape(s), float(vertices[0][1]))
     for (a, before), (b, after) in itertools.pairwise(vertices):
@@ -55,6 +54,6 @@ def steps(s: Float, vertices: Sequence[tuple[float, float]]) -> Float:
     return np.asarray(value)
 
 
-def table(u: Float, length: float, face: float) -> Float:
-    """0 outside of 0 to length, 1 inside, with rises of `face` at both ends."""
+def plateau(u: Float, length: float, face: float) -> Float:
+    """1 between 0 and `length`, 0 outside, with rises of length `face` at both ends."""
     return np.asarray(rise(u / face) * rise((length - u) / face))

@@ -1,4 +1,4 @@
-"""Road files are made, checked and shown: the work of ``ali3 road INPUT``."""
+"""Makes, checks and shows road files: the work of ``ali3 road INPUT``."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.scene_part import scene_part
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
-from mbs.worlds.make_world import part_of_world, record_of_road
+from mbs.worlds.make_world import record_of_road, road_entry_of_world
 
 if TYPE_CHECKING:
     from mbs.elements.road import KerbRoad
 
 
 def make_road(options: argparse.Namespace) -> int:
-    """Do what the options of the command say with a road; gives the exit code."""
+    """Make, check or show a road by the options of the command; returns the exit code."""
     output: Path | None = options.output
     if output is not None and output.suffix.lower() != ".road":
         raise UserError(f"{output} would be a road file; give it the suffix .road.")
     arguments = _grid_arguments(options)
-    only_part = options.part is not None and output is None and options.picture is None
-    if only_part and (entry := part_of_world(options.input)) is not None:
+    only_entry = options.part is not None and output is None and options.picture is None
+    if only_entry and (entry := road_entry_of_world(options.input)) is not None:
         write_text(options.part, json.dumps(entry, allow_nan=False))
         print(f"written: {options.part}, as the world beside {options.input} draws it")
         return 0
@@ -49,20 +49,20 @@ def make_road(options: argparse.Namespace) -> int:
         return 0
     with warning_lines():
         road = read_road(options.input, **arguments)
-        # who makes a road file says later where a drive on it begins
+        # a road file that is made has no start of a drive
         start = tuple(options.start or (0.0, 0.0)) if output is None or options.start is not None else None
         plausibility = road_plausibility(str(options.input), road, start)
         plausibility.warn(RoadWarning)
     if output is not None:
         with warning_lines():
             write_road(road, output)
-        RoadFile(output).read()  # as it lies on the disk
+        RoadFile(output).read()  # checks the written file
     if options.picture is not None:
         with atomic_file(options.picture) as target:
-            draw_road(road, target, options.input.name, _starts(options))
+            draw_road(road, target, options.input.name, _start_positions(options))
     if options.part is not None:
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
-    print("\n".join([*_lines(road), plausibility.text()]))
+    print("\n".join([*_description_lines(road), plausibility.text()]))
     _write_table(options.json, plausibility)
     for file in (output, options.picture, options.part, options.json):
         if file is not None:
@@ -71,12 +71,13 @@ def make_road(options: argparse.Namespace) -> int:
 
 
 def _write_table(file: Path | None, plausibility: Plausibility) -> None:
+    """Write the plausibility as JSON if there is a file."""
     if file is not None:
         write_json(file, tables_of([plausibility]))
 
 
-def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
-    """Starts of a drive by name, x and y in m: that of the options, else those of the road's world, else (0, 0)."""
+def _start_positions(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
+    """Start positions by name, x and y in m: of the options, else of the road's world, else (0, 0)."""
     if options.start is not None:
         return {"start": tuple(options.start)}
     record = record_of_road(options.input) or {}
@@ -84,7 +85,7 @@ def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
 
 
 def _grid_arguments(options: argparse.Namespace) -> dict[str, Any]:
-    """Arguments of a grid; refused for what says it all itself."""
+    """Arguments of `read_road` for a grid. Raises `UserError`: the input defines its whole road."""
     arguments: dict[str, Any] = {
         "origin": options.origin,
         "spacing": options.spacing,
@@ -103,7 +104,7 @@ def _grid_arguments(options: argparse.Namespace) -> dict[str, Any]:
     return grid_arguments
 
 
-def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
+def _description_lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
     """Lines that describe the kind and extent of a road."""
     if not isinstance(road, GridRoad):
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"

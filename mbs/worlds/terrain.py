@@ -1,4 +1,4 @@
-"""Height and surface of a world at any position, for the road file and the scene."""
+"""Height and surface of a world at any point, for the road file and the scene."""
 
 import math
 from pathlib import Path
@@ -9,27 +9,27 @@ from numpy.typing import NDArray
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.course_file import course_layer
 from mbs.worlds.ground import Surface, ground_of
-from mbs.worlds.layers import FAR, AreaLayer, Layer, weight
-from mbs.worlds.obstacles import Footprint, added, footprint
+from mbs.worlds.layers import OUT_OF_REACH, AreaLayer, Layer, weight
+from mbs.worlds.obstacles import Footprint, added_height, footprint
 from mbs.worlds.profiles import soft_rise, spaced
 from mbs.worlds.world_types import FRICTIONS, Area, WorldDescription
 
 Float = NDArray[np.float64]
 MOST_NODES = 1_500_000
-"""Of the lattice on which the ground with what is carved into it is kept."""
-STEEPEST = 3.0
-"""Slope of what is carved into the ground, times its weight, that only a step has."""
-EDGE = 1.0
-"""m: width of the transition from the heights of a layer with its shoulder to those of the lattice."""
+"""Largest number of points of the lattice of the ground with its layers."""
+LARGEST_SLOPE = 3.0
+"""Slope of a layer times its weight above which it has a step."""
+TRANSITION = 1.0
+"""Width of the transition from the heights of a layer with its shoulder to those of the lattice, m."""
 
 
 class Terrain:
-    """A world's ground with all that is laid on it.
+    """The ground of a world with its layers and obstacles.
 
-    Heights on courses, areas and their shoulders are computed at each place; elsewhere they are those of a C2 spline
-    through the points of a lattice of about 1 m, where they are computed.
+    Heights on courses, areas and their shoulders are computed at each point; elsewhere they are those of a C2 spline
+    through the points of a lattice with a spacing of about 1 m.
 
-    `folder`: of the files it names.
+    `folder`: of the files that the description names.
     """
 
     def __init__(self, world: WorldDescription, folder: Path) -> None:
@@ -46,9 +46,10 @@ class Terrain:
         self.frictions = np.array([frictions.get(name, FRICTIONS[name]) for name in self.names])
         self.obstacles = [(footprint(part), part) for part in world.obstacles]
         self.bands = [(footprint(part), part) for part in world.bands]
-        self._lattice(map_step)
+        self._build_lattice(map_step)
 
-    def _lattice(self, map_step: float) -> None:
+    def _build_lattice(self, map_step: float) -> None:
+        """Compute heights, layers and stations at the points of the lattice. `map_step`: spacing of a height map, m."""
         x0, y0, x1, y1 = self.world.bounds
         step = max(min(1.0, map_step), math.sqrt((x1 - x0) * (y1 - y0) / MOST_NODES))
         self.step = step
@@ -58,9 +59,9 @@ class Terrain:
             np.clip(self.x, self.ground.x[0], self.ground.x[-1]), np.clip(self.y, self.ground.y[0], self.ground.y[-1])
         )
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
-        self.excess = np.full((len(self.layers), *z.shape), FAR, np.float32)
+        self.excess = np.full((len(self.layers), *z.shape), OUT_OF_REACH, np.float32)
         self.station = np.zeros((len(self.layers), *z.shape), np.float32)
-        self.nearest = np.full(z.shape, FAR, np.float32)
+        self.nearest = np.full(z.shape, OUT_OF_REACH, np.float32)
         for k, layer in enumerate(self.layers):
             excess, station = layer.near(x, y)
             self.excess[k], self.station[k] = excess, station
@@ -69,18 +70,18 @@ class Terrain:
             points = layer.at(x[mask], y[mask], station[mask])
             share = weight(layer, points.excess)
             z[mask] += share * (points.height - z[mask])
-            self._steps(layer, mask, share, points.height)
+            self._check_steps(layer, mask, share, points.height)
         self.carved = Surface(self.x, self.y, z)
 
-    def _steps(self, layer: Layer, part: NDArray[np.bool_], share: Float, height: Float) -> None:
-        """Refuse a course that comes so near to itself that one part of it cuts into the other."""
-        level, shares = np.zeros(part.shape), np.zeros(part.shape)
-        level[part], shares[part] = height, share
+    def _check_steps(self, layer: Layer, mask: NDArray[np.bool_], share: Float, height: Float) -> None:
+        """Raise `RoadFileError` if a course comes so near to itself that one part cuts into the other."""
+        level, shares = np.zeros(mask.shape), np.zeros(mask.shape)
+        level[mask], shares[mask] = height, share
         for axis in (0, 1):
             rise = np.abs(np.diff(level, axis=axis))
             smaller_share = np.minimum(*(np.delete(shares, k, axis=axis) for k in (0, -1)))
             step = rise * smaller_share
-            if step.size and step.max() > STEEPEST * self.step:
+            if step.size and step.max() > LARGEST_SLOPE * self.step:
                 i, j = np.unravel_index(int(np.argmax(step)), step.shape)
                 neighbour = (i + 1, j) if axis == 0 else (i, j + 1)
                 raise RoadFileError(
@@ -89,12 +90,14 @@ class Terrain:
                     "blend smaller or move it."
                 )
 
-    def _node(self, values: Float, first: Float) -> NDArray[np.int64]:
-        """Nearest point of the lattice along an axis."""
-        return np.asarray(np.clip(np.rint((values - first[0]) / self.step), 0.0, len(first) - 1.0), np.int64)
+    def _node(self, values: Float, coordinates: Float) -> NDArray[np.int64]:
+        """Indices of the nearest points of the lattice along an axis. `coordinates`: its coordinates, m."""
+        return np.asarray(
+            np.clip(np.rint((values - coordinates[0]) / self.step), 0.0, len(coordinates) - 1.0), np.int64
+        )
 
     def on_grid(self, x: Float, y: Float) -> tuple[Float, NDArray[np.uint8], Float]:
-        """Heights, surfaces as indices in `names`, and how far they extend, at all pairs of rising coordinates.
+        """Heights, surfaces as indices in `names`, and their extents, at all pairs of rising coordinates.
 
         `x`, `y`: m, shapes (n,) and (m,).
 
@@ -104,12 +107,12 @@ class Terrain:
             m.
         surfaces : ndarray, shape (n, m)
         same : ndarray, shape (n, m)
-            At least as far from each place the surface is the same, as far as courses and areas make it, m.
+            Distance from each point within which courses and areas do not change the surface, m.
         """
         z = self.carved.on_grid(x, y)
-        surfaces, same = np.zeros(z.shape, np.uint8), np.full(z.shape, EDGE)
+        surfaces, same = np.zeros(z.shape, np.uint8), np.full(z.shape, TRANSITION)
         i, j = self._node(x, self.x), self._node(y, self.y)
-        rows, columns = np.nonzero(self.nearest[np.ix_(i, j)] < EDGE + self.step)
+        rows, columns = np.nonzero(self.nearest[np.ix_(i, j)] < TRANSITION + self.step)
         if len(rows):
             indices = (rows, columns)
             z[indices], surfaces[indices], same[indices] = self._with_layers(
@@ -122,26 +125,26 @@ class Terrain:
         for base, obstacle in self.obstacles:
             if (block := _block(base, x, y)) is not None:
                 px, py = x[block[0], None], y[None, block[1]]
-                z[block] += added(obstacle, px, py)
+                z[block] += added_height(obstacle, px, py)
                 surfaces[block][base.inside(px, py)] = self.names.index(obstacle.surface)
         return z, surfaces, same
 
     def at(self, x: Float, y: Float) -> Float:
-        """Heights at places, arrays of one shape, m."""
+        """Heights at points, arrays of one shape, m."""
         shape, x, y = np.shape(x), np.ravel(x), np.ravel(y)
         z = self.carved.at(x, y)
         i, j = self._node(x, self.x), self._node(y, self.y)
-        indices = np.flatnonzero(self.nearest[i, j] < EDGE + self.step)
+        indices = np.flatnonzero(self.nearest[i, j] < TRANSITION + self.step)
         if len(indices):
             z[indices] = self._with_layers(x[indices], y[indices], i[indices], j[indices], z[indices])[0]
         for base, obstacle in self.obstacles:
             inside = np.flatnonzero(base.inside(x, y))
             if len(inside):
-                z[inside] += added(obstacle, x[inside], y[inside])
+                z[inside] += added_height(obstacle, x[inside], y[inside])
         return np.asarray(z.reshape(shape))
 
     def has_borders(self, x: Float, first: Float, last: Float) -> NDArray[np.bool_]:
-        """Whether rectangles meet an obstacle or the border of a band: from x[0] to x[-1], from first to last in y."""
+        """Whether rectangles, from x[0] to x[-1] and in y from `first` to `last`, meet an obstacle or a band."""
         meets = np.zeros(len(first), bool)
         for base, _ in (*self.bands, *self.obstacles):
             x0, y0, x1, y1 = base.box()
@@ -151,16 +154,16 @@ class Terrain:
         return meets
 
     def nearest_layer(self, x: Float, y: Float) -> Float:
-        """Approximate distances of points from the nearest course or area and its shoulder, m; 1e6 beyond its reach."""
+        """Approximate distances of points from the nearest layer with its shoulder, m; at most `OUT_OF_REACH`."""
         return self.nearest[self._node(x, self.x), self._node(y, self.y)].astype(float)
 
     def _with_layers(
         self, x: Float, y: Float, i: NDArray[np.int64], j: NDArray[np.int64], carved: Float
     ) -> tuple[Float, NDArray[np.uint8], Float]:
-        """Heights, surfaces and distances as of `on_grid`, near layers, at places next to the lattice points (i, j)."""
+        """Heights, surfaces and extents as in `on_grid` at points near layers; `i`, `j`: nearest lattice points."""
         z = self.ground.at(x, y)
         surfaces = np.zeros(len(x), np.uint8)
-        nearest, same = np.full(len(x), FAR), np.full(len(x), FAR)
+        nearest, same = np.full(len(x), OUT_OF_REACH), np.full(len(x), OUT_OF_REACH)
         for k, layer in enumerate(self.layers):
             indices = np.flatnonzero(self.excess[k][i, j] < layer.shoulder + layer.blend + self.step)
             if len(indices) == 0:
@@ -171,7 +174,7 @@ class Terrain:
             surfaces[indices[points.excess <= 0.0]] = self.names.index(layer.surface)
             same[indices] = np.minimum(same[indices], np.abs(points.excess))
             nearest[indices] = np.minimum(nearest[indices], points.excess - layer.shoulder)
-        return carved + (1.0 - soft_rise(nearest / EDGE)) * (z - carved), surfaces, same
+        return carved + (1.0 - soft_rise(nearest / TRANSITION)) * (z - carved), surfaces, same
 
 
 def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
@@ -183,6 +186,7 @@ def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
 
 
 def _checked(area: Area) -> Area:
+    """The area itself. Raises `RoadFileError`: it has no radius and no size, or both."""
     if (area.radius is None) == (area.size is None):
         raise RoadFileError(f"The area '{area.name}' must have a radius or a size.")
     return area

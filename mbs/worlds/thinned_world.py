@@ -1,4 +1,4 @@
-"""A world that a page can carry: fewer and rounder numbers of its ground, and how far they are off."""
+"""Reduced world for a page: spacing, tolerance and step of its heights, and their deviation."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,42 +12,39 @@ from mbs.roads.shared_tiles import read_shared
 from mbs.worlds.terrain import Terrain
 
 SPACING = (0.1, 0.2)
-"""m: least distances of the points along x and y."""
+"""Least distances of the points along x and y, m."""
 TOLERANCE = 5e-4
-"""m: heights of a tile that are nearer to a polynomial are stored as it."""
+"""Largest deviation of the polynomials of tiles, m."""
 STEP = 2.0**-12
-"""m: heights, felt and drawn, are whole multiples of it."""
-LOOKED_AT = 16
-"""Cells of a tile in whose middle the heights are compared."""
+"""Heights of the road file and of the drawing are integer multiples of it, m."""
+SAMPLES = 16
+"""Number of cells per tile in whose middle heights are compared."""
 
 
 @dataclass(frozen=True)
 class Deviation:
-    """Deviation of the heights of a thinned world, m: the largest, and the 99.9 % quantile."""
+    """Largest deviation of the heights of a thinned world, m, its 99.9 % quantile, m, and the number of samples."""
 
-    most: float
-    nearly_all: float
-    places: int
+    largest: float
+    quantile: float
+    count: int
 
     @property
     def sentence(self) -> str:
         """Deviation of the heights as a sentence."""
         return (
-            f"Thin ground: its heights are off by at most {1e3 * self.most:.3g} mm and by "
-            f"{1e3 * self.nearly_all:.2g} mm in 99.9 % of {self.places} places."
+            f"Thin ground: its heights are off by at most {1e3 * self.largest:.3g} mm and by "
+            f"{1e3 * self.quantile:.2g} mm in 99.9 % of {self.count} places."
         )
 
 
-def thinner(spacing: tuple[float, float]) -> tuple[float, float]:
-    """Distances of the points of the thin world."""
+def thinned_spacing(spacing: tuple[float, float]) -> tuple[float, float]:
+    """Spacing of the points of the thinned world along x and y, m."""
     return max(spacing[0], SPACING[0]), max(spacing[1], SPACING[1])
 
 
-def off_by(terrain: Terrain, road: Path) -> Deviation:
-    """Compare a road file with the terrain in the middle of some cells of every tile.
-
-    `road`: as it lies on the disk.
-    """
+def deviation_of(terrain: Terrain, road: Path) -> Deviation:
+    """Compare a road file with the terrain in the middle of `SAMPLES` cells of every tile."""
     generator = np.random.default_rng(1)
     differences = []
     with open_file(road, LARGEST_IN_PARTS, RoadFileError) as file:
@@ -55,7 +52,7 @@ def off_by(terrain: Terrain, road: Path) -> Deviation:
         x0, y0, dx, dy = head.real[:4]
         tile_columns = head.tiles[1]
         for number, (z, *_) in read_shared(file, head, road):
-            i, j = generator.integers(0, ROAD_TILE - 1, (2, LOOKED_AT))
+            i, j = generator.integers(0, ROAD_TILE - 1, (2, SAMPLES))
             rows, columns = (number // tile_columns) * ROAD_TILE + i, (number % tile_columns) * ROAD_TILE + j
             inside = (rows < head.nx - 1) & (columns < head.ny - 1)
             middle = 0.25 * (z[i, j] + z[i + 1, j] + z[i, j + 1] + z[i + 1, j + 1])

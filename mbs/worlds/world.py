@@ -1,6 +1,6 @@
-"""Worlds to drive in: the work of ``ali3 road --world NAME|FILE --out DIR``.
+"""Makes worlds: the work of ``ali3 road --world NAME|FILE --out DIR``.
 
-The folder gets NAME.road, what wheels feel, and NAME.json, what is drawn and where a car may start.
+The folder gets the road file NAME.road, and NAME.json with the drawing and the start positions.
 """
 
 import json
@@ -19,30 +19,30 @@ from ali3.reading import is_file
 from ali3.warning_lines import warning_lines
 from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
-from mbs.worlds.make_world import described, make_world
+from mbs.worlds.make_world import description_of, make_world
 from mbs.worlds.map_picture import draw_map
-from mbs.worlds.package_worlds import ROADS, WORLDS, shipped_worlds
+from mbs.worlds.package_worlds import ROADS, WORLDS, world_names
 from mbs.worlds.world_cache import add_file, key_of, world_files
 from mbs.worlds.world_file import named_files
 
 
 def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False, table: Path | None = None) -> int:
-    """Put the files of a world into a folder; gives the exit code.
+    """Write the files of a world into a folder and return the exit code.
 
-    `name_or_file`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers,
-    for a page; `table`: JSON file of its plausibility. Raises `UserError`: it is not a world.
+    `name_or_file`: world of the package, or a file; `picture`: image file of its map; `thin`: whether points and digits
+    are reduced for a page; `table`: JSON file of its plausibility. Raises `UserError`: it is not a world.
     """
     begin = time.perf_counter()
-    file = _file(name_or_file)
+    file = _world_file(name_or_file)
     name = file.stem
     files = [file]
     if file.suffix.lower() == ".toml":
         name, source_files = named_files(file)
         files += source_files
     key = key_of(files) + ("-thin" if thin else "")
-    paths, cached = world_files(key, lambda folder: _make(file, name, folder, thin), out)
+    paths, cached = world_files(key, lambda folder: _make_files(file, name, folder, thin), out)
     if picture is not None:
-        add_file(key, f"{name}.png", lambda target: _draw(out / f"{name}.json", target), picture)
+        add_file(key, f"{name}.png", lambda target: _draw_record(out / f"{name}.json", target), picture)
         paths.append(picture)
     plausibilities = _plausibilities(file, out / f"{name}.road")
     print(summary_of(plausibilities))
@@ -61,13 +61,13 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
 
 
 def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
-    """Plausibility of the description of a world, and of the road made from it."""
-    description = described(file)
+    """Plausibility of the description of a world, and of its road file."""
+    description = description_of(file)
     return [*(plausibility_of(description) if description is not None else []), *plausibility_of(RoadFile(road))]
 
 
-def _file(name_or_file: str) -> Path:
-    """File of a world of the package by its name, or of a path."""
+def _world_file(name_or_file: str) -> Path:
+    """Path of a world by its name in the package or its file. Raises `UserError`: there is none."""
     path = Path(name_or_file)
     if is_file(path):
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
@@ -78,14 +78,15 @@ def _file(name_or_file: str) -> Path:
     for candidate in (WORLDS / f"{name_or_file}.toml", ROADS / f"{name_or_file.removesuffix('.road')}.road"):
         if is_file(candidate) and Path(name_or_file).name == name_or_file:
             return candidate
-    worlds = shipped_worlds()
+    worlds = world_names()
     suggestion = did_you_mean(name_or_file, worlds, f"worlds are {', '.join(worlds)}", 1)
     raise UserError(f"There is no world '{name_or_file}' and no such file{suggestion}")
 
 
-def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
+def _make_files(file: Path, name: str, folder: Path, thin: bool) -> None:
+    """Write the road file and the record of a world into a folder."""
     with warning_lines() as messages:
-        record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name), thin)
+        record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _ProgressLine(name), thin)
     if messages:
         record["warnings"] = messages
     (folder / f"{name}.json").write_text(
@@ -93,23 +94,24 @@ def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
     )
 
 
-def _draw(record: Path, target: Path) -> None:
+def _draw_record(record: Path, target: Path) -> None:
+    """Draw the map of a record."""
     draw_map(read_json(record), target)
 
 
-class _Line:
-    """Progress of the work on standard error: on a terminal one line that is overwritten, else a line per part."""
+class _ProgressLine:
+    """Progress on standard error: on a terminal one line that is overwritten, else a line per stage."""
 
     def __init__(self, name: str) -> None:
-        self.name, self.printed, self.part = name, 0.0, ""
+        self.name, self.printed, self.stage = name, 0.0, ""
 
-    def __call__(self, part: str, share: float) -> None:
+    def __call__(self, stage: str, share: float) -> None:
         now = time.perf_counter()
         if sys.stderr.isatty():
             if now - self.printed > 0.2 or share >= 1.0:
                 self.printed = now
                 end = "\n" if share >= 1.0 else ""
-                print(f"\r{self.name}: {part} {100.0 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
-        elif part != self.part:
-            self.part = part
-            print(f"{self.name}: {part} ...", file=sys.stderr, flush=True)
+                print(f"\r{self.name}: {stage} {100.0 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
+        elif stage != self.stage:
+            self.stage = stage
+            print(f"{self.name}: {stage} ...", file=sys.stderr, flush=True)

@@ -1,4 +1,4 @@
-"""Worlds that were made before are kept: the same description and files give the same world."""
+"""Cache of the files of worlds, by the content of their descriptions and of the code that makes them."""
 
 import hashlib
 import os
@@ -21,15 +21,15 @@ CODE = (
     *("mbs/roads", "mbs/worlds", "mbs/kernel/header", "ali3/plausibility"),
     *("ali3/scene/road_types.py", "ali3/scene/base64_numbers.py", "ali3/iso_3888.py", "ali3/cones.py"),
 )
-"""What worlds are made by."""
-MOST_KEPT = 12
-MADE = "made"
+"""Code that determines the files of worlds."""
+MOST_ENTRIES = 12
+COMPLETE_MARK = "made"
 
 
 def key_of(files: Iterable[Path]) -> str:
-    """Name of the world made from files, different for another content or another version of the code."""
+    """Key of the world made from files; it changes with their content and with the code."""
     digest = hashlib.sha256()
-    sources = [path for entry in CODE for path in _sources(ROOT / entry)]
+    sources = [path for entry in CODE for path in _source_files(ROOT / entry)]
     for path in (*sources, *files):
         data = read_bytes(path, MOST_BYTES, RoadFileError)
         digest.update(f"{path.name} {len(data)} ".encode())
@@ -37,12 +37,13 @@ def key_of(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:32]
 
 
-def _sources(entry: Path) -> list[Path]:
+def _source_files(entry: Path) -> list[Path]:
+    """Files of an entry of `CODE`."""
     return sorted(p for p in entry.iterdir() if p.suffix in (".py", ".csv")) if entry.is_dir() else [entry]
 
 
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
-    """The files of a world in a folder, from the cache or newly made.
+    """Copy the files of a world into a folder, from the cache or newly made.
 
     `key`: from `key_of`; `make`: writes the files into an empty folder.
 
@@ -51,24 +52,25 @@ def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list
     files : list of Path
         In `out`.
     cached : bool
-        Whether they had been made before.
+        Whether they were in the cache.
     """
     make_folder(out)
     cache = cache_folder("worlds")
     entry = cache / key
-    if cached := (entry / MADE).is_file():
+    if cached := (entry / COMPLETE_MARK).is_file():
         try:
-            os.utime(entry)  # used now
-            return _copied(entry, out), cached
-        except FileNotFoundError:  # removed by another run just now
+            os.utime(entry)  # time of last use
+            return _copy(entry, out), cached
+        except FileNotFoundError:  # removed by another process
             pass
     with temporary_folder(out) as folder:
         make(folder)
-        _keep(folder, cache, entry)
-        return _copied(folder, out), False
+        _store(folder, cache, entry)
+        return _copy(folder, out), False
 
 
-def _copied(folder: Path, out: Path) -> list[Path]:
+def _copy(folder: Path, out: Path) -> list[Path]:
+    """Copy road file and record; return the new paths."""
     names = sorted(path.name for path in folder.iterdir() if path.suffix in (".road", ".json"))
     for name in names:
         with atomic_file(out / name) as target:
@@ -76,20 +78,20 @@ def _copied(folder: Path, out: Path) -> list[Path]:
     return [out / name for name in names]
 
 
-def _keep(folder: Path, home: Path, entry: Path) -> None:
-    """Copy the files of a world into the cache, all or none; otherwise they are made again next time."""
+def _store(folder: Path, cache: Path, entry: Path) -> None:
+    """Copy the files of a world into the cache, completely or not at all."""
     try:
         with atomic_folder(entry) as target:
             for path in folder.iterdir():
                 shutil.copyfile(path, target / path.name)
-            (target / MADE).touch()
-        forget_oldest(home, MOST_KEPT)
+            (target / COMPLETE_MARK).touch()
+        forget_oldest(cache, MOST_ENTRIES)
     except OSError as error:
         print(f"The world is not kept for the next time: {str(error).rstrip('.')}.", file=sys.stderr)
 
 
 def add_file(key: str, name: str, make: Callable[[Path], None], out: Path) -> None:
-    """Add a file to a cached world, such as its map; `make` writes it if it is missing."""
+    """Copy a further file of a cached world, such as its map, to `out`; `make` writes it if it is missing."""
     entry = cache_folder("worlds") / key
     stored: Any = entry / name
     with atomic_file(out) as target:

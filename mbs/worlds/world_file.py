@@ -1,4 +1,4 @@
-"""The files that a world is made of."""
+"""Files that the description of a world or a road names."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,12 +9,12 @@ from mbs.roads.road_header import RoadFileError
 
 
 def is_world(table: Mapping[str, Any]) -> bool:
-    """Whether a table describes a world and not a road."""
+    """Whether the content of a TOML file describes a world, not a road."""
     return table.get("kind") == "world"
 
 
 def named_files(file: Path) -> tuple[str, list[Path]]:
-    """The name of a world, and the existing files that its description names."""
+    """Name of a world or road, and the existing files that its description names."""
     table = read_toml(file, RoadFileError)
     entries = []
     if is_world(table):

@@ -1,4 +1,4 @@
-"""Plausibility of a world: whether each object can be touched by a wheel or seen."""
+"""Plausibility of a world: sizes and places of its objects, and whether a wheel can touch them."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -9,29 +9,29 @@ from numpy.typing import NDArray
 
 from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
 from mbs.roads.road_header import RoadFileError
-from mbs.worlds.centre_line import of_segments
+from mbs.worlds.centre_line import line_of_segments
 from mbs.worlds.layers import AreaLayer
-from mbs.worlds.obstacles import added, footprint
+from mbs.worlds.obstacles import added_height, footprint
 from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Washboard, WorldDescription
 
-MOST = 400
-"""Points along a side of a feature that are looked at; of a longer one not all."""
-FELT = 1e-6  # m
+MOST_POINTS = 400
+"""Largest number of points along a side of a feature; a longer one is sampled."""
+LEAST_HEIGHT = 1e-6  # m, of an obstacle that wheels feel
 LEAST_MM, MM = 0.5, 1e-3
-"""m: coordinates that were in mm are farther from 0, or 0."""
+"""Least distance from 0, m, of coordinates that may have been in mm, and their unit, m."""
 Places: TypeAlias = list[tuple[float, float]]
-ON_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
-"""Objects on roads or next to them, with their quantity."""
+OBJECTS_BY_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
+"""Quantities of objects on roads or beside them, by key."""
 Feature: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 
 QUANTITIES = quantities_of("world")
-MOVED: dict[str, Callable[[float, float], tuple[float, float]]] = {
+POSITION_MISTAKES: dict[str, Callable[[float, float], tuple[float, float]]] = {
     "x and y exchanged": lambda x, y: (y, x),
     "mm in place of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > LEAST_MM else (x, y),
     "the sign of x": lambda x, y: (-x, y),
     "the sign of y": lambda x, y: (x, -y),
 }
-"""Common mistakes of places, and what undoes each."""
+"""Common mistakes in positions, and functions of x and y that undo them."""
 
 
 @plausibility_of.register
@@ -40,33 +40,34 @@ def _plausibility_of_world(world: WorldDescription) -> list[Plausibility]:
 
 
 def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
-    """Plausibility of a world. `what`: its file."""
-    values, mistakes = _values(world), []
+    """Plausibility of a world. `what`: name of its file."""
+    values, mistakes = _world_values(world), []
     outside = {v.of for v in values if not v.inside()}
     for key, feature in _features(world):
-        for words, altered in _without_mistakes(feature) if key in outside else ():
+        for words, altered in _corrected_features(feature) if key in outside else ():
             keys = frozenset({f"{key}.{name}" for name in ("at", "left", "right", "length")})
             mistakes.append(Mistake(f"{words} in {key}", keys, partial(_altered_values, world, key, altered)))
     for key, places in _scenery_points(world):
-        for words, moved in MOVED.items() if key in outside else ():
-            elsewhere = _outside(world, key, [moved(x, y) for x, y in places])
+        for words, moved in POSITION_MISTAKES.items() if key in outside else ():
+            elsewhere = _outside_value(world, key, [moved(x, y) for x, y in places])
             mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
     finer = world.model_copy(update={"spacing": (0.01 * world.spacing[0], 0.01 * world.spacing[1])})
-    mistakes.append(Mistake("cm in place of m in spacing", frozenset({"spacing"}), partial(_values, finer)))
+    mistakes.append(Mistake("cm in place of m in spacing", frozenset({"spacing"}), partial(_world_values, finer)))
     return Plausibility(what, values, mistakes, title="world")
 
 
-def _values(world: WorldDescription) -> list[Value]:
+def _world_values(world: WorldDescription) -> list[Value]:
+    """Values of all quantities of a world."""
     x0, y0, x1, y1 = world.bounds
     sides = {"x": x1 - x0, "y": y1 - y0}
     values = [Value(QUANTITIES["size"], side, {"bounds": list(world.bounds)}, axis) for axis, side in sides.items()]
-    values += [*_ground(world), *_objects(world)]
-    values += [_points(world, key, feature) for key, feature in _features(world)]
-    return values + [_outside(world, key, places) for key, places in _scenery_points(world)]
+    values += [*_ground_values(world), *_object_values(world)]
+    values += [_points_value(world, key, feature) for key, feature in _features(world)]
+    return values + [_outside_value(world, key, places) for key, places in _scenery_points(world)]
 
 
-def _ground(world: WorldDescription) -> Iterator[Value]:
-    """Waves of the ground, frictions, and where and how steep the courses are."""
+def _ground_values(world: WorldDescription) -> Iterator[Value]:
+    """Values of the waves of the ground, of frictions, and of positions and grades of courses."""
     if (waves := world.ground.variation) is not None:
         keys = {"ground.variation.height": waves.height, "ground.variation.length": waves.length}
         yield Value(QUANTITIES["waves"], waves.height / waves.length, keys)
@@ -74,9 +75,9 @@ def _ground(world: WorldDescription) -> Iterator[Value]:
         keys = {f"frictions.{name}": friction}
         yield Value(QUANTITIES["friction"], friction / FRICTIONS[name], keys, name)
     for k, course in enumerate(world.courses):
-        key, places = f"courses.{k}", _line(course)
+        key, places = f"courses.{k}", _centre_points(course)
         if places:
-            yield _outside(world, key, places)
+            yield _outside_value(world, key, places)
             length = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
             for j, barrier in enumerate(world.barriers):
                 if barrier.course == course.name:
@@ -84,32 +85,33 @@ def _ground(world: WorldDescription) -> Iterator[Value]:
                     yield Value(QUANTITIES["stretch"], (barrier.end - barrier.begin) / length, keys, f"barriers.{j}")
         if course.heights:
             s, z = np.array(course.heights, float).T
-            grade = float(np.abs(np.diff(z) / np.maximum(np.diff(s), FELT)).max(initial=0.0))
+            grade = float(np.abs(np.diff(z) / np.maximum(np.diff(s), LEAST_HEIGHT)).max(initial=0.0))
             yield Value(QUANTITIES["grade"], grade, {f"{key}.heights": course.heights}, key)
 
 
-def _line(course: Course) -> Places:
-    """Points of the middle of a course; none where a file beside the description has them."""
+def _centre_points(course: Course) -> Places:
+    """Points of the centre line of a course; none if they are in a file."""
     if isinstance(course.points, list):
         return list(course.points)
     if not course.segments:
         return []
     try:
-        line = of_segments(course.start or (0.0, 0.0, 0.0), course.segments, course.closed, course.name)
+        line = line_of_segments(course.start or (0.0, 0.0, 0.0), course.segments, course.closed, course.name)
     except RoadFileError:
-        return []  # it is refused where the course is made
+        return []  # `course_layer` raises it
     return [(x, y) for x, y in line.points.tolist()]
 
 
-def _objects(world: WorldDescription) -> Iterator[Value]:
-    """Implausible objects: beside all roads, on one, twice, larger than the world, finer than its points."""
-    lines = [np.array(_line(course), float) for course in world.courses]
+def _object_values(world: WorldDescription) -> Iterator[Value]:
+    """Values of objects: distances from roads, sizes, slopes, details, and numbers of duplicates."""
+    lines = [np.array(_centre_points(course), float) for course in world.courses]
     if all(map(len, lines)) and (lines or world.areas):
-        for name, quantity in ON_ROADS.items():
+        for name, quantity in OBJECTS_BY_ROADS.items():
             for k, feature in enumerate(getattr(world, name)):
                 at = np.array(feature.at[:2])
                 distances = [
-                    _distance(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)
+                    _distance_from_line(line, at) - 0.5 * course.width
+                    for line, course in zip(lines, world.courses, strict=True)
                 ]
                 distances += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
                 yield Value(QUANTITIES[quantity], min(distances), {f"{name}.{k}.at": list(feature.at)}, f"{name}.{k}")
@@ -145,38 +147,41 @@ def _objects(world: WorldDescription) -> Iterator[Value]:
             )
 
 
-def _distance(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
-    """Distance of a place from a line through points, m."""
+def _distance_from_line(line: NDArray[np.float64], point: NDArray[np.float64]) -> float:
+    """Distance of a point from a polyline, m. `line`: shape (n, 2)."""
     first, step = line[:-1], np.diff(line, axis=0)
-    along = np.clip(((at - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), FELT), 0.0, 1.0)
-    return float(np.linalg.norm(first + along[:, None] * step - at, axis=1).min(initial=np.inf))
+    along = np.clip(((point - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), LEAST_HEIGHT), 0.0, 1.0)
+    return float(np.linalg.norm(first + along[:, None] * step - point, axis=1).min(initial=np.inf))
 
 
-def _outside(world: WorldDescription, key: str, places: Sequence[tuple[float, float]]) -> Value:
-    """Distance of the farthest of some points outside the world."""
+def _outside_value(world: WorldDescription, key: str, places: Sequence[tuple[float, float]]) -> Value:
+    """Value of the largest distance of points outside the world."""
     x0, y0, x1, y1 = world.bounds
     distance, x, y = max((float(np.hypot(max(x0 - x, x - x1, 0.0), max(y0 - y, y - y1, 0.0))), x, y) for x, y in places)
     return Value(QUANTITIES["outside"], distance, {key: [x, y], "bounds": list(world.bounds)}, key)
 
 
 def _altered_values(world: WorldDescription, key: str, feature: Feature) -> list[Value]:
-    """The values with another feature in place of one."""
+    """Values of a world with one feature replaced."""
     name, k = key.split(".")
     features = [feature if j == int(k) else other for j, other in enumerate(getattr(world, name))]
-    return _values(world.model_copy(update={name: features}))
+    return _world_values(world.model_copy(update={name: features}))
 
 
 def _replaced(values: list[Value], changed: Value) -> list[Value]:
+    """Values with one replaced by name."""
     return [changed if v.name == changed.name else v for v in values]
 
 
 def _features(world: WorldDescription) -> Iterator[tuple[str, Feature]]:
+    """Obstacles, bands and areas with their keys."""
     for name in ("obstacles", "bands", "areas"):
         for k, feature in enumerate(getattr(world, name)):
             yield f"{name}.{k}", feature
 
 
-def _points(world: WorldDescription, key: str, feature: Feature) -> Value:
+def _points_value(world: WorldDescription, key: str, feature: Feature) -> Value:
+    """Value of the number of grid points that a feature changes."""
     count = changed_points(world, feature)
     keys = {
         f"{key}.{n}": getattr(feature, n)
@@ -186,8 +191,8 @@ def _points(world: WorldDescription, key: str, feature: Feature) -> Value:
     return Value(QUANTITIES["points"], float(count), {**keys, "spacing": list(world.spacing)}, key)
 
 
-def _box(feature: Feature) -> tuple[float, float, float, float]:
-    """x and y of the two corners of the box around a feature, m."""
+def _bounding_box(feature: Feature) -> tuple[float, float, float, float]:
+    """Bounding box of a feature: x0, y0, x1, y1, m."""
     if not isinstance(feature, Area):
         return footprint(feature).box()
     (x, y), r = feature.at, feature.radius
@@ -196,27 +201,31 @@ def _box(feature: Feature) -> tuple[float, float, float, float]:
 
 
 def changed_points(world: WorldDescription, feature: Feature) -> int:
-    """Number of grid points of a world that an object raises or colours; of a large object a sample of them."""
-    box, axes = _box(feature), []
+    """Number of grid points at which a feature changes height or surface; a large feature is sampled."""
+    box, axes = _bounding_box(feature), []
     for k in range(2):
         first, step, last = world.bounds[k], world.spacing[k], world.bounds[k + 2]
         low, high = (max(box[k], first) - first) / step, (min(box[k + 2], last) - first) / step
         numbers = np.arange(np.ceil(low - 1e-9), np.floor(high + 1e-9) + 1.0)
-        axes.append(first + step * numbers[:: max(1, len(numbers) // MOST)])
+        axes.append(first + step * numbers[:: max(1, len(numbers) // MOST_POINTS)])
     x, y = np.meshgrid(*axes, indexing="ij")
     if isinstance(feature, Area):
         (cx, cy), r = feature.at, feature.radius
         return x.size if r is None else int((np.hypot(x - cx, y - cy) <= r).sum())
     inside = footprint(feature).inside(x, y)
-    return int(inside.sum() if isinstance(feature, Band) else (inside & (np.abs(added(feature, x, y)) > FELT)).sum())
+    return int(
+        inside.sum()
+        if isinstance(feature, Band)
+        else (inside & (np.abs(added_height(feature, x, y)) > LEAST_HEIGHT)).sum()
+    )
 
 
-def _without_mistakes(feature: Feature) -> Iterator[tuple[str, Feature]]:
-    """Common mistakes of a feature, and it without each."""
+def _corrected_features(feature: Feature) -> Iterator[tuple[str, Feature]]:
+    """Common mistakes in a feature, and the feature without each of them."""
     if isinstance(feature, (Band, Kerb)):
         yield "left and right exchanged", feature.model_copy(update={"left": feature.right, "right": feature.left})
     x, y, *yaw = feature.at
-    for words, moved in MOVED.items():
+    for words, moved in POSITION_MISTAKES.items():
         yield words, feature.model_copy(update={"at": (*moved(x, y), *yaw)})
     if not isinstance(feature, Area):
         smaller = {
@@ -228,10 +237,10 @@ def _without_mistakes(feature: Feature) -> Iterator[tuple[str, Feature]]:
 
 
 def _scenery_points(world: WorldDescription) -> Iterator[tuple[str, Places]]:
-    """Places of scenery by their keys, and the corners of what wheels feel."""
+    """Positions of scenery by key, and corners of the bounding boxes of features."""
     for key, feature in _features(world):
-        (x0, y0, x1, y1), (left, low, right, high) = _box(feature), world.bounds
-        if x0 < right and x1 > left and y0 < high and y1 > low:  # else no wheel feels it: value "points"
+        (x0, y0, x1, y1), (left, low, right, high) = _bounding_box(feature), world.bounds
+        if x0 < right and x1 > left and y0 < high and y1 > low:  # else the value "points" is 0
             yield f"{key}.size", [(x0, y0), (x1, y1)]
     for k, line in enumerate(world.lines):
         if line.centre is not None and line.radius is not None:

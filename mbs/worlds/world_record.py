@@ -1,4 +1,4 @@
-"""JSON file of a world: its scene and possible start positions."""
+"""JSON file of a world: its scene and its start positions."""
 
 import math
 from collections.abc import Callable
@@ -19,19 +19,19 @@ FINEST_CELL = 0.25
 
 
 def world_record(
-    terrain: Terrain, tell: Callable[[float], None] = lambda part: None, step: float = 0.0
+    terrain: Terrain, tell: Callable[[float], None] = lambda share: None, step: float = 0.0
 ) -> dict[str, Any]:
     """Content of the JSON file of a world.
 
-    `tell`: called with the part that is done, 0 to 1; `step`: m: the heights that are drawn are whole multiples of it;
-    0: as they are.
+    `tell`: called with the completed share, 0 to 1; `step`: of which drawn heights are integer multiples, m; 0: they
+    are not rounded.
     """
     world = terrain.world
-    patches = patches_of(terrain, lambda part: tell(0.9 * part))
+    patches = patches_of(terrain, lambda share: tell(0.9 * share))
     road = {
         "kind": "terrain",
-        "patches": [_patch(patch, step) for patch in patches],
-        "surface": _surface(terrain),
+        "patches": [_patch_entry(patch, step) for patch in patches],
+        "surface": _surface_entry(terrain),
         "note": f"Drawn within {1e3 * BOUND:g} mm of what the wheels feel; scenery is only seen.",
     }
     return record_of(
@@ -52,7 +52,7 @@ def record_of(
     scenery: list[dict[str, Any]],
     description: str = "",
 ) -> dict[str, Any]:
-    """The JSON file of any world."""
+    """Content of the JSON file of a world from its parts."""
     start = {"name": "start", "text": "the origin", "x": 0.0, "y": 0.0, "yaw": 0.0}
     return {
         "format": FORMAT,
@@ -68,10 +68,12 @@ def record_of(
 
 
 def _pose(at: tuple[float, float, float]) -> dict[str, float]:
+    """Entries of a start position from x, y, m, and yaw, degrees."""
     return {"x": at[0], "y": at[1], "yaw": math.radians(at[2])}
 
 
-def _patch(patch: DrawnPatch, step: float) -> dict[str, Any]:
+def _patch_entry(patch: DrawnPatch, step: float) -> dict[str, Any]:
+    """Scene entry of a patch, with heights rounded to multiples of `step`, m, if it is not 0."""
     heights = patch.heights if step == 0.0 else step * np.round(patch.heights / step)
     return {
         "origin": [patch.x, patch.y],
@@ -81,7 +83,8 @@ def _patch(patch: DrawnPatch, step: float) -> dict[str, Any]:
     }
 
 
-def _surface(terrain: Terrain) -> dict[str, Any]:
+def _surface_entry(terrain: Terrain) -> dict[str, Any]:
+    """Scene entry of the surfaces: their indices on a grid of cells, their names and frictions."""
     x0, y0, x1, y1 = terrain.world.bounds
     step = max(FINEST_CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
     n = [max(2, math.ceil(side / step)) for side in (x1 - x0, y1 - y0)]

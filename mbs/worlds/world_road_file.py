@@ -1,4 +1,4 @@
-"""The road file of a world: its heights and frictions at regular points, row of tiles by row of tiles."""
+"""Writes the road file of a world by rows of tiles."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ali3.files import atomic_file
 from mbs.kernel.header.limits import ROAD_TILE
 from mbs.roads.road_header import check_grid
-from mbs.roads.shared_tiles import TILE_PLACES, TOLERANCE, SharedWriter, simplest
+from mbs.roads.shared_tiles import TILE_COORDINATES, TOLERANCE, SharedWriter, polynomials_of
 from mbs.worlds import thinned_world as thin_world
 from mbs.worlds.profiles import spaced
 from mbs.worlds.terrain import Terrain
@@ -19,12 +19,12 @@ from mbs.worlds.world_types import WorldDescription
 
 Float = NDArray[np.float64]
 Classes = NDArray[np.uint8]
-SOME = np.array([*range(0, ROAD_TILE - 1, 3), ROAD_TILE - 1])
-"""Points along the side of a tile that say whether it is smooth."""
+SAMPLES = np.array([*range(0, ROAD_TILE - 1, 3), ROAD_TILE - 1])
+"""Indices of points along the side of a tile by which its smoothness is tested."""
 
 
-def points_of(world: WorldDescription) -> tuple[int, int]:
-    """Numbers of points along x and y that wheels feel."""
+def grid_shape(world: WorldDescription) -> tuple[int, int]:
+    """Numbers of grid points of a world along x and y."""
     (x0, y0, x1, y1), (dx, dy) = world.bounds, world.spacing
     return math.ceil((x1 - x0) / dx - 1e-9) + 1, math.ceil((y1 - y0) / dy - 1e-9) + 1
 
@@ -34,11 +34,11 @@ def write_world_road(
 ) -> None:
     """Write the road file of a world.
 
-    `tell`: called with the part that is done, 0 to 1; `thin`: rounded, for a page; see `thin_world`.
+    `tell`: called with the completed share, 0 to 1; `thin`: whether heights are rounded as in `thinned_world`.
     """
     x0, y0, _, _ = terrain.world.bounds
     dx, dy = terrain.world.spacing
-    shape = points_of(terrain.world)
+    shape = grid_shape(terrain.world)
     uniform = float(terrain.frictions[0]) if len(terrain.names) == 1 else None
     tolerance = thin_world.TOLERANCE if thin else TOLERANCE
     with atomic_file(file) as target, target.open("wb") as out:
@@ -55,38 +55,41 @@ def write_world_road(
 
 
 def _tiles(terrain: Terrain, x: Float, y: Float, tolerance: float) -> Iterator[tuple[Float, Classes]]:
-    """Heights, or their coefficients, and surfaces of the tiles of a row: smooth ones from a part of their points."""
+    """Yield heights, or polynomial coefficients, and surfaces of the tiles of a row; smooth tiles are sampled."""
     count = len(y) // ROAD_TILE
-    some = (ROAD_TILE * np.arange(count)[:, None] + SOME).ravel()
-    z, surfaces, same = terrain.on_grid(x[SOME], y[some])
+    sample_indices = (ROAD_TILE * np.arange(count)[:, None] + SAMPLES).ravel()
+    z, surfaces, same = terrain.on_grid(x[SAMPLES], y[sample_indices])
     check_grid(z, None, "the world")
     blocks = [_blocks(values, count) for values in (z, surfaces, same)]
-    forms = simplest(blocks[0], TILE_PLACES[SOME], 0.5 * tolerance)
-    step = 0.75 * math.hypot(x[1] - x[0], y[1] - y[0]) * (SOME[1] - SOME[0])
-    level = (blocks[1] == blocks[1][:, :1, :1]).all(axis=(1, 2)) & (blocks[2].min(axis=(1, 2)) > step)
-    whole = (
+    forms = polynomials_of(blocks[0], TILE_COORDINATES[SAMPLES], 0.5 * tolerance)
+    step = 0.75 * math.hypot(x[1] - x[0], y[1] - y[0]) * (SAMPLES[1] - SAMPLES[0])
+    is_uniform = (blocks[1] == blocks[1][:, :1, :1]).all(axis=(1, 2)) & (blocks[2].min(axis=(1, 2)) > step)
+    needs_all_points = (
         np.array([form is None for form in forms])
-        | ~level
+        | ~is_uniform
         | terrain.has_borders(x, y[::ROAD_TILE], y[ROAD_TILE - 1 :: ROAD_TILE])
     )
-    numbers = np.flatnonzero(whole)
-    found: dict[int, tuple[Float, Classes]] = {}
+    numbers = np.flatnonzero(needs_all_points)
+    exact_tiles: dict[int, tuple[Float, Classes]] = {}
     if len(numbers):
         z, surfaces, _ = terrain.on_grid(x, (y.reshape(count, ROAD_TILE)[numbers]).ravel())
         check_grid(z, None, "the world")
-        fine, kinds = _blocks(z, len(numbers)), _blocks(surfaces, len(numbers))
-        close = simplest(fine, TILE_PLACES, tolerance)
+        heights, classes = _blocks(z, len(numbers)), _blocks(surfaces, len(numbers))
+        exact_forms = polynomials_of(heights, TILE_COORDINATES, tolerance)
         for k, number in enumerate(numbers.tolist()):
-            form = close[k]
-            found[number] = np.ascontiguousarray(fine[k]) if form is None else form, np.ascontiguousarray(kinds[k])
+            form = exact_forms[k]
+            exact_tiles[number] = (
+                np.ascontiguousarray(heights[k]) if form is None else form,
+                np.ascontiguousarray(classes[k]),
+            )
     for k, form in enumerate(forms):
-        if k in found:
-            yield found[k]
+        if k in exact_tiles:
+            yield exact_tiles[k]
         elif form is not None:
             yield form, blocks[1][k, :1, :1]
 
 
 def _blocks(values: NDArray[Any], count: int) -> NDArray[Any]:
-    """Tiles of a row, shape (count, n, n)."""
+    """Split values of a row of tiles, shape (n, count n), into tiles, shape (count, n, n)."""
     n = len(values)
     return np.asarray(values.reshape(n, count, n).transpose(1, 0, 2))

@@ -54,14 +54,14 @@ class Ground(_Table):
     height: Height = 0.0
     variation: Variation | None = None
     heights: str | None = None
-    """A height map beside the file: what ``ali3 road`` takes as a grid."""
+    """A height map beside the file, in a format that ``ali3 road`` reads as a grid."""
     origin: Point | None = None
     spacing: tuple[Length, Length] | None = None
     height_range: tuple[Height, Height] | None = None
 
 
 class Segment(_Table):
-    """A straight of some length, or an arc to the left (positive angle) or right."""
+    """A straight with a length, or an arc to the left (positive angle) or right with a radius and an angle."""
 
     length: Length | None = None
     radius: Length | None = None
@@ -85,25 +85,25 @@ class Course(_Table):
     start: Start | None = None
     segments: list[Segment] | None = None
     points: list[Point] | str | None = None
-    """Or a CSV file beside this one: x,y and as one likes z, width or right and left, bank."""
+    """Points, m, or a CSV file beside this one with x, y and optionally z, width or right and left, bank."""
     closed: bool = False
     width: Annotated[float, Field(ge=1.0, le=200.0)] = 8.0
     surface: SurfaceClass = "asphalt"
     heights: list[tuple[Distance, Height]] | None = None
     """Station, m, and height, m, straight between; without them the course follows the ground."""
     rounding: Length = 20.0
-    """Length of the parabola at each of these, m."""
+    """Length of the parabola at each of the heights, m."""
     bank: Bank | None = None
     shoulder: Distance = 1.0
-    """So far beside the road the ground goes on with its slope, m."""
+    """Width beside the road in which its cross slope continues, m."""
     blend: Annotated[float, Field(ge=1.0, le=500.0)] = 15.0
-    """Along which it meets the ground, m."""
+    """Width of the transition to the ground, m."""
     smoothing: Length = 30.0
-    """Of the heights of a course that follows the ground, m."""
+    """Length over which the heights of a course that follows the ground are smoothed, m."""
     edge_lines: bool = True
     centre_line: bool = False
     posts: Distance = 0.0
-    """Their distance, m; 0: none."""
+    """Distance of posts, m; 0: none."""
 
 
 class Area(_Table):
@@ -113,7 +113,7 @@ class Area(_Table):
     at: Point
     radius: Length | None = None
     size: tuple[Length, Length] | None = None
-    """In x and y, m."""
+    """Lengths of the sides along x and y, m."""
     height: Height = 0.0
     surface: SurfaceClass = "asphalt"
     shoulder: Distance = 1.0
@@ -121,18 +121,18 @@ class Area(_Table):
 
 
 class Band(_Table):
-    """A rectangle of another surface, turned by the yaw of its start; `at` is the middle of its near side."""
+    """A rectangle of another surface; `at`: position and yaw of the frame, in which it extends `length` along x."""
 
     at: Start
     length: Length
     right: Coordinate
     left: Coordinate
-    """Across, m, left positive."""
+    """`right`, `left`: ends across, m, left positive."""
     surface: SurfaceClass
 
 
 class Kerb(_Table):
-    """A table of some height across the way: up at its beginning and down at its end."""
+    """A plateau across the road: up at its beginning and down at its end."""
 
     kind: Literal["kerb"]
     at: Start
@@ -148,7 +148,7 @@ class Kerb(_Table):
 
 
 class Ramp(_Table):
-    """A slope up to jump from, a rounded top and a steep slope down."""
+    """A slope up, a rounded top and a steep slope down."""
 
     kind: Literal["ramp"]
     at: Start
@@ -164,7 +164,7 @@ class Ramp(_Table):
 
 
 class Washboard(_Table):
-    """Waves across the way; the first and the last one are lower."""
+    """Waves across the road; the first and the last one are lower."""
 
     kind: Literal["washboard"]
     at: Start
@@ -188,18 +188,18 @@ class Line(_Table):
     dash: tuple[Length, Length] | None = None
     repeat: Annotated[int, Field(ge=1, le=1000)] = 1
     step: Point = (0.0, 0.0)
-    """From one repetition to the next, m."""
+    """Offset from one repetition to the next, m."""
 
 
 class Cones(_Table):
-    """Cones at places, or along lines."""
+    """Cones at points, or of a lane change or a slalom."""
 
     at: list[Point] | None = None
     height: Annotated[float, Field(gt=0.0, le=3.0)] = 0.5
     colour: Literal["orange", "yellow", "blue"] = "orange"
     lane_change: Track | None = None
     start: Start | None = None
-    """Where the lane change begins, in the middle of its first lane."""
+    """Start of the lane change or slalom, in the middle of the first lane."""
     vehicle_width: Annotated[float, Field(ge=0.5, le=4.0)] = 1.8
     slalom: Annotated[int, Field(ge=1, le=200)] | None = None
     """Number of cones in a row from `start` on."""
@@ -207,7 +207,7 @@ class Cones(_Table):
 
 
 class Sign(_Table):
-    """A sign; its text may be read by who drives along the yaw."""
+    """A sign, whose text faces a driver in the direction of the yaw."""
 
     at: Start
     text: Text
@@ -228,10 +228,10 @@ class Barrier(_Table):
     course: Text | None = None
     begin: Distance = 0.0
     end: Distance = 0.0
-    """Stations, m."""
+    """`begin`, `end`: stations, m."""
     side: Literal["left", "right"] = "right"
     offset: Distance = 1.5
-    """From the edge of the road, m."""
+    """Distance from the edge of the road, m."""
     height: Annotated[float, Field(gt=0.0, le=5.0)] = 0.8
 
 
@@ -248,12 +248,12 @@ class Trees(_Table):
     count: Annotated[int, Field(ge=1, le=5000)]
     seed: Annotated[int, Field(ge=0)] = 1
     distance: Distance = 12.0
-    """From roads and areas, m."""
+    """Distance from roads and areas, m."""
     heights: tuple[Length, Length] = (5.0, 14.0)
 
 
 class Place(_Table):
-    """A place where a car may start."""
+    """A start position of a car."""
 
     name: Annotated[str, Field(pattern=r"^[a-z0-9_]{1,40}$")]
     text: str = ""
@@ -265,13 +265,13 @@ class WorldDescription(Summarised, _Table):
 
     kind: Literal["world"]
     version: Literal[1] = 1
-    """Of what a description may say."""
+    """Version of the format."""
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,60}$")]
     description: str = ""
     bounds: tuple[Coordinate, Coordinate, Coordinate, Coordinate]
     """x and y of the lower left corner and of the upper right one, m."""
     spacing: tuple[Spacing, Spacing] = (0.1, 0.1)
-    """Of the points that wheels feel, m."""
+    """Spacing of the road file along x and y, m."""
     ground: Ground = Ground()
     frictions: dict[SurfaceClass, Friction] = Field(default={})
     courses: list[Course] = Field(default=[])

@@ -9,7 +9,7 @@ from ali3.command import main
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
 from mbs.roads.package_roads import FOLDER
-from mbs.roads.picture import shown
+from mbs.roads.picture import drawn_values
 
 CRG = Path(__file__).parents[1] / "data" / "crg"
 HEIGHTS = np.array([[0.0, 0.1, 0.2], [1.0, 1.1, 1.2]])  # x number 0 and 1, y number 0 to 2
@@ -266,14 +266,14 @@ def test_a_refused_road_leaves_the_old_file(tmp_path, capsys):
 
 
 def test_what_is_drawn_is_the_road():
-    x, y, heights, frictions = shown(GridRoad((1.0, 2.0), (0.5, 0.25), HEIGHTS, 0.5, friction_factor=0.5))
+    x, y, heights, frictions = drawn_values(GridRoad((1.0, 2.0), (0.5, 0.25), HEIGHTS, 0.5, friction_factor=0.5))
     assert (list(x), list(y)) == ([1.0, 1.5], [2.0, 2.25, 2.5])
     assert np.array_equal(heights, HEIGHTS)
     assert np.all(frictions == 0.25)
-    x, y, heights, _ = shown(KerbRoad(3.0, 0.2, -0.1, "before"))
+    x, y, heights, _ = drawn_values(KerbRoad(3.0, 0.2, -0.1, "before"))
     assert heights[x < 3.0].min() == heights[x <= 3.0].max() == pytest.approx(0.1)
     assert np.all(heights[x > 3.0] == -0.1)
-    assert shown(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9000, 3))))[0].shape == (1800,)
+    assert drawn_values(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9000, 3))))[0].shape == (1800,)
 
 
 @pytest.mark.parametrize("option", ["frictions", "origin", "spacing", "height_range", "friction_range"])

@@ -12,7 +12,7 @@ from mbs.elements import MagicTyre, Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
-from mbs.tyre_files.magic_file import one_sided
+from mbs.tyre_files.magic_file import asymmetric_coefficients
 from mbs.tyre_files.property_writer import write_tyre
 from tests.elements.harness import Element
 from tests.elements.test_magic_tyre import element_of, pose
@@ -113,7 +113,7 @@ def test_a_symmetric_tyre_is_written_and_read_as_it_is(tmp_path: Path) -> None:
     """Whatever a reader of a symmetric file sets to 0 is 0 in what may be written as one."""
     for file in FILES:
         tyre = magic(file)
-        c = {n: v for n, v in tyre.coefficients.items() if n not in one_sided(tyre.version)}
+        c = {n: v for n, v in tyre.coefficients.items() if n not in asymmetric_coefficients(tyre.version)}
         write_tyre(tmp_path / "even.tir", replace(tyre, coefficients=c))
         again = read_tyre(tmp_path / "even.tir").tyre().coefficients
         assert again == pytest.approx({n: c.get(n, MAGIC_COEFFICIENTS[n]) for n in again})

@@ -10,7 +10,7 @@ from mbs.vehicle import load
 from mbs.vehicle.car import Car
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.kinematics import kinematics
-from mbs.vehicle.kinematics.compliance_table import shown_number
+from mbs.vehicle.kinematics.compliance_table import number_text
 from mbs.vehicle.kinematics.held_car import HeldCar
 from mbs.vehicle.kinematics.table import rows
 
@@ -47,7 +47,7 @@ def test_kinematics_at_the_drawing_have_the_angles_of_the_file_and_the_table_sho
     shown = {line[0]: line[1:3] for line in rows(result)}
     for angle in ("toe", "camber"):
         requested = [ANGLES[f"{axle}.alignment.{angle}_right"] for axle in ("front", "rear")]
-        assert shown[f"{angle} angle, right wheel"] == tuple(shown_number(math.degrees(a)) for a in requested)
+        assert shown[f"{angle} angle, right wheel"] == tuple(number_text(math.degrees(a)) for a in requested)
 
 
 @pytest.mark.slow

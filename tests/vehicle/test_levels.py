@@ -11,7 +11,7 @@ from ali3.errors import FileError
 from mbs import compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Fidelity, load
-from mbs.vehicle.levels.drives import ACCELERATION, Drive, own_drives, read_drive
+from mbs.vehicle.levels.drives import ACCELERATION, Drive, default_drives, read_drive
 from mbs.vehicle.levels.errors import error_of_change, load_error, path_error
 from mbs.vehicle.levels.level_choice import cheapest, levels
 from mbs.vehicle.levels.measure import measure, systems_of
@@ -28,7 +28,7 @@ def test_a_car_by_links_has_tables_too(saloon):
 
 def test_its_own_drives_reach_their_accelerations_and_speeds(saloon):
     system = saloon[Fidelity.TABLE]
-    slalom, braking, kerb = own_drives(saloon[Fidelity.RIGID])
+    slalom, braking, kerb = default_drives(saloon[Fidelity.RIGID])
     run = simulate(system, slalom.duration, 0.01, slalom.inputs, pose=slalom.pose, estimate_error=False)
     late = run.t > 3.0
     assert np.abs(run["chassis.ay"][late]).max() == pytest.approx(ACCELERATION, rel=0.35)
@@ -172,4 +172,4 @@ def test_tables_that_are_no_drive(text, message, tmp_path):
 
 def test_a_car_without_steering_needs_a_drive_of_its_own():
     system = compile(load("saloon").changed({"ports.steering": "rack_position"}).model())
-    assert "slalom" not in [drive.name for drive in own_drives(system)]
+    assert "slalom" not in [drive.name for drive in default_drives(system)]

@@ -10,10 +10,17 @@ import pytest
 import mbs
 from ali3.scene.scene import scene_errors
 from mbs.vehicle import built_car, car_names, load
-from mbs.vehicle.shapes.body_shell import ARCH, DASHBOARD, BodyShell
+from mbs.vehicle.shapes.body_shell import ARCH_CLEARANCE, DASHBOARD, BodyShell
 from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
-from mbs.vehicle.shapes.occupants import RADIUS, SHIRT, SKIN, TILT, TROUSERS, steering_wheel_place
-from mbs.vehicle.shapes.tube_frame import FRAME
+from mbs.vehicle.shapes.occupants import (
+    COLUMN_TILT,
+    SHIRT_PAINT,
+    SKIN_PAINT,
+    STEERING_WHEEL_RADIUS,
+    TROUSER_PAINT,
+    steering_wheel_place,
+)
+from mbs.vehicle.shapes.tube_frame import FRAME_TUBE
 from mbs.vehicle.suspensions import Suspension
 from tests.viewer.poses import FramePoses
 
@@ -124,13 +131,13 @@ def test_the_body_encloses_its_wheels_and_faces_outwards(name: str) -> None:
         x, y, z = axle.wheel.centre
         near = places[(np.abs(places[:, 0] - x) < 0.7 * axle.tyre.radius) & (np.abs(places[:, 1]) > y)]
         ways = np.hypot(near[:, 0] - x, near[:, 2] - z)
-        assert ways.min() > axle.tyre.radius + ARCH - 1e-3  # the tyre is free in its arch
+        assert ways.min() > axle.tyre.radius + ARCH_CLEARANCE - 1e-3  # the tyre is free in its arch
 
 
 @pytest.mark.parametrize("name", SHELLS)
 def test_who_sits_in_a_car_sits_above_its_floor(name: str) -> None:
     car = load(name)
-    persons = [s for s in scene(name)["shapes"] if s.get("color") in (TROUSERS["color"], SHIRT["color"])]
+    persons = [s for s in scene(name)["shapes"] if s.get("color") in (TROUSER_PAINT["color"], SHIRT_PAINT["color"])]
     low = [place[2] - s["radius"] for s in persons for place in drawn(name, s["points"])]
     assert len(low) >= 12
     assert min(low) > 0.6 * car.front.tyre.radius
@@ -144,8 +151,8 @@ def test_a_driver_sees_the_steering_wheel_and_the_road_ahead(name: str) -> None:
     wheel = np.array(steering_wheel_place(car))
     eye = wheel + np.array([-0.48, 0.0, 0.24])
     angles = np.linspace(0.0, np.pi, 13)
-    up = np.array([math.sin(TILT), 0.0, math.cos(TILT)])
-    seen = wheel + RADIUS * (np.outer(np.cos(angles), [0.0, 1.0, 0.0]) + np.outer(np.sin(angles), up))
+    up = np.array([math.sin(COLUMN_TILT), 0.0, math.cos(COLUMN_TILT)])
+    seen = wheel + STEERING_WHEEL_RADIUS * (np.outer(np.cos(angles), [0.0, 1.0, 0.0]) + np.outer(np.sin(angles), up))
     seen = np.vstack([seen, [wheel[0] + 12.0, wheel[1], 0.0]])
     places, triangles = shell.lower_body()
     assert not any(meets(eye, point, places[triangles]) for point in seen)
@@ -162,7 +169,7 @@ def test_nobody_looks_through_the_car_between_tyre_and_arch(name: str) -> None:
     for axle in (shell.car.front, shell.car.rear):
         x, y, z = axle.wheel.centre
         for angle in np.radians([20.0, 50.0, 90.0, 130.0, 160.0]):
-            distance = axle.tyre.radius + 0.5 * ARCH
+            distance = axle.tyre.radius + 0.5 * ARCH_CLEARANCE
             start = np.array([x + distance * math.cos(angle), y, z + distance * math.sin(angle)])
             for ahead, down in ((0.0, 0.0), (0.5, 0.0), (-0.5, 0.0), (0.0, 0.4), (0.4, 0.3), (-0.4, 0.3)):
                 end = start + 3.0 * np.array([ahead, -1.0, -down])
@@ -179,7 +186,9 @@ def test_nobody_looks_through_the_car_between_tyre_and_arch(name: str) -> None:
 def test_the_hands_of_the_driver_lie_at_the_rim_at_any_steering_angle(name: str) -> None:
     found = scene(name)
     (wheel,) = [shape for shape in found["shapes"] if shape["kind"] == "steering_wheel"]
-    hands = [shape for shape in found["shapes"] if shape.get("color") == SKIN["color"] and shape["radius"] < 0.1][:2]
+    hands = [shape for shape in found["shapes"] if shape.get("color") == SKIN_PAINT["color"] and shape["radius"] < 0.1][
+        :2
+    ]
     chassis, frame = found["frames"]["chassis"], found["frames"][wheel["frame"]]
     angles = np.linspace(-7.0, 7.0, 29)
     columns = {frame["angle"]: angles}
@@ -220,7 +229,7 @@ def test_the_body_has_the_shape_of_the_file(car: str, body: str, shell: int, tub
     assert len(meshes) == shell
     assert all(shape.get("cover", False) is (body == "clear") for shape in meshes)
     assert all(shape.get("opacity", 1.0) == 1.0 for shape in meshes[::2])
-    assert len([shape for shape in shapes if shape.get("name") == FRAME]) >= tubes
+    assert len([shape for shape in shapes if shape.get("name") == FRAME_TUBE]) >= tubes
 
 
 def test_a_car_is_not_drawn_before_it_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:

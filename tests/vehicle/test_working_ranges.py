@@ -10,8 +10,8 @@ from mbs import ParameterWarning, Pose, Simulation, compile, simulate
 from mbs.vehicle import car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
-from mbs.vehicle.checks.masses import ASIDE, SHARE
-from mbs.vehicle.checks.working_ranges import FAST, SUNK, working_ranges
+from mbs.vehicle.checks.masses import LARGEST_LATERAL_OFFSET, LEAST_WEIGHT_SHARE
+from mbs.vehicle.checks.working_ranges import AIR_SPEED, LARGEST_TRAVEL, working_ranges
 
 BAD = {
     "front.tyre.stiffness": (1e4, 2e6),
@@ -71,8 +71,10 @@ def test_a_spring_by_a_table_has_the_ranges_of_its_law():
     # are 0.6 k of load; the softest factor lets c press it as far
     harder = working_ranges(with_spring([[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.75 * k]]))
     softest, hardest = plain["front.spring.factor"]
-    carried = SUNK * k / (1.0 / softest - 1.0)
-    assert harder["front.spring.factor"] == pytest.approx((carried / (carried + 2.0 * SUNK * k), hardest / 2.0))
+    carried = LARGEST_TRAVEL * k / (1.0 / softest - 1.0)
+    assert harder["front.spring.factor"] == pytest.approx(
+        (carried / (carried + 2.0 * LARGEST_TRAVEL * k), hardest / 2.0)
+    )
 
 
 def test_air_at_the_end_of_its_range_brakes_with_the_weight_and_lifts_an_axle():
@@ -81,18 +83,22 @@ def test_air_at_the_end_of_its_range_brakes_with_the_weight_and_lifts_an_axle():
     at_rest = Simulation(result, pose=Pose(speed=0.0)).sensors
     loads = {side: at_rest[f"wheel_{side}L.Fz"] + at_rest[f"wheel_{side}R.Fz"] for side in "FR"}
     drag = {"aerodynamics.drag_area": ranges["aerodynamics.drag_area"][1]}
-    run = simulate(result, 0.05, 0.001, {"throttle": 0.05}, None, drag, pose=Pose(speed=FAST), estimate_error=False)
+    run = simulate(
+        result, 0.05, 0.001, {"throttle": 0.05}, None, drag, pose=Pose(speed=AIR_SPEED), estimate_error=False
+    )
     assert np.polyfit(run.t, run["chassis.vx"], 1)[0] == pytest.approx(-9.81, rel=0.1)
     for axle, side in (("front", "F"), ("rear", "R")):
         lift = {f"aerodynamics.lift_area_{axle}": ranges[f"aerodynamics.lift_area_{axle}"][1]}
-        run = simulate(result, 1.0, 0.001, {"throttle": 0.3}, None, lift, pose=Pose(speed=FAST), estimate_error=False)
+        run = simulate(
+            result, 1.0, 0.001, {"throttle": 0.3}, None, lift, pose=Pose(speed=AIR_SPEED), estimate_error=False
+        )
         assert (run[f"wheel_{side}L.Fz"] + run[f"wheel_{side}R.Fz"]).min() < 0.05 * loads[side]
 
 
 def test_a_centre_of_mass_at_the_end_of_its_range_leaves_each_axle_and_side_its_share():
     """Against the loads at rest."""
     ranges, result = working_ranges(load("saloon")), system("saloon")
-    for axis, left, share in (("x", "FL FR", 1.0 - SHARE), ("y", "FL RL", 0.5 + ASIDE)):
+    for axis, left, share in (("x", "FL FR", 1.0 - LEAST_WEIGHT_SHARE), ("y", "FL RL", 0.5 + LARGEST_LATERAL_OFFSET)):
         for end in (0, 1):
             at_rest = Simulation(result, parameters={f"chassis.com.{axis}": ranges[f"chassis.com.{axis}"][end]}).sensors
             part = sum(at_rest[f"wheel_{w}.Fz"] for w in left.split()) / sum(at_rest[f"wheel_{w}.Fz"] for w in WHEELS)

@@ -1,4 +1,4 @@
-"""Points of the chassis to which other parts are attached, recorded while the car is built on a rigid chassis."""
+"""Points of the chassis to which other parts are attached, recorded while a car is built on a rigid chassis."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -13,7 +13,7 @@ from mbs.model.joints.joint import Joint
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.side import Point
 
-SAME = 1e-9  # m
+POINT_TOLERANCE = 1e-9  # m
 
 
 @dataclass(frozen=True)
@@ -21,46 +21,45 @@ class Attachments:
     """Hard points on the chassis of the left side and of the centre plane, m."""
 
     axles: tuple[tuple[Point, ...], tuple[Point, ...]]
-    """Those of the front axle with the steering, then those of the rear one, in the order of their making."""
+    """Points of the front axle with the steering, then those of the rear axle, in the order in which they are built."""
     held: tuple[tuple[Point, Point], ...]
-    """Pairs of them, or one and the image of one, whose distance a part of a suspension holds, as a wishbone does that
-    of its pivots."""
+    """Pairs of points, or of a point and an image, at a constant distance, such as the pivots of a wishbone."""
 
 
-class _Noted(Body):
-    """The chassis, with a record of the points that the suspension asks for."""
+class _RecordingChassis(Body):
+    """The chassis, which records the points that are requested."""
 
     def __init__(self, owner: Body, reference: Point) -> None:
         super().__init__(owner.model, owner.name, owner.com, owner.start)
-        self.left_out = reference
+        self.reference_point = reference
         self.points: dict[Point, None] = {}
 
     def point(self, position: ArrayLike) -> AffineVector:
+        """Record a point and return it as that of the chassis."""
         x, y, z = (float(v) for v in np.asarray(position))
-        if np.linalg.norm(np.subtract((x, y, z), self.left_out)) > SAME:
+        if np.linalg.norm(np.subtract((x, y, z), self.reference_point)) > POINT_TOLERANCE:
             self.points[x, y, z] = None
         return super().point(position)
 
 
 def attachments(b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> Attachments:
-    """Build the mechanism of a car and note its points on the chassis.
+    """Build the mechanism of a car and record its points on the chassis.
 
-    `b`: with a rigid chassis and nothing else; `parts`: adds the parts of the mechanism in turn: front axle and
-    steering, then rear axle.
+    `b`: with a rigid chassis alone; `parts`: adds the parts of the mechanism: steering and front axle, then rear axle.
     """
-    noted = _Noted(b.chassis.body, b.chassis.origin)
-    b.chassis = replace(b.chassis, body=noted)
+    chassis = _RecordingChassis(b.chassis.body, b.chassis.origin)
+    b.chassis = replace(b.chassis, body=chassis)
     counts = []
     for _ in parts(b):
-        counts.append(len(noted.points))
-    points = list(noted.points)
+        counts.append(len(chassis.points))
+    points = list(chassis.points)
     axle_points = (points[: counts[0]], points[counts[0] : counts[1]])
     axles = tuple(tuple(p for p in part if p[1] >= 0.0) for part in axle_points)
-    return Attachments((axles[0], axles[1]), tuple(_joint_pairs(noted, b.m.joints)))
+    return Attachments((axles[0], axles[1]), tuple(_joint_pairs(chassis, b.m.joints)))
 
 
 def _joint_pairs(chassis: Body, joints: list[Joint]) -> Iterator[tuple[Point, Point]]:
-    """Pairs of points of which no other is the image, at which one part is joined to the chassis."""
+    """Yield pairs of points at which one part is joined to the chassis, without the images of other pairs."""
     points_by_body: dict[Body, list[Point]] = {}
     for joint in joints:
         if joint.places is not None and chassis in joint.places.bodies:

@@ -1,4 +1,4 @@
-"""Adds a flexible chassis to a car, with its stresses and amplitudes, the same outputs at every fidelity."""
+"""Adds a flexible chassis to a car, and outputs of stresses and amplitudes that are the same at every fidelity."""
 
 from collections.abc import Callable, Iterable
 
@@ -20,11 +20,11 @@ from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.side import Point
 
-COMPUTED = "stress.computed"
+COMPUTED_OUTPUT = "stress.computed"
 
 
 def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
-    """The frame of a car on the joints where its parts hang. `b`: an empty model; `parts`: as of `attachments`.
+    """Make the frame of a car with the joints of its parts. `b`: an empty model; `parts`: as in `attachments`.
 
     Raises `ModelError`: the car has no flexible frame, or its files do not describe one that fits the car.
     """
@@ -41,7 +41,7 @@ def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Itera
 
 
 def flexible_chassis(m: Model, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
-    """Add the chassis. `fidelity`: how much of it is modelled, from QUASI_STATIC on."""
+    """Add the chassis at a fidelity, QUASI_STATIC or a finer one."""
     origin = data.reference
     if fidelity is Fidelity.QUASI_STATIC:
         rigid = rigid_chassis(m, data).body
@@ -52,14 +52,14 @@ def flexible_chassis(m: Model, data: Chassis, flexible: FlexibleFrame, fidelity:
 
 
 def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, AffineVector]:
-    """z and x axes through the joints where the drive hangs: its torque loads them in pairs.
+    """z and x axes by the joints of the drive, so that its torque acts on the frame as pairs of forces.
 
-    At the origin of the floating frame, a node without rotary inertia of its own, it would shake the frame.
+    At the origin of the floating frame, a node without rotary inertia, the torque would excite the frame.
     """
     front, rear, top = ([body.point(flexible.place(joint)) for joint in pair] for pair in flexible.joints.drive)
     p_front, p_rear, p_top = (flexible.place(pair[0]) for pair in flexible.joints.drive)
     length = float(p_front[0] - p_rear[0])
-    share = float(p_top[0] - p_rear[0]) / length  # of the front joints in the place under the top ones
+    share = float(p_top[0] - p_rear[0]) / length  # weight of the front joints in the point below the top ones
     x = (front[0] + front[1] - rear[0] - rear[1]) * (0.5 / length)
     base = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
     slope = float(p_front[2] - p_rear[2])
@@ -69,10 +69,10 @@ def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, Affi
 
 
 def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list[AffineVector], np.ndarray]:
-    """Origin and axes as the shortest combinations of suspension joints that are right for every rigid motion.
+    """Origin and axes as the smallest combinations of suspension joints that are exact for rigid motions.
 
-    What acts on them loads the frame as forces at these joints. At the floating frame itself, one node, it would bend
-    the floor; a quasi-static chassis would miss it.
+    Loads on them act on the frame as forces at these joints. Loads on the floating frame itself, one node, would bend
+    the floor and have no effect on a quasi-static chassis.
     """
     positions = [flexible.place(joint) for joint in flexible.carrying]
     origin = np.mean(positions, axis=0)
@@ -86,8 +86,8 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
 
 
 def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
-    """Moments and stresses at the gauges; zero for the rigid chassis, where `COMPUTED` says so."""
-    note = f"; zero where {COMPUTED} is 0"
+    """Add moments and stresses at the gauges; zero on a rigid chassis, where the output `COMPUTED_OUTPUT` is 0."""
+    note = f"; zero where {COMPUTED_OUTPUT} is 0"
     for k, reading in enumerate(flexible.structure.readings):
         name, unit, text = reading.name, reading.unit, reading.description
         if fidelity.rigid:
@@ -103,7 +103,7 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
             m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
     computed = not fidelity.rigid
-    m.sense_constant(COMPUTED, float(computed), unit="1", description=text, whole=True, computed=computed)
+    m.sense_constant(COMPUTED_OUTPUT, float(computed), unit="1", description=text, whole=True, computed=computed)
 
 
 def amplitude_names(flexible: FlexibleFrame) -> list[str]:
@@ -112,16 +112,16 @@ def amplitude_names(flexible: FlexibleFrame) -> list[str]:
 
 
 def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
-    """Amplitudes of the modes of fidelity 3, with which `stress_scene` draws the chassis at any fidelity.
+    """Add the amplitudes of the modes of fidelity 3, by which `stress_scene` draws the chassis at any fidelity.
 
-    A flexible chassis with other modes gives the amplitudes that are nearest in the energy norm, the quasi-static one
-    those of the static deformation; the rigid chassis has none, they read 0.
+    For a flexible chassis with other modes they are the nearest ones in the energy norm, for a quasi-static chassis
+    those of the static deformation, for a rigid chassis 0.
     """
     drawn, body = flexible.drawn, mount.body
     rows = flexible.drawn_amplitudes(body.reduced) if isinstance(body, FlexibleBody) else None
     for k, (name, mode) in enumerate(zip(amplitude_names(flexible), drawn.mode_names, strict=True)):
         unit = "m" if k < drawn.n_static else "1"
-        text = f"amplitude of mode '{mode}' of the chassis, for pictures; zero where {COMPUTED} is 0"
+        text = f"amplitude of mode '{mode}' of the chassis, for pictures; zero where {COMPUTED_OUTPUT} is 0"
         if isinstance(body, FlexibleBody):
             assert rows is not None
             m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)

@@ -25,9 +25,9 @@ from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.table import read_table
 
 MANY_MODES = 40
-"""Number of dynamic modes of the fidelity MANY_MODES."""
+"""Number of dynamic modes of `Fidelity.MANY_MODES`."""
 LOAD_PATH_TOLERANCE = 5e-3
-"""Load paths with a deformation below this part of the largest, in the energy norm, are left out."""
+"""Deformation of a neglected load path, relative to the largest, in the energy norm."""
 MOST_FORCE = 1e6
 """Largest force in a table of loads, N."""
 
@@ -36,16 +36,16 @@ class FlexibleFrame:
     """A flexible frame as the chassis of a car.
 
     `section`: of the car file; `folder`: of that file and its tables; `structure`: finite elements and gauges;
-    `joints`: where the suspension is attached.
+    `joints`: of suspension, drive and ground.
 
     Attributes
     ----------
     interfaces : tuple of str
         Joints of the suspension.
     stiff_pairs : tuple of tuple of str
-        Pairs of them at constant distance, held by a wishbone: no load stretches the frame between them.
+        Pairs of interfaces at constant distance, as pivots of a wishbone: no load stretches the frame between them.
     carrying : tuple of str
-        Joints that carry the masses on the frame as if these were one rigid body.
+        Joints that carry the masses on the frame.
     model : FiniteElementModel
         The frame with its interfaces at the hard points and the masses it carries.
     """
@@ -55,8 +55,8 @@ class FlexibleFrame:
         self.interfaces, self.stiff_pairs, self.reference = tuple(joints.interfaces), joints.held, joints.reference
         self.damping = RayleighDamping.fitted(section.damping.ratio, *section.damping.frequencies)
         self.carrying = tuple(joint for pair in joints.ground for joint in pair)
-        self._bare = self.model = _at_hard_points(structure.model, joints)
-        self.model = replace(self._bare, mass=self._bare.mass.merged(self._riding()))
+        self._unloaded_model = self.model = _at_hard_points(structure.model, joints)
+        self.model = replace(self._unloaded_model, mass=self._unloaded_model.mass.merged(self._carried_masses()))
         self._reduced: dict[Fidelity, ReducedBody] = {}
 
     @cached_property
@@ -77,13 +77,13 @@ class FlexibleFrame:
         return np.asarray(self.model.positions[self.model.node(joint)])
 
     def shares(self, sums: np.ndarray) -> np.ndarray:
-        """Smallest weights of the carrying joints with a given weighted sum of (x, y, z, 1). `sums`: shape (4,)."""
+        """Smallest weights of the carrying joints whose weighted sum of (x, y, z, 1) is `sums`, shape (4,)."""
         rigid = np.vstack([np.transpose([self.place(joint) for joint in self.carrying]), np.ones(len(self.carrying))])
         return np.asarray(np.linalg.lstsq(rigid, sums, rcond=None)[0])
 
-    def _riding(self) -> MassPoints:
-        """Masses carried by the frame, which load it at the carrying joints as payloads do."""
-        riding, model = self.structure.riding, self._bare
+    def _carried_masses(self) -> MassPoints:
+        """Masses on the frame, which act on it at the carrying joints like payloads."""
+        riding, model = self.structure.riding, self._unloaded_model
         freedoms = np.array([model.freedoms(joint) for joint in self.carrying])
         positions, rows = [self.place(joint) for joint in riding], np.zeros((len(riding), 3, model.n_dof))
         for row, position in zip(rows, positions, strict=True):
@@ -95,19 +95,22 @@ class FlexibleFrame:
         """The frame reduced to the modes of a fidelity, cached. `fidelity`: LOAD_PATHS or a finer one."""
         level = Fidelity.of(fidelity)
         if level not in self._reduced:
-            self._reduced[level] = self._reduce(level).carrying(self._riding())
+            self._reduced[level] = self._reduce(level).carrying(self._carried_masses())
         return self._reduced[level]
 
     def _reduce(self, fidelity: Fidelity) -> ReducedBody:
-        s, model = self.section, self._bare
+        """Reduce the frame without carried masses to the modes of a fidelity."""
+        section, model = self.section, self._unloaded_model
         if fidelity is Fidelity.PAPER:
-            return craig_bampton(model, self.reference, self.interfaces, s.dynamic_modes, damping=self.damping)
-        count = {Fidelity.LOAD_PATHS: 0, Fidelity.DYNAMIC: s.dynamic_modes, Fidelity.MANY_MODES: MANY_MODES}[fidelity]
+            return craig_bampton(model, self.reference, self.interfaces, section.dynamic_modes, damping=self.damping)
+        count = {Fidelity.LOAD_PATHS: 0, Fidelity.DYNAMIC: section.dynamic_modes, Fidelity.MANY_MODES: MANY_MODES}[
+            fidelity
+        ]
         body = craig_bampton(model, self.reference, self.interfaces, count, inertia_modes=True, damping=self.damping)
         if fidelity is not Fidelity.LOAD_PATHS:
             return body
-        # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
-        # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
+        # the frame needs the stretch between the pivots of a wishbone to satisfy its constant length, and all
+        # directions at the origin for a guide, whose force on a pitched car has a vertical component
         loads, pairs = self.recorded_loads(), self._relief_with_stretch[1]
         all_loads = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
         guided = np.zeros((6, all_loads.shape[1]))
@@ -121,7 +124,7 @@ class FlexibleFrame:
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
 
-        Raises `ModelError`: the file names no table of them, or the table has other interfaces.
+        Raises `ModelError`: there is no table of loads, or it has other interfaces.
         """
         if self.section.loads is None:
             raise ModelError(
@@ -146,7 +149,7 @@ class FlexibleFrame:
         return np.array([loads[name, axis] for name in self.interfaces for axis in "xyz"])
 
     def settled_loads(self, forces: np.ndarray) -> np.ndarray:
-        """Interface forces together with the axial forces of the wishbones that keep their pivots at their distance.
+        """Interface forces with the axial forces of the wishbones that keep the distances of their pivots.
 
         `forces`: in N, shape (3 n_interfaces, n).
         """
@@ -158,7 +161,7 @@ class FlexibleFrame:
 
         `forces`: in N, shape (3 n_interfaces, n).
         """
-        body = craig_bampton(self._bare, self.reference, self.interfaces, 0, inertia_modes=True)
+        body = craig_bampton(self._unloaded_model, self.reference, self.interfaces, 0, inertia_modes=True)
         deformation = load_path_deformations(body, forces)
         return np.asarray(deformation.T @ body.K @ deformation)
 
@@ -166,42 +169,42 @@ class FlexibleFrame:
     def _relief_with_stretch(self) -> tuple[InertiaRelief, np.ndarray, int]:
         """Matrices from loads to gauges and to the stretch between pivots; interface forces per axial force of a
         wishbone; number of gauge rows."""
-        return self._with_stretch(self.gauge_rows)
+        return self._relief_for(self.gauge_rows)
 
-    def _with_stretch(self, outputs: np.ndarray) -> tuple[InertiaRelief, np.ndarray, int]:
-        """`_relief_with_stretch` for the rows of outputs `outputs` in place of the gauges."""
+    def _relief_for(self, outputs: np.ndarray) -> tuple[InertiaRelief, np.ndarray, int]:
+        """As `_relief_with_stretch`, with the rows `outputs` over the nodal displacements in place of the gauges."""
         model = self.model
         stretch = np.zeros((len(self.stiff_pairs), outputs.shape[1]))
         pairs = np.zeros((3 * len(self.interfaces), len(self.stiff_pairs)))
         for k, pair in enumerate(self.stiff_pairs):
             a, b = (model.node(name) for name in pair)
-            along = model.positions[a] - model.positions[b]
-            along /= np.linalg.norm(along)
+            direction = model.positions[a] - model.positions[b]
+            direction /= np.linalg.norm(direction)
             for node, name, sign in ((a, pair[0], 1.0), (b, pair[1], -1.0)):
-                stretch[k, model.freedoms(node)[:3]] = sign * along
+                stretch[k, model.freedoms(node)[:3]] = sign * direction
                 start = 3 * self.interfaces.index(name)
-                pairs[start : start + 3, k] = sign * along
+                pairs[start : start + 3, k] = sign * direction
         relief = inertia_relief(model, self.reference, self.interfaces, np.vstack([outputs, stretch]))
         return relief, pairs, len(outputs)
 
     @cached_property
     def quasi_static(self) -> InertiaRelief:
         """Matrices from interface forces and rigid motion to the gauge readings, with wishbones of constant length."""
-        return _settled(*self._relief_with_stretch)
+        return _with_rigid_wishbones(*self._relief_with_stretch)
 
     @cached_property
     def drawn(self) -> ReducedBody:
-        """Modes in which the frame is drawn at every fidelity: those of DYNAMIC."""
+        """Modes by which the frame is drawn at every fidelity, those of DYNAMIC."""
         return self.reduced(Fidelity.DYNAMIC)
 
     @cached_property
     def quasi_static_amplitudes(self) -> InertiaRelief:
         """Matrices from interface forces and rigid motion to the amplitudes of `drawn`.
 
-        The amplitudes solve the static equations of these modes, which represent the deformation under every interface
-        force and rigid acceleration exactly, that under the angular velocity in part.
+        The amplitudes solve the static equations of these modes, which represent the deformation under interface forces
+        and rigid accelerations exactly, and that under the angular velocity approximately.
         """
-        return _settled(*self._with_stretch(self._amplitudes_of_displacements))
+        return _with_rigid_wishbones(*self._relief_for(self._amplitudes_of_displacements))
 
     def drawn_amplitudes(self, body: ModalBody) -> np.ndarray:
         """Matrix from amplitudes of another reduction of the frame to the nearest ones of `drawn` in the energy norm.
@@ -220,24 +223,24 @@ class FlexibleFrame:
         return np.linalg.solve(drawn.K, np.asarray((self.model.K @ drawn.modes).T))
 
 
-def _settled(relief: InertiaRelief, pairs: np.ndarray, n: int) -> InertiaRelief:
-    """The first n outputs of a relief, with axial forces of the wishbones that make the stretch zero."""
-    undo = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
+def _with_rigid_wishbones(relief: InertiaRelief, pairs: np.ndarray, n: int) -> InertiaRelief:
+    """The first n outputs of a relief, with the axial forces of the wishbones for which the stretch is zero."""
+    correction = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
 
-    def mixed(part: np.ndarray) -> np.ndarray:
-        return np.asarray(part[:n] + undo @ part[n:])
+    def corrected(matrix: np.ndarray) -> np.ndarray:
+        return np.asarray(matrix[:n] + correction @ matrix[n:])
 
     return InertiaRelief(
-        mixed(relief.forces),
-        mixed(relief.acceleration),
-        mixed(relief.rotation),
-        mixed(relief.balanced),
+        corrected(relief.forces),
+        corrected(relief.acceleration),
+        corrected(relief.rotation),
+        corrected(relief.balanced),
         relief.acceleration_of_forces,
     )
 
 
 def _at_hard_points(model: FiniteElementModel, joints: FrameJoints) -> FiniteElementModel:
-    """The model with its joints exactly at the points of the car file, as files of matrices have fewer digits."""
+    """Copy of the model with its joints at the points of the car file, which have more digits than matrix files."""
     positions = model.positions.copy()
     for name, position in (*joints.accelerometers.items(), *joints.interfaces.items()):
         positions[model.node(name)] = position

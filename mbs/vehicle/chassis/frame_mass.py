@@ -7,13 +7,13 @@ from mbs.flexible.body_plausibility import model_plausibility
 from mbs.vehicle.chassis.frames.frame_section import Structure
 from mbs.vehicle.chassis.section import Chassis
 
-MASS, INERTIA = 0.005, 0.02  # of the mass, of the largest moment of inertia
-CENTRE = 0.005  # m
+MASS_TOLERANCE, INERTIA_TOLERANCE = 0.005, 0.02  # relative to the mass, to the largest moment of inertia
+CENTRE_TOLERANCE = 0.005  # m
 _REMEDY = "Change the masses of the frame too; what a parameter of a run changes may differ: it rides on the frame."
 
 
 def check_mass(structure: Structure, chassis: Chassis) -> None:
-    """Refuse a frame that is another body than the rigid chassis. `structure`: with all it carries.
+    """Compare the mass properties of a frame, with all masses on it, with those of the rigid chassis.
 
     Raises `ModelError`: mass, centre of mass or inertia differ.
     """
@@ -21,7 +21,7 @@ def check_mass(structure: Structure, chassis: Chassis) -> None:
     masses = np.concatenate([points.masses, list(riding.values())])
     positions = np.vstack([points.positions, *(structure.joints[joint] for joint in riding)])
     total = float(masses.sum())
-    if abs(total - chassis.mass) > MASS * chassis.mass:
+    if abs(total - chassis.mass) > MASS_TOLERANCE * chassis.mass:
         (plausibility,) = model_plausibility(structure.model, modes=False, beside=chassis.mass - sum(riding.values()))
         causes = "".join(f"{sentence} " for sentence in plausibility.warnings() if "would explain it" in sentence)
         raise ModelError(
@@ -29,22 +29,23 @@ def check_mass(structure: Structure, chassis: Chassis) -> None:
             f"{total:.6g} kg. {causes}{_REMEDY}"
         )
     centre = masses @ positions / total
-    if np.linalg.norm(centre - chassis.com) > CENTRE:
+    if np.linalg.norm(centre - chassis.com) > CENTRE_TOLERANCE:
         raise ModelError(
             f"{chassis.key('com')} is {list(chassis.com)} m, but the centre of mass of the frame with the masses it "
-            f"carries is {_shown(centre, 4)} m. {_REMEDY}"
+            f"carries is {_rounded(centre, 4)} m. {_REMEDY}"
         )
     arms = positions - centre
     second = (masses[:, None] * arms).T @ arms
     tensor, chassis_tensor = np.trace(second) * np.eye(3) - second, np.array(chassis.tensor)
-    if np.abs(tensor - chassis_tensor).max() > INERTIA * chassis_tensor.max():
+    if np.abs(tensor - chassis_tensor).max() > INERTIA_TOLERANCE * chassis_tensor.max():
         (x, xy, xz), (_, y, yz), (_, _, z) = tensor
         raise ModelError(
             f"{chassis.key('inertia')} is {list(chassis.inertia)} kg.m2 and products {list(chassis.products)}, but the "
-            f"frame with the masses it carries has {_shown((x, y, z), 2)} and {_shown((xy, xz, yz), 2)} kg.m2. "
+            f"frame with the masses it carries has {_rounded((x, y, z), 2)} and {_rounded((xy, xz, yz), 2)} kg.m2. "
             f"{_REMEDY}"
         )
 
 
-def _shown(values: object, digits: int) -> list[float]:
+def _rounded(values: object, digits: int) -> list[float]:
+    """Values rounded for a message."""
     return [round(float(v), digits) + 0.0 for v in np.asarray(values)]

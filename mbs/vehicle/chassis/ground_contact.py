@@ -1,4 +1,4 @@
-"""Contact points of the chassis with the ground."""
+"""Adds the contact points of the chassis with the ground."""
 
 from collections.abc import Callable, Mapping
 
@@ -18,11 +18,7 @@ NAME = "ground contact"
 def ground_contact(
     b: CarBuilder, data: GroundContact, mass: float, joints: Callable[[], Mapping[str, NDArray[np.float64]]]
 ) -> None:
-    """Add the points.
-
-    `mass`: of the car, kg; `joints`: gives the places of the joints of the frame by name, m, where a point is the name
-    of one.
-    """
+    """Add the points. `mass`: of the car, kg; `joints`: returns the positions of the frame's joints by name, m."""
     contact = ContactPoints.for_mass(
         0.25 * mass,
         data.depth,
@@ -40,6 +36,7 @@ def ground_contact(
 def _position(
     data: GroundContact, point: Point | str, joints: Callable[[], Mapping[str, NDArray[np.float64]]]
 ) -> Point:
+    """Position of a contact point, m. Raises `ModelError`: it names a joint that does not exist."""
     if not isinstance(point, str):
         return point
     positions = joints()

@@ -13,10 +13,10 @@ from mbs.vehicle.chassis.section import Chassis
 
 
 class LeverCarrier(Body):
-    """A chassis that may bend, for levers: its points are joints of the frame, its axes those of the mean frame.
+    """A flexible chassis for levers: its points are joints of the frame, its axes those of the mean frame.
 
-    What a lever does to the axes loads the frame as forces at the joints of the suspension. The floating frame is one
-    node, and a node at the lever alone would take the torque of the bar, which its bushes do not have.
+    A moment of a lever on the axes acts on the frame as forces at the joints of the suspension. At a single node it
+    would act as a torque, which the bushes of the lever do not transmit.
 
     `axes`: x, y and z axis.
     """
@@ -42,22 +42,22 @@ class Mount:
     """The chassis in a model."""
 
     body: Body
-    """What joints and springs take."""
+    """Body for joints and springs."""
     frame: Body
-    """Rigid body, or floating frame: axes and points that do not deform."""
+    """Rigid body or floating frame, whose axes and points do not deform."""
     accelerated: Body
-    """Where accelerometers sit."""
+    """Body of the accelerometers."""
     origin: tuple[float, float, float]
-    """The reference point in the drawing, m."""
+    """Reference point as drawn, m."""
     drive_axes: tuple[AffineVector, AffineVector]
-    """z and x axes that take the reaction of the drive."""
+    """z and x axes on which the reaction of the drive acts."""
     contact_frame: tuple[AffineVector, list[AffineVector], np.ndarray]
-    """Origin, axes and place of the origin in the drawing, m, that take the forces of the ground on the chassis."""
+    """Origin, axes, and position of the origin as drawn, m, on which forces of the ground and of payloads act."""
 
     def place(self, point: ArrayLike) -> AffineVector:
-        """A point in the contact frame, which takes forces at any fidelity. `point`: in the drawing, m, shape (3,)."""
-        origin, axes, at = self.contact_frame
-        x, y, z = (float(v) for v in np.subtract(vector(point, 3, "a point of the chassis"), at))
+        """Point of the contact frame, on which forces act at any fidelity. `point`: as drawn, m, shape (3,)."""
+        origin, axes, position = self.contact_frame
+        x, y, z = (float(v) for v in np.subtract(vector(point, 3, "a point of the chassis"), position))
         return origin + axes[0] * x + axes[1] * y + axes[2] * z
 
     @property

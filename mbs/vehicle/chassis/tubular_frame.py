@@ -17,7 +17,7 @@ from mbs.vehicle.chassis.tube_tables import TubeTables
 from mbs.vehicle.table import Row, read_table
 
 IMAGE = {"L": "R", "R": "L", "c": "c"}
-REACH, MOST_ELEMENTS, MOST_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
+LARGEST_COORDINATE, MOST_ELEMENTS, LARGEST_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,12 @@ class FrameTube:
 
 @dataclass(frozen=True)
 class TubularFrame:
-    """Tables of a frame."""
+    """A frame of tubes from its tables."""
 
     section: TubeTables
-    """As in the car's file."""
+    """Section of the car file."""
     folder: Path
-    """Of the tables."""
+    """Folder of the tables."""
 
     @property
     def material(self) -> Material:
@@ -47,7 +47,7 @@ class TubularFrame:
 
     @property
     def tube_sections(self) -> dict[str, Section]:
-        """Tubes by the names of the table."""
+        """Cross-sections of tubes by name."""
         sections = {}
         for name, s in self.section.sections.items():
             if 2.0 * s.wall > s.diameter:
@@ -60,14 +60,14 @@ class TubularFrame:
     def frame(
         self, theory: str = "euler_bernoulli", refinement: int = 1, carried_masses: bool = True
     ) -> tuple[Frame, tuple[FrameTube, ...]]:
-        """The frame and its tubes.
+        """Make the frame and its tubes.
 
-        Nodes are the joints by their names first, then the nodes inside the tubes ("LRL-D1L 1" and on); elements run
-        from the first joint of each tube to the second.
+        Nodes are the joints, then the nodes within the tubes ("LRL-D1L 1" and on); elements run from the first joint of
+        each tube to the second.
 
-        `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: multiplies the number of elements of every tube;
-        `carried_masses`: without them the frame is bare tubes; those that ride on it are `riding`.
-        Raises `ModelError`: a table is missing or does not describe a frame.
+        `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: factor on the number of elements of every tube;
+        `carried_masses`: whether the masses of joints are included, except those of `riding`. Raises `ModelError`: a
+        table is missing or does not describe a frame.
         """
         material, sections = self.material, self.tube_sections
         joints = self.joint_places()
@@ -89,7 +89,7 @@ class TubularFrame:
         return Frame(np.array(positions), beams, masses, names, theory), tuple(tubes)
 
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
-        """The gauges on the elements of a frame of any refinement.
+        """Make the gauges on the elements of a frame of any refinement.
 
         `tubes`: from `frame`. Raises `ModelError`: a gauge is on no tube, or its fibre is named by a direction in which
         the tube runs.
@@ -103,18 +103,19 @@ class TubularFrame:
         return tuple(gauges)
 
     def joint_places(self) -> dict[str, np.ndarray]:
-        """Joints by name with their images, m."""
+        """Read the positions of the joints and of their images by name, m."""
         joints: dict[str, np.ndarray] = {}
         names: set[str] = set()
         for row in read_table(self.folder, self.section.joints, self.section.key("joints"), ("joint", "x", "y", "z")):
             name = row["joint"]
-            position = np.array([row.number(axis, -REACH, REACH, "m") for axis in "xyz"])
+            position = np.array([row.number(axis, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m") for axis in "xyz"])
             _check_joint(row, name, float(position[1]), names)
             joints[name] = position
             joints.setdefault(mirrored(name), position * [1.0, -1.0, 1.0])
         return joints
 
     def _tubes(self, joints: dict[str, np.ndarray]) -> list[tuple[str, str, str, int]]:
+        """Read first joint, second joint, cross-section and number of elements of the tubes and of their images."""
         tubes: list[tuple[str, str, str, int]] = []
         key, sections = self.section.key("tubes"), self.section.sections
         ends: set[frozenset[str]] = set()
@@ -133,37 +134,38 @@ class TubularFrame:
         return tubes
 
     def riding(self) -> dict[str, float]:
-        """Masses without an image, by joint, kg. Raises `ModelError`: their table is missing or not right."""
+        """Read the masses without an image by joint, kg. Raises `ModelError`: their table is missing or not valid."""
         return self._masses(self.joint_places(), "no")
 
     def _masses(self, joints: dict[str, np.ndarray], image: str) -> dict[str, float]:
-        """Masses by joint of the lines that say so about their image."""
+        """Read the masses by joint, kg, of the lines with the given value of the column `image`, "yes" or "no"."""
         masses: dict[str, float] = {}
         if self.section.masses is None:
             return masses
         for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
             _check_name(row, row["joint"], joints, "joint", self.section.key("joints"))
             for joint in _loaded_joints(row, image):
-                masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MOST_MASS, "kg")
+                masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, LARGEST_MASS, "kg")
         return masses
 
 
 def mirrored(name: str) -> str:
-    """Name of the image of a joint. `name`: of the joint; its last letter is its side."""
+    """Name of the image of a joint, whose last letter is its side."""
     return name[:-1] + IMAGE[name[-1]]
 
 
-def _loaded_joints(row: Row, wanted: str) -> tuple[str, ...]:
-    """Joints that have the mass of a line: the named one and its image, unless the column `image` says no."""
+def _loaded_joints(row: Row, image_filter: str) -> tuple[str, ...]:
+    """Joints with the mass of a line: the named one and its image; none if the column `image` is not `image_filter`."""
     joint, image = row["joint"], row.cells.get("image") or "yes"
     if image not in ("yes", "no"):
         raise ModelError(f"{row.where}: image is {image!r}; it must be yes or no, or left empty for yes.")
-    if image != wanted:
+    if image != image_filter:
         return ()
     return (joint,) if image == "no" else tuple(dict.fromkeys((joint, mirrored(joint))))
 
 
 def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
+    """Tube of a gauge. Raises `ModelError`: there is none between its joints."""
     tubes_by_ends = {(t.start, t.end): t for t in tubes}
     if gauge.tube in tubes_by_ends:
         return tubes_by_ends[gauge.tube]
@@ -176,17 +178,19 @@ def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
     raise ModelError(f"{gauge.key('tube')} is {list(gauge.tube)}, which is not a tube of the frame: {hint}.")
 
 
-def _check_joint(row: Row, name: str, y: float, seen: set[str]) -> None:
+def _check_joint(row: Row, name: str, y: float, names: set[str]) -> None:
+    """Check the name of a joint against its side and the names before, and add it to these. `y`: m."""
     if name[-1:] not in ("L", "c"):
         raise ModelError(f"{row.where}: joint is {name!r}; its name must end in L (left) or c (centre plane).")
-    if name in seen:
+    if name in names:
         raise ModelError(f"{row.where}: joint {name} occurs twice.")
-    seen.add(name)
+    names.add(name)
     if (name[-1] == "L") != (y > 0.0) or (name[-1] == "c" and y != 0.0):
         rule = "positive on the left" if name[-1] == "L" else "0 on the centre plane"
         raise ModelError(f"{row.where}: joint {name} has y = {y:g} m; y must be {rule}.")
 
 
-def _check_name(row: Row, name: str, names: Container[str], what: str, key: str) -> None:
+def _check_name(row: Row, name: str, names: Container[str], kind: str, key: str) -> None:
+    """Raise `ModelError` if a name is not among those of another table. `key`: key path of that table."""
     if name not in names:
-        raise ModelError(f"{row.where}: {what} {name!r} is not in {key}.")
+        raise ModelError(f"{row.where}: {kind} {name!r} is not in {key}.")

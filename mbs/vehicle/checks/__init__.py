@@ -1,5 +1,5 @@
-"""Checks of relations between numbers of a car file, one file for each subject.
+"""Checks of relations between the numbers of a car file, one file for each subject.
 
-`car_faults` refuses what cannot be a car, where each number is in its range; `car_oddities` reports what is odd of a
+`car_faults` finds contradictions between numbers that are in their ranges; `car_oddities` finds unusual properties of a
 car without faults.
 """

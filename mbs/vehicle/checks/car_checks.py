@@ -1,4 +1,4 @@
-"""Checks of a car, in order."""
+"""All checks of a car, in order."""
 
 from collections.abc import Iterator
 
@@ -13,11 +13,12 @@ from mbs.vehicle.section import sections_of
 
 
 def car_faults(car: CarContent) -> list[str]:
-    """A sentence for each fault, without the equilibrium, which `settled` looks for."""
+    """Sentences on the faults of a car; `settled` tests the equilibrium."""
     return list(_faults(car))
 
 
 def _faults(car: CarContent) -> Iterator[str]:
+    """Yield a sentence for each fault."""
     for section in sections_of(car):
         yield from section.faults()
     yield from dimension_faults(car)
@@ -32,7 +33,7 @@ def _faults(car: CarContent) -> Iterator[str]:
 
 
 def car_oddities(car: CarContent, rest: Rest) -> list[str]:
-    """A sentence for each thing that is odd."""
+    """Sentences on the unusual properties of a car. `rest`: the car at rest."""
     return [
         *(sentence for section in sections_of(car) for sentence in section.oddities()),
         *rest.oddities(car),

@@ -1,4 +1,4 @@
-"""Wheelbase and tracks."""
+"""Checks of wheelbase and tracks."""
 
 from collections.abc import Iterator
 
@@ -6,13 +6,13 @@ from mbs.vehicle.car_content import CarContent
 
 
 def dimension_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault."""
+    """Yield a sentence for each fault."""
     front, rear = car.front.wheel, car.rear.wheel
-    wheels = car.front.tyre.radius + car.rear.tyre.radius
-    if car.wheelbase < wheels:
+    radii = car.front.tyre.radius + car.rear.tyre.radius
+    if car.wheelbase < radii:
         yield (
             f"{rear.key('centre')} lies {car.wheelbase:g} m behind {front.key('centre')}; "
-            f"the wheels, of {wheels:g} m together, pass each other."
+            f"the wheels, of {radii:g} m together, pass each other."
         )
     if abs(front.centre[0]) > 1e-9:
         yield (

@@ -1,4 +1,4 @@
-"""Check that the car at rest is in the drawn position."""
+"""The car at rest, and its differences from the drawing."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,11 +17,11 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.steering.steering_interface import Steered
 
-ODD = 0.02  # m: a wheel's travel between drawing and rest
-ODD_DEFLECTION = 0.005  # m: the same of a tyre's deflection
-FITTED = 1e-6  # m: of the free length with which a car stands as drawn
-WIDER = 5  # times that the range in which it is sought is doubled
-ODD_LEAN = math.radians(0.5)
+LARGEST_TRAVEL = 0.02  # m, of a wheel from the drawing to rest
+LARGEST_DEFLECTION_ERROR = 0.005  # m, of a tyre at rest against the drawing
+LENGTH_TOLERANCE = 1e-6  # m, of fitted free lengths
+MOST_DOUBLINGS = 5  # of the range in which they are sought
+LARGEST_LEAN = math.radians(0.5)
 
 
 @dataclass(frozen=True)
@@ -29,44 +29,49 @@ class Rest:
     """The car at rest."""
 
     travel: dict[str, float]
-    """From the drawing, by axle, mean of both wheels, m, positive in bump."""
+    """Wheel travel from the drawing by axle, mean of both sides, m, positive in bump."""
     load: dict[str, float]
     spring_force: dict[str, float]
     deflection: dict[str, float]
-    """`load`, `spring_force`, `deflection`: of a wheel, N, of its spring, N, and of its tyre, m; means of both
+    """`load`, `spring_force`, `deflection`: of a wheel, N, of its spring, N, and of its tyre, m, by axle; means of both
     sides."""
     spring_length: dict[str, float]
-    """By axle, m."""
+    """Length of the springs by axle, m."""
     lean: float
     """Roll angle, rad, positive with the left side up."""
     compiled: CompiledModel
-    """Of the car."""
+    """Compiled model of the car."""
 
     def oddities(self, car: CarContent) -> Iterator[str]:
-        """A sentence for each difference from the drawing."""
-        yield from self._moved(car)
+        """Yield a sentence for each difference from the drawing."""
+        yield from self._travel_oddities(car)
         for name, axle in car.axles.items():
             drawn, deflection = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
-            if abs(deflection - drawn) > ODD_DEFLECTION:
+            if abs(deflection - drawn) > LARGEST_DEFLECTION_ERROR:
                 yield (
                     f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
                     f"{self.load[name]:.0f} N compresses the tyre by {deflection:.3g} m, but {axle.tyre.key('radius')} "
                     f"less the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
                 )
-        if abs(self.lean) > ODD_LEAN:
+        if abs(self.lean) > LARGEST_LEAN:
             yield (
                 f"at rest the car leans by {math.degrees(abs(self.lean)):.2g} deg to the "
                 f"{'right' if self.lean > 0.0 else 'left'}: its masses are not balanced sideways, or "
                 "a spring is soft."
             )
 
-    def _moved(self, car: CarContent) -> Iterator[str]:
-        displaced = [name for name, travel in self.travel.items() if abs(travel) > ODD]
-        fitting = _fitting(self, car, displaced) if displaced else {}
+    def _travel_oddities(self, car: CarContent) -> Iterator[str]:
+        """Yield a sentence for each axle whose wheels are not at the drawn height, with the free length that fits."""
+        displaced = [name for name, travel in self.travel.items() if abs(travel) > LARGEST_TRAVEL]
+        fitted_lengths = _fitted_lengths(self, car, displaced) if displaced else {}
         for name, axle in car.axles.items():
             travel = self.travel[name]
-            if abs(travel) > ODD:
-                remedy = f": with {axle.spring.key('free_length')} = {fitting[name]:.6g} it is" if fitting else ""
+            if abs(travel) > LARGEST_TRAVEL:
+                remedy = (
+                    f": with {axle.spring.key('free_length')} = {fitted_lengths[name]:.6g} it is"
+                    if fitted_lengths
+                    else ""
+                )
                 spring = axle.spring
                 values = [f"{spring.key('free_length')} {spring.free_length:g} m"]
                 values += [f"stiffness {spring.stiffness:g} N/m"] if spring.stiffness is not None else []
@@ -79,7 +84,7 @@ class Rest:
 
 
 def travel_output(m: Model, chassis: Body, spin: Spin, w: str) -> None:
-    """Add the travel of a wheel relative to the chassis as a sensor. `m`: as drawn; `w`: name of the wheel."""
+    """Add the travel of a wheel relative to the chassis as a sensor. `w`: name of the wheel."""
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(m.drawn()))
     m.sense_vector(
         f"wheel_{w}.travel", gap, [chassis.vector(UP)], description="travel of the wheel centre, positive in bump"
@@ -87,7 +92,7 @@ def travel_output(m: Model, chassis: Body, spin: Spin, w: str) -> None:
 
 
 def rest_outputs(b: CarBuilder, steered: Steered, spins: Mapping[str, Spin]) -> None:
-    """Add the sensors that `settled` reads."""
+    """Add the sensors that `settled` needs."""
     chassis = b.chassis.frame
     for w, spin in spins.items():
         travel_output(b.m, chassis, spin, w)
@@ -101,12 +106,9 @@ def rest_outputs(b: CarBuilder, steered: Steered, spins: Mapping[str, Spin]) -> 
     b.m.sense_vector("chassis.roll", AffineVector.constant(UP), [chassis.vector(UP), chassis.vector(LEFT)])
 
 
-def _fitting(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, float]:
-    """Free lengths of the springs of axles, m, with which the car stands as drawn, found by Brent's method.
-
-    Empty: none were found.
-    """
-    from scipy.optimize import brentq  # takes long, and few cars are warned of
+def _fitted_lengths(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, float]:
+    """Free lengths of the springs of axles with which the car stands as drawn, m (Brent's method); empty if none."""
+    from scipy.optimize import brentq  # its import is slow and seldom needed
 
     lengths = {car.axles[name].spring.key("free_length"): car.axles[name].spring.free_length for name in axles}
     keys = dict(zip(axles, lengths, strict=True))
@@ -116,28 +118,28 @@ def _fitting(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, flo
         return _mean(sensors, "wheel_{}.travel", name)
 
     try:
-        for name in (*axles, *(axles if len(axles) > 1 else ())):  # one axle moves the other a little
+        for name in (*axles, *(axles if len(axles) > 1 else ())):  # a second time: the axles influence each other
             begin = lengths[keys[name]]
             offset = travel(begin, name)
-            candidates = [begin + 2.0**k * offset for k in range(WIDER)]  # too low: shorter
+            candidates = [begin + 2.0**k * offset for k in range(MOST_DOUBLINGS)]  # a low car needs longer springs
             bound = next((x for x in candidates if travel(x, name) * offset < 0.0), None)
             if bound is None:
                 return {}
-            lengths[keys[name]] = float(brentq(travel, begin, bound, args=(name,), xtol=FITTED))
+            lengths[keys[name]] = float(brentq(travel, begin, bound, args=(name,), xtol=LENGTH_TOLERANCE))
     except ModelError:
         return {}
     return {name: lengths[keys[name]] for name in axles}
 
 
 def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
-    """Mean value of a sensor of both wheels of an axle. `name`: of the sensor, with {} for the wheel."""
+    """Mean of a sensor over both wheels of an axle. `name`: of the sensor, with {} for the wheel."""
     return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
 
 def settled(model: Model, car: CarContent) -> Rest:
-    """Compile the car and let the kernel find its equilibrium. `model`: of the car, with `rest_outputs`.
+    """Compile the car and find its equilibrium. `model`: with the sensors of `rest_outputs`.
 
-    Raises `ModelError`: its parts refuse a number, or it has no equilibrium.
+    Raises `ModelError`: a number is not valid, or there is no equilibrium.
     """
     system = compiled(model)
     at_rest = StandingSystem(system).sensors

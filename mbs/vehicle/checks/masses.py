@@ -1,4 +1,4 @@
-"""Masses, centres of mass and inertias."""
+"""Checks of masses, centres of mass and inertias."""
 
 import math
 from collections.abc import Iterator
@@ -9,22 +9,22 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.places import parts_of
 
 MASS_TOLERANCE = 0.005  # of the car's mass
-REFERENCE_TOLERANCE = 0.1  # m, between the reference point and the centre of mass that it is
-SHARE = 0.15  # least share of the weight on an axle
-LOW = 0.1  # of the track: least height of the centre of mass
-ASIDE = 0.1  # of the track: most that the centre of mass is off the middle
+REFERENCE_TOLERANCE = 0.1  # m, between reference point and centre of mass
+LEAST_WEIGHT_SHARE = 0.15  # of an axle
+LEAST_HEIGHT = 0.1  # of the centre of mass, over the track
+LARGEST_LATERAL_OFFSET = 0.1  # of the centre of mass, over the track
 
 
 def mass_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault."""
-    yield from _sum(car)
+    """Yield a sentence for each fault."""
+    yield from _total_mass_faults(car)
     for part in parts_of(car):
-        yield from _tensor(part.key("inertia"), part.inertia)
-    yield from _chassis(car)
+        yield from _inertia_faults(part.key("inertia"), part.inertia)
+    yield from _chassis_faults(car)
 
 
 def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[float, float, float]]]:
-    """Masses with their places as drawn, of both sides."""
+    """Masses, kg, and positions as drawn, m, of the parts of both sides. `payloads`: whether they are included."""
     weighed = [(car.chassis.mass, car.chassis.com)]
     weighed += [(load.mass, load.point) for load in car.payload.values() if payloads]
     points = car.front.suspension.points
@@ -35,7 +35,8 @@ def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[f
     return weighed + [(mass, (x, side * y, z)) for mass, (x, y, z) in left_masses for side in (1.0, -1.0)]
 
 
-def _sum(car: CarContent) -> Iterator[str]:
+def _total_mass_faults(car: CarContent) -> Iterator[str]:
+    """Yield a fault of the mass or of the reference point of the car against the sum of its parts."""
     total = sum(mass for mass, _ in weighed_points(car, payloads=False))
     declared = car.vehicle.mass
     if abs(total - declared) > MASS_TOLERANCE * declared:
@@ -51,24 +52,30 @@ def _sum(car: CarContent) -> Iterator[str]:
 
 
 def centre_ranges(car: CarContent) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float]]:
-    """Ranges of x, y and z for the centre of mass of a car, m."""
+    """Ranges of x, y and z of the centre of mass of a car, m."""
     base, track = max(car.wheelbase, 1e-3), min(car.front.track, car.rear.track)
-    return (base * (SHARE - 1.0), -base * SHARE), (-ASIDE * track, ASIDE * track), (LOW * track, track)
+    return (
+        (base * (LEAST_WEIGHT_SHARE - 1.0), -base * LEAST_WEIGHT_SHARE),
+        (-LARGEST_LATERAL_OFFSET * track, LARGEST_LATERAL_OFFSET * track),
+        (LEAST_HEIGHT * track, track),
+    )
 
 
 def centre_of(car: CarContent, payloads: bool) -> list[float]:
-    """Centre of mass, m."""
+    """Centre of mass of all parts, m. `payloads`: whether they are included."""
     weighed = weighed_points(car, payloads)
     total = sum(mass for mass, _ in weighed)
     return [sum(mass * position[k] for mass, position in weighed) / total for k in range(3)]
 
 
-def _tensor(key: str, inertia: tuple[float, float, float]) -> Iterator[str]:
+def _inertia_faults(key: str, inertia: tuple[float, float, float]) -> Iterator[str]:
+    """Yield a fault of principal moments, kg m2, that violate the triangle inequality."""
     if 2.0 * max(inertia) > sum(inertia) * (1.0 + 1e-9):
         yield f"{key} is {list(inertia)} kg.m2; no moment of inertia is larger than the sum of the two others."
 
 
-def _chassis(car: CarContent) -> Iterator[str]:
+def _chassis_faults(car: CarContent) -> Iterator[str]:
+    """Yield a fault of the inertia tensor of the chassis."""
     chassis = car.chassis
     moments = np.linalg.eigvalsh(np.array(chassis.tensor))
     if moments[0] <= 0.0 or moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9):

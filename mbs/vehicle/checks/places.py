@@ -1,4 +1,4 @@
-"""Places of points: on the left side, above the ground, beside the tyres."""
+"""Checks of the positions of points: on the left side, above the ground, beside the tyres."""
 
 import math
 from collections.abc import Iterator
@@ -8,26 +8,26 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.part import Part
 from mbs.vehicle.section import Section, sections_of
 
-TYRE = 0.05  # m: half the width of a narrow tyre
+TYRE_HALF_WIDTH = 0.05  # m, of a narrow tyre
 Point = tuple[float, float, float]
 
 
 def place_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault."""
+    """Yield a sentence for each fault."""
     for axle in (car.front, car.rear):
-        yield from _suspension(axle)
+        yield from _suspension_faults(axle)
     for key, point in contact_points(car).items():
         if point[1] < 0.0:
             yield f"{key} has y = {point[1]:g} m; points are given for the left side and are mirrored: y is 0 or more."
         for axle in (car.front, car.rear):
             centre = axle.wheel.centre
             distance = math.hypot(point[0] - centre[0], point[2] - centre[2])
-            if distance < axle.tyre.radius and abs(point[1] - centre[1]) < TYRE:
+            if distance < axle.tyre.radius and abs(point[1] - centre[1]) < TYRE_HALF_WIDTH:
                 yield f"{key} lies in the tyre of {axle.wheel.key('centre')}, {distance:.3g} m from the wheel's axis."
 
 
 def place_oddities(car: CarContent) -> Iterator[str]:
-    """A sentence for each thing that is odd."""
+    """Yield a sentence for each unusual position."""
     points = car.chassis.accelerometers
     for name, (x, y, z) in points.items():
         mirrored = points.get(f"{name[:-1]}R") if name.endswith("L") else None
@@ -39,17 +39,17 @@ def place_oddities(car: CarContent) -> Iterator[str]:
 
 
 def parts_of(section: Section) -> list[Part]:
-    """Rigid parts of the left side in a section."""
+    """Rigid parts of the left side within a section."""
     return [inner for inner in sections_of(section) if isinstance(inner, Part)]
 
 
 def centres_of(section: Section) -> dict[str, Point]:
-    """Centres of mass of `parts_of`, by key path."""
+    """Centres of mass of `parts_of` by key path, m."""
     return {part.key("com"): part.com for part in parts_of(section)}
 
 
 def drawn_points(section: Section) -> dict[str, Point]:
-    """Points of the left side in the tables ``points`` of a section, by key path."""
+    """Points of the left side in the tables ``points`` of a section by key path, m."""
     tables = [inner for inner in sections_of(section) if inner.path.endswith(".points")]
     return {
         table.key(name): point
@@ -59,7 +59,8 @@ def drawn_points(section: Section) -> dict[str, Point]:
     }
 
 
-def _suspension(axle: Axle) -> Iterator[str]:
+def _suspension_faults(axle: Axle) -> Iterator[str]:
+    """Yield a sentence for each point of an axle that is not on the left side above the ground."""
     points = drawn_points(axle) | centres_of(axle)
     for key, point in points.items():
         if not point[1] > 0.0:
@@ -68,8 +69,8 @@ def _suspension(axle: Axle) -> Iterator[str]:
             yield f"{key} has z = {point[2]:g} m; z counts from the ground, and the car stands on it."
 
 
-def points_of_the_body(car: CarContent) -> dict[str, Point]:
-    """Points of the chassis and what it carries, by key path."""
+def chassis_points(car: CarContent) -> dict[str, Point]:
+    """Points of the chassis and of its payloads and accelerometers by key path, m."""
     chassis = car.chassis
     points: dict[str, Point] = {chassis.key("com"): chassis.com, chassis.key("reference"): chassis.reference}
     points |= {load.key("point"): load.point for load in car.payload.values()}
@@ -78,7 +79,7 @@ def points_of_the_body(car: CarContent) -> dict[str, Point]:
 
 
 def contact_points(car: CarContent) -> dict[str, Point]:
-    """Points that may touch the ground, by key path; the others that are given are joints of the frame."""
+    """Ground contact points that are given by coordinates, by key path, m; the others are joints of the frame."""
     contact = car.chassis.ground_contact
     if contact is None:
         return {}

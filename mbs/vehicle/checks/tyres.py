@@ -1,4 +1,4 @@
-"""Tyres: their radius against the drawing, their curves, their load."""
+"""Checks of tyres: their radius in the drawing and their load at rest."""
 
 from collections.abc import Iterator
 
@@ -8,25 +8,26 @@ from mbs.vehicle.checks.equilibrium import Rest
 
 
 def tyre_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault."""
+    """Yield a sentence for each fault."""
     for axle in (car.front, car.rear):
-        yield from _radii(axle)
+        yield from _radius_faults(axle)
 
 
 def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
-    """A sentence for each thing that is odd."""
-    for wheels, axle in car.axles.items():
+    """Yield a sentence for each overloaded tyre. `rest`: the car at rest."""
+    for name, axle in car.axles.items():
         tyre = axle.tyre
-        load = rest.load[wheels]
+        load = rest.load[name]
         largest, key = tyre.largest_load
         if load > largest:
             yield (
-                f"{key}: the forces grow with the load up to {largest:g} N, but at rest the {wheels} wheel carries "
+                f"{key}: the forces grow with the load up to {largest:g} N, but at rest the {name} wheel carries "
                 f"{load:.0f} N."
             )
 
 
-def _radii(axle: Axle) -> Iterator[str]:
+def _radius_faults(axle: Axle) -> Iterator[str]:
+    """Yield a fault of a radius against the height of the wheel centre."""
     radius, height = axle.tyre.radius, axle.wheel.centre[2]
     if height > radius:
         yield (

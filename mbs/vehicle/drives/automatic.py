@@ -58,7 +58,7 @@ class Automatic(Section, of=AutomaticDrive):
     locking: Locking = AutomaticDrive.locking
 
     def faults(self) -> Iterator[str]:
-        """Faults in the order of gears and speeds."""
+        """Yield faults of the order of gears and speeds."""
         for field, fault in self.element(AutomaticDrive).faults():
             yield f"{self.key(field)} {fault}."
 
@@ -68,7 +68,7 @@ class Automatic(Section, of=AutomaticDrive):
         return self.ratios[0] * self.ratio_factor * self.stall_factor * self.efficiency
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
-        """Add the drive; its reaction is on the chassis. `spins`: of the wheels, by their names."""
+        """Add the drive, whose reaction is on the chassis. `spins`: those of the wheels, by name."""
         drive = self.element(
             AutomaticDrive,
             ratios=tuple(self.ratio_factor * ratio for ratio in self.ratios),
@@ -92,7 +92,7 @@ class Automatic(Section, of=AutomaticDrive):
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 
     def turning_parts(self, b: CarBuilder, spins: Mapping[str, Spin]) -> None:
-        """No parts: the inertia of this drive is neglected."""
+        """Add nothing: the inertia of this drive is neglected."""
 
     def outputs(self, b: CarBuilder) -> None:
         """Add the outputs of the drive."""

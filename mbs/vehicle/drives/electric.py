@@ -52,13 +52,15 @@ class Electric(Section, of=ElectricDrive):
         return self.ratio * self.gear_efficiency
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
-        """Add the drive; its reaction is on the chassis. `spins`: of the wheels, by their names."""
+        """Add the drive, whose reaction is on the chassis. `spins`: those of the wheels, by name."""
         drive = self.element(ElectricDrive)
         left, right = (spins[self.wheels[0].upper() + side] for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
         throttle, selector = b.inputs["throttle"].index, b.inputs.get("selector")
-        chosen = None if selector is None else selector.index
-        element = b.m.add(drive.record("drive", left.coordinate, right.coordinate, z, x, throttle, selector=chosen))
+        selector_index = None if selector is None else selector.index
+        element = b.m.add(
+            drive.record("drive", left.coordinate, right.coordinate, z, x, throttle, selector=selector_index)
+        )
         self.turning_parts(b, spins)
         b.tie_numbers(self, element)
 

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from mbs.vehicle.kinematics.curves import Curve
     from mbs.vehicle.kinematics.quantities import Quantity, quantity_of
 
-# imported on first use: a car measures its axles while it is read, and these modules need the car
-_HOMES = {
+# imported on first use: the reader of cars computes measures, and these modules import the car
+_NAMES_BY_MODULE = {
     "car_kinematics": ("Kinematics", "kinematics"),
     "axle_compliance": ("Compliance", "compliance"),
     "curve_files": ("read_curve", "write_curve"),
@@ -20,7 +20,7 @@ _HOMES = {
     "quantities": ("Quantity", "quantity_of"),
 }
 __getattr__ = lazy_modules(
-    __name__, (), {name: f"{__name__}.{home}" for home, names in _HOMES.items() for name in names}
+    __name__, (), {name: f"{__name__}.{module}" for module, names in _NAMES_BY_MODULE.items() for name in names}
 )
 
 __all__ = [

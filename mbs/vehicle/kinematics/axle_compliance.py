@@ -1,10 +1,10 @@
-"""Compliance of the axles: toe, camber and shifts per force at the contact centres, the wheels held at their height.
+"""Compliance of the axles: toe, camber and displacements per force at the contact centres, at fixed wheel heights.
 
-The chassis is held in the mean of the joints that carry its suspensions, the steering wheel at its angle. Links are
-rigid and joints ideal, so what gives is a flexible frame, or the torsion bar of a steering column.
+The mean position of the suspension joints of the chassis is fixed, and so is the angle of the steering wheel. Links are
+rigid and joints ideal, so only a flexible frame or the torsion bar of a steering column are compliant.
 
-Small motions that the held rows allow are q = V z. With multipliers lam of all rows, Phi_q' lam = Q at the drawing,
-their stiffness is V' (H - dQ/dq) V, H = sum lam_k Phi_k,qq: springs, frame and the preload of links that turn.
+Small motions that all constraints allow are q = V z. With the multipliers lam of the constraints, Phi_q' lam = Q at the
+drawing, their stiffness is V' (H - dQ/dq) V with H = sum lam_k Phi_k,qq: of springs, frame and the preload of links.
 """
 
 from dataclasses import dataclass
@@ -21,10 +21,9 @@ from mbs.vehicle.kinematics.held_car import HeldCar, HeldWheel
 Array = NDArray[np.float64]
 
 DIRECTIONS = {"same": 1.0, "opposed": -1.0}
-"""Load of the right wheel per load of the left one, as vectors in vehicle axes for forces along x and moments about z
-of equal sense, and mirrored where opposed."""
+"""Load of the right wheel per load of the left one, both in vehicle axes."""
 LOADS = ("lateral_force", "longitudinal_force", "drive_force", "aligning_torque")
-"""On the carrier: forces along y and x at the contact centre, along x at the wheel centre, moment about z."""
+"""Loads on the carrier: forces along y and x at the contact centre, along x at the wheel centre, moment about z."""
 
 
 @dataclass(frozen=True)
@@ -33,13 +32,13 @@ class Compliance:
 
     fidelity: Fidelity
     freedoms: int
-    """Independent small motions that held wheels and steering leave; 0: nothing gives, and all values are zero."""
+    """Number of independent small motions with fixed wheels and steering; 0: all values are zero."""
     values: dict[str, dict[str, float]]
     """By axle, of those with links; names as ``lateral_force.same.steer_angle``: the load, its sense on the right
     wheel, and the response: steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or
-    per N m. Of the axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with what gives in series."""
+    per N m. Of the axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with all compliances in series."""
     sentence: str
-    """Why nothing gives; empty where something does."""
+    """Reason why all values are zero; else empty."""
 
 
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
@@ -58,20 +57,20 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
     chosen = fidelity_of(car, fidelity)
     if not car.linked_axles:
-        car.front.suspension.needs_links()
+        car.front.suspension.require_links()
     held_car = HeldCar(car, chosen)
-    V, soft = held_car.flexibility(held_car.wheel_rows())
-    values = {axle: _responses(held_car, axle, V, soft) for axle in car.linked_axles}
+    V, flexibility = held_car.flexibility(held_car.wheel_rows())
+    values = {axle: _responses(held_car, axle, V, flexibility) for axle in car.linked_axles}
     free, springs = held_car.flexibility(np.zeros((0, len(held_car.q))))
     for axle, responses in values.items():
-        responses |= _rates(held_car, axle, free, springs)
-    return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _note(car, chosen))
+        responses |= _wheel_rates(held_car, axle, free, springs)
+    return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _rigid_sentence(car, chosen))
 
 
 def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
-    """The fidelity at which compliance is taken.
+    """The fidelity at which compliance is computed.
 
-    `fidelity`: a member, its number, also as text, or its name; None: the best that the car offers. Raises
+    `fidelity`: a member, its number, also as text, or its name; None: the most accurate one of the car. Raises
     `ModelError`: there is none, or the car has no frame for it.
     """
     offered = tuple(car.fidelities())
@@ -84,45 +83,47 @@ def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
     return chosen
 
 
-def _note(car: Car, fidelity: Fidelity) -> str:
+def _rigid_sentence(car: Car, fidelity: Fidelity) -> str:
+    """Sentence on why all compliances are zero."""
     if fidelity is not Fidelity.RIGID:
-        how = f"at fidelity {fidelity.value} the chassis is {fidelity.description}"
+        reason = f"at fidelity {fidelity.value} the chassis is {fidelity.description}"
     elif car.misfit:
-        how = f"the chassis is rigid, because its frame does not fit the car ({car.misfit})"
+        reason = f"the chassis is rigid, because its frame does not fit the car ({car.misfit})"
     elif car.chassis.frame is None:
-        how = "the chassis is rigid: the car's file has no frame"
+        reason = "the chassis is rigid: the car's file has no frame"
     else:
-        how = "the chassis is rigid at fidelity 0"
+        reason = "the chassis is rigid at fidelity 0"
     return (
-        f"Toe and camber do not give under forces at the contact centres: links and joints are rigid, and {how}. "
+        f"Toe and camber do not give under forces at the contact centres: links and joints are rigid, and {reason}. "
         "All compliances are exactly zero."
     )
 
 
-def _responses(held_car: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
+def _responses(held_car: HeldCar, axle: str, V: Array, flexibility: Array) -> dict[str, float]:
+    """Responses of the left wheel of an axle by load, sense and name."""
     left, right = (held_car.wheels[axle[0].upper() + side] for side in "LR")
     responses = {}
     for load in LOADS:
         for sense, sign in DIRECTIONS.items():
-            displacement = V @ (soft @ (V.T @ (_load(left, load) + sign * _load(right, load))))
-            for name, row in _responding(left).items():
+            displacement = V @ (flexibility @ (V.T @ (_unit_load(left, load) + sign * _unit_load(right, load))))
+            for name, row in _response_rows(left).items():
                 responses[f"{load}.{sense}.{name}"] = float(row @ displacement) + 0.0
     return responses
 
 
-def _load(wheel: HeldWheel, load: str) -> Array:
-    """Generalised force (nq,) of a unit load on a wheel's carrier."""
-    rows = {
+def _unit_load(wheel: HeldWheel, load: str) -> Array:
+    """Generalised force of a unit load on a wheel carrier, shape (nq,)."""
+    unit_loads = {
         "lateral_force": wheel.contact[1],
         "longitudinal_force": wheel.contact[0],
         "drive_force": wheel.centre[0],
         "aligning_torque": wheel.turn[2],
     }
-    return np.asarray(rows[load])
+    return np.asarray(unit_loads[load])
 
 
-def _responding(wheel: HeldWheel) -> dict[str, Array]:
-    """Rows (nq,) of what a wheel does."""
+def _response_rows(wheel: HeldWheel) -> dict[str, Array]:
+    """Rows of the responses of a wheel over the coordinates, shape (nq,)."""
     return {
         "steer_angle": -wheel.axis[0],
         "inclination_angle": wheel.axis[2],
@@ -131,11 +132,11 @@ def _responding(wheel: HeldWheel) -> dict[str, Array]:
     }
 
 
-def _rates(held_car: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
-    """Load of a wheel per its rise, both wheels alike and against each other."""
+def _wheel_rates(held_car: HeldCar, axle: str, V: Array, flexibility: Array) -> dict[str, float]:
+    """Load of a wheel per rise of its contact centre, N/m, for equal and for opposite loads of both wheels."""
     left, right = (held_car.wheels[axle[0].upper() + side] for side in "LR")
     rates = {}
     for name, sign in (("wheel_rate", 1.0), ("roll_wheel_rate", -1.0)):
-        displacement = V @ (soft @ (V.T @ (left.contact[2] + sign * right.contact[2])))
+        displacement = V @ (flexibility @ (V.T @ (left.contact[2] + sign * right.contact[2])))
         rates[name] = 1.0 / float(left.contact[2] @ displacement)
     return rates

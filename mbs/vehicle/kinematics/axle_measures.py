@@ -1,13 +1,13 @@
 """Kinematic measures of an axle at one position: wheel angles, ratios, wheel rates, roll centre, anti-dive.
 
-Roll centre: as the chassis rolls, the line through a contact centre and perpendicular to its velocity intersects the
-middle plane; the height is the mean of both sides above the ground. Equal lateral forces then do not roll the chassis
-(J. C. Dixon, "Suspension Geometry and Computation", Wiley; W. Matschinsky, "Road Vehicle Suspensions").
+Roll centre: intersection of the middle plane with the line through a contact centre, perpendicular to its velocity as
+the chassis rolls; the height above the ground is the mean of both sides. Equal lateral forces then do not roll the
+chassis (J. C. Dixon, "Suspension Geometry and Computation", Wiley; W. Matschinsky, "Road Vehicle Suspensions").
 
-Anti-dive and its like: with s the share of the axle in the longitudinal force, l the wheelbase and h the height of the
-centre of mass, s |dx/dz| l/h is the share of the load transfer that goes through the links (W. F. and D. L. Milliken,
-"Race Car Vehicle Dynamics", chapter 17). Brakes hold the wheel on its carrier: dx/dz is that of the carrier's point at
-the contact centre. The drive's torque is carried by the chassis: dx/dz is that of the wheel's centre.
+Anti-dive, anti-lift, anti-squat: with the share s of the axle in the longitudinal force, the wheelbase l and the height
+h of the centre of mass, s |dx/dz| l/h is the share of the load transfer in the links (W. F. and D. L. Milliken, "Race
+Car Vehicle Dynamics", chapter 17). Under braking dx/dz is that of the carrier's point at the contact centre, as the
+brake holds the wheel on its carrier; under drive it is that of the wheel centre, as the chassis carries the torque.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import AffineVector
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.kinematics.wheel_loads import OWN, wheel_loads
+from mbs.vehicle.kinematics.wheel_loads import SINGLE, wheel_loads
 from mbs.vehicle.kinematics.wheel_motion import WheelMotion, steering_axis, wheel_motion
 from mbs.vehicle.linkages.continuation import HEAVE, ROLL
 from mbs.vehicle.linkages.linkage import SIDES, Linkage, Position
@@ -23,25 +23,25 @@ from mbs.vehicle.linkages.linkage import SIDES, Linkage, Position
 Array = NDArray[np.float64]
 
 
-def wheel_measures(linkage: Linkage, at: Position) -> dict[str, float]:
+def wheel_measures(linkage: Linkage, position: Position) -> dict[str, float]:
     """Angles, positions and lengths at both wheels, by column name.
 
     Returns
     -------
     dict of str to float
-        In SI units; without the columns of a steering axis where there is none, as at a twist beam.
+        In SI units; without the columns of the steering axis if there is none, as on a twist beam.
     """
     measures: dict[str, float] = {}
     for k, side in enumerate(SIDES):
-        w = wheel_motion(linkage, at, k)
+        w = wheel_motion(linkage, position, k)
         values = {
-            "wheel_travel": float(at.travel[k]),
+            "wheel_travel": float(position.travel[k]),
             "steer_angle": w.steer,
             "toe_angle": -w.side * w.steer,
             "inclination_angle": w.inclination,
             "camber_angle": -w.side * w.inclination,
         }
-        axis = steering_axis(linkage, at, k)
+        axis = steering_axis(linkage, position, k)
         if axis is not None:
             values["caster_angle"], values["kingpin_inclination_angle"] = axis.caster, axis.inclination(w.side)
             for name, centre in (("ground", w.contact), ("wheel_centre", w.centre)):
@@ -50,28 +50,28 @@ def wheel_measures(linkage: Linkage, at: Position) -> dict[str, float]:
                 values[f"kingpin_offset_at_{name}"] = kingpin
         values |= {f"contact_centre_{c}": float(v) for c, v in zip("xyz", w.contact, strict=True)}
         values |= {f"wheel_centre_{c}": float(v) for c, v in zip("xy", w.centre, strict=False)}
-        values["spring_length"] = length(linkage, linkage.springs[k], at)
-        values["damper_length"] = length(linkage, linkage.dampers[k], at)
+        values["spring_length"] = length(linkage, linkage.springs[k], position)
+        values["damper_length"] = length(linkage, linkage.dampers[k], position)
         measures |= {f"{name}_{side}": value for name, value in values.items()}
     return measures
 
 
-def travel_measures(linkage: Linkage, at: Position, direction: Array) -> dict[str, float]:
+def travel_measures(linkage: Linkage, position: Position, direction: Array) -> dict[str, float]:
     """Gradients, ratios, loads and rates along a direction of wheel travel, by column name, in SI units.
 
     `direction`: rates of the travels of the left and the right wheel, and of the rack, shape (3,).
     """
     measures: dict[str, float] = {}
-    wheels = [wheel_motion(linkage, at, k) for k in range(2)]
-    loads, slopes = wheel_loads(linkage, at, direction)
+    wheels = [wheel_motion(linkage, position, k) for k in range(2)]
+    loads, slopes = wheel_loads(linkage, position, direction)
     tyre = linkage.data.tyre.stiffness
     for k, (side, w) in enumerate(zip(SIDES, wheels, strict=True)):
-        scaled = direction / direction[k] if direction[k] else OWN[k]
+        scaled = direction / direction[k] if direction[k] else SINGLE[k]
         values = {
             "toe_gradient": -w.side * float(w.steer_rate @ scaled),
             "camber_gradient": -w.side * float(w.inclination_rate @ scaled),
-            "spring_ratio": -stretch(linkage, linkage.springs[k], at, scaled),
-            "damper_ratio": -stretch(linkage, linkage.dampers[k], at, scaled),
+            "spring_ratio": -stretch(linkage, linkage.springs[k], position, scaled),
+            "damper_ratio": -stretch(linkage, linkage.dampers[k], position, scaled),
             "spring_load": float(loads[k]),
         }
         if direction[k]:
@@ -81,24 +81,26 @@ def travel_measures(linkage: Linkage, at: Position, direction: Array) -> dict[st
     measures["roll_centre_height"] = roll_centre_height(wheels)
     if linkage.levers:
         twist = linkage.full(linkage.levers[0])[0] - linkage.full(linkage.levers[1])[0]
-        measures["anti_roll_bar_ratio"] = 0.5 * float(twist @ at.tangent @ ROLL)
+        measures["anti_roll_bar_ratio"] = 0.5 * float(twist @ position.tangent @ ROLL)
     return measures | anti_measures(linkage.car, linkage.name, wheels)
 
 
-def roll_measures(linkage: Linkage, at: Position) -> dict[str, float]:
+def roll_measures(linkage: Linkage, position: Position) -> dict[str, float]:
     """Roll angle, roll steer, roll camber and roll stiffness of the chassis, by column name, in SI units."""
-    left, right = (wheel_motion(linkage, at, k) for k in range(2))
-    track, per_angle = linkage.data.track, -2.0 / linkage.data.track  # travel of the right wheel less the left's
+    left, right = (wheel_motion(linkage, position, k) for k in range(2))
+    # roll angle per travel of the left wheel, with the opposite travel of the right one
+    track, roll_per_travel = linkage.data.track, -2.0 / linkage.data.track
     offsets = (w.side * (w.contact[1] - w.centre[1]) for w in (left, right))
-    contact_track = track + float(sum(offsets))  # between the contact centres, from the drawn track as the angle
-    ground_slope = float((left.contact_rise - right.contact_rise) @ ROLL) / contact_track  # positive: rises to the left
+    contact_track = track + float(sum(offsets))  # between the contact centres
+    # positive: the ground rises to the left
+    ground_slope = float((left.contact_rise - right.contact_rise) @ ROLL) / contact_track
     steer = 0.5 * float((left.steer_rate + right.steer_rate) @ ROLL)
     inclination = 0.5 * float((left.inclination_rate + right.inclination_rate) @ ROLL)
-    slopes = wheel_loads(linkage, at, ROLL)[1]
+    slopes = wheel_loads(linkage, position, ROLL)[1]
     return {
-        "suspension_roll_angle": float(at.travel[1] - at.travel[0]) / track,
-        "roll_steer": steer / per_angle,
-        "roll_camber": (inclination - ground_slope) / per_angle,
+        "suspension_roll_angle": float(position.travel[1] - position.travel[0]) / track,
+        "roll_steer": steer / roll_per_travel,
+        "roll_camber": (inclination - ground_slope) / roll_per_travel,
         "roll_stiffness": 0.25 * track * contact_track * float(slopes[0] - slopes[1]),
     }
 
@@ -117,7 +119,7 @@ def roll_centre_height(wheels: list[WheelMotion]) -> float:
 def anti_measures(car: CarContent, axle: str, wheels: list[WheelMotion]) -> dict[str, float]:
     """Anti-dive or anti-lift under braking, and anti-squat or anti-lift under drive on a driven axle, %.
 
-    `car`: gives the shares, the wheelbase and the height of the centre of mass; `wheels`: left and right.
+    `wheels`: left and right.
     """
     lever = 100.0 * car.wheelbase / car.vehicle.reference_point[2]
     sign = 1.0 if axle == "front" else -1.0
@@ -135,20 +137,20 @@ def brake_share(car: CarContent, axle: str) -> float:
     return (front if axle == "front" else rear) / (front + rear)
 
 
-def length(linkage: Linkage, line: AffineVector, at: Position) -> float:
+def length(linkage: Linkage, line: AffineVector, position: Position) -> float:
     """Length of a spring or damper, m."""
     D, d = linkage.linear(line)
-    return float(np.linalg.norm(D @ at.q + d))
+    return float(np.linalg.norm(D @ position.q + d))
 
 
-def stretch(linkage: Linkage, line: AffineVector, at: Position, direction: Array) -> float:
+def stretch(linkage: Linkage, line: AffineVector, position: Position, direction: Array) -> float:
     """Rate of the length of a spring or damper along a direction of wheel travel, m per m of travel.
 
     `direction`: rates of the travels of the left and the right wheel, and of the rack, shape (3,).
     """
     D, d = linkage.linear(line)
-    line_vector = D @ at.q + d
-    return float(line_vector @ (D @ (at.tangent @ direction)) / np.linalg.norm(line_vector))
+    line_vector = D @ position.q + d
+    return float(line_vector @ (D @ (position.tangent @ direction)) / np.linalg.norm(line_vector))
 
 
 def _heave_rates(wheels: list[WheelMotion]) -> tuple[list[Array], list[Array]]:

@@ -1,4 +1,4 @@
-"""Kinematics of a car: curves of both axles, values at the drawn position, and warnings."""
+"""Kinematics of a car: curves of both axles, values at the drawing, and notes."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ from mbs.vehicle.linkages.linkage import Linkage
 Array = NDArray[np.float64]
 
 TRAVEL = (-0.08, 0.08)
-"""Range of wheel travel where none is given, m."""
+"""Default range of wheel travel, m."""
 POINTS = 81
 MOTIONS = ("parallel", "opposite", "single")
-SAME_ANGLE = 1e-9
-"""Largest difference of both wheels that counts as the same setting, rad."""
-FARTHEST, MOST_POINTS = 0.5, 10_001
+ANGLE_TOLERANCE = 1e-9
+"""Largest difference of the angles of both wheels with the same setting, rad."""
+LARGEST_TRAVEL, MOST_POINTS = 0.5, 10_001  # m, number
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Kinematics:
         parallel = self.curves[axle, "parallel"].drawn()
         drawn_values = {n.removesuffix("_left"): v for n, v in parallel.items() if not n.endswith("_right")}
         for name in ("toe_angle", "camber_angle"):
-            if abs(parallel[f"{name}_right"] - drawn_values[name]) > SAME_ANGLE:
+            if abs(parallel[f"{name}_right"] - drawn_values[name]) > ANGLE_TOLERANCE:
                 drawn_values[f"right_{name}"] = parallel[f"{name}_right"]
         opposite = self.curves[axle, "opposite"].drawn()
         drawn_values |= {n: v for n, v in opposite.items() if n in ("roll_steer", "roll_camber", "roll_stiffness")}
@@ -95,7 +95,7 @@ def kinematics(
     curves: dict[tuple[str, str], Curve] = {}
     notes: list[str] = []
     if not car.linked_axles:
-        car.front.suspension.needs_links()
+        car.front.suspension.require_links()
     for axle in car.linked_axles:
         linkage = Linkage(car, axle)
         for motion in MOTIONS:
@@ -113,31 +113,31 @@ def kinematics(
 
 
 def wheel_by_rack(car: Car) -> WheelByRack:
-    """Function of the steering's motion: angle of the steering wheel, rad, and its derivative by that motion."""
+    """Function of the motion of the steering, m or rad: angle of the steering wheel, rad, and its derivative."""
     sign = car.steering.signed(car.rack_direction)
 
-    def at(travel: float) -> tuple[float, float]:
+    def angle_and_rate(travel: float) -> tuple[float, float]:
         angle, rate = car.steering.wheel_at(travel)
         return sign * angle, sign * rate
 
-    return at
+    return angle_and_rate
 
 
 def checked_travel(travel: object) -> tuple[float, float]:
-    """A range of wheel travel. `travel`: to be two numbers, m."""
+    """Check a range of wheel travel, m. Raises `ModelError`: it is not two numbers around 0."""
     if not isinstance(travel, (tuple, list)) or len(travel) != 2 or not all(is_finite(v) for v in travel):
         raise ModelError(f"The range of wheel travel is {shown(travel)}; it must be two numbers, m.")
     low, high = (float(v) for v in travel)
-    if not (-FARTHEST <= low < 0.0 < high <= FARTHEST):
+    if not (-LARGEST_TRAVEL <= low < 0.0 < high <= LARGEST_TRAVEL):
         raise ModelError(
-            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{FARTHEST:g} m or more, to "
-            f"above 0, {FARTHEST:g} m or less (positive in bump; 0 is the drawing)."
+            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{LARGEST_TRAVEL:g} m or "
+            f"more, to above 0, {LARGEST_TRAVEL:g} m or less (positive in bump; 0 is the drawing)."
         )
     return low, high
 
 
 def _grid(low: float, high: float, points: int) -> Array:
-    """Equal steps with the drawing among them."""
+    """Equidistant values, with 0 added if it is not among them."""
     grid = np.linspace(low, high, points)
     nearest = int(np.argmin(np.abs(grid)))
     if abs(grid[nearest]) < 1e-9 * (high - low):
@@ -147,5 +147,6 @@ def _grid(low: float, high: float, points: int) -> Array:
 
 
 def _report(progress: Callable[[float], None] | None, done: int) -> None:
+    """Report the share of completed curves. `done`: their number."""
     if progress is not None:
         progress(done / (2 * len(MOTIONS) + 1))

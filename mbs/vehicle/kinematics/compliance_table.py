@@ -1,4 +1,4 @@
-"""Compliance of a car's axles as rows of text."""
+"""Compliance of a car's axles as rows of a text table."""
 
 import math
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ _WORDS = {
     "aligning_torque": "aligning torque",
 }
 _SENSE = {"same": "both wheels alike", "opposed": "right wheel opposed"}
-_SHOWN: Mapping[str, tuple[tuple[str, str, str], ...]] = {
+_DISPLACEMENTS: Mapping[str, tuple[tuple[str, str, str], ...]] = {
     "lateral_force": (("contact_y", "shift", "contact centre to the left"),),
     "longitudinal_force": (("centre_x", "shift", "wheel centre forwards"),),
 }
@@ -25,37 +25,37 @@ _ANGLES = (
 )
 
 
-def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
-    """Rows of a table.
+def rows(compliance: Compliance) -> list[tuple[str, str, str, str, str]]:
+    """Rows of a text table.
 
     Returns
     -------
     list of (str, str, str, str, str)
         Title, value at the front axle, value at the rear axle, unit and meaning; a title alone is a heading.
     """
-    title = f"Compliance of the left wheel per load (fidelity {found.fidelity.value})"
+    title = f"Compliance of the left wheel per load (fidelity {compliance.fidelity.value})"
     lines: list[tuple[str, str, str, str, str]] = [(title, "", "", "", "")]
-    for load in LOADS if found.freedoms else ():
+    for load in LOADS if compliance.freedoms else ():
         units = _TORQUE if load == "aligning_torque" else _FORCE
         for sense in DIRECTIONS:
-            for name, kind, meaning in (*_ANGLES, *_SHOWN.get(load, ())):
+            for name, kind, meaning in (*_ANGLES, *_DISPLACEMENTS.get(load, ())):
                 factor, unit = units[kind]
-                front, rear = _axle_cells(found, f"{load}.{sense}.{name}", factor)
+                front, rear = _axle_cells(compliance, f"{load}.{sense}.{name}", factor)
                 lines.append((f"{_WORDS[load]}, {_SENSE[sense]}", front, rear, unit, meaning))
     for name, words in (("wheel_rate", "wheel rate with what gives"), ("roll_wheel_rate", "the same in roll")):
-        front, rear = _axle_cells(found, name, 1e-3)
+        front, rear = _axle_cells(compliance, name, 1e-3)
         lines.append((words, front, rear, "N/mm", "load per travel, frame or column in series"))
     return lines
 
 
-def _axle_cells(found: Compliance, name: str, factor: float) -> tuple[str, str]:
-    """A value times a factor at the front and the rear axle, as text."""
-    front, rear = (factor * found.values.get(axle, {}).get(name, math.nan) for axle in ("front", "rear"))
-    return shown_number(front), shown_number(rear)
+def _axle_cells(compliance: Compliance, name: str, factor: float) -> tuple[str, str]:
+    """Value times a factor at the front and the rear axle, as text."""
+    front, rear = (factor * compliance.values.get(axle, {}).get(name, math.nan) for axle in ("front", "rear"))
+    return number_text(front), number_text(rear)
 
 
-def shown_number(value: float) -> str:
-    """A value, in the unit that is shown, with four digits; a dash for NaN, and zero for round-off."""
+def number_text(value: float) -> str:
+    """Text of a value with four digits; a dash for NaN, and 0 for round-off."""
     if math.isnan(value):
         return "-"
     return f"{value:.0f}" if abs(value) >= 1e4 else f"{round(value, 6) + 0.0:.4g}"

@@ -1,4 +1,4 @@
-"""Kinematic curves of an axle in CSV files: names and units in the headings, SI units, all digits."""
+"""Kinematic curves of an axle in CSV files, with names and SI units in the headings."""
 
 import csv
 from os import PathLike

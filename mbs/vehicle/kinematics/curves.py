@@ -9,21 +9,21 @@ from numpy.typing import NDArray
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.kinematics.quantities import BY_NAME, quantity_of
 from mbs.vehicle.kinematics.steer_measures import WheelByRack, steer_measures
-from mbs.vehicle.kinematics.wheel_loads import OWN
-from mbs.vehicle.linkages.continuation import HEAVE, ROLL, ROUND_OFF, STEER, reached
+from mbs.vehicle.kinematics.wheel_loads import SINGLE
+from mbs.vehicle.linkages.continuation import HEAVE, ROLL, ROUND_OFF, STEER, positions_along
 from mbs.vehicle.linkages.linkage import SIDES, Linkage, Position
 
 Array = NDArray[np.float64]
 
-DIRECTIONS = {"parallel": HEAVE, "opposite": ROLL, "single": OWN[0], "steer": STEER}
-"""Motions by their names: rates of the travels of the left and the right wheel, and of the rack."""
+DIRECTIONS = {"parallel": HEAVE, "opposite": ROLL, "single": SINGLE[0], "steer": STEER}
+"""Rates of the travels of the left and the right wheel and of the rack, by name of the motion."""
 WORDS = {
     "parallel": "parallel wheel travel",
     "opposite": "opposite wheel travel (roll)",
     "single": "travel of the left wheel alone",
     "steer": "steering",
 }
-"""The same in words."""
+"""Names of the motions in sentences."""
 
 
 @dataclass(frozen=True)
@@ -70,9 +70,9 @@ def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
     """
     direction = DIRECTIONS[motion]
 
-    def measures(at: Position) -> dict[str, float]:
-        values = wheel_measures(linkage, at) | travel_measures(linkage, at, direction)
-        return values | (roll_measures(linkage, at) if motion == "opposite" else {})
+    def measures(position: Position) -> dict[str, float]:
+        values = wheel_measures(linkage, position) | travel_measures(linkage, position, direction)
+        return values | (roll_measures(linkage, position) if motion == "opposite" else {})
 
     return _curve(linkage, motion, travel, measures)
 
@@ -84,8 +84,8 @@ def steer_curve(linkage: Linkage, rack: Array, wheel_by_rack: WheelByRack) -> Cu
     its change per travel of the rack, rad/m, at a travel, m.
     """
 
-    def measures(at: Position) -> dict[str, float]:
-        return wheel_measures(linkage, at) | steer_measures(linkage, at, wheel_by_rack)
+    def measures(position: Position) -> dict[str, float]:
+        return wheel_measures(linkage, position) | steer_measures(linkage, position, wheel_by_rack)
 
     curve = _curve(linkage, "steer", rack, measures)
     if wheel_by_rack(0.0)[1] > 0.0:
@@ -94,20 +94,21 @@ def steer_curve(linkage: Linkage, rack: Array, wheel_by_rack: WheelByRack) -> Cu
 
 
 def _curve(linkage: Linkage, motion: str, values: Array, measures: Callable[[Position], dict[str, float]]) -> Curve:
+    """Curve of the measures along a motion at values of its variable, m or rad; it ends where the linkage ends."""
     direction, notes = DIRECTIONS[motion], []
     values = np.where(np.abs(values) < ROUND_OFF, 0.0, values)
-    below, low = reached(linkage, direction, values[values < 0.0][::-1])
-    above, high = reached(linkage, direction, values[values > 0.0])
+    below, low = positions_along(linkage, direction, values[values < 0.0][::-1])
+    above, high = positions_along(linkage, direction, values[values > 0.0])
     for end, last in ((low, values[0]), (high, values[-1])):
         if end is not None:
-            over = quantity_of(linkage.car.steering.motion if motion == "steer" else "wheel_travel")
+            quantity = quantity_of(linkage.car.steering.motion if motion == "steer" else "wheel_travel")
             notes.append(
-                f"{linkage.name} axle, {WORDS[motion]}: the links allow no more than {over.factor * end:+.1f} "
-                f"{over.shown} of {over.title} (a dead point, or a link too short or too long); the curve ends there, "
-                f"not at {over.factor * last:+.1f} {over.shown}."
+                f"{linkage.name} axle, {WORDS[motion]}: the links allow no more than {quantity.factor * end:+.1f} "
+                f"{quantity.shown} of {quantity.title} (a dead point, or a link too short or too long); the curve ends "
+                f"there, not at {quantity.factor * last:+.1f} {quantity.shown}."
             )
     middle = [linkage.drawn] if np.any(values == 0.0) else []
-    rows = [measures(at) for at in (*below[::-1], *middle, *above)]
+    rows = [measures(position) for position in (*below[::-1], *middle, *above)]
     columns = {name: np.array([row[name] for row in rows]) + 0.0 for name in rows[0]}  # no -0.0
     (x, y), (other_x, other_y) = ([columns[f"contact_centre_{c}_{side}"] for c in "xy"] for side in SIDES)
     columns["track_change"] = y - other_y - linkage.data.track

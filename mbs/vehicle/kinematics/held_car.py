@@ -1,4 +1,4 @@
-"""Model of a car with its chassis held, with steering and suspensions, without tyres, brakes and gravity."""
+"""Model of a car with a fixed chassis, steering and suspensions, without tyres, brakes and gravity."""
 
 from dataclasses import dataclass
 
@@ -22,25 +22,25 @@ from mbs.vehicle.side import Point, Side, sides
 
 Array = NDArray[np.float64]
 
-SETTLED, MOST_ITERATIONS = 1e-9, 30  # m, of the search for equilibrium
+POSITION_TOLERANCE, MOST_ITERATIONS = 1e-9, 30  # m, of the equilibrium
 
 
 @dataclass(frozen=True)
 class HeldWheel:
-    """Rows (3, nq) that give small motions of a wheel."""
+    """Small motions of a wheel as rows over the coordinates."""
 
     radius: float
-    """From the centre to the contact, m."""
+    """Distance from the wheel centre to the contact centre, m."""
     centre: Array
     axis: Array
     turn: Array
     contact: Array
-    """`centre`, `axis`, `turn`, `contact`, shape (3, nq): of its centre, its axis to the left, its carrier's rotation,
-    and the carrier's point at the contact centre."""
+    """`centre`, `axis`, `turn`, `contact`, shape (3, nq): of the wheel centre, the wheel axis to the left, the rotation
+    of the carrier, and the carrier's point at the contact centre."""
 
 
 def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[str, tuple[Body, Point]]]:
-    """The model, in which nothing holds the chassis yet, and carrier and centre as drawn of each wheel on links.
+    """Build the model with a free chassis; return it with carrier and centre as drawn of each wheel on links.
 
     `car`: without faults.
     """
@@ -54,19 +54,19 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     else:
         b.chassis = flexible_chassis(m, car.chassis, car.flexible_frame, fidelity)
 
-    def fixed(side: Side, point: Point) -> End:
+    def chassis_end(side: Side, point: Point) -> End:
         return b.chassis.body, point
 
     carriers: dict[str, tuple[Body, Point]] = {}
     for axle, data in car.linked_axles.items():
-        rod = car.steering.build(b, car.rack_direction).tie_rod if axle == "front" else fixed
-        corners = data.corners(b, axle, rod)
+        tie_rod_end = car.steering.build(b, car.rack_direction).tie_rod if axle == "front" else chassis_end
+        corners = data.corners(b, axle, tie_rod_end)
         carriers |= {c.side.wheel: (c.carrier, c.side.point(data.wheel.centre)) for c in corners}
     return m, b, carriers
 
 
 class HeldCar(StandingModel):
-    """The car in equilibrium with the contact centres at the heights of the drawing.
+    """A car in equilibrium with the contact centres at the heights of the drawing.
 
     `car`: without faults.
 
@@ -75,7 +75,7 @@ class HeldCar(StandingModel):
     q : ndarray, shape (nq,)
         Coordinates.
     wheels : dict of str to HeldWheel
-        By name, FL, FR, RL and RR, of axles with links.
+        Wheels of axles with links by name: FL, FR, RL, RR.
     """
 
     def __init__(self, car: Car, fidelity: Fidelity) -> None:
@@ -86,42 +86,42 @@ class HeldCar(StandingModel):
             for axle, data in car.linked_axles.items()
             for side in sides(axle)
         }
-        self._carriers = {
+        self._wheel_points = {
             name: (
-                _to_ground(centre, alignment_axes[name][2]),
+                _vector_to_ground(centre, alignment_axes[name][2]),
                 [self.linear(v) for v in (carrier.point(centre), *map(carrier.vector, alignment_axes[name]))],
             )
             for name, (carrier, centre) in carriers.items()
         }
         origin, axes, _ = b.chassis.contact_frame
         middle, (x, y, _) = self.linear(origin)[0], (self.linear(axis)[0] for axis in axes)
-        self._pins = np.vstack([middle, x[1:], y[2:]])  # three shifts and three turns of the mean frame
+        self._chassis_rows = np.vstack([middle, x[1:], y[2:]])  # translations and rotations of the mean frame
         self.q = np.array(self.evaluator.state.q)
-        self._settle()
+        self._find_equilibrium()
 
     @property
     def wheels(self) -> dict[str, HeldWheel]:
         """Small motions of the wheels, by name."""
-        return {name: self._wheel(*parts) for name, parts in self._carriers.items()}
+        return {name: self._wheel(*parts) for name, parts in self._wheel_points.items()}
 
     def rows(self, q: Array) -> Array:
-        """Jacobian (n, nq) of the conditions of the joints and of the held chassis. `q`: coordinates, shape (nq,)."""
-        return np.vstack([self.evaluator.jacobian(q), self._pins])
+        """Jacobian (n, nq) of the constraints of joints and chassis. `q`: coordinates, shape (nq,)."""
+        return np.vstack([self.evaluator.jacobian(q), self._chassis_rows])
 
     def wheel_rows(self) -> Array:
-        """Rows (4, nq) of the heights of the contact centres."""
+        """Rows of the heights of the contact centres, shape (number of wheels, nq)."""
         return np.array([wheel.contact[2] for wheel in self.wheels.values()])
 
     def flexibility(self, held: Array) -> tuple[Array, Array]:
-        """Small motions that the joints and further rows allow, and the inverse of their stiffness.
+        """Small motions that all constraints allow, and the inverse of their stiffness.
 
-        `held`: further rows that are held, shape (k, nq).
+        `held`: rows of further constraints, shape (k, nq).
 
         Returns
         -------
         V : ndarray, shape (nq, n)
             Motions.
-        soft : ndarray, shape (n, n)
+        flexibility : ndarray, shape (n, n)
             Their flexibility.
         """
         jacobian = self.rows(self.q)
@@ -132,39 +132,42 @@ class HeldCar(StandingModel):
             return V, np.zeros((0, 0))
         stiffness = np.zeros((V.shape[1], V.shape[1]))
         for j, v in enumerate(V.T):
-            ahead, behind = self.q + SHIFT * v, self.q - SHIFT * v
-            slope = (self.force(ahead) - self.force(behind)) / (2.0 * SHIFT)
-            turned = (self.rows(ahead) - self.rows(behind)).T @ lam[: len(jacobian)] / (2.0 * SHIFT)
-            stiffness[:, j] = V.T @ (turned - slope)
+            forward, backward = self.q + SHIFT * v, self.q - SHIFT * v
+            force_derivative = (self.force(forward) - self.force(backward)) / (2.0 * SHIFT)
+            constraint_derivative = (self.rows(forward) - self.rows(backward)).T @ lam[: len(jacobian)] / (2.0 * SHIFT)
+            stiffness[:, j] = V.T @ (constraint_derivative - force_derivative)
         for load, wheel in zip(lam[len(jacobian) :], self.wheels.values(), strict=True):
-            lean = wheel.axis[2] @ V  # a contact centre rises by R (1 - cos) as its wheel leans
-            stiffness += load * wheel.radius * np.outer(lean, lean)
+            axis_z = wheel.axis[2] @ V  # the contact centre of an inclined wheel rises by R (1 - cos)
+            stiffness += load * wheel.radius * np.outer(axis_z, axis_z)
         return V, np.asarray(np.linalg.inv(0.5 * (stiffness + stiffness.T)))
 
-    def _settle(self) -> None:
-        """Go to where the frame holds the springs, by Newton's method on the motions that the rows allow."""
-        still = np.zeros(len(self.q))
-        fixed_rows = np.vstack([self._pins, np.array([parts[0][0][2] for _, parts in self._carriers.values()])])
+    def _find_equilibrium(self) -> None:
+        """Find the equilibrium of frame and springs by Newton's method on the motions that the constraints allow."""
+        zero_rates = np.zeros(len(self.q))
+        fixed_rows = np.vstack(
+            [self._chassis_rows, np.array([parts[0][0][2] for _, parts in self._wheel_points.values()])]
+        )
         fixed_values = fixed_rows @ self.q
         for _ in range(MOST_ITERATIONS):
-            V, soft = self.flexibility(self.wheel_rows())
-            change = V @ (soft @ (V.T @ self.force(self.q)))
-            self.q = self.q + change
+            V, flexibility = self.flexibility(self.wheel_rows())
+            correction = V @ (flexibility @ (V.T @ self.force(self.q)))
+            self.q = self.q + correction
             for _ in range(5):
-                phi, jacobian, _ = self.evaluator.constraints(self.q, still)
+                phi, jacobian, _ = self.evaluator.constraints(self.q, zero_rates)
                 residuals = np.concatenate([phi, fixed_rows @ self.q - fixed_values])
                 self.q = self.q - np.linalg.lstsq(np.vstack([jacobian, fixed_rows]), residuals, rcond=RANK_TOLERANCE)[0]
-            if not np.abs(change).max(initial=0.0) > SETTLED:
+            if not np.abs(correction).max(initial=0.0) > POSITION_TOLERANCE:
                 return
         raise ModelError("The frame of the held car finds no equilibrium with its springs.")
 
     def _wheel(self, down: Array, parts: list[tuple[Array, Array]]) -> HeldWheel:
+        """Small motions of a wheel. `down`: from its centre to the contact, m; `parts`: linear centre and axes."""
         centre, *axes = parts
-        turn = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
-        contact = centre[0] + np.cross(turn, down, axisa=0).T
-        return HeldWheel(float(np.linalg.norm(down)), centre[0], axes[1][0], turn, contact)
+        rotation = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
+        contact = centre[0] + np.cross(rotation, down, axisa=0).T
+        return HeldWheel(float(np.linalg.norm(down)), centre[0], axes[1][0], rotation, contact)
 
 
-def _to_ground(centre: Point, up: Point) -> Array:
-    """From a wheel's centre to the ground in its plane, both as drawn, m."""
+def _vector_to_ground(centre: Point, up: Point) -> Array:
+    """Vector from the wheel centre to the ground in the wheel plane as drawn, m, shape (3,)."""
     return np.multiply(-centre[2] / up[2], up)

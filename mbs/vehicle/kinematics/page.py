@@ -9,21 +9,21 @@ from mbs.vehicle.kinematics.plots import steer_figure, travel_figure
 from mbs.vehicle.kinematics.table import rows
 
 
-def page(found: Kinematics, gives: Compliance) -> str:
-    """The page as text; it needs no other file."""
-    title = f"Kinematics of the car '{found.car}'"
+def page(kinematics: Kinematics, compliance: Compliance) -> str:
+    """HTML text of the page, which needs no other file."""
+    title = f"Kinematics of the car '{kinematics.car}'"
     parts = [
         element("h1", title),
         element("p", "The chassis is held, rigid; the wheel centres move. Terms of ISO 8855: x forward, y left, z up."),
-        *(element("p", text) for text in (*found.notes, gives.sentence) if text),
+        *(element("p", text) for text in (*kinematics.notes, compliance.sentence) if text),
         table(
             "",
             ("", "front", "rear", "unit", ""),
-            (line if any(line[1:]) else line[:1] for line in (*rows(found), *compliance_rows(gives))),
+            (line if any(line[1:]) else line[:1] for line in (*rows(kinematics), *compliance_rows(compliance))),
         ),
     ]
-    figures = [travel_figure(found, axle) for axle, motion in found.curves if motion == "parallel"]
-    figures += [steer_figure(found) for _, motion in found.curves if motion == "steer"]
+    figures = [travel_figure(kinematics, axle) for axle, motion in kinematics.curves if motion == "parallel"]
+    figures += [steer_figure(kinematics) for _, motion in kinematics.curves if motion == "steer"]
     for figure in figures:
         parts.append(picture(drawing(figure, figure.get_suptitle())))
     return document(title, parts)

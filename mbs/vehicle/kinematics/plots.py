@@ -37,7 +37,7 @@ TRAVEL_PANELS = (
     ("wheel_rate", ("parallel", "opposite")),
     ("ride_rate", ("parallel", "opposite")),
 )
-"""Quantities over wheel travel, and the motions that each panel has."""
+"""Quantities over wheel travel, and the motions in each panel."""
 STEER_PANELS = (
     "steer_angle",
     "steering_ratio",
@@ -54,43 +54,44 @@ STEER_PANELS = (
 """Quantities over the angle of the steering wheel."""
 COLUMNS = 4
 DASHES = {"opposite": (0, (5, 2)), "single": (0, (1, 1.5))}
-"""Of motions whose curves may lie on those of parallel travel."""
-LARGEST_CIRCLE = 60.0  # m: wider circles would hide the others
+"""Line styles of motions whose curves may coincide with those of parallel travel."""
+LARGEST_CIRCLE = 60.0  # m, end of the axis of turning circles
 
 
-def travel_figure(found: Kinematics, axle: str) -> Figure:
-    """Panels of an axle over wheel travel, of its left wheel."""
-    curves = {motion: c for (of, motion), c in found.curves.items() if of == axle and motion != "steer"}
+def travel_figure(kinematics: Kinematics, axle: str) -> Figure:
+    """Panels of the left wheel of an axle over wheel travel."""
+    curves = {motion: c for (of, motion), c in kinematics.curves.items() if of == axle and motion != "steer"}
     panels = [(name, motions) for name, motions in TRAVEL_PANELS if _column(curves["parallel"], name)]
 
     def draw(ax: Axes, k: int) -> None:
         name, motions = panels[k]
         for motion in motions:
-            _line(ax, curves[motion], name, "left", COLOURS[motion], WORDS[motion], DASHES.get(motion, "-"))
-        _titled(ax, name)
+            _plot(ax, curves[motion], name, "left", COLOURS[motion], WORDS[motion], DASHES.get(motion, "-"))
+        _set_labels(ax, name)
         ax.set_xlabel("wheel travel, mm (bump positive)")
 
-    return _figure(f"{found.car}: {axle} axle over wheel travel", len(panels), draw)
+    return _figure(f"{kinematics.car}: {axle} axle over wheel travel", len(panels), draw)
 
 
-def steer_figure(found: Kinematics) -> Figure:
+def steer_figure(kinematics: Kinematics) -> Figure:
     """Panels of the front axle over the angle of the steering wheel."""
-    curve = found.curves["front", "steer"]
+    curve = kinematics.curves["front", "steer"]
 
     def draw(ax: Axes, k: int) -> None:
         name = STEER_PANELS[k]
         sides = ("left", "right") if f"{name}_left" in curve.columns else ("",)
         for side in sides:
-            _line(ax, curve, name, side, COLOURS.get(side, COLOURS["left"]), f"{side} wheel" if side else "")
-        _titled(ax, name)
+            _plot(ax, curve, name, side, COLOURS.get(side, COLOURS["left"]), f"{side} wheel" if side else "")
+        _set_labels(ax, name)
         if name == "turning_circle":
             ax.set_ylim(0.0, LARGEST_CIRCLE)
         ax.set_xlabel("steering-wheel angle, deg (left positive)")
 
-    return _figure(f"{found.car}: front axle over steering", len(STEER_PANELS), draw)
+    return _figure(f"{kinematics.car}: front axle over steering", len(STEER_PANELS), draw)
 
 
 def _figure(title: str, panels: int, draw: Any) -> Figure:
+    """Figure of panels. `draw`: draws a panel by axes and number."""
     import matplotlib as mpl
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -110,11 +111,12 @@ def _figure(title: str, panels: int, draw: Any) -> Figure:
 
 
 def _column(curve: Curve, name: str, side: str = "left") -> str:
-    """Name of the column of a quantity; empty: there is none."""
+    """Name of the column of a quantity; empty if there is none."""
     return next((column for column in (f"{name}_{side}", name) if column in curve.columns), "")
 
 
-def _line(ax: Axes, curve: Curve, name: str, side: str, colour: str, label: str, dashes: Any = "-") -> None:
+def _plot(ax: Axes, curve: Curve, name: str, side: str, colour: str, label: str, dashes: Any = "-") -> None:
+    """Plot a quantity of a curve over the variable of its motion."""
     over = BY_NAME[curve.over.removesuffix("_left")]
     column = _column(curve, name, side)
     ax.plot(
@@ -126,13 +128,14 @@ def _line(ax: Axes, curve: Curve, name: str, side: str, colour: str, label: str,
     )
 
 
-def _titled(ax: Axes, name: str) -> None:
+def _set_labels(ax: Axes, name: str) -> None:
+    """Set title, label and legend of a panel, and a range of the y axis that exceeds round-off."""
     quantity = BY_NAME[name]
     ax.set_title(quantity.title)
     ax.set_ylabel(quantity.shown)
     low, high = ax.get_ylim()
     least = 1e-3 * max(1.0, abs(low))
-    if high - low < least:  # round-off must not look like a curve
+    if high - low < least:
         middle = 0.5 * (low + high)
         ax.set_ylim(middle - least, middle + least)
     if len(ax.lines) > 1:

@@ -1,6 +1,6 @@
-"""Names, units and meanings of the columns; in the terms of ISO 8855.
+"""Names, units and meanings of the columns of curves, in the terms of ISO 8855.
 
-The standard itself was not at hand: the terms are those of public summaries and textbooks.
+The terms are those of public summaries and textbooks, not of the standard itself.
 """
 
 import math
@@ -28,6 +28,7 @@ _DEG = 180.0 / math.pi
 
 
 def _quantity(name: str, kind: str, title: str, meaning: str) -> Quantity:
+    """Make a quantity with the units of its kind."""
     unit, shown, factor = {
         "angle": ("rad", "deg", _DEG),
         "length": ("m", "mm", 1e3),
@@ -95,7 +96,7 @@ WHEEL_TRAVEL = (
     _quantity("wheel_rate", "rate", "wheel rate", "load per travel of this wheel, with bars and stops"),
     _quantity("ride_rate", "rate", "wheel rate with the tyre", "wheel rate and tyre in series"),
 )
-"""Of each wheel on curves of wheel travel."""
+"""Further quantities of each wheel on curves of wheel travel."""
 
 AXLE = (
     _quantity("track_change", "length", "track change", "of both contact centres together, from the drawing"),
@@ -116,7 +117,7 @@ AXLE_TRAVEL = (
     _quantity("anti_squat", "percent", "anti-squat", "driving: the same behind"),
     _quantity("anti_lift_in_drive", "percent", "anti-lift in drive", "driving: the same in front"),
 )
-"""Further ones of the axle on curves of wheel travel."""
+"""Further quantities of the axle on curves of wheel travel."""
 
 ROLL = (
     _quantity("suspension_roll_angle", "angle", "suspension roll angle", "of the chassis, left side up positive"),
@@ -124,7 +125,7 @@ ROLL = (
     _quantity("roll_camber", "per roll", "roll camber", "mean inclination against the ground per roll angle"),
     _quantity("roll_stiffness", "roll stiffness", "suspension roll stiffness", "moment per suspension roll angle"),
 )
-"""Further ones of the axle on curves of opposite travel."""
+"""Further quantities of the axle on curves of opposite travel."""
 
 STEER = (
     _quantity("steering_wheel_angle", "angle", "steering-wheel angle", "positive to the left"),
@@ -139,10 +140,10 @@ STEER = (
         "turning_circle", "size", "turning circle", "diameter of the way of the outer front contact centre without slip"
     ),
 )
-"""Further ones of the axle on curves of steering."""
+"""Further quantities of the axle on curves of steering."""
 
 BY_NAME = {q.name: q for group in (WHEEL, WHEEL_TRAVEL, AXLE, AXLE_TRAVEL, ROLL, STEER) for q in group}
-"""All of them by name."""
+"""All quantities by name."""
 
 
 def quantity_of(column: str) -> Quantity:

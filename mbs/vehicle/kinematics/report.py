@@ -20,13 +20,13 @@ from mbs.vehicle.linkages.curve_grid import write_curve_table
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.suspensions.curve_table import RACK
 
-LEAST_RANGE = 1e-3  # m: who gives metres finds less
+LEAST_RANGE = 1e-3  # m: a smaller range was given in m in place of mm
 TRAVEL = (-80.0, 80.0)  # mm
 
 
 def report(options: argparse.Namespace) -> int:
-    """Print what the axles are as drawn, and write page and tables; gives the exit code, 1 where a curve has notes."""
-    import matplotlib  # noqa: F401  # if it is missing, the error comes before the work
+    """Print the measures at the drawing, write page and tables, and return the exit code, 1 if a curve has notes."""
+    import matplotlib  # noqa: F401  # raises its error before the computation
 
     from mbs.vehicle.kinematics.page import page
 
@@ -74,17 +74,17 @@ def report(options: argparse.Namespace) -> int:
     return 1 if any(curve.notes for curve in car_kinematics.curves.values()) else 0
 
 
-def _content(found: Any, gives: Any) -> dict[str, Any]:
+def _content(car_kinematics: Any, car_compliance: Any) -> dict[str, Any]:
     """Content of the JSON file: SI units, null for what is not a number."""
     return {
-        "car": found.car,
-        "notes": list(found.notes),
-        "drawn": {axle: {n: _finite(v) for n, v in found.drawn(axle).items()} for axle in ("front", "rear")},
+        "car": car_kinematics.car,
+        "notes": list(car_kinematics.notes),
+        "drawn": {axle: {n: _finite(v) for n, v in car_kinematics.drawn(axle).items()} for axle in ("front", "rear")},
         "compliance": {
-            "fidelity": gives.fidelity.value,
-            "freedoms": gives.freedoms,
-            "sentence": gives.sentence,
-            "values": gives.values,
+            "fidelity": car_compliance.fidelity.value,
+            "freedoms": car_compliance.freedoms,
+            "sentence": car_compliance.sentence,
+            "values": car_compliance.values,
         },
         "curves": [
             {
@@ -93,10 +93,11 @@ def _content(found: Any, gives: Any) -> dict[str, Any]:
                 "units": curve.units,
                 "columns": {name: [_finite(v) for v in values.tolist()] for name, values in curve.columns.items()},
             }
-            for curve in found.curves.values()
+            for curve in car_kinematics.curves.values()
         ],
     }
 
 
 def _finite(value: float) -> float | None:
+    """The value, or None if it is not finite."""
     return value if math.isfinite(value) else None

@@ -1,7 +1,8 @@
 """Ackermann's condition, turning circle and steering ratio of a steered axle at one position.
 
-Without slip the lines of both wheels' axes meet on that of the rear axle. From each wheel its place and steer angle
-give a centre of the turn on that line; Ackermann's steer angle of the outer wheel is that for the centre of the inner.
+Without slip the axes of both front wheels intersect on the line of the rear axle. Position and steer angle of each
+wheel give a centre of the turn on that line; the Ackermann steer angle of the outer wheel is that for the centre of the
+inner one.
 """
 
 import math
@@ -14,34 +15,35 @@ from mbs.vehicle.kinematics.wheel_motion import wheel_motion
 from mbs.vehicle.linkages.linkage import Linkage, Position
 
 WheelByRack: TypeAlias = Callable[[float], tuple[float, float]]
-STRAIGHT = 1e-4  # rad: below it there is no circle
+LEAST_STEER_ANGLE = 1e-4  # rad, with a turning circle
 
 
-def steer_measures(linkage: Linkage, at: Position, wheel_by_rack: WheelByRack) -> dict[str, float]:
-    """Columns of steering in SI units, NaN where the wheels stand straight ahead or not to one side.
+def steer_measures(linkage: Linkage, position: Position, wheel_by_rack: WheelByRack) -> dict[str, float]:
+    """Columns of steering in SI units; NaN if the wheels are straight ahead or turned to different sides.
 
     `wheel_by_rack`: gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a
     travel, m.
     """
-    wheels = [wheel_motion(linkage, at, k) for k in range(2)]
+    wheels = [wheel_motion(linkage, position, k) for k in range(2)]
     steers = [w.steer for w in wheels]
     mean = 0.5 * sum(steers)
     rate = 0.5 * float((wheels[0].steer_rate + wheels[1].steer_rate)[2])
-    angle, wheel_per_rack = wheel_by_rack(at.rack)
+    angle, wheel_per_rack = wheel_by_rack(position.rack)
     measures = {
         "steering_wheel_angle": angle,
-        linkage.car.steering.motion: at.rack,
+        linkage.car.steering.motion: position.rack,
         "mean_steer_angle": mean,
         "steering_ratio": wheel_per_rack / rate if rate else math.nan,
         **dict.fromkeys(("ackermann_steer_angle", "ackermann_error", "ackermann", "turning_circle"), math.nan),
     }
-    if min(abs(s) for s in steers) < STRAIGHT or steers[0] * steers[1] < 0.0:
+    if min(abs(s) for s in steers) < LEAST_STEER_ANGLE or steers[0] * steers[1] < 0.0:
         return measures
     inner, outer = wheels if mean > 0.0 else wheels[::-1]
     axle_x = linkage.car.rear.wheel.centre[0]
 
-    def centre(w_contact: np.ndarray, steer: float) -> float:
-        return float(w_contact[1] + (w_contact[0] - axle_x) / math.tan(steer))
+    def centre(contact: np.ndarray, steer: float) -> float:
+        """y of the centre of the turn, m."""
+        return float(contact[1] + (contact[0] - axle_x) / math.tan(steer))
 
     inner_centre = centre(inner.contact, inner.steer)
     ackermann_angle = math.atan((outer.contact[0] - axle_x) / (inner_centre - outer.contact[1]))

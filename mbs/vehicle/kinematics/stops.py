@@ -1,4 +1,4 @@
-"""Wheel travel at the beginning and the end of the stops of an axle."""
+"""Notes on wheel travel beyond the stops of an axle."""
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -8,9 +8,9 @@ from mbs.vehicle.linkages.linkage import Linkage
 
 
 def stop_notes(linkage: Linkage, parallel: Curve) -> list[str]:
-    """Sentences where the range of a curve goes beyond where the stops are metal on metal.
+    """Sentences on the travel at which the stops become metal on metal, if a curve exceeds it.
 
-    `parallel`: over parallel travel.
+    `parallel`: curve of parallel wheel travel.
     """
     stops = linkage.data.stops
     if stops is None:
@@ -20,7 +20,7 @@ def stop_notes(linkage: Linkage, parallel: Curve) -> list[str]:
         ("bump", 1.0, stops.bump_gap + stops.bump_travel),
         ("rebound", -1.0, stops.rebound_gap + stops.rebound_travel),
     ):
-        travel = travel_at(parallel, end * compression)
+        travel = travel_of_compression(parallel, end * compression)
         last = float(parallel["wheel_travel_left"][-1 if end > 0.0 else 0])
         if not np.isnan(travel):
             notes.append(
@@ -30,10 +30,10 @@ def stop_notes(linkage: Linkage, parallel: Curve) -> list[str]:
     return notes
 
 
-def travel_at(parallel: Curve, compression: float) -> float:
-    """Wheel travel at which the spring is shorter than drawn by a compression, m; NaN: not on the curve.
+def travel_of_compression(parallel: Curve, compression: float) -> float:
+    """Wheel travel at a compression of the spring from the drawing, m; NaN: it is not on the curve.
 
-    `parallel`: over parallel travel; `compression`: in m, negative where the spring is longer.
+    `parallel`: curve of parallel wheel travel; `compression`: m, negative in extension.
     """
     compressed = parallel.drawn()["spring_length_left"] - parallel["spring_length_left"]
     rising, first = np.unique(compressed, return_index=True)

@@ -1,11 +1,11 @@
-"""Table of the kinematic measures of both axles at the drawn position, as text."""
+"""Text table of the kinematic measures of both axles at the drawing."""
 
 import math
 from collections.abc import Sequence
 
 from ali3.columns import in_columns
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
-from mbs.vehicle.kinematics.compliance_table import shown_number
+from mbs.vehicle.kinematics.compliance_table import number_text
 from mbs.vehicle.kinematics.quantities import BY_NAME, Quantity
 
 TITLED = {
@@ -32,19 +32,19 @@ SECTIONS = (
     ("Roll", ("roll_steer", "roll_camber", "anti_roll_bar_ratio", "roll_wheel_rate", "roll_stiffness")),
     ("Steering", ("steering_ratio", *(name for name in TITLED if name.startswith("lock")))),
 )  # fmt: skip
-"""Rows by headings."""
+"""Headings with the names of their rows."""
 
 
 def named(name: str) -> tuple[Quantity, str]:
-    """Quantity and title of a value at the drawing. `name`: as `Kinematics.drawn` has it."""
+    """Quantity and title of a value of `Kinematics.drawn` by its name."""
     base, title = TITLED.get(name, (name, ""))
     quantity = BY_NAME[base]
     return quantity, title or quantity.title
 
 
-def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
-    """Title, value in front, value behind, unit and meaning; a title alone is a heading."""
-    drawn = {axle: found.drawn(axle) for axle in ("front", "rear")}
+def rows(kinematics: Kinematics) -> list[tuple[str, str, str, str, str]]:
+    """Title, value at the front axle, value at the rear axle, unit and meaning; a title alone is a heading."""
+    drawn = {axle: kinematics.drawn(axle) for axle in ("front", "rear")}
     lines = []
     for heading, names in SECTIONS:
         section_lines = []
@@ -53,7 +53,7 @@ def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
             if all(math.isnan(v) for v in values):
                 continue
             quantity, title = named(name)
-            front, rear = (shown_number(v * quantity.factor) for v in values)
+            front, rear = (number_text(v * quantity.factor) for v in values)
             section_lines.append((title, front, rear, quantity.shown, quantity.meaning))
         if section_lines:
             lines += [(heading, "", "", "", ""), *section_lines]
@@ -61,7 +61,7 @@ def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
 
 
 def text(lines: Sequence[tuple[str, str, str, str, str]]) -> str:
-    """Rows as text. `lines`: as `rows` gives them."""
+    """Text of rows. `lines`: from `rows`."""
     lines = [("", "front", "rear", "", ""), *lines]
     headings = [bool(line[0]) and not any(line[1:]) for line in lines]
     return "\n".join("\n" * heading + line for heading, line in zip(headings, in_columns(lines, (1, 2)), strict=True))

@@ -1,7 +1,7 @@
-"""Position, attitude and rates of a wheel and its carrier, with the angles of ISO 8855.
+"""Position, orientation and rates of a wheel and its carrier, with the angles of ISO 8855.
 
-Vehicle axes: x forward, y left, z up; the chassis stands. Angles of the right wheel are those of its mirror image where
-their names say toe, camber or kingpin, and in vehicle axes where they say steer or inclination.
+Vehicle axes: x forward, y left, z up; the chassis is fixed. Toe, camber and kingpin angles of the right wheel are those
+of its mirror image; steer and inclination angles are in vehicle axes.
 """
 
 from dataclasses import dataclass
@@ -18,19 +18,19 @@ Z = np.array(UP)
 
 @dataclass(frozen=True)
 class WheelMotion:
-    """A wheel and its rates per travel of the left wheel, of the right wheel and of the rack: the columns of `rate`."""
+    """A wheel and its rates per travel of the left wheel, the right wheel and the rack, which are columns."""
 
     side: float
-    """1 left, -1 right."""
+    """Side: 1 left, -1 right."""
     radius: float
-    """From the centre to the contact, m: loaded, as drawn."""
+    """Loaded radius as drawn, m."""
     centre: Array
     axis: Array
     """`centre`, `axis`, shape (3,): wheel centre, m, and unit vector of its axis to the left."""
     centre_rate: Array
     axis_rate: Array
     turn: Array
-    """`centre_rate`, `axis_rate`, `turn`, shape (3, 3): rates of both, and angular velocity of the carrier."""
+    """`centre_rate`, `axis_rate`, `turn`, shape (3, 3): their rates, and the angular velocity of the carrier."""
 
     @property
     def steer(self) -> float:
@@ -55,19 +55,19 @@ class WheelMotion:
 
     @property
     def contact(self) -> Array:
-        """Contact centre, m: from the wheel's centre down in the wheel plane by the radius, shape (3,)."""
+        """Contact centre, m, shape (3,): below the wheel centre in the wheel plane by the radius."""
         up = Z - self.axis[2] * self.axis
         return np.asarray(self.centre - self.radius * up / np.linalg.norm(up))
 
     @property
     def contact_rise(self) -> Array:
-        """Rates of its height, shape (3,): that of the wheel's centre, and its own as the wheel leans."""
+        """Rates of the height of the contact centre, shape (3,)."""
         lean = self.axis[2]
         return np.asarray(self.centre_rate[2] + self.radius * lean * self.axis_rate[2] / np.sqrt(1.0 - lean**2))
 
     @property
     def fixed_contact_rate(self) -> Array:
-        """Rates of the point of the carrier that is at the contact centre, as of a wheel held by its brake, (3, 3)."""
+        """Rates of the carrier's point at the contact centre, as of a braked wheel, shape (3, 3)."""
         return np.asarray(self.centre_rate + np.cross(self.turn, self.contact - self.centre, axisa=0, axisb=0).T)
 
 
@@ -75,64 +75,66 @@ class WheelMotion:
 class SteeringAxis:
     """The axis about which a wheel is steered."""
 
-    way: Array
-    """Shape (3,): unit vector that points up."""
+    direction: Array
+    """Unit vector, upwards, shape (3,)."""
     point: Array
-    """Shape (3,): a point of it, m."""
+    """Point of the axis, m, shape (3,)."""
     pitch: float
-    """Shift along it per turn, m/rad: of a screw; 0 where ball joints hold it."""
+    """Displacement along the axis per angle, m/rad: of a screw; 0 for ball joints."""
 
     def at_height(self, z: float) -> Array:
         """Point of the axis at a height, m, shape (3,). `z`: in m."""
-        return np.asarray(self.point + self.way * (z - self.point[2]) / self.way[2])
+        return np.asarray(self.point + self.direction * (z - self.point[2]) / self.direction[2])
 
     @property
     def caster(self) -> float:
         """Caster angle, rad: in the side view, positive with the top to the rear."""
-        return float(np.arctan2(-self.way[0], self.way[2]))
+        return float(np.arctan2(-self.direction[0], self.direction[2]))
 
     def inclination(self, side: float) -> float:
         """Kingpin inclination angle, rad: in the rear view, positive with the top inwards. `side`: 1 left, -1 right."""
-        return float(np.arctan2(-side * self.way[1], self.way[2]))
+        return float(np.arctan2(-side * self.direction[1], self.direction[2]))
 
     def offsets(self, wheel: WheelMotion, centre: Array) -> tuple[float, float]:
-        """From a point of the wheel to the axis at the point's height, along the wheel's x axis and inwards, m.
+        """Distances from a point to the axis at the height of the point, along the wheel's x axis and inwards, m.
 
-        `wheel`: gives the directions; `centre`: the point, shape (3,).
-
-        Returns
-        -------
-        tuple of float
-            Positive where the axis is ahead of the point, and inboard of it.
+        `wheel`: its steer angle and side determine the directions; `centre`: the point, m, shape (3,). Both distances
+        are positive if the axis is ahead of the point and inboard of it.
         """
         gap, steer = self.at_height(centre[2]) - centre, wheel.steer
         ahead, left = gap @ [np.cos(steer), np.sin(steer), 0.0], gap @ [-np.sin(steer), np.cos(steer), 0.0]
         return float(ahead), float(-wheel.side * left)
 
 
-def wheel_motion(linkage: Linkage, at: Position, side: int) -> WheelMotion:
-    """A wheel at a position. `side`: 0 left, 1 right."""
+def wheel_motion(linkage: Linkage, position: Position, side: int) -> WheelMotion:
+    """Motion of a wheel at a position. `side`: 0 left, 1 right."""
     C, c = linkage.centre(side)
     axes = linkage.triad(side)
-    turn = 0.5 * np.sum([np.cross(A @ at.q + a, (A @ at.tangent).T).T for A, a in axes], axis=0)
+    turn = 0.5 * np.sum([np.cross(A @ position.q + a, (A @ position.tangent).T).T for A, a in axes], axis=0)
     A, a = axes[1]
     radius = linkage.loaded_radius(side)
     return WheelMotion(
-        (1.0, -1.0)[side], radius, C @ at.q + c, A @ at.q + a, C @ at.tangent, A @ at.tangent, np.asarray(turn)
+        (1.0, -1.0)[side],
+        radius,
+        C @ position.q + c,
+        A @ position.q + a,
+        C @ position.tangent,
+        A @ position.tangent,
+        np.asarray(turn),
     )
 
 
-def steering_axis(linkage: Linkage, at: Position, side: int) -> SteeringAxis | None:
-    """Screw axis of the carrier while the rack moves and the springs keep their length; None: nothing steers it.
+def steering_axis(linkage: Linkage, position: Position, side: int) -> SteeringAxis | None:
+    """Screw axis of the carrier for a motion of the rack at constant lengths of the springs; None without a rod.
 
     `side`: 0 left, 1 right.
     """
     if not linkage.has_rod:
         return None
-    rate = linkage.steering_motion(at)
+    rate = linkage.steering_motion(position)
     C, c = linkage.centre(side)
-    turn = 0.5 * np.sum([np.cross(A @ at.q + a, A @ rate) for A, a in linkage.triad(side)], axis=0)
+    turn = 0.5 * np.sum([np.cross(A @ position.q + a, A @ rate) for A, a in linkage.triad(side)], axis=0)
     speed, size = C @ rate, float(np.linalg.norm(turn))
     direction = np.asarray(turn) / size * (1.0 if turn[2] >= 0.0 else -1.0)
-    point = C @ at.q + c + np.cross(turn, speed) / size**2
+    point = C @ position.q + c + np.cross(turn, speed) / size**2
     return SteeringAxis(direction, np.asarray(point), float(turn @ speed) / size**2)

@@ -1,1 +1,1 @@
-"""The cheapest level of a car, fidelity and step, that meets tolerances: errors and cost of each, measured."""
+"""Measured errors and cost of the levels (fidelity and step) of a car, and the cheapest level within tolerances."""

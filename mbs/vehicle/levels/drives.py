@@ -13,59 +13,59 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation.state import Pose
 from mbs.system.system import System
 
-ACCELERATION = 4.0  # m/s2, to the side in the slalom
-SPEED, FREQUENCY, SLALOM = 15.0, 0.5, 6.0  # m/s, Hz, s
-BRAKING, BRAKE, BRAKE_TIME = 20.0, 0.3, 4.0  # m/s, part of the pedal, s
-KERB_SPEED, KERB_AT, KERB, KERB_TIME = 5.0, 4.0, 0.05, 3.0  # m/s, m, m, s
-SHORTEST = 0.1  # s
+ACCELERATION = 4.0  # m/s2, lateral, in the slalom
+SLALOM_SPEED, SLALOM_FREQUENCY, SLALOM_TIME = 15.0, 0.5, 6.0  # m/s, Hz, s
+BRAKING_SPEED, BRAKE_PEDAL, BRAKING_TIME = 20.0, 0.3, 4.0  # m/s, 1, s
+KERB_SPEED, KERB_X, KERB_HEIGHT, KERB_TIME = 5.0, 4.0, 0.05, 3.0  # m/s, m, m, s
+LEAST_TIME = 0.1  # s
 
 
 @dataclass(frozen=True)
 class Drive:
-    """Inputs over time, from a start."""
+    """A manoeuvre: inputs over time from a start."""
 
     name: str
     duration: float
-    """s."""
+    """Duration, s."""
     inputs: dict[str, Signal]
-    """As `mbs.simulate` takes them."""
+    """Signals by input, as in `mbs.simulate`."""
     parameters: dict[str, float] = field(default_factory=dict)
-    """Values before the start."""
+    """Values set before the start."""
     speed: float = 0.0
-    """At the start, m/s."""
+    """Speed at the start, m/s."""
 
     @property
     def pose(self) -> Pose:
-        """Start of a run."""
+        """Pose at the start."""
         return Pose(speed=self.speed)
 
 
-def own_drives(system: System) -> list[Drive]:
-    """The drives that a car can do by itself: a slalom, braking, and a kerb.
+def default_drives(system: System) -> list[Drive]:
+    """Make the drives for any car: a slalom, braking, and a kerb.
 
     Returns
     -------
     list of Drive
-        The slalom (0.5 Hz, 15 m/s) steers as far as 4 m/s2 to the side need without slip of the tyres; the brake is
-        pressed to 0.3 within 0.2 s at 20 m/s; the kerb is 5 cm down at 5 m/s. What needs an input or a parameter that
-        the car does not have is left out.
+        The slalom (0.5 Hz, 15 m/s) has the steer angle of 4 m/s2 without tyre slip; the brake is pressed to 0.3 within
+        0.2 s at 20 m/s; the kerb is a drop of 5 cm at 5 m/s. Drives whose inputs or parameters the car lacks are
+        omitted.
     """
     constants = {entry["name"]: float(entry["value"]) for entry in system.meta["constants"]}
     inputs = {entry["name"] for entry in system.meta["inputs"]}
     parameters = {entry["name"] for entry in system.meta["parameters"]}
     drives = []
     if "steering" in inputs:
-        angle = constants["vehicle.wheelbase"] * ACCELERATION / SPEED**2
-        t = np.linspace(0.0, SLALOM, round(SLALOM / 0.01) + 1)
-        turns = np.sin(2.0 * math.pi * FREQUENCY * t) * np.minimum(t / 2.0, 1.0) ** 2
+        angle = constants["vehicle.wheelbase"] * ACCELERATION / SLALOM_SPEED**2
+        t = np.linspace(0.0, SLALOM_TIME, round(SLALOM_TIME / 0.01) + 1)
+        turns = np.sin(2.0 * math.pi * SLALOM_FREQUENCY * t) * np.minimum(t / 2.0, 1.0) ** 2
         amplitude = min(angle / constants["vehicle.front_wheel_angle_max"], 1.0)
-        drives.append(Drive("slalom", SLALOM, {"steering": (t, amplitude * turns)}, speed=SPEED))
+        drives.append(Drive("slalom", SLALOM_TIME, {"steering": (t, amplitude * turns)}, speed=SLALOM_SPEED))
     if "brake" in inputs:
-        times = np.array([0.0, 0.5, 0.7, BRAKE_TIME])
-        pressed = np.array([0.0, 0.0, BRAKE, BRAKE])
-        drives.append(Drive("braking", BRAKE_TIME, {"brake": (times, pressed)}, speed=BRAKING))
+        times = np.array([0.0, 0.5, 0.7, BRAKING_TIME])
+        pressed = np.array([0.0, 0.0, BRAKE_PEDAL, BRAKE_PEDAL])
+        drives.append(Drive("braking", BRAKING_TIME, {"brake": (times, pressed)}, speed=BRAKING_SPEED))
     if {"road.kerb_x", "road.kerb_height"} <= parameters:
-        kerb_values = {"road.kerb_x": KERB_AT, "road.kerb_height": KERB}
+        kerb_values = {"road.kerb_x": KERB_X, "road.kerb_height": KERB_HEIGHT}
         drives.append(Drive("kerb", KERB_TIME, {}, kerb_values, KERB_SPEED))
     if not drives:
         raise ModelError("The car has no input for its steering or brake and no kerb; give a drive of your own.")
@@ -73,10 +73,10 @@ def own_drives(system: System) -> list[Drive]:
 
 
 def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
-    """A drive from a table of inputs over time.
+    """Read a drive from a table of inputs over time.
 
-    `file`: CSV with the column ``time``, s, and one of each input; linear in between; `speed`: at the start, m/s.
-    Raises `FileError`: it is no such table; the message names file and fault.
+    `file`: CSV with the column ``time``, s, and columns of inputs, linear between rows; `speed`: at the start, m/s;
+    `inputs`: of the car. Raises `FileError`: the file is not such a table.
     """
     table = TextTable(file, known=("time",))
     if "time" not in table.names or len(table.names) < 2:
@@ -86,8 +86,8 @@ def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
         raise table.error(f"{file}: the car has no input '{unknown[0]}'; it has {', '.join(sorted(inputs))}.")
     columns = dict(zip(table.names, table.values().T, strict=True))
     t = columns.pop("time")
-    if not (np.diff(t) >= 0.0).all() or t[0] != 0.0 or t[-1] < SHORTEST:
+    if not (np.diff(t) >= 0.0).all() or t[0] != 0.0 or t[-1] < LEAST_TIME:
         raise table.error(
-            f"{file}: times go from {t[0]:g} to {t[-1]:g} s; they must rise from 0 to {SHORTEST:g} s or more."
+            f"{file}: times go from {t[0]:g} to {t[-1]:g} s; they must rise from 0 to {LEAST_TIME:g} s or more."
         )
     return Drive(file.stem, float(t[-1]), {name: (t, values) for name, values in columns.items()}, speed=speed)

@@ -1,4 +1,4 @@
-"""Errors of the signals of a car against those of another run at the same times."""
+"""Errors of the signals of a car against those of a reference run at the same times."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
@@ -11,19 +11,19 @@ POSITION = ("chassis.x", "chassis.y", "chassis.z")
 LOADS = tuple(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))
 
 
-def path_error(found: Signals, reference: Signals) -> float:
-    """Largest distance of the reference point from where it is in the reference at the same time, m."""
-    gap = np.array([found[s] - reference[s] for s in POSITION])
+def path_error(signals: Signals, reference: Signals) -> float:
+    """Largest distance of the reference points of both runs at the same time, m."""
+    gap = np.array([signals[s] - reference[s] for s in POSITION])
     return float(np.max(np.linalg.norm(gap, axis=0)))
 
 
-def load_error(found: Signals, reference: Signals) -> float:
-    """Largest error of a wheel load over the largest wheel load."""
+def load_error(signals: Signals, reference: Signals) -> float:
+    """Largest error of a wheel load, relative to the largest wheel load."""
     peak = max(float(reference[s].max()) for s in LOADS)
-    return max(float(np.abs(found[s] - reference[s]).max()) for s in LOADS) / peak
+    return max(float(np.abs(signals[s] - reference[s]).max()) for s in LOADS) / peak
 
 
-def error_of_change(found: Signals, reference: Signals, signals: Sequence[str]) -> float:
-    """Largest error of these signals over their largest change from the start."""
-    size = max(float(np.abs(reference[s] - reference[s][0]).max()) for s in signals)
-    return max(float(np.abs(found[s] - reference[s]).max()) for s in signals) / size
+def error_of_change(signals: Signals, reference: Signals, names: Sequence[str]) -> float:
+    """Largest error of the named signals, relative to their largest change from the start."""
+    size = max(float(np.abs(reference[s] - reference[s][0]).max()) for s in names)
+    return max(float(np.abs(signals[s] - reference[s]).max()) for s in names) / size

@@ -1,4 +1,4 @@
-"""The cheapest measured level, fidelity and step, that meets tolerances."""
+"""The cheapest measured level, a fidelity with a step, within tolerances."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from typing import Any
 
 from mbs.vehicle.fidelity import Fidelity
 
-LEFT_OUT = {
+OMISSIONS = {
     Fidelity.TABLE: "deformation and stresses, and forces in the links",
     Fidelity.RIGID: "deformation and stresses",
     Fidelity.QUASI_STATIC: "vibration of the frame and the effect of its bending on the motion",
@@ -14,20 +14,20 @@ LEFT_OUT = {
     Fidelity.DYNAMIC: "fixed-interface modes above the fifth",
     Fidelity.MANY_MODES: "fixed-interface modes above the fortieth",
 }
-"""What a fidelity does without, in words."""
+"""Effects that a fidelity neglects, in words."""
 
 
 @dataclass(frozen=True)
 class LevelChoice:
-    """The cheapest measured way to an output."""
+    """A measured level with its errors and its cost."""
 
     fidelity: Fidelity
     h: float
     """Step, s."""
     errors: dict[str, float]
-    """Of the outputs that were asked for, largest over the manoeuvres."""
+    """Largest errors over the manoeuvres, by output."""
     ms_per_second: float
-    """Processor time per simulated second, of the slowest manoeuvre."""
+    """Processor time per simulated second in the slowest manoeuvre, ms."""
 
     @property
     def error(self) -> float:
@@ -37,14 +37,14 @@ class LevelChoice:
     @property
     def left_out(self) -> str:
         """Effects that this fidelity neglects."""
-        return LEFT_OUT[self.fidelity]
+        return OMISSIONS[self.fidelity]
 
 
 def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[LevelChoice]:
-    """Each fidelity and step that was measured in all manoeuvres, with its largest errors and its cost.
+    """Levels that were measured in all manoeuvres, with their largest errors and costs.
 
-    `rows`: with "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output; None where there is
-    none.
+    `rows`: with "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output or
+    None.
     """
     names = {row["manoeuvre"] for row in rows}
     choices: list[LevelChoice] = []
@@ -52,17 +52,17 @@ def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Le
         fidelity = Fidelity.of(name)
         level_rows = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
         complete = all(row[output] is not None for row in level_rows for output in outputs)
-        if fidelity in LEFT_OUT and complete and {row["manoeuvre"] for row in level_rows} == names:
+        if fidelity in OMISSIONS and complete and {row["manoeuvre"] for row in level_rows} == names:
             errors = {output: max(row[output] for row in level_rows) for output in outputs}
             choices.append(LevelChoice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in level_rows)))
     return choices
 
 
 def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> LevelChoice:
-    """The fidelity and step with the least time per simulated second that meet tolerances in all manoeuvres measured.
+    """The level with the least time per simulated second within tolerances in all measured manoeuvres.
 
-    `rows`: as for `levels`; `tolerances`: on the errors of outputs. Raises `ValueError`: a tolerance is not positive,
-    or nothing that was measured meets all; the message says how near the nearest is.
+    `rows`: as in `levels`; `tolerances`: of errors by output. Raises `ValueError`: a tolerance is not positive, or no
+    level is within the tolerances.
     """
     for output, tolerance in tolerances.items():
         if not tolerance > 0.0:
@@ -81,6 +81,6 @@ def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float])
     raise ValueError(f"No fidelity that was measured has {limits}; the best is {' and '.join(error_texts)} away.")
 
 
-def nearest(found: Sequence[LevelChoice], tolerances: Mapping[str, float]) -> LevelChoice:
-    """The level whose largest error in parts of its tolerance is the least."""
-    return min(found, key=lambda c: max(c.errors[output] / most for output, most in tolerances.items()))
+def nearest(choices: Sequence[LevelChoice], tolerances: Mapping[str, float]) -> LevelChoice:
+    """The level with the least largest ratio of error and tolerance."""
+    return min(choices, key=lambda c: max(c.errors[output] / most for output, most in tolerances.items()))

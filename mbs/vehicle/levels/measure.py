@@ -1,4 +1,4 @@
-"""Errors and cost of the levels of a car: each fidelity that it has, with several steps."""
+"""Errors and cost of the levels of a car: each of its fidelities with several steps."""
 
 import time
 import warnings
@@ -22,19 +22,19 @@ from mbs.vehicle.levels.drives import Drive
 from mbs.vehicle.levels.errors import LOADS, POSITION, error_of_change, load_error, path_error
 
 STEPS = (0.01, 0.005, 0.002)  # s
-FINE = 0.0005  # s, of the reference
-FREQUENCY = 10.0  # Hz, of the low-pass of moments
+REFERENCE_STEP = 0.0005  # s
+CUTOFF_FREQUENCY = 10.0  # Hz, of the low-pass filter of moments
 
 
 def systems_of(car: Car) -> dict[Fidelity, System]:
-    """The car with each fidelity that it has, the cheapest first and the most detailed last.
+    """Compile the car at each of its fidelities, from the cheapest to the most detailed.
 
-    Raises `ModelError`: the car does not stand on tyres of its own.
+    Raises `ModelError`: the tyres of the car are at ports.
     """
     if car.ports.tyre is not None:
         raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it cannot drive.")
     systems = {}
-    if car.front.suspension.linked or car.rear.suspension.linked:  # else it is by tables as it is
+    if car.front.suspension.linked or car.rear.suspension.linked:  # else the car has tables at any fidelity
         try:
             systems[Fidelity.TABLE] = compile(car.model(fidelity=Fidelity.TABLE))
         except ModelError as error:
@@ -49,20 +49,20 @@ def measure(
     repeats: int = 3,
     tell: Callable[[float], None] = lambda share: None,
 ) -> list[dict[str, Any]]:
-    """Errors of each level against the most detailed one with steps of 0.5 ms, and what it costs.
+    """Measure the errors of each level against the most detailed one with steps of 0.5 ms, and its cost.
 
     Parameters
     ----------
     systems : dict of Fidelity to System
-        Of `systems_of`; the last is the reference.
+        From `systems_of`; the last is the reference.
     drives : sequence of Drive
         Manoeuvres of the car.
     steps : sequence of float
-        s; whole parts of the longest one.
+        s; integer fractions of the longest one.
     repeats : int
-        Timed runs of each level, of which the least counts; levels take turns, so that a disturbance is shared.
+        Timed runs of each level, of which the fastest counts; levels alternate, so that disturbances are shared.
     tell : callable
-        Receives the share that is done.
+        Called with the completed share, 0 to 1.
 
     Returns
     -------
@@ -74,70 +74,72 @@ def measure(
     """
     finest = list(systems)[-1]
     grid = max(steps)
-    todo = sum(drive.duration for drive in drives) * (
-        1.0 / FINE + len(systems) * (1 + repeats) * sum(1 / h for h in steps)
+    total_steps = sum(drive.duration for drive in drives) * (
+        1.0 / REFERENCE_STEP + len(systems) * (1 + repeats) * sum(1 / h for h in steps)
     )
-    simulated, rows = 0.0, []
+    completed_steps, rows = 0.0, []
     for drive in drives:
-        fine = _run(systems[finest], drive, FINE, grid, stresses=not finest.rigid)
-        distance = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
-        simulated += drive.duration / FINE
+        reference = _run(systems[finest], drive, REFERENCE_STEP, grid, stresses=not finest.rigid)
+        distance = float(np.linalg.norm(np.diff([reference[s] for s in POSITION], axis=1), axis=0).sum())
+        completed_steps += drive.duration / REFERENCE_STEP
         timed_rows: list[tuple[System, dict[str, Any]]] = []
         for fidelity, system in systems.items():
             for h in steps:
-                tell(min(simulated / todo, 1.0))
+                tell(min(completed_steps / total_steps, 1.0))
                 row: dict[str, Any] = {"manoeuvre": drive.name, "fidelity": fidelity.name.lower(), "h_s": h}
-                timed_rows.append((system, row | _errors(fidelity, system, drive, h, fine, max(distance, 1.0), grid)))
-                simulated += drive.duration / h
+                timed_rows.append(
+                    (system, row | _errors(fidelity, system, drive, h, reference, max(distance, 1.0), grid))
+                )
+                completed_steps += drive.duration / h
         for _ in range(repeats):
             for system, row in timed_rows:
-                tell(min(simulated / todo, 1.0))
+                tell(min(completed_steps / total_steps, 1.0))
                 if not row["failed"]:
-                    us = _cost(system, drive, row["h_s"], grid)
-                    row["us_per_step"] = min(us, row["us_per_step"] or us)
-                simulated += drive.duration / row["h_s"]
+                    microseconds = _cost(system, drive, row["h_s"], grid)
+                    row["us_per_step"] = min(microseconds, row["us_per_step"] or microseconds)
+                completed_steps += drive.duration / row["h_s"]
         rows += [row for _, row in timed_rows]
     tell(1.0)
     return rows
 
 
 def _errors(
-    fidelity: Fidelity, system: System, drive: Drive, h: float, fine: dict[str, Any], way: float, grid: float
+    fidelity: Fidelity, system: System, drive: Drive, h: float, reference: dict[str, Any], distance: float, grid: float
 ) -> dict[str, Any]:
-    """A row without its cost."""
+    """Errors of a row. `distance`: driven distance, m; `grid`: s, as in `_run`."""
     row: dict[str, Any] = {"path": None, "load": None, "moment": None, "us_per_step": None}
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # how far a run is off is measured here
+            warnings.simplefilter("ignore")  # the errors are measured here
             signals = _run(system, drive, h, grid, stresses=not fidelity.rigid)
     except SimulationError as error:
         return row | {"failed": str(error)}
     moments = [name for name in signals if name not in (*POSITION, *LOADS)]
     return row | {
-        "path": path_error(signals, fine) / way,
-        "load": load_error(signals, fine),
-        "moment": error_of_change(signals, fine, moments) if moments else None,
+        "path": path_error(signals, reference) / distance,
+        "load": load_error(signals, reference),
+        "moment": error_of_change(signals, reference, moments) if moments else None,
         "failed": "",
     }
 
 
 def _cost(system: System, drive: Drive, h: float, grid: float) -> float:
-    """Processor time of a step, us."""
-    end = _end(drive, grid)
+    """Processor time per step, us."""
+    end = _duration(drive, grid)
     clock, settings = time.process_time, (drive.inputs, drive.parameters, drive.pose)
     return 1e6 * step_time(system, end, h, 1, clock, *settings, warm_up=0) * h / end
 
 
-def _end(drive: Drive, grid: float) -> float:
-    """Duration of a run, s."""
+def _duration(drive: Drive, grid: float) -> float:
+    """Duration of a run, an integer multiple of `grid`, s."""
     return grid * int(drive.duration / grid + 1e-9)
 
 
 def _run(system: System, drive: Drive, h: float, grid: float, *, stresses: bool) -> dict[str, NDArray[np.float64]]:
-    """Signals at the times of the grid, moments after the low-pass."""
+    """Simulate a drive; signals at multiples of `grid`, s, moments after the low-pass filter."""
     run: Trajectory = simulate(
         system,
-        _end(drive, grid),
+        _duration(drive, grid),
         h,
         drive.inputs,
         parameters=drive.parameters,
@@ -149,4 +151,4 @@ def _run(system: System, drive: Drive, h: float, grid: float, *, stresses: bool)
     values = {s: np.asarray(run[s])[::decimation] for s in (*POSITION, *LOADS)}
     sensors = [entry["name"] for entry in system.meta["sensors"]] if stresses else []
     moments = [name for name in sensors if name.startswith("bending_moment.")]
-    return values | {s: low_pass(run[s], h, FREQUENCY)[::decimation] for s in moments}
+    return values | {s: low_pass(run[s], h, CUTOFF_FREQUENCY)[::decimation] for s in moments}

@@ -1,4 +1,4 @@
-"""Prints the table of the levels of a car and the cheapest that meets tolerances: ``ali3 car CAR --cheapest``."""
+"""Prints the levels of a car and the cheapest one within tolerances: the work of ``ali3 car CAR --cheapest``."""
 
 import argparse
 import sys
@@ -18,20 +18,20 @@ from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.fidelity import Fidelity
-from mbs.vehicle.levels.drives import own_drives, read_drive
-from mbs.vehicle.levels.level_choice import LEFT_OUT, LevelChoice, cheapest, levels, nearest
-from mbs.vehicle.levels.measure import FINE, measure, systems_of
+from mbs.vehicle.levels.drives import default_drives, read_drive
+from mbs.vehicle.levels.level_choice import OMISSIONS, LevelChoice, cheapest, levels, nearest
+from mbs.vehicle.levels.measure import REFERENCE_STEP, measure, systems_of
 
-USUAL = {"path": 1.0, "loads": 3.0}
-"""Tolerances by default, percent."""
+DEFAULT_TOLERANCES = {"path": 1.0, "loads": 3.0}
+"""Percent."""
 OUTPUTS = {"path": "path", "loads": "load", "moments": "moment"}
-"""Name of an error in the command line: its name in a row."""
+"""Key of an error in a row by its name in the command line."""
 TITLES = {"path": "of the way", "load": "of the wheel loads", "moment": "of the moments in the frame"}
 
 
 def report(options: argparse.Namespace) -> int:
-    """Measure the levels, print their table and the cheapest one, write it as JSON if asked; returns the exit code."""
-    tolerances, file, speed = asked_of(options.cheapest)
+    """Measure the levels, print their table and the cheapest one, write the JSON file; returns the exit code."""
+    tolerances, file, speed = parse_options(options.cheapest)
     if options.json:
         check_writable(options.json)
     with warning_lines():
@@ -45,7 +45,7 @@ def report(options: argparse.Namespace) -> int:
         print(f"note: {warning.message}", file=sys.stderr)
     rigid = systems[Fidelity.RIGID]
     names = {entry["name"] for entry in rigid.meta["inputs"]}
-    drives = own_drives(rigid) if file is None else [read_drive(file, speed, names)]
+    drives = default_drives(rigid) if file is None else [read_drive(file, speed, names)]
     with progress_for(None) as bar:
         rows = measure(systems, drives, tell=bar.update)
     finest = list(systems)[-1]
@@ -57,20 +57,21 @@ def report(options: argparse.Namespace) -> int:
     if options.json:
         content = {
             "car": car.name,
-            "reference": {"fidelity": finest.value, "h_s": FINE},
+            "reference": {"fidelity": finest.value, "h_s": REFERENCE_STEP},
             "tolerances": tolerances,
             "cheapest": None if choice is None else {"fidelity": choice.fidelity.value, "h_s": choice.h},
             "rows": [row | {"fidelity": Fidelity.of(row["fidelity"]).value} for row in rows],
         }
         write_json(options.json, content)
     if choice is None:
-        raise UserError(_none(rows, tolerances))
-    print("\n" + _sentence(choice, tolerances))
+        raise UserError(_failure_sentence(rows, tolerances))
+    print("\n" + _choice_sentence(choice, tolerances))
     return 0
 
 
 def _print_rows(title: str, drives: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:
-    print(f"{title} with steps of {1e3 * FINE:g} ms, the largest of: {', '.join(drives)}\n")
+    """Print the table of the levels, and why runs ended early."""
+    print(f"{title} with steps of {1e3 * REFERENCE_STEP:g} ms, the largest of: {', '.join(drives)}\n")
     print("\n".join(table(rows)))
     for row in rows:
         if row["failed"]:
@@ -78,8 +79,8 @@ def _print_rows(title: str, drives: Sequence[str], rows: Sequence[Mapping[str, A
             print(f"note: {label}: {row['failed']}", file=sys.stderr)
 
 
-def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path | None, float]:
-    """Tolerances (shares, by error), the file of a drive and its initial speed (m/s), from NAME=VALUE of the command.
+def parse_options(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path | None, float]:
+    """Tolerances (ratios by error), file of a drive and its initial speed (m/s) from the NAME=VALUE of the option.
 
     Raises `UserError`: a name is not known, or a value cannot be used.
     """
@@ -91,7 +92,7 @@ def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path |
             f"--cheapest takes {', '.join(OUTPUTS)}, drive and speed, each as NAME=VALUE, not {brief(unknown[0])}"
             f"{did_you_mean(unknown[0], [*OUTPUTS, 'drive', 'speed'])}"
         )
-    values: dict[str, float] = dict(USUAL)
+    values: dict[str, float] = dict(DEFAULT_TOLERANCES)
     for name, text in numbers.items():
         try:
             values[name] = number_with_unit(text, "m/s") if name == "speed" else parse_number(text.removesuffix("%"))
@@ -107,7 +108,7 @@ def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path |
 
 
 def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Lines of the table: a level each, its largest errors and the processor time of its slowest drive."""
+    """Lines of the table: for each level its largest errors and the processor time of its slowest drive."""
     lines: list[tuple[str, ...]] = [
         ("fidelity", "step, ms", "path, %", "loads, %", "moments, %", "ms per s", "times real time")
     ]
@@ -121,24 +122,28 @@ def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def _largest_text(rows: Sequence[Mapping[str, Any]], key: str, factor: float, form: str) -> str:
+    """Largest value of a key times a factor; a dash if a row has none."""
     values = [row[key] for row in rows]
     return "-" if None in values else format(factor * max(values), form)
 
 
 def _tolerance_text(tolerances: Mapping[str, float]) -> str:
+    """Tolerances in words."""
     limits = [f"{100.0 * most:g} % {TITLES[output]}" for output, most in tolerances.items()]
     return ", ".join(limits[:-1]) + (" and " if len(limits) > 1 else "") + limits[-1]
 
 
-def _sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:
+def _choice_sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:
+    """Sentence on the cheapest level."""
     return (
         f"Cheapest within {_tolerance_text(tolerances)}: fidelity {choice.fidelity.value} with steps of "
         f"{1e3 * choice.h:g} ms, {choice.ms_per_second:.1f} ms of processor time a simulated second "
-        f"({1e3 / choice.ms_per_second:.0f} times real time). It leaves out {LEFT_OUT[choice.fidelity]}."
+        f"({1e3 / choice.ms_per_second:.0f} times real time). It leaves out {OMISSIONS[choice.fidelity]}."
     )
 
 
-def _none(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> str:
+def _failure_sentence(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> str:
+    """Sentence on the nearest level if none is within the tolerances."""
     measured = levels(rows, list(tolerances))
     if not measured:
         return (

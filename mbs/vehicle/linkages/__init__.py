@@ -1,1 +1,1 @@
-"""The suspension of an axle as a mechanism on a chassis that is held, and how far its links let the wheels go."""
+"""The suspension of an axle as a mechanism on a fixed chassis: its positions, curves and limits of travel."""

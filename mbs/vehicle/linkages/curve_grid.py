@@ -1,4 +1,4 @@
-"""Computes the curves of an axle from its links, as a table that `kind = "curves"` reads."""
+"""Computes the curves of an axle from its links as a table for `kind = "curves"`."""
 
 import csv
 from os import PathLike
@@ -10,33 +10,33 @@ from ali3.files import atomic_file
 from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError
 from mbs.vehicle.linkages.pose_grid import MARGIN, SPACING, compression_range, even_points, is_coupled
 from mbs.vehicle.suspensions.curve_poses import axes_of
-from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER, RACK, TRAVEL
+from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER_TRAVEL, RACK, WHEEL_TRAVEL
 
 
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
-    """Columns of the table of the left wheel over its travel between the stops, (n,) each, by name, SI units.
+    """Compute the columns of the table of the left wheel between its stops by name, SI units, shape (n,) each.
 
-    `rack_travel`: to each side, m; 0: the axle is not steered. Raises `NotReachedError`: the links cannot follow as far
-    as the stops.
+    `rack_travel`: to each side, m; 0: the axle is not steered. Raises `NotReachedError`: the links cannot reach the
+    stops.
     """
     coupled = is_coupled(linkage)
-    travel = _travels(linkage, coupled)
-    name, second = "", np.zeros(1)
+    travel = _wheel_travels(linkage, coupled)
+    name, second_values = "", np.zeros(1)
     if coupled:
-        name, second = OTHER, travel
+        name, second_values = OTHER_TRAVEL, travel
     elif linkage.has_rod and rack_travel > 0.0:
-        name, second = RACK, even_points(-rack_travel - MARGIN, rack_travel + MARGIN, SPACING[1])
+        name, second_values = RACK, even_points(-rack_travel - MARGIN, rack_travel + MARGIN, SPACING[1])
     rows: list[dict[str, float]] = []
     for t in travel:
-        for u in second:
+        for u in second_values:
             position = (np.array([t, u]), 0.0) if coupled else (np.array([t, t]), float(u))
-            q = _reached(linkage, *position)
-            rows.append({TRAVEL: float(t), **({name: float(u)} if name else {}), **_measures(linkage, q)})
+            q = _solve(linkage, *position)
+            rows.append({WHEEL_TRAVEL: float(t), **({name: float(u)} if name else {}), **_columns_at(linkage, q)})
     return {column: np.array([row[column] for row in rows]) + 0.0 for column in rows[0]}
 
 
 def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike[str]) -> None:
-    """Write `curve_rows` as CSV, with units in the heading; an older file is replaced when the new one is whole."""
+    """Write `curve_rows` as CSV with units in the headings, completely or not at all."""
     columns = curve_rows(linkage, rack_travel)
     with atomic_file(Path(file)) as target, target.open("w", newline="", encoding="utf-8") as out:
         writer = csv.writer(out, lineterminator="\n")
@@ -44,43 +44,44 @@ def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike
         writer.writerows(np.column_stack(list(columns.values())).tolist())
 
 
-def _travels(linkage: Linkage, coupled: bool) -> Array:
-    """Travels (n,) of a wheel, m, from beyond one stop to beyond the other at any position of the other wheel."""
+def _wheel_travels(linkage: Linkage, coupled: bool) -> Array:
+    """Travels of a wheel from beyond one stop to beyond the other, at any travel of the other wheel, m, shape (n,)."""
     extended, compressed = compression_range(linkage)
     limits = []
-    for direction, most in ((-1.0, extended), (1.0, compressed)):
+    for direction, limit in ((-1.0, extended), (1.0, compressed)):
         t = 0.0
         directions = (1.0, -1.0) if coupled else (1.0,)
         while (
-            min(direction * _compression(linkage, _reached(linkage, np.array([t, o * t]), 0.0)) for o in directions)
-            < most
+            min(direction * _left_compression(linkage, _solve(linkage, np.array([t, o * t]), 0.0)) for o in directions)
+            < limit
         ):
             t += direction * 0.5 * SPACING[0]
         limits.append(t)
     return even_points(limits[0], limits[1], SPACING[0])
 
 
-def _compression(linkage: Linkage, q: Array) -> float:
+def _left_compression(linkage: Linkage, q: Array) -> float:
+    """Compression of the left spring from the drawing at coordinates q, m."""
     D, d = linkage.linear(linkage.springs[0])
     return float(np.linalg.norm(D @ linkage.drawn.q + d) - np.linalg.norm(D @ q + d))
 
 
-def _reached(linkage: Linkage, travel: Array, rack: float) -> Array:
-    """Coordinates at a position, solved in 1, 4, 16 or 64 steps from the drawing."""
+def _solve(linkage: Linkage, travel: Array, rack: float) -> Array:
+    """Coordinates at a position (nq,), solved in 1, 4, 16 or 64 steps from the drawing."""
     for step_count in (1, 4, 16, 64):
-        at = linkage.drawn
+        position = linkage.drawn
         try:
             for k in range(step_count):
                 share = (k + 1) / step_count
-                at = linkage.solve(at.q, share * travel, share * rack)
+                position = linkage.solve(position.q, share * travel, share * rack)
         except NotReachedError:
             continue
-        return at.q
+        return position.q
     return linkage.solve(linkage.drawn.q, travel, rack).q
 
 
-def _measures(linkage: Linkage, q: Array) -> dict[str, float]:
-    """Values of the columns of the left wheel at coordinates q, m and rad."""
+def _columns_at(linkage: Linkage, q: Array) -> dict[str, float]:
+    """Values of the columns of the left wheel at coordinates q, SI units."""
     C, c = linkage.centre(0)
     (x, y, _), triad = C @ q + c, [A @ q + a for A, a in linkage.triad(0)]
     axis = triad[1]

@@ -1,28 +1,29 @@
-"""Largest travel of wheels and steering that the links of an axle allow without stops."""
+"""Travel of wheels and steering that the links of an axle allow without stops."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.linkages.continuation import HEAVE, STEER, reached
+from mbs.vehicle.linkages.continuation import HEAVE, STEER, positions_along
 from mbs.vehicle.linkages.linkage import Array, Linkage, Position
 from mbs.vehicle.suspensions.curve_table import RACK
 from mbs.vehicle.suspensions.curves import Curves
 
-FARTHEST = 0.5  # m: travel of wheels and rack that is looked at
+LARGEST_TRAVEL = 0.5  # m, of wheels and rack, that is examined
 
 
 def notes_without_stops(car: CarContent) -> Iterator[str]:
-    """A sentence for each axle without stops, and one for a steered knuckle without.
+    """Yield a sentence for each axle without stops, and one for a steered knuckle without a stop.
 
     `car`: at rest near the drawing.
     """
-    yield from _missing_stops(car)
-    yield from _missing_steering_stop(car)
+    yield from _stop_notes(car)
+    yield from _steering_stop_notes(car)
 
 
-def _missing_stops(car: CarContent) -> Iterator[str]:
+def _stop_notes(car: CarContent) -> Iterator[str]:
+    """Yield a sentence for each axle without stops."""
     for name, axle in car.axles.items():
         if axle.stops is not None:
             continue
@@ -35,7 +36,7 @@ def _missing_stops(car: CarContent) -> Iterator[str]:
             )
             continue
         linkage = Linkage(car, name)
-        ends = _ends(linkage, HEAVE)
+        ends = _travel_limits(linkage, HEAVE)
         if ends is None:
             continue
         yield (
@@ -45,18 +46,19 @@ def _missing_stops(car: CarContent) -> Iterator[str]:
         )
 
 
-def _missing_steering_stop(car: CarContent) -> Iterator[str]:
+def _steering_stop_notes(car: CarContent) -> Iterator[str]:
+    """Yield a sentence if a steered knuckle has no stop and the links limit its travel."""
     stop, steering = car.front.suspension.stop_left_out, car.steering
     if not stop:
         return
     linkage = Linkage(car, "front")
     notes = []
-    if steering.motion == RACK and (ends := _ends(linkage, STEER)):
+    if steering.motion == RACK and (ends := _travel_limits(linkage, STEER)):
         notes.append(
             f"{ends[0]:+.3f} to {ends[1]:+.3f} m of the rack ({steering.lateral_travel[0]} is {steering.full:g})"
         )
-    at_lock, lock = reached(linkage, STEER, np.array([steering.full]))
-    if lock is None and (ends := _ends(linkage, HEAVE, at_lock[0])):
+    lock_positions, limit = positions_along(linkage, STEER, np.array([steering.full]))
+    if limit is None and (ends := _travel_limits(linkage, HEAVE, lock_positions[0])):
         notes.append(f"{ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel at full lock")
     if notes:
         yield (
@@ -66,9 +68,12 @@ def _missing_steering_stop(car: CarContent) -> Iterator[str]:
         )
 
 
-def _ends(linkage: Linkage, direction: Array, start: Position | None = None) -> tuple[float, float] | None:
-    """Travel to both sides of a start up to which the links follow, m; None if it is `FARTHEST` on both sides."""
-    low, high = (reached(linkage, direction, np.array([far]), start)[1] for far in (-FARTHEST, FARTHEST))
+def _travel_limits(linkage: Linkage, direction: Array, start: Position | None = None) -> tuple[float, float] | None:
+    """Limits of the travel from a start by the links, m; None if they are beyond `LARGEST_TRAVEL` on both sides."""
+    low, high = (
+        positions_along(linkage, direction, np.array([travel]), start)[1]
+        for travel in (-LARGEST_TRAVEL, LARGEST_TRAVEL)
+    )
     if low is None and high is None:
         return None
-    return -FARTHEST if low is None else low, FARTHEST if high is None else high
+    return -LARGEST_TRAVEL if low is None else low, LARGEST_TRAVEL if high is None else high

@@ -1,13 +1,13 @@
 """Suspension of an axle on a fixed chassis as a mechanism with prescribed travel of wheels and rack.
 
-Of the car's templates the model has joints, springs and bars, but no tyres, brakes or gravity. With Phi(q, s) the
-conditions of the joints, s the rack's travel and c_z the heights of both wheel centres, a position solves
+The model has the joints, springs and bars of the car's templates, but no tyres, brakes or gravity. With the constraint
+equations Phi(q, s) of the joints, the travel s of the rack and the heights c_z of both wheel centres, a position solves
 
     Phi(q, s) = 0,    c_z(q) = c_z(drawn) + travel,
 
-by Gauss's and Newton's method: each correction is the shortest one that the linearised equations allow, so that
-redundant rows do no harm. The tangent of the position follows from the same matrix, and its derivative along a
-direction from d(Phi_q)/dt qd: nothing is differenced.
+by the Gauss-Newton method: each correction is the shortest solution of the linearised equations, so that redundant
+rows are allowed. The tangent of the position follows from the same matrix, and its derivative along a direction from
+d(Phi_q)/dt qd, without finite differences.
 """
 
 from collections.abc import Mapping
@@ -33,33 +33,33 @@ from mbs.vehicle.suspensions.anti_roll_bar import LINK
 Array = NDArray[np.float64]
 
 SIDES = ("left", "right")
-FARTHEST = 1.0  # m: travel of the rack that the guide can give
-CLOSE = 1e-11  # m: a correction that ends the iteration
+LARGEST_RACK_TRAVEL = 1.0  # m
+CORRECTION_TOLERANCE = 1e-11  # m: largest correction of a converged position
 MOST_ITERATIONS = 12
-LEFT_OVER = 1e-9  # of rows that have no solution, in the unit of the rows
+RESIDUAL_TOLERANCE = 1e-9  # largest residual of a converged position, in the units of the equations
 
 
 class NotReachedError(ValueError):
-    """A position that the linkage cannot take."""
+    """A position that the linkage cannot reach."""
 
 
 @dataclass(frozen=True)
 class Position:
-    """Position of the linkage, and its motion from there to first order."""
+    """A position of the linkage with its tangent."""
 
     travel: Array
-    """Shape (2,): of the left and the right wheel centre along z from the drawing, m, positive in bump."""
+    """Travel of the left and the right wheel centre along z from the drawing, m, positive in bump, shape (2,)."""
     rack: float
     """Travel of the rack from the drawing, m, positive to the left."""
     q: Array
-    """Shape (nq,): coordinates."""
+    """Coordinates, shape (nq,)."""
     tangent: Array
-    """Shape (nq, 3): their derivatives with respect to the travel of the left wheel, of the right wheel and of the
-    rack."""
+    """Derivatives of the coordinates with respect to the travel of the left wheel, the right wheel and the rack, shape
+    (nq, 3)."""
 
 
 class Linkage(StandingModel):
-    """The suspension of one axle.
+    """Suspension of one axle as a mechanism.
 
     Parameters
     ----------
@@ -69,24 +69,25 @@ class Linkage(StandingModel):
     Attributes
     ----------
     model : Model
-        Its model, on the earth as the chassis.
+        Its model, with the ground as the chassis.
     drawn : Position
-        As the file draws it.
+        Position as drawn.
     has_rod : bool
-        Whether a rod steers the wheels, which a twist beam has not.
+        Whether the wheels have tie rods or toe links.
     springs, dampers : tuple of AffineVector
-        From one end to the other, of the left and the right side.
+        Vectors between the ends, left and right.
     levers : tuple of int
-        Numbers of the full coordinates of the levers of the anti-roll bar; empty: there is none.
+        Indices of the angles of the anti-roll bar's levers among the full coordinates; empty without a bar.
     """
 
     def __init__(self, car: CarContent, axle: str) -> None:
         self.car, self.name, self.data = car, axle, getattr(car, axle)
-        self.data.suspension.needs_links()
+        self.data.suspension.require_links()
         m = self.model = Model(f"{car.name} {axle} suspension", gravity=(0.0, 0.0, 0.0))
         b = CarBuilder(m, m.road(PlaneRoad()), {})
         b.chassis = _fixed_chassis(m, car)
-        ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
+        # the time is the travel of the rack
+        ramp = PPoly(np.array([[1.0], [-LARGEST_RACK_TRAVEL]]), np.array([-LARGEST_RACK_TRAVEL, LARGEST_RACK_TRAVEL]))
         rack = m.guide_time("rack", ramp, unit="m")
         steered = car.steering.ends(b, rack, car.rack_direction) if axle == "front" else rack_ends(b, rack)
         rods: list[str] = []
@@ -114,90 +115,89 @@ class Linkage(StandingModel):
         self.drawn = self.solve(start, np.zeros(2), 0.0)
 
     def constraints(self, q: Array, qd: Array, rack: float) -> tuple[Array, Array, Array]:
-        """Conditions of the joints at a travel of the rack, their Jacobian, and their rate by the rack's travel.
+        """Constraint equations at a travel of the rack, m, their Jacobian, and their derivative by the travel.
 
         `q`, `qd`: coordinates and rates, shape (nq,).
         """
         return self.evaluator.constraints(q, qd, rack)
 
     def centre(self, side: int) -> tuple[Array, Array]:
-        """Matrix and constant of a wheel's centre; `side` is 0 for left and 1 for right."""
+        """Matrix (3, nq) and constant (3,) of a wheel centre. `side`: 0 left, 1 right."""
         return self._centres[side]
 
     def triad(self, side: int) -> list[tuple[Array, Array]]:
-        """Matrices and constants of unit vectors of a wheel's carrier: forward, the wheel's axis, up in its plane."""
+        """Matrices and constants of unit vectors of a wheel carrier: forward, along the wheel axis, up in its plane."""
         return self._triads[side]
 
     def loaded_radius(self, side: int) -> float:
-        """Distance from the wheel centre down in the wheel plane to the ground as drawn, m."""
+        """Distance from the wheel centre to the ground in the wheel plane as drawn, m."""
         *_, up = self.data.alignment.axes(self._corners[side].side)
         return float(self.data.wheel.centre[2] / up[2])
 
     def solve(self, start: Array, travel: Array, rack: float) -> Position:
-        """The position near a start.
+        """Find a position by Newton's method.
 
-        `start`: coordinates near to it, shape (nq,); `travel`: of the left and the right wheel, m, shape (2,); `rack`:
-        travel of the rack, m. Raises `NotReachedError`: the iteration does not end: links are too short or too long for
-        it.
+        `start`: initial coordinates, shape (nq,); `travel`: of the left and the right wheel, m, shape (2,); `rack`:
+        travel of the rack, m. Raises `NotReachedError`: the iteration does not converge.
         """
-        q, still, heights = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
+        q, zero_rates, heights = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
         offset = np.array([centre[1][2] for centre in self._centres])
         for _ in range(MOST_ITERATIONS):
-            phi, jacobian, ahead = self.evaluator.constraints(q, still, rack)
+            phi, jacobian, rack_derivative = self.evaluator.constraints(q, zero_rates, rack)
             rows = np.vstack([jacobian, self._heights])
             residuals = np.concatenate([phi, self._heights @ q + offset - heights])
             step = np.linalg.lstsq(rows, residuals, rcond=RANK_TOLERANCE)[0]
             q = q - step
             if not np.abs(step).max() < 0.5:
                 break
-            if np.abs(step).max() < CLOSE and np.abs(residuals).max() < LEFT_OVER:
-                right_side = np.zeros((len(residuals), 3))
-                right_side[-2, 0] = right_side[-1, 1] = 1.0
-                right_side[: len(phi), 2] = -ahead
-                tangent = np.linalg.lstsq(rows, right_side, rcond=RANK_TOLERANCE)[0]
-                if np.abs(rows @ tangent - right_side).max() > 1e-6:
-                    break  # at a dead point the wheels cannot go on
+            if np.abs(step).max() < CORRECTION_TOLERANCE and np.abs(residuals).max() < RESIDUAL_TOLERANCE:
+                right_sides = np.zeros((len(residuals), 3))
+                right_sides[-2, 0] = right_sides[-1, 1] = 1.0
+                right_sides[: len(phi), 2] = -rack_derivative
+                tangent = np.linalg.lstsq(rows, right_sides, rcond=RANK_TOLERANCE)[0]
+                if np.abs(rows @ tangent - right_sides).max() > 1e-6:
+                    break  # at a dead point there is no tangent
                 return Position(travel, rack, q, tangent)
         raise NotReachedError(f"no position with travels of {travel[0]:g} and {travel[1]:g} m and a rack at {rack:g} m")
 
-    def bends(self, at: Position, directions: Array) -> Array:
-        """Second derivatives (nq, n) of the coordinates along directions.
+    def second_derivatives(self, position: Position, directions: Array) -> Array:
+        """Second derivatives of the coordinates along directions, shape (nq, n).
 
         `directions`: rates of the travels of the left and the right wheel and of the rack, shape (3, n).
         """
-        still = np.zeros(len(at.q))
+        zero_rates = np.zeros(len(position.q))
 
         def rate(qd: Array) -> Array:
-            return self.evaluator.convective(at.q, qd, at.rack)
+            return self.evaluator.convective(position.q, qd, position.rack)
 
-        # the guide's own rate is 1: gamma(v, s') = a(v, v) + b(v) s' + c s'^2
-        alone, right_sides = rate(still), []
+        # the rate of the guide is 1: gamma(v, s') = a(v, v) + b(v) s' + c s'^2
+        rack_term, right_sides = rate(zero_rates), []
         for direction in directions.T:
-            ahead, back = (rate(sign * (at.tangent @ direction)) for sign in (1.0, -1.0))
+            forward, backward = (rate(sign * (position.tangent @ direction)) for sign in (1.0, -1.0))
             s = direction[2]
-            gamma = 0.5 * (ahead + back) - alone + 0.5 * s * (ahead - back) + s**2 * alone
+            gamma = 0.5 * (forward + backward) - rack_term + 0.5 * s * (forward - backward) + s**2 * rack_term
             right_sides.append(np.concatenate([-gamma, np.zeros(2)]))
-        rows = np.vstack([self.evaluator.jacobian(at.q, at.rack), self._heights])
+        rows = np.vstack([self.evaluator.jacobian(position.q, position.rack), self._heights])
         return np.asarray(np.linalg.lstsq(rows, np.transpose(right_sides), rcond=RANK_TOLERANCE)[0])
 
-    def steering_motion(self, at: Position) -> Array:
-        """Rates (nq,) of the coordinates per travel of the rack with springs of constant length.
+    def steering_motion(self, position: Position) -> Array:
+        """Rates of the coordinates per travel of the rack with springs of constant length, shape (nq,).
 
-        So a steering axis is defined: the suspension stands, the rod turns the wheel.
+        The steering axis is defined by this motion.
         """
-        still = np.zeros(len(at.q))
-        _, jacobian, ahead = self.evaluator.constraints(at.q, still, at.rack)
+        zero_rates = np.zeros(len(position.q))
+        _, jacobian, rack_derivative = self.evaluator.constraints(position.q, zero_rates, position.rack)
         rows = [jacobian]
         for spring in self.springs:
             D, d = self.linear(spring)
-            line_vector = D @ at.q + d
+            line_vector = D @ position.q + d
             rows.append((line_vector @ D / np.linalg.norm(line_vector))[None])
-        right_side = np.concatenate([-ahead, np.zeros(2)])
+        right_side = np.concatenate([-rack_derivative, np.zeros(2)])
         return np.asarray(np.linalg.lstsq(np.vstack(rows), right_side, rcond=RANK_TOLERANCE)[0])
 
 
 def _fixed_chassis(m: Model, car: CarContent) -> Mount:
-    """The earth as the chassis."""
+    """Mount on the ground in place of the chassis."""
     ground = m.ground
     axes = [ground.vector(e) for e in np.eye(3)]
     origin = np.array(car.chassis.reference)
@@ -206,6 +206,6 @@ def _fixed_chassis(m: Model, car: CarContent) -> Mount:
 
 
 def _line_names(elements: Mapping[str, object], wheel: str) -> tuple[str, str]:
-    """Names of spring and damper of a wheel, which may be one."""
+    """Names of the elements of the spring and the damper of a wheel, which may be the same element."""
     damper = f"damper {wheel}"
     return f"spring {wheel}", damper if damper in elements else f"spring {wheel}"

@@ -1,7 +1,7 @@
-"""Poses of the parts of an axle over the compression of its springs and the travel of its rack, as tables need them.
+"""Poses of the parts of an axle on a grid of spring compression and rack travel, for tables.
 
-The springs are the measure of travel, as their length leaves arms and wishbones no choice whatever the rack does: only
-what is steered needs a table of two variables.
+The variable is the compression of the springs, as it determines the position of arms and wishbones for any travel of
+the rack: only the poses of steered parts are tables of two variables.
 """
 
 from dataclasses import dataclass
@@ -10,22 +10,22 @@ import numpy as np
 
 from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.linkages.linkage import (
-    CLOSE,
-    LEFT_OVER,
+    CORRECTION_TOLERANCE,
     MOST_ITERATIONS,
+    RESIDUAL_TOLERANCE,
     Array,
     Linkage,
     NotReachedError,
 )
 
 SPACING = 0.012, 0.006
-"""Largest distance of points along compression and rack, m: poses are right to 2e-7 m and 3e-6 rad."""
+"""Largest spacing of points along compression and rack, m: poses are accurate to 2e-7 m and 3e-6 rad."""
 MARGIN = 0.003
-"""Of a table beyond stops and rack, m."""
-FREE = 0.10
-"""Compression of a table without stops, m."""
-SAME = 1e-9
-"""Difference of poses, m and without unit, that counts as none."""
+"""Length of a table beyond the stops and the travel of the rack, m."""
+DEFAULT_COMPRESSION = 0.10
+"""Largest compression and extension in a table of a spring without stops, m."""
+POSE_TOLERANCE = 1e-9
+"""Largest difference of equal poses, m and 1."""
 
 
 @dataclass(frozen=True)
@@ -35,23 +35,23 @@ class PoseGrid:
     linkage: Linkage
     compression: Array
     rack: Array
-    """`compression`, `rack`, shapes (n,) and (k,): points, m, positive in bump and to the left; one point of the rack
-    where nothing steers."""
+    """`compression`, `rack`: points, m, positive in bump and to the left, shapes (n,) and (k,); k is 1 for an axle that
+    is not steered."""
     coupled: bool
-    """Whether each side depends on the compression of both springs: then the tables go over left and right."""
+    """Whether each side depends on the compressions of both springs, which are then the variables of the tables."""
     q: Array
-    """Shape (n, k, nq), or (n, n, nq) where coupled: coordinates of the linkage."""
+    """Coordinates of the linkage, shape (n, k, nq), or (n, n, nq) if coupled."""
 
     def full(self, start: int, size: int) -> Array:
-        """Full coordinates of the linkage's model over the grid, shape (n, k, size)."""
+        """Full coordinates from `start` on over the grid, shape (n, k, size)."""
         rows = [self.linkage.full(start + i) for i in range(size)]
         return np.stack([self.q @ row + constant for row, constant in rows], axis=-1)
 
 
 def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
-    """Positions of an axle over the whole range of its springs and rack.
+    """Compute the positions of an axle over the range of its springs and its rack.
 
-    `rack_travel`: to each side, m; 0 where the axle is not steered. Raises `NotReachedError`: the links end before the
+    `rack_travel`: to each side, m; 0 if the axle is not steered. Raises `NotReachedError`: the links cannot reach the
     stops.
     """
     low, high = compression_range(linkage)
@@ -62,34 +62,34 @@ def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     rack = even_points(-reach, reach, SPACING[1]) if steered else np.zeros(1)
     shape = (len(compression), len(compression) if coupled else len(rack))
     q = np.zeros((*shape, len(linkage.drawn.q)))
-    along = _march(linkage, linkage.drawn.q, [((a, a), 0.0) for a in compression])
-    for i, start in enumerate(along):
+    coordinates = _follow(linkage, linkage.drawn.q, [((a, a), 0.0) for a in compression])
+    for i, start in enumerate(coordinates):
         second = (
             [((compression[i], b), 0.0) for b in compression] if coupled else [((compression[i],) * 2, u) for u in rack]
         )
-        q[i] = _march(linkage, start, second, begin=i if coupled else int(np.argmin(np.abs(rack))))
+        q[i] = _follow(linkage, start, second, begin=i if coupled else int(np.argmin(np.abs(rack))))
     return PoseGrid(linkage, compression, rack, coupled, q)
 
 
 def compression_range(linkage: Linkage) -> tuple[float, float]:
-    """Largest extension and compression of a spring that a table must have, m: a little beyond its stops."""
+    """Largest extension and compression of a spring in a table, m: `MARGIN` beyond its stops."""
     stops = linkage.data.stops
     if stops is None:
-        return FREE, FREE
+        return DEFAULT_COMPRESSION, DEFAULT_COMPRESSION
     return stops.rebound_gap + stops.rebound_travel + MARGIN, stops.bump_gap + stops.bump_travel + MARGIN
 
 
 def even_points(low: float, high: float, spacing: float) -> Array:
-    """Equally spaced from `low` to `high` or a little farther, with zero among them."""
+    """Equidistant points from `low` to `high` or beyond by less than a step, with zero among them."""
     below = int(np.ceil(-low / spacing))
     step = -low / below
     return np.asarray(step * np.arange(-below, int(np.ceil(high / step - 1e-9)) + 1), float)
 
 
-def _march(
+def _follow(
     linkage: Linkage, start: Array, points: list[tuple[tuple[float, float], float]], begin: int | None = None
 ) -> Array:
-    """Coordinates at places along a line, from the one nearest to the drawing (or `begin`) to both ends."""
+    """Coordinates at points along a line, continued from the one nearest to the drawing, or `begin`, to both ends."""
     first = int(np.argmin([abs(c[0]) + abs(u) for c, u in points])) if begin is None else begin
     coordinates = np.zeros((len(points), len(start)))
     coordinates[first] = at_springs(linkage, start, *points[first])
@@ -106,27 +106,27 @@ def _march(
 
 
 def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float], rack: float) -> Array:
-    """Coordinates (nq,) near a start at compressions of both springs and a travel of the rack.
+    """Coordinates (nq,) at compressions of both springs and a travel of the rack, by Newton's method from `start`.
 
-    `compression`: of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`: the links
-    do not allow it.
+    `compression`: of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`: the
+    iteration does not converge.
     """
-    q, still = start.copy(), np.zeros(len(start))
+    q, zero_rates = start.copy(), np.zeros(len(start))
     lines = [linkage.linear(spring) for spring in linkage.springs]
-    drawn = [float(np.linalg.norm(D @ linkage.drawn.q + d)) for D, d in lines]
+    drawn_lengths = [float(np.linalg.norm(D @ linkage.drawn.q + d)) for D, d in lines]
     for _ in range(MOST_ITERATIONS):
-        phi, jacobian, _ = linkage.constraints(q, still, rack)
+        phi, jacobian, _ = linkage.constraints(q, zero_rates, rack)
         vectors = [D @ q + d for D, d in lines]
         lengths = np.array([np.linalg.norm(vector) for vector in vectors])
         rows = np.vstack(
             [jacobian, *(vector @ D / size for (D, _), vector, size in zip(lines, vectors, lengths, strict=True))]
         )
-        residuals = np.concatenate([phi, lengths - drawn + compression])
+        residuals = np.concatenate([phi, lengths - drawn_lengths + compression])
         step = np.linalg.lstsq(rows, residuals, rcond=RANK_TOLERANCE)[0]
         q = q - step
         if not np.abs(step).max() < 0.5:
             break
-        if np.abs(step).max() < CLOSE and np.abs(residuals).max() < LEFT_OVER:
+        if np.abs(step).max() < CORRECTION_TOLERANCE and np.abs(residuals).max() < RESIDUAL_TOLERANCE:
             return np.asarray(q)
     raise NotReachedError(
         f"no position with springs compressed by {compression[0]:g} and {compression[1]:g} m and a rack at {rack:g} m"
@@ -137,9 +137,9 @@ def is_coupled(linkage: Linkage) -> bool:
     """Whether the compression of the right spring moves the left wheel."""
     C, _ = linkage.centre(0)
     displaced = at_springs(linkage, linkage.drawn.q, (0.0, 0.01), 0.0)
-    return bool(np.max(np.abs(C @ (displaced - linkage.drawn.q))) > SAME)
+    return bool(np.max(np.abs(C @ (displaced - linkage.drawn.q))) > POSE_TOLERANCE)
 
 
 def depends_on_second(values: Array) -> bool:
-    """Whether values over a grid, shape (n, k, ...), change along its second axis."""
-    return bool(np.max(np.ptp(values, axis=1), initial=0.0) > SAME)
+    """Whether values over a grid, shape (n, k, ...), vary along the second axis."""
+    return bool(np.max(np.ptp(values, axis=1), initial=0.0) > POSE_TOLERANCE)

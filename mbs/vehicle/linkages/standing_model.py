@@ -1,4 +1,4 @@
-"""Compiled model whose rows, forces and points are evaluated at positions near its start."""
+"""Compiled model whose constraints, forces and points are evaluated at positions near its start."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,12 @@ Array = NDArray[np.float64]
 
 
 class StandingModel:
-    """Base of what puts a compiled model to other places.
+    """Base class of compiled models that are evaluated at other positions than their start.
 
     Attributes
     ----------
     evaluator : Evaluator
-        Rows and forces at any coordinates.
+        Constraints and forces at any coordinates.
     """
 
     def __init__(self, model: Model) -> None:
@@ -32,7 +32,7 @@ class StandingModel:
         self.evaluator = Evaluator(system_instance)
 
     def linear(self, v: AffineVector) -> tuple[Array, Array]:
-        """Matrix (n, nq) and constant (n,) of a point or vector over the coordinates."""
+        """Matrix (n, nq) and constant (n,) of a point or vector as a function of the coordinates."""
         full = np.zeros((len(v), len(self._constant)))
         for row, component in zip(full, v.components, strict=True):
             for k, c in component.terms.items():
@@ -40,9 +40,9 @@ class StandingModel:
         return full @ self._T, full @ self._constant + [component.constant for component in v.components]
 
     def full(self, k: int) -> tuple[Array, float]:
-        """Row (nq,) and constant of a full coordinate."""
+        """Row (nq,) and constant of the k-th full coordinate as a function of the coordinates."""
         return self._T[k], float(self._constant[k])
 
     def force(self, q: Array) -> Array:
-        """Forces Q (nq,) of all elements at rest. `q`: coordinates, shape (nq,)."""
+        """Generalised forces Q (nq,) of all elements at rest. `q`: coordinates, shape (nq,)."""
         return self.evaluator.forces(q)

@@ -1,4 +1,4 @@
-"""Values of an axle of a car file."""
+"""Plausibility values of an axle of a car file."""
 
 import math
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.places import centres_of, drawn_points
-from mbs.vehicle.checks.working_ranges import DAMPER_SPEED, under_load, weight_on_spring
+from mbs.vehicle.checks.working_ranges import DAMPER_SPEED, compression_and_slope, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.linkages.continuation import HEAVE
@@ -22,7 +22,7 @@ from mbs.vehicle.suspensions.curves import Curves
 
 CAR = quantities_of("car")
 DEG = 180.0 / math.pi
-ABSOLUTE = 0.1  # m: lateral places of a table that are farther from 0 count from the middle of the car
+LEAST_ABSOLUTE_Y = 0.1  # m: a larger y of a table is measured from the middle plane
 
 
 @dataclass(frozen=True)
@@ -30,19 +30,17 @@ class AxleRates:
     """Rates of springs and dampers at the wheels of an axle."""
 
     wheel_rate: float
-    """N/m, of one wheel."""
+    """Wheel rate of one wheel, N/m."""
     damper_ratio: float
-    """Travel of the damper over that of the wheel."""
+    """Travel of the damper over travel of the wheel."""
     roll_stiffness: float
-    """N m/rad, of the axle."""
+    """Roll stiffness of the axle, N m/rad."""
     steering_axis: dict[str, float]
-    """Caster, kingpin inclination, rad, and kingpin offset, m, where links steer the wheel."""
+    """Caster angle and kingpin inclination, rad, and kingpin offset, m, of a steered axle with links."""
 
 
 def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
-    """Rates of an axle by its links as drawn, or without links by virtual work at rest.
-
-    None if a spring is not compressed.
+    """Rates of an axle by its links as drawn, or without links by virtual work at rest; None without spring force.
 
     `name`: "front" or "rear".
     """
@@ -62,23 +60,23 @@ def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
     if force < 1.0 or carried <= 0.0:
         return None
     ratio = carried / force
-    rate = under_load(axle.spring, force)[1] * axle.spring.factor * ratio**2
+    rate = compression_and_slope(axle.spring, force)[1] * axle.spring.factor * ratio**2
     return AxleRates(rate, ratio, 0.5 * rate * axle.track**2, {})
 
 
 def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None) -> Iterator[Value]:
-    """Values of one axle. `name`: "front" or "rear"; `rates`: of it."""
+    """Values of an axle. `name`: "front" or "rear"; `rates`: from `axle_rates`."""
     axle, centre = car.axles[name], car.axles[name].wheel.centre
-    y = {axle.wheel.key("centre"): list(centre)}
-    yield Value(CAR["track"], axle.track, y, name)
+    centre_key = {axle.wheel.key("centre"): list(centre)}
+    yield Value(CAR["track"], axle.track, centre_key, name)
     for key, point in drawn_points(axle).items():
         if key.endswith("ball_joint"):
             of = f"{name} {key.rsplit('.', 1)[1].removesuffix('_ball_joint')}"
             distance = math.hypot(point[0] - centre[0], point[2] - centre[2])
-            yield Value(CAR["joint"], centre[1] - point[1], {key: list(point), **y}, of)
-            yield Value(CAR["joint_radius"], distance / axle.tyre.radius, {key: list(point), **y}, of)
-    yield from _distances(axle, name)
-    yield from _alignment(axle, name)
+            yield Value(CAR["joint"], centre[1] - point[1], {key: list(point), **centre_key}, of)
+            yield Value(CAR["joint_radius"], distance / axle.tyre.radius, {key: list(point), **centre_key}, of)
+    yield from _distance_values(axle, name)
+    yield from _alignment_values(axle, name)
     yield Value(
         CAR["wheel_radius"],
         math.sqrt(axle.wheel.spin_inertia / axle.wheel.mass) / axle.tyre.radius,
@@ -90,18 +88,18 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
     nominal = axle.tyre.nominal_load
     yield Value(CAR["loaded"], rest.load[name] / nominal, {axle.tyre.key("nominal_load"): nominal}, name)
     if isinstance(axle.suspension, Curves):
-        yield from _curve_values(axle.suspension, name, y)
+        yield from _curve_values(axle.suspension, name, centre_key)
     if rates is not None:
         for quantity, angle in (("caster", "caster_angle"), ("kingpin", "kingpin_inclination_angle")):
             if angle in rates.steering_axis:
-                yield Value(CAR[quantity], rates.steering_axis[angle] * DEG, _points(axle), name)
+                yield Value(CAR[quantity], rates.steering_axis[angle] * DEG, _axis_points(axle), name)
         if (scrub := rates.steering_axis.get("kingpin_offset_at_ground")) is not None:
-            yield Value(CAR["scrub"], scrub, {**y, **_points(axle)}, name)
-        yield from _springs(axle, name, rest, rates)
+            yield Value(CAR["scrub"], scrub, {**centre_key, **_axis_points(axle)}, name)
+        yield from _spring_values(axle, name, rest, rates)
 
 
-def _distances(axle: Axle, name: str) -> Iterator[Value]:
-    """Distances of the farthest points and parts of an axle."""
+def _distance_values(axle: Axle, name: str) -> Iterator[Value]:
+    """Values of the distances of the farthest points and parts of an axle."""
     points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
     if not axle.suspension.linked:
         points = parts
@@ -120,11 +118,13 @@ def _distances(axle: Axle, name: str) -> Iterator[Value]:
         yield Value(CAR["part"], overhangs[key], {key: list(parts[key])}, name)
 
 
-def _points(axle: Axle) -> dict[str, Any]:
+def _axis_points(axle: Axle) -> dict[str, Any]:
+    """Points of the steering axis by key path."""
     return {key: list(p) for key, p in drawn_points(axle).items() if key.endswith(("ball_joint", "strut_top"))}
 
 
-def _alignment(axle: Axle, name: str) -> Iterator[Value]:
+def _alignment_values(axle: Axle, name: str) -> Iterator[Value]:
+    """Values of toe and camber."""
     a = axle.alignment
     toe = {a.key(f"toe_{side}"): getattr(a, f"toe_{side}") for side in ("left", "right")}
     camber = {a.key(f"camber_{side}"): getattr(a, f"camber_{side}") for side in ("left", "right")}
@@ -134,7 +134,8 @@ def _alignment(axle: Axle, name: str) -> Iterator[Value]:
     yield Value(CAR["cambers"], (a.camber_left - a.camber_right) * DEG, camber, name)
 
 
-def _springs(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Value]:
+def _spring_values(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Value]:
+    """Values of springs and dampers at the wheels."""
     mass, rate = weight_on_spring(axle, rest.load[name]) / GRAVITY, rates.wheel_rate
     spring, damper = axle.spring, axle.damper
     springs = spring.given | {spring.key("factor"): spring.factor}
@@ -154,7 +155,7 @@ def _springs(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Va
 
 
 def damping_at(damper: Damper, speed: float) -> float:
-    """Force over speed, N s/m, of a damper. `speed`: m/s, positive in rebound."""
+    """Force over speed of a damper, N s/m. `speed`: m/s, positive in rebound."""
     if damper.damping is not None:
         return damper.damping * damper.factor
     v, force = np.array(damper.table, dtype=float).T
@@ -163,12 +164,13 @@ def damping_at(damper: Damper, speed: float) -> float:
 
 
 def _curve_values(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
+    """Values of the table of an axle given by curves."""
     table, key = curves.table, {curves.key("file"): curves.file}
     i, k = (int(np.argmin(np.abs(axis))) for axis in (table.travel, table.second))
     (wheel,) = centre.values()
     for column in ("wheel_centre_y", "contact_centre_y"):
         values = table.of(column, "left")
-        if values is not None and abs(values[i, k]) > ABSOLUTE:
+        if values is not None and abs(values[i, k]) > LEAST_ABSOLUTE_Y:
             yield Value(CAR["curve_place"], float(values[i, k]) / wheel[1], {**key, **centre}, name)
             break
     for quantity, columns in (

@@ -1,4 +1,4 @@
-"""Plausibility of a car file, from all its parts."""
+"""Plausibility of a car file."""
 
 import copy
 import math
@@ -9,12 +9,12 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ali3.plausibility import Mistake, Plausibility, Value
-from mbs.tyre_files.tyre_plausibility import cornering, magic_plausibility, tmeasy_plausibility
+from mbs.tyre_files.tyre_plausibility import cornering_stiffness_at, magic_plausibility, tmeasy_plausibility
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of, weighed_points
-from mbs.vehicle.checks.places import centres_of, drawn_points, parts_of, points_of_the_body
+from mbs.vehicle.checks.places import centres_of, chassis_points, drawn_points, parts_of
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.plausibility.axle_values import CAR, DEG, axle_rates, axle_values
@@ -22,9 +22,9 @@ from mbs.vehicle.tyres.magic_formula import MagicFormula
 
 Data: TypeAlias = "dict[str, Any]"
 Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
-"""Makes a car of the altered content of its file, and finds its rest; None where that is not a car."""
+"""Makes a car of altered content of its file, and the same car at rest; None if it is not a car."""
 FINAL_DRIVE = 4.0
-HEIGHT = 4.0  # m: of a truck
+LARGEST_HEIGHT = 4.0  # m, of a truck
 KILOGRAMS = ("kilograms in place of newtons", GRAVITY)
 POUNDS = (
     ("pounds and inches in place of N and m", 175.127),
@@ -47,7 +47,7 @@ def car_plausibility(what: str, car: CarContent, rest: Rest, data: Data, remake:
 
 
 def tyre_plausibility(what: str, axle: Axle, kind: str) -> Plausibility:
-    """Plausibility of the tyres of an axle, with the factors of the car's file."""
+    """Plausibility of the tyres of an axle, with the factors of the car file."""
     tyre = axle.tyre
     if isinstance(tyre, MagicFormula):
         prefix = f"{tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: "
@@ -77,15 +77,17 @@ def car_values(car: CarContent, rest: Rest) -> list[Value]:
 
 
 def _centre_key(car: CarContent) -> dict[str, Any]:
+    """Centre of mass of the chassis by key path."""
     return {car.chassis.key("com"): list(car.chassis.com)}
 
 
 def _mass(car: CarContent) -> float:
-    """Mass of all parts, kg; the wheels carry less if the body lies on the ground."""
+    """Mass of all parts with payloads, kg."""
     return sum(mass for mass, _ in weighed_points(car, payloads=True))
 
 
 def _dimension_values(car: CarContent) -> Iterator[Value]:
+    """Values of mass, wheelbase, tracks, outline and ground clearance."""
     centres = {axle.wheel.key("centre"): list(axle.wheel.centre) for axle in car.axles.values()}
     tracks = [axle.track for axle in car.axles.values()]
     yield Value(CAR["mass"], _mass(car), {car.vehicle.key("mass"): car.vehicle.mass})
@@ -104,11 +106,11 @@ def _dimension_values(car: CarContent) -> Iterator[Value]:
 
 
 def _point_values(car: CarContent) -> Iterator[Value]:
-    """Extreme points: farthest outside the body's outline, nearest to the front axle, smallest coordinate but 0."""
-    points, body = points_of_the_body(car), car.vehicle
+    """Values of extreme points: farthest outside the outline, nearest to the front axle, least non-zero coordinate."""
+    points, body = chassis_points(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
     overhangs = {
-        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - HEIGHT, -z, 0.0)
+        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - LARGEST_HEIGHT, -z, 0.0)
         for key, (x, y, z) in points.items()
     }
     key = max(overhangs, key=overhangs.__getitem__)
@@ -123,6 +125,7 @@ def _point_values(car: CarContent) -> Iterator[Value]:
 
 
 def _mass_values(car: CarContent) -> Iterator[Value]:
+    """Values of the centre of mass and of the inertias."""
     x, y, height = centre_of(car, payloads=True)
     track, chassis = 0.5 * sum(axle.track for axle in car.axles.values()), car.chassis
     share = (x - car.rear.wheel.centre[0]) / car.wheelbase
@@ -154,7 +157,10 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
 
 
 def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
-    stiffness = {name: 2.0 * cornering(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()}
+    """Values of tyres, steering, drive, air and brakes."""
+    stiffness = {
+        name: 2.0 * cornering_stiffness_at(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()
+    }
     if min(stiffness.values()) > 0.0:
         front, rear = (2.0 * rest.load[name] / stiffness[name] * DEG for name in car.axles)
         loads = {axle.tyre.key("nominal_load"): axle.tyre.nominal_load for axle in car.axles.values()}
@@ -202,17 +208,18 @@ Undo: TypeAlias = Callable[[Data], None]
 
 
 def _altered_values(undo: Undo, data: Data, remake: Remake) -> list[Value] | None:
+    """Values of the car without a mistake; None if it is not a car."""
     altered = copy.deepcopy(data)
     try:
         undo(altered)
     except (KeyError, TypeError):
-        return None  # the file has not these keys
+        return None  # the keys are missing
     altered_car = remake(altered)
     return None if altered_car is None else car_values(*altered_car)
 
 
 def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
-    """Words, keys and what undoes it in the content of the file, the commonest first."""
+    """Yield words, keys and the correction of the content of the file of common mistakes, the commonest first."""
     for name, axle in car.axles.items():
         centre, alignment = axle.wheel.key("centre"), axle.alignment
         yield f"half the track less half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 2.0)
@@ -248,7 +255,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         words = f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}"
         yield words, {inertia}, partial(_swap, inertia, a, b)
     yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet in place of kg and m", 0.04214))
-    yield f"the share of the rear wheels in {balance}", {balance}, partial(_rest_of_one, balance)
+    yield f"the share of the rear wheels in {balance}", {balance}, partial(_complement, balance)
     sides = (("the torque of one wheel in place of a side", 2.0), ("the torque of all wheels in place of a side", 0.5))
     yield from _scales(car.brakes.key("torque"), KILOGRAMS, *sides)
     angle = steering.key("front_wheel_angle_max")
@@ -262,7 +269,7 @@ def _scales(key: str, *mistakes: tuple[str, float]) -> Iterator[tuple[str, set[s
 
 
 def _scale(keys: str | list[str], factor: float) -> Undo:
-    """Numbers at key paths times a factor; in tables of rows the last of each row."""
+    """Correction by a factor on numbers at key paths; in tables of rows on the last number of each row."""
 
     def undo(data: Data) -> None:
         for key in [keys] if isinstance(keys, str) else keys:
@@ -273,6 +280,7 @@ def _scale(keys: str | list[str], factor: float) -> Undo:
 
 
 def _scaled(value: Any, factor: float) -> Any:
+    """A number times a factor, or all numbers of a list; of a table, its last column."""
     if isinstance(value, list):
         if value and isinstance(value[0], list):
             return [[*row[:-1], row[-1] * factor] for row in value]
@@ -281,22 +289,25 @@ def _scaled(value: Any, factor: float) -> Any:
 
 
 def _container(data: Data, key: str) -> tuple[Any, Any]:
+    """Table or list that contains the value of a key path, and its last key or index."""
     *path, last = key.split(".")
     holder: Any = data
     for name in path:
         holder = holder[name]
     if isinstance(holder, Mapping):
-        holder[last]  # a key that is missing has nothing to undo
+        holder[last]  # raises `KeyError` if the key is missing
         return holder, last
     return holder, int(last)
 
 
 def _mirror(key: str, data: Data) -> None:
+    """Exchange bump and rebound of the table of a damper."""
     holder, last = _container(data, key)
     holder[last] = [[-v, -force] for v, force in reversed(holder[last])]
 
 
 def _swap(key: str, a: int, b: int, data: Data) -> None:
+    """Exchange two elements of a list."""
     holder, last = _container(data, key)
     values = list(holder[last])
     values[a], values[b] = values[b], values[a]
@@ -304,10 +315,12 @@ def _swap(key: str, a: int, b: int, data: Data) -> None:
 
 
 def _exchange(key: str, other: str, data: Data) -> None:
+    """Exchange the values of two key paths."""
     (one, a), (two, b) = _container(data, key), _container(data, other)
     one[a], two[b] = two[b], one[a]
 
 
-def _rest_of_one(key: str, data: Data) -> None:
+def _complement(key: str, data: Data) -> None:
+    """Replace a share by its complement to 1."""
     holder, last = _container(data, key)
     holder[last] = 1.0 - holder[last]

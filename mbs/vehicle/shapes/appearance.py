@@ -19,30 +19,30 @@ from mbs.vehicle.side import Point
 Paint: TypeAlias = "dict[str, Any]"
 """Material and colour."""
 Anchor: TypeAlias = "tuple[Owner, Sequence[float]]"
-"""A point of a body, or of what slides or turns on one: earth axes as drawn, m."""
+"""A point of a body, or of a part that slides or turns on one: earth axes in the drawn position, m."""
 
-BARE: Paint = {"material": "steel", "color": "#5d646e"}
-POLISHED: Paint = {"material": "chrome"}
-CAST: Paint = {"material": "steel", "color": "#8a9098"}
-COIL: Paint = {"material": "paint", "color": "#d8a12a"}
-DARK: Paint = {"material": "plastic", "color": "#23262b"}
-PAINT: Paint = {"material": "paint", "color": "#b3202c"}
-ACCENT: Paint = {"material": "paint", "color": "#1f5f9e"}
-CLOTH: Paint = {"material": "plastic", "color": "#3a3f47"}
-SILL = 0.62  # height of the sill over the radius of the front tyres
-SMALL_CAR = 600.0  # kg: parts of a car of this mass are drawn as thick as they are given here
+BARE_STEEL: Paint = {"material": "steel", "color": "#5d646e"}
+CHROME: Paint = {"material": "chrome"}
+CAST_STEEL: Paint = {"material": "steel", "color": "#8a9098"}
+SPRING_PAINT: Paint = {"material": "paint", "color": "#d8a12a"}
+DARK_PLASTIC: Paint = {"material": "plastic", "color": "#23262b"}
+FRAME_PAINT: Paint = {"material": "paint", "color": "#b3202c"}
+BODY_PAINT: Paint = {"material": "paint", "color": "#1f5f9e"}
+SEAT_PAINT: Paint = {"material": "plastic", "color": "#3a3f47"}
+SILL_HEIGHT = 0.62  # of the sill, over the radius of the front tyres
+SMALL_CAR_MASS = 600.0  # kg: parts of a car of this mass have the thicknesses that the functions name
 
 
 @dataclass(frozen=True)
 class Looks:
-    """Draws on a finished model of a car."""
+    """Adds shapes to a finished model of a car."""
 
     b: CarBuilder
     car: CarContent
     spins: Mapping[str, Spin]
     """Wheels by name."""
     rack: Owner
-    """What the inner ends of the tie rods of the steered axle move with."""
+    """Owner of the inner ends of the tie rods of the steered axle."""
     steered: tuple[str, ...] = field(default=("front",))
 
     @property
@@ -57,48 +57,50 @@ class Looks:
 
     @cached_property
     def scale(self) -> float:
-        """Thickness of parts over that of a small car's."""
-        return float(np.cbrt(self.car.vehicle.mass / SMALL_CAR))
+        """Thickness of parts over that of a small car."""
+        return float(np.cbrt(self.car.vehicle.mass / SMALL_CAR_MASS))
 
     def body(self, name: str) -> Body:
         """A body by its name in the model."""
         return next(body for body in self.m.bodies if body.name == name)
 
     def rod_end(self, axle: str) -> Owner:
-        """Body on which the inner end of a tie rod or toe link of an axle is."""
+        """Owner of the inner end of a tie rod or toe link of an axle."""
         return self.rack if axle in self.steered else self.chassis
 
     def shape(self, of: Owner, kind: Kind, **fields: Any) -> None:
-        """A shape; `fields` are those of `Model.shape`."""
+        """Add a shape; `fields` are those of `Model.shape`."""
         self.m.shape(of, kind, **fields)
 
     def tube(self, *points: Anchor, radius: float, name: str | None = None, **looks: Any) -> None:
-        """A round tube through points, `radius` that of a small car."""
-        self.shape(points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE))
+        """Add a round tube through points; `radius`: that of a small car, m."""
+        self.shape(
+            points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE_STEEL)
+        )
 
     def rod(self, name: str, axle: str, outer: Anchor, inner: Sequence[float]) -> None:
-        """A tie rod or toe link of an axle, from its outer end on the carrier; its `name` is that of its joint."""
-        self.tube(outer, (self.rod_end(axle), inner), radius=0.009, name=name, **CAST)
+        """Add a tie rod or toe link of an axle, from its outer end on the carrier; its `name` is that of its joint."""
+        self.tube(outer, (self.rod_end(axle), inner), radius=0.009, name=name, **CAST_STEEL)
 
     def ball(self, of: Anchor, radius: float, **looks: Any) -> None:
-        """A joint."""
-        self.shape(of[0], "sphere", at=of[1], radius=self.scale * radius, **(looks or CAST))
+        """Add the sphere of a joint; `radius`: that of a small car, m."""
+        self.shape(of[0], "sphere", at=of[1], radius=self.scale * radius, **(looks or CAST_STEEL))
 
     def cylinder(self, of: Owner, ends: tuple[Sequence[float], Sequence[float]], radius: float, **looks: Any) -> None:
-        """A round part in one frame, its radius in m."""
-        self.shape(of, "cylinder", ends=ends, radius=radius, **(looks or CAST))
+        """Add a cylinder between two points of one owner; `radius` in m."""
+        self.shape(of, "cylinder", ends=ends, radius=radius, **(looks or CAST_STEEL))
 
 
 def between(a: Sequence[float], b: Sequence[float], share: float) -> Point:
-    """The point at a share of the way from one to another."""
+    """The point at a share of the line from `a` to `b`."""
     x, y, z = np.asarray(a, float) + share * np.subtract(b, a)
     return float(x), float(y), float(z)
 
 
-def inboard(point: Sequence[float], way: float) -> Point:
-    """A point so far nearer to the middle of the car, m."""
+def inboard(point: Sequence[float], distance: float) -> Point:
+    """A point moved by a distance, m, towards the middle of the car."""
     side = 1.0 if point[1] > 0.0 else -1.0
-    return point[0], point[1] - side * way, point[2]
+    return point[0], point[1] - side * distance, point[2]
 
 
 def share_along(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:

@@ -1,6 +1,6 @@
 """Drawn body of a car without a tubular frame: a surface lofted over its wheels, from length, width, height and axles.
 
-Its outline is that of a hatchback, of a van if the car is high for its length, and a mean of both in between. The
+Its outline is that of a hatchback, of a van if the car is high for its length, or a mean of both. The
 proportions are those of no particular car; nothing here enters the simulation.
 """
 
@@ -13,31 +13,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.shapes.appearance import ACCENT, DARK, SILL, Looks, Paint
+from mbs.vehicle.shapes.appearance import BODY_PAINT, DARK_PLASTIC, SILL_HEIGHT, Looks, Paint
 from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.occupants import steering_wheel_place
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
-GREY: Paint = {"material": "plastic", "color": "#565c65"}
-LAMP: Paint = {"material": "plastic", "color": "#eef4ff"}
-TAIL_LAMP: Paint = {"material": "plastic", "color": "#a3101c"}
+GREY_PLASTIC: Paint = {"material": "plastic", "color": "#565c65"}
+LAMP_PAINT: Paint = {"material": "plastic", "color": "#eef4ff"}
+TAIL_LAMP_PAINT: Paint = {"material": "plastic", "color": "#a3101c"}
 Detail: TypeAlias = "tuple[float, float, float, tuple[float, float, float], Paint]"
-"""Position relative to the length, half width and height; size, m; paint."""
+"""Positions relative to the length, half width and height; size, m; paint."""
 LAMPS: tuple[Detail, ...] = (
-    (0.987, 0.56, 0.335, (0.10, 0.28, 0.09), LAMP),
-    (0.012, 0.70, 0.53, (0.06, 0.22, 0.16), TAIL_LAMP),
+    (0.987, 0.56, 0.335, (0.10, 0.28, 0.09), LAMP_PAINT),
+    (0.012, 0.70, 0.53, (0.06, 0.22, 0.16), TAIL_LAMP_PAINT),
 )
-TRIM: tuple[Detail, ...] = ((0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),)
+GRILLE: tuple[Detail, ...] = ((0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK_PLASTIC),)
 
 
 class Outline(NamedTuple):
     """Side view of a body: positions from the rear end relative to the length, heights relative to the height of the
     car, half widths relative to the largest."""
 
-    deck: NDArray[np.float64]  # rows of place, height, half width of the lower body
-    roof: NDArray[np.float64]  # likewise, from the rear window to the lower edge of the windscreen
-    panel: NDArray[np.float64]  # ends of the roof's panel
-    details: NDArray[np.float64]  # the pillar between the side windows; place and height of the mirrors
+    deck: NDArray[np.float64]  # rows of position, height, half width of the lower body
+    roof: NDArray[np.float64]  # the same of the roof, from the rear window to the lower edge of the windscreen
+    panel: NDArray[np.float64]  # positions of the ends of the roof panel
+    details: NDArray[np.float64]  # position of the pillar between the side windows; position and height of the mirrors
 
 
 HATCHBACK = Outline(
@@ -76,16 +76,16 @@ VAN = Outline(
     np.array([0.045, 0.765]),
     np.array([0.40, 0.885, 0.57]),
 )
-ARCH = 0.055  # m between tyre and arch
-GAP = 0.02  # m between an arch and the opening over the cabin
+ARCH_CLEARANCE = 0.055  # m between tyre and arch
+CABIN_CLEARANCE = 0.02  # m between an arch and the opening over the cabin
 DASHBOARD = 0.13, 0.42  # m: distance ahead of the middle of the steering wheel, and largest thickness
-RIM = 6  # index in a cross-section of the lower body from which its points are above the cabin
+CABIN_INDEX = 6  # index of the first point of a cross-section of the lower body above the cabin
 FRONT_OVERHANG = 0.53  # share of both overhangs
-SLIM = 0.36  # assumed height over length, if that is less than by TALL
-TALL = 4.4  # assumed height over the radius of a front tyre
-MASS = 0.39  # height of the centre of mass over that of the car, if that gives a higher car
-LOW = 0.385  # height over length up to which the body is that of a hatchback
-HIGH = 0.42  # and from which it is that of a van
+HEIGHT_OVER_LENGTH = 0.36  # assumed, if HEIGHT_OVER_TYRE gives a higher car
+HEIGHT_OVER_TYRE = 4.4  # assumed height over the radius of a front tyre
+MASS_HEIGHT = 0.39  # height of the centre of mass over that of the car, if this gives a higher car
+HATCHBACK_RATIO = 0.385  # height over length up to which the body is that of a hatchback
+VAN_RATIO = 0.42  # height over length from which the body is that of a van
 
 
 @dataclass(frozen=True)
@@ -100,16 +100,18 @@ class BodyShell:
         contact = self.car.chassis.ground_contact
         points = [] if contact is None else [p for p in contact.points if not isinstance(p, str)]
         highest = max((p[2] + contact.radius for p in points), default=0.0) if contact is not None else 0.0
-        estimate = min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
-        estimate = max(estimate, self.car.vehicle.reference_point[2] / MASS)
+        estimate = min(HEIGHT_OVER_LENGTH * self.car.vehicle.length, HEIGHT_OVER_TYRE * self.car.front.tyre.radius)
+        estimate = max(estimate, self.car.vehicle.reference_point[2] / MASS_HEIGHT)
         return highest if highest > 0.25 * self.car.vehicle.length else estimate
 
     @cached_property
     def outline(self) -> Outline:
-        """Outline between those of a hatchback and a van, by the ratio of height and length."""
-        slender = self.height / self.car.vehicle.length
-        share = min(max((slender - LOW) / (HIGH - LOW), 0.0), 1.0)
-        return Outline(*((1.0 - share) * low + share * high for low, high in zip(HATCHBACK, VAN, strict=True)))
+        """Outline between those of a hatchback and a van, by the ratio of height to length."""
+        ratio = self.height / self.car.vehicle.length
+        share = min(max((ratio - HATCHBACK_RATIO) / (VAN_RATIO - HATCHBACK_RATIO), 0.0), 1.0)
+        return Outline(
+            *((1.0 - share) * hatchback + share * van for hatchback, van in zip(HATCHBACK, VAN, strict=True))
+        )
 
     @property
     def windscreen(self) -> float:
@@ -123,7 +125,7 @@ class BodyShell:
         overhangs = car.vehicle.length - car.wheelbase
         return car.rear.wheel.centre[0] - (1.0 - FRONT_OVERHANG) * overhangs
 
-    def place(self, share: float | NDArray[np.float64]) -> NDArray[np.float64]:
+    def x_position(self, share: float | NDArray[np.float64]) -> NDArray[np.float64]:
         """x at a position relative to the length, from the rear end, m."""
         return np.asarray(self.rear_end + share * self.car.vehicle.length)
 
@@ -143,7 +145,7 @@ class BodyShell:
 
     def sill(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of sills and bumpers, m."""
-        sill, share = SILL * self.car.front.tyre.radius, self.share(x)
+        sill, share = SILL_HEIGHT * self.car.front.tyre.radius, self.share(x)
         end_rise = 0.10 * np.clip((0.06 - share) / 0.06, 0.0, 1.0) + 0.04 * np.clip((share - 0.95) / 0.05, 0.0, 1.0)
         return np.asarray(sill + end_rise)
 
@@ -152,16 +154,16 @@ class BodyShell:
         edge = self.sill(x)
         for axle in (self.car.front, self.car.rear):
             cx, _, cz = axle.wheel.centre
-            squared_height = (axle.tyre.radius + ARCH) ** 2 - (x - cx) ** 2
+            squared_height = (axle.tyre.radius + ARCH_CLEARANCE) ** 2 - (x - cx) ** 2
             edge = np.where(squared_height > 0.0, np.maximum(edge, cz + np.sqrt(np.maximum(squared_height, 0.0))), edge)
         return np.asarray(edge)
 
     def stations(self) -> NDArray[np.float64]:
         """x of the cross-sections, m, ascending: dense along the arches."""
         shares = np.concatenate([np.linspace(0.0, 1.0, 29), [0.005, 0.015, 0.985, 0.995]])
-        positions = [self.place(shares), np.array(self.cabin)]
+        positions = [self.x_position(shares), np.array(self.cabin)]
         for axle in (self.car.front, self.car.rear):
-            radius = axle.tyre.radius + ARCH
+            radius = axle.tyre.radius + ARCH_CLEARANCE
             positions.append(axle.wheel.centre[0] + radius * np.cos(np.linspace(0.0, np.pi, 17)))
             positions.append(axle.wheel.centre[0] + radius * np.array([-1.002, 1.002]))
         return np.unique(np.concatenate(positions))
@@ -170,12 +172,14 @@ class BodyShell:
     def cabin(self) -> tuple[float, float]:
         """x of both ends of the opening over the cabin, m: from the arch of the rear wheels to the windscreen."""
         rear = self.car.rear
-        return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(self.windscreen)) - GAP
+        return rear.wheel.centre[0] + rear.tyre.radius + ARCH_CLEARANCE + CABIN_CLEARANCE, float(
+            self.x_position(self.windscreen)
+        ) - CABIN_CLEARANCE
 
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Mesh of wheel houses, sides, bonnet and tail, open over the cabin.
+        """Mesh of wheel houses, sides, bonnet and tail, open over the cabin: vertices, m, and triangles.
 
-        Vertices, m, and triangles; the wheel houses are as deep as steered tyres reach.
+        The wheel houses reach inwards to the steered tyres.
         """
         x, inner = self.stations(), min(a.wheel.centre[1] - a.tyre.radius for a in (self.car.front, self.car.rear))
         (deck, half), low, sill = self.deck(x), self.lower_edge(x), self.sill(x)
@@ -203,20 +207,22 @@ class BodyShell:
         ring = 17  # points of a cross-section, both sides; those of the caps come last
         rear, front = self.cabin
         point, x_of_corner = triangles % ring, points[triangles, 0]
-        in_cabin = (point >= RIM) & (point < ring - RIM) & (x_of_corner >= rear) & (x_of_corner <= front)
+        in_cabin = (
+            (point >= CABIN_INDEX) & (point < ring - CABIN_INDEX) & (x_of_corner >= rear) & (x_of_corner <= front)
+        )
         return points, triangles[~in_cabin.all(axis=1)]
 
-    def dashboard(self, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Middle and size of a box from ahead of the steering wheel to the windscreen, above the wheel houses, m."""
-        x = np.linspace(ahead, float(self.place(self.windscreen)), 9)
+    def dashboard(self, rear_x: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Middle and size of a box from x = `rear_x` to the windscreen, above the wheel houses, m."""
+        x = np.linspace(rear_x, float(self.x_position(self.windscreen)), 9)
         top, half = (float(value.min()) for value in self.deck(x))
         low = min(max(top + 0.012 - DASHBOARD[1], float(self.lower_edge(x).max())), top - 0.03)
-        middle = 0.5 * (ahead + x[-1]), 0.0, 0.5 * (low + top + 0.012)
-        return middle, (x[-1] - ahead, 1.84 * half, top + 0.012 - low)
+        middle = 0.5 * (rear_x + x[-1]), 0.0, 0.5 * (low + top + 0.012)
+        return middle, (x[-1] - rear_x, 1.84 * half, top + 0.012 - low)
 
-    def edge(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lower and upper edge of the side windows, left: arrays of shape (n, 3), m."""
-        x = self.place(share)
+    def window_edges(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lower and upper edge of the left side windows: arrays of shape (n, 3), m."""
+        x = self.x_position(share)
         top, half = self.deck(x)
         roof, roof_half = self.roof(x)
         lower = np.column_stack([x, 0.90 * half, top - 0.01])
@@ -234,48 +240,52 @@ class BodyShell:
         share = np.linspace(self.outline.panel[0], self.outline.panel[1], 15)
         return loft([section[1:] for section in self._upper_sections(share, 0.006)])
 
-    def _upper_sections(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
-        """Cross-sections of the left half above the lower body, m, with the roof raised by `lifted`, m."""
-        lower, upper = self.edge(share)
+    def _upper_sections(self, share: NDArray[np.float64], lift: float) -> list[NDArray[np.float64]]:
+        """Cross-sections of the left half above the lower body, m, with the roof raised by `lift`, m."""
+        lower, upper = self.window_edges(share)
         height = np.maximum(self.roof(lower[:, 0])[0], lower[:, 2] + 0.004)
         sections = []
         for low, up, top in zip(lower, upper, height, strict=True):
-            outer = up + np.array([0.0, lifted, 0.5 * lifted])
-            inner = up[0], 0.82 * up[1], top + lifted
-            sections.append(np.array([low, outer, inner, (up[0], 0.0, top + lifted + 0.012)]))
+            outer = up + np.array([0.0, lift, 0.5 * lift])
+            inner = up[0], 0.82 * up[1], top + lift
+            sections.append(np.array([low, outer, inner, (up[0], 0.0, top + lift + 0.012)]))
         return sections
 
 
 def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
-    """Draw the body. `clear`: whether the page can make it transparent to show the frame in it."""
+    """Draw the body. `clear`: whether the page can make it transparent and show the frame inside."""
     car, chassis, m = looks.car, looks.chassis, looks.m
     shell = BodyShell(car)
-    m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
+    m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **BODY_PAINT)
     m.mesh_shape(chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
-    m.mesh_shape(chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
+    m.mesh_shape(chassis, *shell.panel(), name="roof", cover=clear, **BODY_PAINT)
     half_width = 0.5 * car.vehicle.width
-    x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
-    floor = SILL * car.front.tyre.radius + 0.03
-    looks.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half_width, 0.05), **DARK)
+    x0, x1 = (float(shell.x_position(share)) for share in (0.03, 0.96))
+    floor = SILL_HEIGHT * car.front.tyre.radius + 0.03
+    looks.shape(
+        chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half_width, 0.05), **DARK_PLASTIC
+    )
     dash, size = shell.dashboard(steering_wheel_place(car)[0] + DASHBOARD[0])
-    looks.shape(chassis, "box", at=dash, size=size, **GREY)
+    looks.shape(chassis, "box", at=dash, size=size, **GREY_PLASTIC)
     pillar, mirror_position, height = shell.outline.details.tolist()
     panel, rear = shell.outline.panel.tolist(), float(shell.outline.roof[0, 0])
-    lower, upper = shell.edge(
+    lower, upper = shell.window_edges(
         np.concatenate([np.linspace(panel[1], shell.windscreen, 7), [pillar], np.linspace(rear + 0.01, panel[0], 7)])
     )
-    rail = shell.edge(np.linspace(panel[0], panel[1], 9))[1]
+    rail = shell.window_edges(np.linspace(panel[0], panel[1], 9))[1]
     for side in (1.0, -1.0):
         mirror = np.array([1.0, side, 1.0])
         lines = [upper[:7] * mirror, np.array([lower[7], upper[7]]) * mirror, upper[8:] * mirror, rail * mirror]
         for line in lines:
-            looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **ACCENT)
-        _details(looks, shell, side, (*LAMPS, *TRIM, (mirror_position, 1.06, height, (0.10, 0.16, 0.10), ACCENT)))
+            looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **BODY_PAINT)
+        _draw_details(
+            looks, shell, side, (*LAMPS, *GRILLE, (mirror_position, 1.06, height, (0.10, 0.16, 0.10), BODY_PAINT))
+        )
 
 
-def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:
-    """Draw boxes on one side of the car: lamps, grille, mirror. `side`: 1 left, -1 right."""
+def _draw_details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:
+    """Draw lamps, grille and mirror on one side of the car as boxes. `side`: 1 left, -1 right."""
     chassis, half = looks.chassis, 0.5 * looks.car.vehicle.width
     for share, across, height, size, paint in details:
-        position = float(shell.place(share)), side * across * half, height * shell.height
+        position = float(shell.x_position(share)), side * across * half, height * shell.height
         looks.shape(chassis, "box", at=position, size=size, **paint)

@@ -1,4 +1,4 @@
-"""Shapes of a car, each part's by a module of its own."""
+"""Shapes of a whole car; a module of this package draws each part."""
 
 from collections.abc import Callable, Mapping
 
@@ -28,13 +28,13 @@ SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
     "macpherson": macpherson_shapes,
     "twist_beam": twist_beam_shapes,
 }
-"""Looks of suspensions by their kind."""
+"""Functions that draw suspensions, by kind of suspension."""
 
 
 def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links: bool) -> None:
-    """Draw a car whose model has all bodies and sensors.
+    """Draw a car whose model has all its bodies and sensors.
 
-    `spins`: its wheels by name; `links`: whether its suspensions have links, no tables in their place.
+    `spins`: its wheels by name; `links`: whether its suspensions are linkages, not tables.
     """
     b.m.default_shapes = False
     linked = links and car.linked

@@ -1,14 +1,14 @@
-"""Looks of a suspension by double wishbones."""
+"""Shapes of a suspension by double wishbones."""
 
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import Looks, between, share_along
-from mbs.vehicle.shapes.knuckle import knuckle
-from mbs.vehicle.shapes.springs import spring_and_damper
+from mbs.vehicle.shapes.knuckle import draw_knuckle
+from mbs.vehicle.shapes.springs import draw_spring_and_damper
 from mbs.vehicle.side import sides
 
 
 def double_wishbone_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw both sides."""
+    """Draw both sides of a suspension."""
     for side in sides(name):
         w = side.wheel
         p = {key: side.point(point) for key, point in axle.suspension.points}
@@ -24,6 +24,6 @@ def double_wishbone_shapes(looks: Looks, name: str, axle: Axle) -> None:
         legs = between(front, ball, share), between(rear, ball, share)
         looks.tube((lower, legs[0]), (lower, p["spring_lower"]), (lower, legs[1]), radius=0.012)
         joints = [(upright, p["lower_ball_joint"]), (upright, p["upper_ball_joint"])]
-        knuckle(looks, side, upright, joints, (upright, p["tie_rod_outer"]))
+        draw_knuckle(looks, side, upright, joints, (upright, p["tie_rod_outer"]))
         looks.rod(f"tie rod {w}", name, (upright, p["tie_rod_outer"]), p["tie_rod_inner"])
-        spring_and_damper(looks, f"spring {w}", (lower, p["spring_lower"]), (looks.chassis, p["spring_upper"]))
+        draw_spring_and_damper(looks, f"spring {w}", (lower, p["spring_lower"]), (looks.chassis, p["spring_upper"]))

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mbs.model.body import Body
-from mbs.vehicle.shapes.appearance import CAST, Anchor, Looks, inboard
+from mbs.vehicle.shapes.appearance import CAST_STEEL, Anchor, Looks, inboard
 from mbs.vehicle.side import Side
 
-HUB = 0.055, 0.030  # m: length and radius of the hub of a small car
+HUB_SIZE = 0.055, 0.030  # m: length and radius of the hub of a small car
 
 
-def knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
-    """Draw hub and arms on the carrier; a wheel has its brake disc.
+def draw_knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
+    """Draw hub and arms on the carrier; the shape of the wheel includes the brake disc.
 
-    `joints`: of the carrier, from the lowest to the highest; `arm`: outer end of the rod that steers it.
+    `joints`: those of the carrier, from the lowest to the highest; `arm`: outer end of the rod that steers it.
     """
     axle = getattr(looks.car, side.axle)
     centre = side.point(axle.wheel.centre)
-    length, radius = (looks.scale * size for size in HUB)
+    length, radius = (looks.scale * size for size in HUB_SIZE)
     hub = inboard(centre, length)
     below = [joint for joint in joints if joint[1][2] <= hub[2]]
     above = [joint for joint in joints if joint[1][2] > hub[2]]
-    looks.tube(*below, (carrier, hub), *above, radius=0.020, **CAST)
+    looks.tube(*below, (carrier, hub), *above, radius=0.020, **CAST_STEEL)
     looks.cylinder(carrier, (inboard(hub, 0.02), centre), radius)
     if arm is not None:
-        looks.tube((carrier, hub), arm, radius=0.013, **CAST)
+        looks.tube((carrier, hub), arm, radius=0.013, **CAST_STEEL)

@@ -11,7 +11,7 @@ Triangles = NDArray[np.int64]
 
 
 def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Positions, Triangles]:
-    """Both sides of a surface through the left halves of cross-sections.
+    """Mesh of both sides of a surface through the left halves of cross-sections.
 
     `sections`: each from its lower outer edge to the plane of symmetry, y = 0; from the rear to the front,
     shape (n, 3); `ends`: whether the first and the last section are closed by a flat cap.
@@ -43,8 +43,8 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
 
 
 def interpolated(table: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Columns of a table at values of its first one, by cubics without overshoot, shape (n, columns - 1).
+    """The other columns of a table at values of its first one, by cubics without overshoot, shape (n, columns - 1).
 
-    `table`: rows, the first number rising; `at`: values of the first column, shape (n,).
+    `table`: rows, ascending in the first column; `at`: values of the first column, shape (n,).
     """
     return np.asarray(PchipInterpolator(table[:, 0], table[:, 1:], axis=0)(np.clip(at, table[0, 0], table[-1, 0])))

@@ -1,9 +1,9 @@
-"""Looks of suspensions by a lower arm and a strut that is fixed in the upright."""
+"""Shapes of suspensions by a lower arm and a strut that is fixed in the upright."""
 
 from mbs.vehicle.axle import Axle
-from mbs.vehicle.shapes.appearance import CAST, Looks, between, share_along
-from mbs.vehicle.shapes.knuckle import knuckle
-from mbs.vehicle.shapes.springs import spring_and_damper
+from mbs.vehicle.shapes.appearance import CAST_STEEL, Looks, between, share_along
+from mbs.vehicle.shapes.knuckle import draw_knuckle
+from mbs.vehicle.shapes.springs import draw_spring_and_damper
 from mbs.vehicle.side import sides
 
 
@@ -18,6 +18,7 @@ def macpherson_shapes(looks: Looks, name: str, axle: Axle) -> None:
 
 
 def _strut_shapes(looks: Looks, name: str, axle: Axle, foot: str, rod: str) -> None:
+    """Draw both sides. `foot`: name of the lower point of the strut; `rod`: of the rod that steers the upright."""
     for side in sides(name):
         w = side.wheel
         p = {key: side.point(point) for key, point in axle.suspension.points}
@@ -29,7 +30,7 @@ def _strut_shapes(looks: Looks, name: str, axle: Axle, foot: str, rod: str) -> N
         # the tube of the strut stands in the upright from the wheel's height on
         share = max(share_along(bottom, top, side.point(axle.wheel.centre)), 0.0)
         clamp = between(bottom, top, min(share + 0.05, 0.5))
-        knuckle(looks, side, upright, [(upright, ball), (upright, clamp)], (upright, p[f"{rod}_outer"]))
-        looks.tube((upright, bottom), (upright, clamp), radius=0.024, **CAST)
+        draw_knuckle(looks, side, upright, [(upright, ball), (upright, clamp)], (upright, p[f"{rod}_outer"]))
+        looks.tube((upright, bottom), (upright, clamp), radius=0.024, **CAST_STEEL)
         looks.rod(f"{rod.replace('_', ' ')} {w}", name, (upright, p[f"{rod}_outer"]), p[f"{rod}_inner"])
-        spring_and_damper(looks, f"spring {w}", (upright, bottom), (looks.chassis, top))
+        draw_spring_and_damper(looks, f"spring {w}", (upright, bottom), (looks.chassis, top))

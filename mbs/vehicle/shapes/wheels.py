@@ -1,22 +1,23 @@
-"""Looks of the wheels: tyre and rim from the data of the tyre."""
+"""Shapes of the wheels: tyre and rim with the dimensions of the tyre."""
 
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import Looks
 from mbs.vehicle.side import sides
 from mbs.vehicle.tyres import Tyre
 
-ABOVE_RIM = 0.010  # m: a tyre that bottoms has so much between rim and road
-WIDTH, LOAD, GROWTH = 0.145, 1500.0, 0.35  # m at a nominal load, N: a 145 tyre; 185 at twice of it
+RIM_CLEARANCE = 0.010  # m between rim and road when the tyre bottoms
+# width, m, at a nominal load, N, and its exponent: a tyre of 145 mm, of 185 mm at twice the load
+REFERENCE_WIDTH, REFERENCE_LOAD, WIDTH_EXPONENT = 0.145, 1500.0, 0.35
 
 
 def rim_radius(tyre: Tyre) -> float:
-    """Radius of the rim, m: a tyre that bottoms stands on it."""
-    return max(tyre.bottoming_radius - ABOVE_RIM, 0.5 * tyre.radius)
+    """Radius of the rim, m, on which a tyre stands when it bottoms."""
+    return max(tyre.bottoming_radius - RIM_CLEARANCE, 0.5 * tyre.radius)
 
 
 def tyre_width(tyre: Tyre) -> float:
-    """Width by the nominal load, as usual sizes have it, m: for pictures only."""
-    return float(min(WIDTH * (tyre.nominal_load / LOAD) ** GROWTH, 1.2 * tyre.radius))
+    """Width by the nominal load, m, like that of usual tyre sizes; for pictures only."""
+    return float(min(REFERENCE_WIDTH * (tyre.nominal_load / REFERENCE_LOAD) ** WIDTH_EXPONENT, 1.2 * tyre.radius))
 
 
 def wheel_shapes(looks: Looks, name: str, axle: Axle) -> None:

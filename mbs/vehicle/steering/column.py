@@ -35,12 +35,12 @@ from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, demand_outputs
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
-LARGEST_TORQUE = 100.0  # N m, of the driver's hands
-LARGEST_FORCE = 3e4  # N, of an actuator on the rack
-RACK_STICK = 5e6, 1e4  # N/m, N s/m of a rack that sticks: 300 N give by 0.06 mm
-STOP_STIFFNESS, STOP_LOSS = 2e6, 1.0  # N/m, s/m of the rack's ends
-FAR = 1.0  # m: from the middle of the rack to where the length of its stops is measured from
-RACK_RADIUS = 0.013  # m: of a rack, for its inertia
+LARGEST_HAND_TORQUE = 100.0  # N m, of the driver
+LARGEST_ACTUATOR_FORCE = 3e4  # N, on the rack
+RACK_STICK = 5e6, 1e4  # N/m, N s/m of a sticking rack: 300 N displace it by 0.06 mm
+STOP_STIFFNESS, STOP_LOSS = 2e6, 1.0  # N/m, s/m of the stops of the rack
+STOP_LENGTH = 1.0  # m, of the line along which the stops of the rack act, as drawn
+RACK_RADIUS = 0.013  # m, for the inertia of the rack
 
 
 class Column(RackSection, of=TorsionBar):
@@ -78,7 +78,7 @@ class Column(RackSection, of=TorsionBar):
 
     @property
     def on_flexible_chassis(self) -> bool:
-        """The housing of the rack is rigid."""
+        """False: the housing of the rack is rigid."""
         return False
 
     @property
@@ -87,13 +87,13 @@ class Column(RackSection, of=TorsionBar):
         return self.rack_mass
 
     def build(self, b: CarBuilder, way: float) -> Steered:
-        """Add rack, column and steering wheel; `way` is as of `signed`."""
+        """Add column and steering wheel; the rack is added with its first end. `way`: as in `signed`."""
         m, per_radian = b.m, way * self.rack_per_turn / (2.0 * math.pi)
         demand = angle_demand(m, self.wheel_angle_max)
         torque = m.input(
             "steering_torque",
-            min=-LARGEST_TORQUE,
-            max=LARGEST_TORQUE,
+            min=-LARGEST_HAND_TORQUE,
+            max=LARGEST_HAND_TORQUE,
             unit="N.m",
             description="torque of the driver's hands where steering.by_torque is 1, positive to the left",
         )
@@ -101,27 +101,29 @@ class Column(RackSection, of=TorsionBar):
             m.shaft("steering wheel", inertia=self.wheel_inertia),
             m.shaft("pinion"),
         )
-        held = self._hands(b, wheel, demand, torque)
-        self._bar(b, wheel, pinion)
+        guide = self._add_hands(b, wheel, demand, torque)
+        self._add_torsion_bar(b, wheel, pinion)
         if b.ports.steering is not None:
             text = "force of an actuator on the rack, positive to the left"
-            force = new_port(b, "steering_rack_actuator_force", -LARGEST_FORCE, LARGEST_FORCE, "N", text)
+            force = new_port(
+                b, "steering_rack_actuator_force", -LARGEST_ACTUATOR_FORCE, LARGEST_ACTUATOR_FORCE, "N", text
+            )
             m.add(InputForce(force.index, (per_radian,)).record("port rack", (pinion.affine,)))
         racks: list[Body] = []
 
         def end(side: Side, point: Point) -> End:
             if not racks:
-                racks.append(self._rack(b, pinion, point, per_radian))
+                racks.append(self._add_rack(b, pinion, point, per_radian))
             return racks[0], point
 
         return Steered(
             end,
-            lambda: self._outputs(m, wheel, pinion, per_radian, way),
-            self._torque_outputs(m, wheel, racks, demand, torque, held),
+            lambda: self._add_outputs(m, wheel, pinion, per_radian, way),
+            self._torque_outputs(m, wheel, racks, demand, torque, guide),
         )
 
-    def _hands(self, b: CarBuilder, wheel: Coordinate, demand: Input, torque: Input) -> Guide:
-        """Hands without mass on the wheel, which follow the demanded angle or let the torque turn it."""
+    def _add_hands(self, b: CarBuilder, wheel: Coordinate, demand: Input, torque: Input) -> Guide:
+        """Add massless hands on the wheel, which follow the demanded angle or apply the torque; return their guide."""
         m, largest = b.m, self.wheel_angle_max
         guide = m.guide_inputs(
             "steering wheel",
@@ -136,19 +138,20 @@ class Column(RackSection, of=TorsionBar):
         m.torque_on("steering torque", hands, input=torque)
         m.drive("steering angle", hands, guide, switch=True)
         b.tie(self, "by_torque", "steering angle", "on", -1.0, offset=1.0)
-        # an equilibrium of a free steering wheel would be any angle at which friction holds
+        # a free steering wheel would be in equilibrium at any angle where friction holds it
         m.equilibrium_parameters[self.key("by_torque")] = 0.0
         return guide
 
-    def _bar(self, b: CarBuilder, wheel: Coordinate, pinion: Coordinate) -> None:
+    def _add_torsion_bar(self, b: CarBuilder, wheel: Coordinate, pinion: Coordinate) -> None:
+        """Add the torsion bar and the friction of the column."""
         bar = self.element(TorsionBar)
         b.tie_numbers(self, b.m.add(bar.record("torsion bar", wheel.affine, pinion.affine)))
         friction = CoordinateFriction(self.friction, *COLUMN_STICK)
         b.m.add(friction.record("steering friction", wheel.affine))
         b.tie(self, "friction", "steering friction", "largest")
 
-    def _rack(self, b: CarBuilder, pinion: Coordinate, left: Point, per_radian: float) -> Body:
-        """The rack between the inner ends of the tie rods."""
+    def _add_rack(self, b: CarBuilder, pinion: Coordinate, left: Point, per_radian: float) -> Body:
+        """Add the rack with friction and stops. `left`: inner end of the left tie rod, m; `per_radian`: m/rad."""
         m, chassis, length = b.m, b.chassis.frame, 2.0 * abs(left[1])
         middle, across = (left[0], 0.0, left[2]), self.rack_mass * length**2 / 12.0
         inertia = (across, self.rack_mass * RACK_RADIUS**2, across)
@@ -158,33 +161,36 @@ class Column(RackSection, of=TorsionBar):
         friction = CoordinateFriction(self.rack_friction, *RACK_STICK, unit="N")
         m.add(friction.record("rack friction", pinion.affine * per_radian))
         b.tie(self, "rack_friction", "rack friction", "largest")
-        ends = (rack, middle), (chassis, (middle[0], FAR, middle[2]))
+        ends = (rack, middle), (chassis, (middle[0], STOP_LENGTH, middle[2]))
         stops = EndStops(
-            FAR - self.rack_travel,
+            STOP_LENGTH - self.rack_travel,
             STOP_STIFFNESS,
-            FAR + self.rack_travel,
+            STOP_LENGTH + self.rack_travel,
             STOP_STIFFNESS,
             bump_loss=STOP_LOSS,
             rebound_loss=STOP_LOSS,
         )
-        m.spring_damper("rack stop", *ends, stiffness=0.0, free_length=FAR, stops=stops)
+        m.spring_damper("rack stop", *ends, stiffness=0.0, free_length=STOP_LENGTH, stops=stops)
         return rack
 
-    def _outputs(self, m: Model, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
+    def _add_outputs(self, m: Model, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
+        """Add the travel of the rack and the angle of the steering wheel."""
         sense_coordinate = m.sense_coordinate
         sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
         sense_coordinate("steering_wheel_angle", wheel, description="angle of the steering wheel, positive to the left")
 
     def _torque_outputs(
-        self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, held: Guide
+        self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, guide: Guide
     ) -> Callable[[], None]:
+        """Function that adds the outputs of speeds, forces and torques when rack and tie rods are in the model."""
+
         def add() -> None:
             (rack,) = racks
             rods = [j for j in m.joints if j.type == "distance" and j.ends is not None and rack in j.ends.bodies]
             m.sense_joint("steering_wheel_torque", "grip", "torque", unit="N.m", description=WHEEL_TORQUE)
             m.sense_coordinate("steering_wheel_speed", wheel, order=1, description=WHEEL_SPEED)
             m.sense_rod_force("steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
-            demand_outputs(m, demand, held, 1.0)
+            demand_outputs(m, demand, guide, 1.0)
             m.sense_input(f"used.{torque.name}", torque, description=f"{torque.name} as used")
             m.sense_element("steering_column_torque", "torsion bar", "torque", description="torque of the torsion bar")
             m.sense_element(

@@ -1,4 +1,4 @@
-"""Parts of steerings with a prescribed rack: motion by a port or by a table, column friction."""
+"""Parts of steerings with a prescribed motion: guides by a port or a table, friction of the column."""
 
 from numpy.typing import ArrayLike
 
@@ -12,26 +12,26 @@ from mbs.vehicle.steering.steering_interface import RACK
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 
-def by_port(b: CarBuilder, most: float, text: str) -> Guide:
-    """Travel of the rack, m, from a port. `most`: limit to each side, m; `text`: description of the port."""
-    port = new_port(b, "steering_rack_demand", -most, most, "m", text)
+def by_port(b: CarBuilder, limit: float, text: str) -> Guide:
+    """Add a port for the travel of the rack; return the guide, m. `limit`: to each side, m; `text`: description."""
+    port = new_port(b, "steering_rack_demand", -limit, limit, "m", text)
     return b.m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
 
 
-def by_table(m: Model, held: Guide, rows: ArrayLike) -> Guide:
-    """Travel of the rack, m, from the angle `held` of the steering wheel. `rows`: angle, rad, and travel, m, (n, 2)."""
-    return m.guide_table("rack", held, rows, unit="m")
+def by_table(m: Model, wheel_guide: Guide, rows: ArrayLike) -> Guide:
+    """Add a guide of the rack's travel, m, as a table of another guide. `rows`: angle, rad, and travel, m, (n, 2)."""
+    return m.guide_table("rack", wheel_guide, rows, unit="m")
 
 
-def column_friction(m: Model, held: Guide, per_radian: float, torque: float) -> None:
-    """Add friction of `torque`, N m, to a steering wheel. `held`: a guide that is `per_radian` times its angle, rad."""
+def column_friction(m: Model, guide: Guide, per_radian: float, torque: float) -> None:
+    """Add friction of `torque`, N m, to a steering wheel. `guide`: `per_radian` times the angle of the wheel, rad."""
     wheel = m.shaft("steering wheel")
-    m.drive("steering column", wheel.affine * per_radian, held)
+    m.drive("steering column", wheel.affine * per_radian, guide)
     m.add(CoordinateFriction(torque, *COLUMN_STICK).record("steering friction", wheel.affine))
 
 
 def travel(m: Model, rack: Guide) -> Coordinate:
-    """A coordinate that is driven to the travel of the rack, m."""
+    """Add a coordinate with the travel of the rack, m."""
     coordinate = m.travel(RACK)
     m.drive(RACK, coordinate.affine, rack)
     return coordinate

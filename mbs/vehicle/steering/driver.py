@@ -1,11 +1,11 @@
-"""Steering demand of the driver."""
+"""Input of the demanded angle of the steering wheel."""
 
 from mbs.model.model import Model
 from mbs.model.records import Input
 
 
 def angle_demand(m: Model, largest: float) -> Input:
-    """The input of the steering wheel's angle in rad. `largest`: angle at full lock, rad."""
+    """Add the input of the demanded angle of the steering wheel, rad. `largest`: at full lock, rad."""
     return m.input(
         "steering_wheel_angle_demand",
         min=-largest,

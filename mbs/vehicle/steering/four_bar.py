@@ -1,8 +1,9 @@
 """Planar linkage of Pitman arm, centre link and idler arm: positions as functions of the angle of the arm.
 
-In the plane of the linkage, points as complex numbers, the arm turned by phi about P: ``A = P + (A0 - P) e^(i phi)``;
-the joint B of link and idler arm is where circles about A and about the idler's pivot I meet, on the side on which it
-is drawn. The rates follow from the velocity of B, which is at right angles to the idler arm.
+Points in the plane of the linkage are complex numbers. The joint of the arm turned by phi about P is
+``A = P + (A0 - P) e^(i phi)``; the joint B of link and idler arm is the intersection of circles about A and about the
+pivot I of the idler arm, on the side of the drawing. The rates follow from the velocity of B, which is perpendicular to
+the idler arm.
 """
 
 from dataclasses import dataclass
@@ -19,22 +20,22 @@ class FourBar:
 
     pivot: complex
     joint: complex
-    """`pivot`, `joint`: of the Pitman arm: on the chassis, and with the link, m."""
+    """`pivot`, `joint`: of the Pitman arm with the chassis and with the link, m."""
     idler_pivot: complex
     idler_joint: complex
-    """`idler_pivot`, `idler_joint`: likewise of the idler arm."""
+    """`idler_pivot`, `idler_joint`: of the idler arm with the chassis and with the link, m."""
 
     def turned(self, phi: Array) -> tuple[Array, Array, Array]:
-        """Joint of the arm and turn of the link at angles of the arm.
+        """Joint of the arm and rotation of the link at angles of the arm.
 
-        `phi`: in rad, continuous from the drawing on, shape (n,).
+        `phi`: rad, from the drawing, shape (n,).
 
         Returns
         -------
         joint : ndarray of complex, shape (n,)
-            m; NaN where the linkage does not close.
+            Position, m; NaN if the linkage does not close.
         turn, rate : ndarray, shape (n,)
-            Of the link, rad, and its change per angle of the arm.
+            Rotation of the link, rad, and its derivative by the angle of the arm; NaN if the linkage does not close.
         """
         lever, link = self.joint - self.pivot, self.idler_joint - self.joint
         idler = self.idler_joint - self.idler_pivot
@@ -50,7 +51,7 @@ class FourBar:
         return joint, turn, rate
 
     def lever(self, phi: Array) -> Array:
-        """Cosine of the angle of the arm from straight ahead or back (n,), as drawn positive.
+        """Cosine of the angle of the arm from straight ahead or back, positive as drawn, shape (n,).
 
         `phi`: in rad, shape (n,).
         """
@@ -58,7 +59,7 @@ class FourBar:
         return np.asarray(np.copysign(1.0, arm.real) * np.real(arm * np.exp(1j * phi)) / abs(arm))
 
     def transmission(self, phi: Array) -> Array:
-        """Sine of the angle between link and idler arm (n,), as drawn positive: 0 where they lock, NaN beyond.
+        """Sine of the angle between link and idler arm, positive as drawn, shape (n,): 0 at a dead point, NaN beyond.
 
         `phi`: in rad, shape (n,).
         """
@@ -69,7 +70,7 @@ class FourBar:
         return np.asarray(drawn_sign * _cross(link, idler) / np.abs(link * idler))
 
     def carried(self, point: complex, phi: Array) -> tuple[Array, Array]:
-        """Way (n,) of a point of the link from the drawing, m, and its rate per angle of the arm, both complex.
+        """Displacement (n,) of a point of the link, m, and its derivative by the angle of the arm, both complex.
 
         `point`: as drawn, m; `phi`: in rad, shape (n,).
         """
@@ -79,4 +80,5 @@ class FourBar:
 
 
 def _cross(a: Array | complex, b: Array | complex) -> Array:
+    """Cross product of vectors as complex numbers."""
     return np.asarray(np.imag(np.conj(a) * b))

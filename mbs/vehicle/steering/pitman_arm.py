@@ -1,4 +1,4 @@
-"""Steering box with a Pitman arm, a centre link and an idler arm, without compliance and mass of their own."""
+"""Steering box with a Pitman arm, a centre link and an idler arm, without compliance and without mass."""
 
 import math
 from collections.abc import Iterator
@@ -33,11 +33,11 @@ from mbs.vehicle.steering.steering_outputs import WHEEL_SPEED, WHEEL_TORQUE, dem
 from mbs.vehicle.steering.steering_section import SteeringSection
 
 LEAST_ARM, LEAST_LINK = 0.03, 0.1  # m
-LEAST_SINE = math.sin(math.radians(10.0))  # of angles that must stay open
-UPRIGHT = math.cos(math.radians(60.0))
-SPACING = 0.01  # rad between rows of the tables: ways are right to 1e-11 m
+LEAST_SINE = math.sin(math.radians(10.0))  # of the angle to a dead point
+LEAST_AXIS_COSINE = math.cos(math.radians(60.0))  # of the angle of the axes from upright
+SPACING = 0.01  # rad, between rows of the tables: displacements are accurate to 1e-11 m
 LINK = "steering_link_x", "steering_link_y", "steering_link_angle"
-"""Outputs of where the centre link is."""
+"""Outputs of the pose of the centre link."""
 
 
 class PitmanArm(SteeringSection):
@@ -76,8 +76,8 @@ class PitmanArm(SteeringSection):
     """Friction of box and column, at the steering wheel."""
 
     def faults(self) -> Iterator[str]:
-        """The arms have a length; up to full lock the arm moves the link aside and the linkage does not lock."""
-        if not self.axis[2] >= UPRIGHT * math.hypot(*self.axis) > 0.0:
+        """Faults of an inclined axis, of short arms or links, and of a dead point before full lock."""
+        if not self.axis[2] >= LEAST_AXIS_COSINE * math.hypot(*self.axis) > 0.0:
             yield (
                 f"{self.key('arm_axis_top')} is {list(self.arm_axis_top or ())} and {self.key('arm_pivot')} "
                 f"{list(self.arm_pivot)}; the first must be above the second, 60 deg or less from upright."
@@ -113,7 +113,7 @@ class PitmanArm(SteeringSection):
 
     @property
     def axis(self) -> Coordinates:
-        """Direction of both axes, upwards, m."""
+        """Vector along both axes, upwards, m."""
         if self.arm_axis_top is None:
             return UP
         x, y, z = np.subtract(self.arm_axis_top, self.arm_pivot).tolist()
@@ -121,7 +121,7 @@ class PitmanArm(SteeringSection):
 
     @cached_property
     def plane(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Unit vectors of the plane in which the linkage moves: ahead and to the left, as far as it allows."""
+        """Unit vectors of the plane of the linkage: nearest to the forward direction and to the left."""
         up = np.array(self.axis) / math.hypot(*self.axis)
         left = np.array(LEFT) - up[1] * up
         left /= np.linalg.norm(left)
@@ -139,66 +139,67 @@ class PitmanArm(SteeringSection):
         return self.idler_pivot or (x, -y, z), self.idler_joint or (u, -v, w)
 
     def in_plane(self, point: Coordinates) -> complex:
-        """A point in the plane of the linkage, m, ahead as the real part. `point`: m, as drawn."""
+        """Projection of a point on the plane of the linkage, m; the real part is ahead. `point`: as drawn, m."""
         ahead, left = self.plane
         return complex(ahead @ np.array(point), left @ np.array(point))
 
     @property
     def wheel_angle_max(self) -> float:
-        """See the base class; the ratio of the steering box gives it."""
+        """As in the base class, by the ratio of the steering box."""
         return self.ratio * self.arm_angle_max
 
     @property
     def full(self) -> float:
-        """Angle of the arm."""
+        """Angle of the arm at full lock, rad."""
         return self.arm_angle_max
 
     @property
     def lateral_travel(self) -> tuple[str, float]:
-        """Name and size, m, of the lateral travel at the end of the arm."""
+        """Key path and lateral travel of the end of the arm at full lock, m."""
         lever = self.four_bar.joint - self.four_bar.pivot
         return self.key("arm_angle_max"), abs(lever.real) * math.sin(self.arm_angle_max)
 
     def wheel_at(self, motion: float) -> tuple[float, float]:
-        """See the base class; the ratio of the steering box gives it."""
+        """As in the base class, by the ratio of the steering box."""
         return self.ratio * motion, self.ratio
 
     def signed(self, way: float) -> float:
-        """The angle of the arm counts to the left."""
+        """1: the angle of the arm is positive to the left."""
         return 1.0
 
     def turn(self, way: float) -> float:
-        """Right-handed turn of the arm per angle that steers to the left, 1 or -1; `way` is as of `signed`."""
+        """Right-handed rotation of the arm per angle to the left, 1 or -1. `way`: as in `signed`."""
         return way * math.copysign(1.0, (self.four_bar.joint - self.four_bar.pivot).real)
 
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
-        """Points of the link, which a table over the angle of the arm moves in its plane."""
+        """Points of the link, moved in its plane by tables over the angle of the arm."""
 
         angles, turn = self._angles, self.turn(way)
 
         def end(side: Side, point: Coordinates) -> End:
             prefix = f"steering link {side.wheel}"
             link_motion, rate = self.four_bar.carried(self.in_plane(point), turn * angles)
-            ways = [
+            guides = [
                 b.m.guide_table(
                     f"{prefix} {name}",
                     guide,
-                    np.column_stack([angles, part(link_motion)]),
-                    slopes=turn * part(rate),
+                    np.column_stack([angles, component(link_motion)]),
+                    slopes=turn * component(rate),
                     unit="m",
                 )
-                for name, part in (("x", np.real), ("y", np.imag))
+                for name, component in (("x", np.real), ("y", np.imag))
             ]
-            return b.m.slide(prefix, b.chassis.body, point=point, direction=np.array(self.plane), guide=ways)
+            return b.m.slide(prefix, b.chassis.body, point=point, direction=np.array(self.plane), guide=guides)
 
         return end
 
     @property
     def _angles(self) -> NDArray[np.float64]:
+        """Angles of the arm in the rows of the tables, rad."""
         return np.linspace(-self.full, self.full, 2 * math.ceil(self.full / SPACING) + 1)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
-        """Add the box; the linkage comes with the tie rods. `way` is as of `signed`."""
+        """Add the steering box; the linkage is added with the tie rods. `way`: as in `signed`."""
         m, full = b.m, self.arm_angle_max
         demand = angle_demand(m, self.wheel_angle_max)
         arm = m.guide_inputs(
@@ -228,19 +229,19 @@ class PitmanArm(SteeringSection):
             text = "torque of the tie rods on the Pitman arm, positive where it would steer to the left"
             sense_guide("steering_arm_torque", arm, "force", joints=_rods(m), scale=-1.0, description=text)
             demand_outputs(m, demand, arm, self.ratio)
-            if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
+            if self.friction == 0.0:  # with friction the ratio is in an equation, which has no parameters
                 tie_ratio(b, self, "ratio", arm, 1.0, inverse=True)
 
         return Steered(self.ends(b, arm, way), outputs, torque_outputs)
 
     def _link_outputs(self, m: Model, arm: Guide, way: float) -> None:
-        """Outputs for the place of the centre link."""
+        """Add the outputs of the pose of the centre link."""
         turn, angles = self.turn(way), self._angles
         _, rotation, rate = self.four_bar.turned(turn * angles)
         rotation = np.column_stack([angles, rotation])
         link = m.guide_table("steering link", arm, rotation, slopes=turn * rate, unit="rad")
         slide = _rods(m)[0].slide
-        assert slide is not None, "such are the rods"
+        assert slide is not None, "from `_rods`"
         (_, ahead), (_, aside) = slide[1].ways
         for name, guide, text in (
             (LINK[0], m.guides[ahead], "way ahead of the left tie rod's end in the plane of the steering linkage"),

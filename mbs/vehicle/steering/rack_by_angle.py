@@ -14,7 +14,7 @@ from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.steering import driven_rack
 from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.rack_section import RackSection, rack_ends
-from mbs.vehicle.steering.rack_table import SAME, RackTable, Rows, table_faults
+from mbs.vehicle.steering.rack_table import SLOPE_TOLERANCE, RackTable, Rows, table_faults
 from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import rack_outputs, rack_torque_outputs, tie_ratio
 
@@ -58,7 +58,7 @@ class RackByAngle(RackSection):
     def oddities(self) -> Iterator[str]:
         """Yield a sentence if the angles of the table are scaled."""
         table = self.by_table
-        if table is not None and abs(table.factor - 1.0) > SAME:
+        if table is not None and abs(table.factor - 1.0) > SLOPE_TOLERANCE:
             turn = 2.0 * math.pi * table.slope
             yield (
                 f"{self.key('rack_by_wheel_angle')} has {turn:.6g} m of rack travel per turn straight ahead, and "
@@ -91,21 +91,21 @@ class RackByAngle(RackSection):
         return super().wheel_at(motion) if self.by_table is None else self.by_table.at(motion)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
-        """Add the rack; `way` is as of `signed`."""
+        """Add the rack. `way`: as in `signed`."""
         m, turn = b.m, way * 2.0 * math.pi
         per_radian = way * self.rack_per_turn / (2.0 * math.pi)
         by_table = self.by_table
         demand: Input | None = None
         if b.ports.steering is not None:
-            most = self.rack_travel
-            rack = held = driven_rack.by_port(b, most, f"{self.travel_text(way)}, that is asked for")
+            limit = self.rack_travel
+            rack = wheel_guide = driven_rack.by_port(b, limit, f"{self.travel_text(way)}, that is asked for")
         else:
             demand = angle_demand(m, self.wheel_angle_max)
             full, name, unit = way * self.rack_travel, "rack", "m"
             if by_table is not None:
                 per_radian, turn = by_table.factor, 2.0 * math.pi * by_table.slope
                 full, name, unit = by_table.angle(self.rack_travel), "steering wheel", "rad"
-            rack = held = m.guide_inputs(
+            rack = wheel_guide = m.guide_inputs(
                 name,
                 inputs=(b.inputs["steering"], demand),
                 gains=(full, per_radian),
@@ -114,14 +114,14 @@ class RackByAngle(RackSection):
                 unit=unit,
             )
             if by_table is not None:
-                rack = driven_rack.by_table(m, held, by_table.rows * (1.0, way))
+                rack = driven_rack.by_table(m, wheel_guide, by_table.rows * (1.0, way))
         if self.friction > 0.0:
-            driven_rack.column_friction(m, held, per_radian, self.friction)
+            driven_rack.column_friction(m, wheel_guide, per_radian, self.friction)
 
         def torque_outputs() -> None:
-            rack_torque_outputs(m, rack, held, per_radian, demand)
-            if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
-                tie_ratio(b, self, "rack_per_turn", held, turn, inverse=False)
+            rack_torque_outputs(m, rack, wheel_guide, per_radian, demand)
+            if self.friction == 0.0:  # with friction the ratio is in an equation, which has no parameters
+                tie_ratio(b, self, "rack_per_turn", wheel_guide, turn, inverse=False)
 
-        outputs = partial(rack_outputs, m, rack, held, turn / self.rack_per_turn, self.travel_text(way))
+        outputs = partial(rack_outputs, m, rack, wheel_guide, turn / self.rack_per_turn, self.travel_text(way))
         return Steered(rack_ends(b, rack), outputs, torque_outputs, partial(driven_rack.travel, m, rack))

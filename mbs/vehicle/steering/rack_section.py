@@ -31,30 +31,30 @@ class RackSection(SteeringSection):
 
     @property
     def full(self) -> float:
-        """Travel of the rack."""
+        """Travel of the rack at full lock, m."""
         return self.rack_travel
 
     @property
     def lateral_travel(self) -> tuple[str, float]:
-        """The travel."""
+        """Key path and travel of the rack at full lock, m."""
         return self.key("rack_travel"), self.rack_travel
 
     def wheel_at(self, motion: float) -> tuple[float, float]:
-        """See the base class; the travel per turn gives it."""
+        """As in the base class, by the travel per turn."""
         rate = 2.0 * math.pi / self.rack_per_turn
         return rate * motion, rate
 
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
-        """Ends of the rack."""
+        """Ends of the rack, moved by a guide."""
         return rack_ends(b, guide)
 
     def travel_text(self, way: float) -> str:
-        """Description of the travel; `way` is as of `signed`."""
+        """Description of the travel. `way`: as in `signed`."""
         return f"rack travel, positive to the left (turns the wheels {'left' if way > 0.0 else 'right'})"
 
 
 def rack_ends(b: CarBuilder, guide: Guide) -> TieRodEnd:
-    """Ends of a rack without mass. `guide`: its travel, m, positive to the left."""
+    """Ends of a massless rack. `guide`: its travel, m, positive to the left."""
 
     def end(side: Side, point: Point) -> End:
         return b.m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=guide)

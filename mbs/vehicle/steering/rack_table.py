@@ -13,32 +13,32 @@ from scipy.optimize import brentq
 from mbs.vehicle.quantities import RackMillimetres, SteeringWheelDegrees
 
 Rows: TypeAlias = tuple[tuple[SteeringWheelDegrees, RackMillimetres], ...]
-SAME = 1e-3
-"""Relative difference at straight ahead between table and travel per turn below which nothing is reported."""
+SLOPE_TOLERANCE = 1e-3
+"""Relative difference between the slope of the table straight ahead and the travel per turn that is not reported."""
 
 
 class RackTable:
-    """A curve of the rack's travel over the angle of the steering wheel, the same to both sides.
+    """Travel of the rack as an odd function of the angle of the steering wheel.
 
-    Between the rows it is a monotone cubic. It is scaled along the angle so that at straight ahead it has the travel
-    per turn of the file or of the parameter.
+    It is a monotone cubic between the rows, with angles scaled so that its slope straight ahead is the travel per turn
+    of the file or of the parameter.
 
-    `rows`: without faults: angle, deg, and travel, mm, of one side from (0, 0) on; `per_radian`: travel per radian at
+    `rows`: angle, deg, and travel, mm, of one side from (0, 0) on, without faults; `per_radian`: travel per radian
     straight ahead, m/rad.
     """
 
     def __init__(self, rows: Rows, per_radian: float) -> None:
         side = np.array(rows) * (math.pi / 180.0, 1e-3)
         self.rows: NDArray[np.float64] = np.concatenate([-side[:0:-1], side])
-        """Angle of the table, rad, and travel, m, of both sides."""
+        """Angle, rad, and travel, m, of both sides, unscaled, shape (n, 2)."""
         self._curve = PchipInterpolator(*self.rows.T)
         self.slope = float(self._curve(0.0, 1))
-        """Travel per radian at straight ahead as in the table, m/rad."""
+        """Travel per radian straight ahead in the table, m/rad."""
         self.factor = per_radian / self.slope
-        """Angle in the table over that of the steering wheel."""
+        """Angle in the table over the angle of the steering wheel."""
 
     def angle(self, travel: float) -> float:
-        """Angle in the table at a travel of the rack within its ends, rad. `travel`: in m."""
+        """Angle in the table at a travel of the rack, rad; linear beyond the last row. `travel`: m."""
         x, y = self.rows.T
         if abs(travel) >= y[-1]:
             return math.copysign(float(x[-1] + (abs(travel) - y[-1]) / self._curve(x[-1], 1)), travel)
@@ -48,13 +48,13 @@ class RackTable:
         return float(brentq(lambda u: float(self._curve(u)) - travel, x[k], x[k + 1], xtol=1e-15, rtol=1e-15))
 
     def at(self, travel: float) -> tuple[float, float]:
-        """Angle of the steering wheel, rad, and its change per travel of the rack, rad/m. `travel`: of the rack, m."""
+        """Angle of the steering wheel, rad, and its derivative by the travel of the rack, rad/m. `travel`: m."""
         angle = self.angle(travel)
         return angle / self.factor, 1.0 / (self.factor * float(self._curve(angle, 1)))
 
 
 def table_faults(key: str, rows: Rows, travel_key: str, travel: float) -> Iterator[str]:
-    """Faults of a table in words. `travel_key`, `travel`: of the travel at full lock, m, that it must reach."""
+    """Yield a sentence for a fault of a table. `travel_key`, `travel`: of the travel at full lock, m."""
     if len(rows) < 2:
         yield f"{key} has {len(rows)} rows; it must have two or more."
         return

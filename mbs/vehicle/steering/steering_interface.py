@@ -15,10 +15,10 @@ class Steered:
     """A steering in a model."""
 
     tie_rod: TieRodEnd
-    """Gives the ends of the rack."""
+    """Returns the owner of the inner end of a tie rod."""
     outputs: Callable[[], None]
-    """Adds the outputs that every steering has had from the first."""
+    """Adds the outputs of travel and angle."""
     torque_outputs: Callable[[], None]
-    """Adds those of speed, force and torque, after all others."""
+    """Adds the outputs of speed, force and torque, after all other outputs."""
     travel: Callable[[], Coordinate] | None = None
-    """Adds the travel of the rack, m, as a coordinate in the place of its ends; None: the steering has none."""
+    """Adds the travel of the rack, m, as a coordinate in place of its ends; None: there is none."""

@@ -10,15 +10,15 @@ from mbs.vehicle.steering.steering_section import SteeringSection
 WHEEL_TORQUE = "torque of the driver's hands on the steering wheel, positive to the left"
 WHEEL_SPEED = "angular velocity of the steering wheel, positive to the left"
 RACK_FORCE = "force of the tie rods on the rack, positive to the left"
-OVER = ("steering_wheel_angle", "steering_wheel_speed", "steering_demand_excess")
-"""Outputs in radians of the steering wheel, by the travel of the rack or the angle of the arm."""
-TORQUE = "steering_wheel_torque"
+RADIAN_OUTPUTS = ("steering_wheel_angle", "steering_wheel_speed", "steering_demand_excess")
+"""Outputs in radians of the steering wheel, which are sensed from the travel of the rack or the angle of the arm."""
+TORQUE_OUTPUT = "steering_wheel_torque"
 
 
 def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
-    """The demand as used, and what full lock takes away of both demands together.
+    """Add the demand as used, and the part of both demands beyond full lock.
 
-    `demand`: from `angle_demand`; `guide`: that follows the demand; `scale`: radians of the steering wheel per unit of
+    `demand`: from `angle_demand`; `guide`: follows the demand; `scale`: radians of the steering wheel per unit of
     the guide.
     """
     m.sense_input(f"used.{demand.name}", demand, description=f"{demand.name} as used")
@@ -34,10 +34,10 @@ def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
 
 
 def rack_outputs(m: Model, rack: Guide, held: Guide, per_unit: float, text: str) -> None:
-    """Travel of the rack and angle of the steering wheel.
+    """Add the travel of the rack and the angle of the steering wheel.
 
-    `held`: that the steering wheel holds; `per_unit`: radians of the steering wheel per unit of it; `text`: which way
-    the rack travels.
+    `held`: guide of the steering wheel; `per_unit`: radians of the steering wheel per unit of it; `text`: description
+    of the travel.
     """
     sense_guide = m.sense_guide
     sense_guide("steering_rack", rack, description=text)
@@ -46,7 +46,7 @@ def rack_outputs(m: Model, rack: Guide, held: Guide, per_unit: float, text: str)
 
 
 def rack_torque_outputs(m: Model, rack: Guide, held: Guide, per_radian: float, demand: Input | None) -> None:
-    """Torque and speed of the steering wheel, and force of the rods. `per_radian`: of `held`; `demand`: if there is."""
+    """Add torque and speed of the steering wheel and force of the rods. `per_radian`: unit of `held` per radian."""
     sense_guide = m.sense_guide
     sense_guide("steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
     sense_guide("steering_wheel_speed", held, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED)
@@ -56,7 +56,7 @@ def rack_torque_outputs(m: Model, rack: Guide, held: Guide, per_radian: float, d
 
 
 def _tie_rods(m: Model, guide: Guide) -> list[Joint]:
-    """Rods with an end that a guide slides, or the drive of the rack where it is a coordinate.
+    """Rods with an end moved by a guide, or the drive of the rack if it is a coordinate.
 
     `m`: with the suspension.
     """
@@ -69,23 +69,22 @@ def _tie_rods(m: Model, guide: Guide) -> list[Joint]:
 
 
 def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn: float, *, inverse: bool) -> None:
-    """Let a parameter write the ratio: to its guide and to the outputs of the steering wheel.
+    """Make the steering ratio a parameter of its guide and of the outputs of the steering wheel.
 
-    A table is stretched along the angle. Full lock stays where it is for rack or arm; the range of the demanded angle
-    stays that of the file.
+    A table is scaled along the angle. Full lock of rack or arm and the range of the demanded angle do not change.
 
-    `held`: of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`: ratio over that
-    guide per radian of the steering wheel, or of their reciprocals; `inverse`: whether the steering wheel turns the
-    more the larger the ratio is.
+    `held`: guide of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`: ratio over
+    that guide per radian of the steering wheel, or of their reciprocals; `inverse`: whether the angle of the steering
+    wheel increases with the ratio.
     """
     value = getattr(data, name)
     if b.ports.steering is None:
         b.tie(data, name, held, "gain_2", 1.0 / turn, inverse=inverse)
     for sensor in b.m.sensors:
-        if sensor.name in OVER:
+        if sensor.name in RADIAN_OUTPUTS:
             b.tie(data, name, ("sensor", sensor.name), 0, turn, inverse=not inverse)
-        elif sensor.name == TORQUE:
+        elif sensor.name == TORQUE_OUTPUT:
             weights = [t.weight for t in sensor.terms] or sensor.reals
             for k, weight in enumerate(weights):
                 scale = weight * value if inverse else weight / value
-                b.tie(data, name, ("sensor", TORQUE), k, scale, inverse=inverse)
+                b.tie(data, name, ("sensor", TORQUE_OUTPUT), k, scale, inverse=inverse)

@@ -9,22 +9,22 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.section import Section
 
-COLUMN_STICK = 200.0, 5.0  # N m/rad, N m s/rad of a column that sticks: 1 N m of friction gives by 5 mrad
+COLUMN_STICK = 200.0, 5.0  # N m/rad, N m s/rad of a sticking column: 1 N m turns it by 5 mrad
 
 
 class SteeringSection(Section):
     """A steering, whose motion is one number: the travel of a rack or the angle of an arm."""
 
     motion: ClassVar[str] = "rack_travel"
-    """Name of its motion, which is one of the quantities of kinematic curves."""
+    """Name of the motion among the quantities of kinematic curves."""
     without_travel: ClassVar[str] = ""
-    """Why tables over the travel of a rack cannot be steered by it; empty where they can."""
+    """Why it has no travel for tables over that of a rack; empty if it has."""
 
     rack_port: ClassVar[str] = ""
-    """Kind of the port by which another program may move its rack; empty where it has none."""
+    """Kind of the port by which another program can move the rack; empty if there is none."""
 
     def port_faults(self) -> Iterator[str]:
-        """Why this one cannot have that port."""
+        """Yield a sentence if the steering cannot have the port."""
         yield from ()
 
     @property
@@ -40,19 +40,19 @@ class SteeringSection(Section):
     @property
     @abstractmethod
     def lateral_travel(self) -> tuple[str, float]:
-        """Key that gives it and how far the ends of the tie rods go aside at full lock, m."""
+        """Key path and lateral travel of the ends of the tie rods at full lock, m."""
 
     @abstractmethod
     def wheel_at(self, motion: float) -> tuple[float, float]:
-        """Angle of the steering wheel, rad, and its change per motion.
+        """Angle of the steering wheel, rad, and its derivative by the motion.
 
-        `motion`: in m or rad, positive where it steers to the left.
+        `motion`: m or rad, positive if it steers to the left.
         """
 
     def signed(self, way: float) -> float:
-        """Sign of its motion where it steers to the left.
+        """Sign of the motion that steers to the left.
 
-        `way`: 1 where a rack that moves to the left steers to the left, else -1.
+        `way`: 1 if a rack that moves to the left steers to the left, else -1.
         """
         return way
 
@@ -60,15 +60,15 @@ class SteeringSection(Section):
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
         """Owner of the inner ends of the tie rods, moved by a guide.
 
-        `guide`: in m or rad; `way`: as of `signed`.
+        `guide`: m or rad; `way`: as in `signed`.
         """
 
     @property
     def on_flexible_chassis(self) -> bool:
-        """Whether the chassis may bend or have ports."""
+        """Whether the chassis can be flexible or quasi-static."""
         return True
 
     @property
     def moving_mass(self) -> float:
-        """Mass of what is a body of its own, kg."""
+        """Mass of the parts that are bodies, kg."""
         return 0.0

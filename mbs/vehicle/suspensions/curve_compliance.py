@@ -1,12 +1,13 @@
-"""Compliance of an axle by its curves: its wheels turn about elastic axes, one upright and one along the car.
+"""Compliance of an axle given by curves: its wheels rotate about two elastic axes, one vertical and one longitudinal.
 
-With the compliances c_x, c_y and c_m of the steer angle u per force and moment in the contact, u = c_x F_x + c_y F_y +
-c_m M_z. A turn u of the wheel against the stiffness 1/c_m, with which the contact goes by (c_x, c_y) u/c_m, is just
-that by virtual work: it is a turn about the elastic centre.
+With the compliances c_x, c_y and c_m per force and moment in the contact, the steer angle is u = c_x F_x + c_y F_y +
+c_m M_z. By virtual work this is a rotation u of the wheel against the stiffness 1/c_m with a displacement
+(c_x, c_y) u/c_m of the contact, a rotation about the elastic centre.
 
-With the compliances g of the inclination and a of the place of the contact per lateral force, the wheel leans about an
-axis at the height a/g over the contact, against a spring of 1/a at the contact, where the force is. Along that axis
-it slides against 1/b, with b the compliance of its place along x. The body that leans and slides carries the table.
+With the compliances g of the inclination and a of the lateral displacement of the contact per lateral force, the wheel
+rotates about an axis at the height a/g above the contact, against a spring of the stiffness 1/a at the contact. Along
+that axis it slides against 1/b, with the compliance b of the displacement along x. The body that rotates and slides is
+the base of the table.
 """
 
 from collections.abc import Iterator
@@ -23,12 +24,12 @@ from mbs.vehicle.quantities import DisplacementPerForce, LossTime, SteerPerForce
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.suspensions.curve_poses import WheelCurves
-from mbs.vehicle.suspensions.curve_table import OTHER, RACK
+from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK
 
-TURNS = np.linspace(-0.06, 0.06, 7)  # rad: points of the table
+STEER_ANGLES = np.linspace(-0.06, 0.06, 7)  # rad, in the table
 FORWARD = (1.0, 0.0, 0.0)
-LEAST_HEIGHT, LARGEST_HEIGHT = 0.05, 1.5  # m
-BASE_SHARE = 1e-3  # of the carrier's mass, of the body that a leaning table stands on
+LEAST_HEIGHT, LARGEST_HEIGHT = 0.05, 1.5  # m, of the longitudinal axis
+BASE_SHARE = 1e-3  # mass of the base body over that of the carrier
 
 
 class Compliance(Section):
@@ -57,9 +58,12 @@ class Compliance(Section):
     """Damping over stiffness."""
 
     def fits(self, second: str) -> Iterator[str]:
-        """A sentence where the table of the axle leaves no place for it."""
-        if second == OTHER:
-            yield f"{self.path} is there, but the table has {OTHER}; an axle whose wheels move each other has none."
+        """Yield a sentence if the table has a second variable with which the compliance cannot be combined."""
+        if second == OTHER_TRAVEL:
+            yield (
+                f"{self.path} is there, but the table has {OTHER_TRAVEL}; an axle whose wheels move each other has "
+                "none."
+            )
         for name in ("per_lateral_force", "per_longitudinal_force"):
             if second == RACK and getattr(self, name):
                 yield (
@@ -68,7 +72,7 @@ class Compliance(Section):
                 )
 
     def faults(self) -> Iterator[str]:
-        """Fault of an axis about which a wheel leans at a height far from the car."""
+        """Yield a fault of the height of the longitudinal axis."""
         camber, lateral = self.camber_per_lateral_force, self.lateral_per_lateral_force
         if not LEAST_HEIGHT * abs(camber) <= lateral <= LARGEST_HEIGHT * abs(camber):
             yield (
@@ -79,7 +83,7 @@ class Compliance(Section):
             )
 
     def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
-        """Base body of the table of a wheel, and the share of its carrier's mass that stays with the table.
+        """Add the base body of the table of a wheel; return it with the share of the carrier's mass on the table.
 
         `centre`: of the left wheel, m.
         """
@@ -91,15 +95,15 @@ class Compliance(Section):
         inertia = [BASE_SHARE * value for value in part.inertia]
         base = b.m.body(f"compliance {w}", mass=BASE_SHARE * part.mass, com=side.point(part.com), inertia=inertia)
         point = side.point((centre[0], centre[1], lateral / lean if lean else centre[2]))
-        for name, end in (("rear", point), ("front", np.add(point, FORWARD))):  # no row twice, as joints would have
+        for name, end in (("rear", point), ("front", np.add(point, FORWARD))):  # without redundant equations
             b.m.point_on_line(f"compliance axis {w} {name}", (base, end), (chassis, point), axis=FORWARD)
-        # 1 m long, to points that move along it: at the contact to the side, on the axis forward
+        # springs of 1 m in the direction of the motion: lateral at the contact, longitudinal on the axis
         contact = (point[0], point[1], 0.0)
-        for name, last, along, compliance in (
+        for name, end_point, direction, compliance in (
             ("lean", contact, (0.0, 1.0, 0.0), lateral),
             ("slide", point, FORWARD, slide),
         ):
-            ends = (chassis, np.subtract(last, along)), (base, last)
+            ends = (chassis, np.subtract(end_point, direction)), (base, end_point)
             if compliance:
                 spring, stiffness = f"spring of compliance {name} {w}", 1.0 / compliance
                 b.m.spring_damper(spring, *ends, stiffness=stiffness, damping=self.loss_time * stiffness)
@@ -108,9 +112,9 @@ class Compliance(Section):
         return base, 1.0 - BASE_SHARE
 
     def rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
-        """Travel of the end of the rack at a wheel, on a spring.
+        """Add the travel of the end of the rack at a wheel, on a spring.
 
-        `rack`: travel of the rack, m; `steer_per_rack`: in rad/m.
+        `rack`: travel of the rack, m; `steer_per_rack`: rad/m.
         """
         end = b.m.travel(f"rack end {side.wheel}")
         stiffness = steer_per_rack**2 / self.per_moment
@@ -119,22 +123,22 @@ class Compliance(Section):
         return end
 
     def turn(self, b: CarBuilder, side: Side) -> Coordinate:
-        """The turn of a wheel on its spring, rad."""
+        """Add the rotation of a wheel on its spring, rad."""
         turn = b.m.travel(f"compliance steer {side.wheel}", unit="rad")
         law = ScalarSpringDamper(1.0 / self.per_moment, self.loss_time / self.per_moment)
         b.m.add(law.record(f"spring of compliance {side.wheel}", turn.affine))
         return turn
 
     def turned(self, curves: WheelCurves, side: Side) -> WheelCurves:
-        """Curves over travel alone as curves over travel and turn. `curves`: with one point of the second variable."""
-        c, s = np.cos(TURNS), np.sin(TURNS)
-        about = np.zeros((len(TURNS), 3, 3))
-        about[:, 0, 0] = about[:, 1, 1] = c
-        about[:, 0, 1], about[:, 1, 0], about[:, 2, 2] = -s, s, 1.0
-        # the mirrored wheel turns the other way under the mirrored lateral force, and under the same one along x
+        """Curves over travel and rotation from curves over travel alone, with one point of the second variable."""
+        c, s = np.cos(STEER_ANGLES), np.sin(STEER_ANGLES)
+        steer_rotations = np.zeros((len(STEER_ANGLES), 3, 3))
+        steer_rotations[:, 0, 0] = steer_rotations[:, 1, 1] = c
+        steer_rotations[:, 0, 1], steer_rotations[:, 1, 0], steer_rotations[:, 2, 2] = -s, s, 1.0
+        # the right wheel is mirrored: y of the shift is that of the left one, x has the opposite sign
         mirror = np.array([side.sign, 1.0, 0.0])
         shift = mirror * [self.per_longitudinal_force, self.per_lateral_force, 0.0] / self.per_moment
-        centres = curves.centres + TURNS[:, None] * shift
-        rotations = about @ curves.rotations
-        lengths = {name: np.repeat(values, len(TURNS), axis=1) for name, values in curves.lengths.items()}
-        return replace(curves, second=TURNS, centres=centres, rotations=rotations, lengths=lengths)
+        centres = curves.centres + STEER_ANGLES[:, None] * shift
+        rotations = steer_rotations @ curves.rotations
+        lengths = {name: np.repeat(values, len(STEER_ANGLES), axis=1) for name, values in curves.lengths.items()}
+        return replace(curves, second=STEER_ANGLES, centres=centres, rotations=rotations, lengths=lengths)

@@ -1,7 +1,7 @@
-"""Arms and rods of an axle by its curves: bodies that turn so that their outer ends follow points of the carrier.
+"""Arms and rods of an axle given by curves: bodies that rotate so that their outer ends follow points of the carrier.
 
-Half of the mass of a uniform rod in the carrier would weigh right, but have the kinetic energy of m/2 at its end over
-the travel of the wheel; the rod has that of m/3.
+With half of the mass m of a uniform rod in the carrier the weight would be right, but the kinetic energy would be that
+of m/2 at the end of the rod in place of m/3.
 """
 
 from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ from mbs.vehicle.suspensions.curve_poses import WheelCurves
 
 Array = NDArray[np.float64]
 
-SHORTEST = 0.05  # m
+LEAST_LENGTH = 0.05  # m
 
 
 class LinkPoints(Section):
@@ -34,17 +34,17 @@ class LinkPoints(Section):
     """On the carrier."""
 
     def foot(self) -> Array:
-        """Point about which the link turns, m: its inner end, or the point of its axis nearest to its outer end."""
+        """Point about which the link rotates, m: its inner end, or the point of its axis nearest to its outer end."""
         inner = np.array(self.inner)
         axis = np.subtract(self.second_inner or self.inner, inner)
-        return np.asarray(inner + axis * (axis @ (np.array(self.outer) - inner)) / max(axis @ axis, SHORTEST**2))
+        return np.asarray(inner + axis * (axis @ (np.array(self.outer) - inner)) / max(axis @ axis, LEAST_LENGTH**2))
 
     def faults(self) -> Iterator[str]:
-        """Fault of a link that is too short."""
+        """Yield a fault of a link that is too short."""
         length = float(np.linalg.norm(np.array(self.outer) - self.foot()))
-        if length < SHORTEST:
+        if length < LEAST_LENGTH:
             reference = "the axis of both inner ends" if self.second_inner else self.key("inner")
-            yield f"{self.key('outer')} is {length:.3g} m from {reference}; it must be {SHORTEST:g} m or more."
+            yield f"{self.key('outer')} is {length:.3g} m from {reference}; it must be {LEAST_LENGTH:g} m or more."
 
 
 class CurveLink(Part):
@@ -56,18 +56,18 @@ class CurveLink(Part):
     def build(
         self, b: CarBuilder, side: Side, name: str, centre: Array, curves: WheelCurves, over: Sequence[Coordinate]
     ) -> None:
-        """Add the body on the chassis.
+        """Add the link as a lookup-table body on the chassis.
 
         Parameters
         ----------
         name : str
-            Of the link.
+            Name of the link.
         centre : ndarray, shape (3,)
-            Of the wheel as drawn, m.
+            Wheel centre as drawn, m.
         curves : WheelCurves
-            Of the wheel that it carries, without compliance, which is that of bushes of small mass.
+            Curves of the wheel without compliance.
         over : sequence of Coordinate
-            Variables of the curves.
+            Coordinates of the variables of the curves.
         """
         left_points = self.points.foot().tolist(), self.points.outer, self.com
         foot, outer, com = np.array([side.point(point) for point in left_points])

@@ -1,4 +1,4 @@
-"""Places and rotations of a wheel carrier from the columns of its table."""
+"""Positions and rotations of a wheel carrier from the columns of its table."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.suspensions.curve_table import OTHER, RACK, CurveTable
+from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK, CurveTable
 
 Array = NDArray[np.float64]
 
@@ -16,9 +16,9 @@ class Hub:
     """A wheel as drawn."""
 
     centre: Point
-    """Of the left wheel, m."""
+    """Centre of the left wheel, m."""
     ahead: float
-    """1 of a front wheel, -1 of a rear one, which lengthens the wheelbase as it goes back."""
+    """Sign of the change of the wheelbase with x of the wheel: 1 front, -1 rear."""
 
 
 @dataclass(frozen=True)
@@ -26,33 +26,32 @@ class WheelCurves:
     """Kinematic curves of one wheel from its table."""
 
     travel: Array
-    """Shape (n,): of this wheel, m."""
+    """Travel of the wheel, m, shape (n,)."""
     second: Array
-    """Shape (k,): points of the second variable for this wheel."""
+    """Values of the second variable, shape (k,)."""
     centres: Array
-    """Shape (n, k, 3): of the wheel, m."""
+    """Wheel centres, m, shape (n, k, 3)."""
     rotations: Array
-    """Shape (n, k, 3, 3): of the carrier from the drawing."""
+    """Rotations of the carrier from the drawing, shape (n, k, 3, 3)."""
     lengths: dict[str, Array]
-    """Each of shape (n, k): lengths of spring and damper, m, and the angle of the lever, rad, where the table has
-    them."""
+    """Columns of the table for lengths of spring and damper, m, and the angle of the lever, rad, shape (n, k)."""
 
 
 def axes_of(steer: Array, inclination: Array) -> Array:
-    """Unit vectors of wheels: forward and level, their axis to the left, up in their plane, as columns (..., 3, 3).
+    """Unit vectors of wheels as columns (..., 3, 3): forward and level, axis to the left, up in the wheel plane.
 
-    `steer`, `inclination`: in rad, positive to the left and with the top to the right.
+    `steer`, `inclination`: rad, positive to the left and with the top to the right.
     """
-    nought = np.zeros_like(steer)
-    forward = np.stack([np.cos(steer), np.sin(steer), nought], axis=-1)
+    zeros = np.zeros_like(steer)
+    forward = np.stack([np.cos(steer), np.sin(steer), zeros], axis=-1)
     axis = np.stack(
         [-np.sin(steer) * np.cos(inclination), np.cos(steer) * np.cos(inclination), np.sin(inclination)], axis=-1
     )
     return np.stack([forward, axis, np.cross(forward, axis)], axis=-1)
 
 
-def pitched(pitch: Array) -> Array:
-    """Turn of a carrier about its wheel's axis in those axes, positive with the top forward, shape (..., 3, 3)."""
+def pitch_rotation(pitch: Array) -> Array:
+    """Rotation of a carrier about the wheel axis in the axes of `axes_of`, top forward positive, (..., 3, 3)."""
     matrices = np.zeros((*pitch.shape, 3, 3))
     matrices[..., 1, 1] = 1.0
     matrices[..., 0, 0] = matrices[..., 2, 2] = np.cos(pitch)
@@ -61,17 +60,17 @@ def pitched(pitch: Array) -> Array:
 
 
 def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
-    """The motion of a wheel; that of the right one mirrors the left where the table has no columns of its own for it.
+    """Curves of a wheel; those of the right wheel are mirrored if the table has no columns for it.
 
-    Angles count from those of the table at the drawing, as positions do: there the wheel is as drawn.
+    Angles and positions are relative to those of the table at the drawing.
 
     `hub`: the left wheel as drawn.
     """
-    has_own = table.both and side.name == "right"
-    if has_own and table.second_name == OTHER:  # whose rows are places of the axle: the left wheel's travel comes first
+    has_own = table.has_right_wheel and side.name == "right"
+    if has_own and table.second_name == OTHER_TRAVEL:  # the first variable is the travel of the left wheel
         table = table.exchanged()
     sign = -1.0 if has_own else 1.0
-    centres, rotations = _motion(table, "right" if has_own else "left", sign, hub)
+    centres, rotations = _centres_and_rotations(table, "right" if has_own else "left", sign, hub)
     lengths = {
         name: values
         for name in ("spring_length", "damper_length", "anti_roll_bar_angle")
@@ -87,33 +86,33 @@ def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
     return WheelCurves(table.travel, -table.second[::-1], centres[:, ::-1], rotations[:, ::-1], lengths)
 
 
-def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array, Array]:
-    """Centres of a wheel and rotations of its carrier over the table."""
+def _centres_and_rotations(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array, Array]:
+    """Centres of a wheel, m, and rotations of its carrier over the table. `sign`: -1 for columns of the right wheel."""
 
-    def of(column: str) -> Array | None:
+    def column_of(column: str) -> Array | None:
         return table.of(column, name)
 
     def angle(outwards: str, absolute: str) -> Array:
-        angles = of(outwards)
+        angles = column_of(outwards)
         if angles is not None:
             return -sign * angles
-        angles = of(absolute)
+        angles = column_of(absolute)
         assert angles is not None, "checked by the reader"
         return angles
 
     i = int(np.argmin(np.abs(table.travel)))
     k = int(np.argmin(np.abs(table.second)))
     steer, inclination = angle("toe_angle", "steer_angle"), angle("camber_angle", "inclination_angle")
-    pitch = of("carrier_pitch_angle")
-    if pitch is None:  # the steering axis is fixed to the carrier: caster changes as the carrier pitches, not by steer
-        caster = of("caster_angle")
+    pitch = column_of("carrier_pitch_angle")
+    if pitch is None:  # caster changes by the pitch of the carrier, not by the steer angle
+        caster = column_of("caster_angle")
         assert caster is not None, "checked by the reader"
         pitch = -np.broadcast_to(caster[:, k : k + 1], caster.shape) if table.second_name == RACK else -caster
-    axes = axes_of(steer, inclination) @ pitched(pitch - pitch[i, k])
+    axes = axes_of(steer, inclination) @ pitch_rotation(pitch - pitch[i, k])
     rotations = axes @ axes[i, k].T
     up = axes_of(steer, inclination)[..., 2]
     radius = hub.centre[2] / up[i, k, 2]
-    contact = -radius * (up - up[i, k])  # of the contact centre less that of the wheel's
+    contact = -radius * (up - up[i, k])  # displacement of the contact centre relative to the wheel centre
     drawn = np.array([hub.centre[0], sign * hub.centre[1], hub.centre[2]])
     centres = np.zeros((*steer.shape, 3))
     centres[..., 2] = np.broadcast_to(table.travel[:, None], steer.shape)
@@ -123,7 +122,7 @@ def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array,
             (f"contact_centre_{c}", 1.0, 1.0),
             (change, scale, 1.0),
         ):
-            values = of(column_name)
+            values = column_of(column_name)
             if values is not None:
                 centres[..., column] = factor * (values - values[i, k]) - below * contact[..., column]
                 break

@@ -24,11 +24,11 @@ from mbs.vehicle.suspensions.anti_roll_bar import LINK, RollStiffness
 from mbs.vehicle.suspensions.curve_compliance import Compliance
 from mbs.vehicle.suspensions.curve_links import CurveLink
 from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
-from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, read_curves
+from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK, Array, CurveTable, read_curves
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
-LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the front axle is a rear one
-CURVES_MISS = 0.1  # of the angle: largest deviation of the table, since both wheels steer by different angles
+LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the origin belongs to the rear axle
+ANGLE_TOLERANCE = 0.1  # largest deviation of the declared angle from the table, relative to the angle
 
 
 class CurvesBodies(Section):
@@ -82,7 +82,7 @@ class Curves(SuspensionSection):
 
     linked: ClassVar[bool] = False
     points: ClassVar[NoPoints] = NoPoints()
-    """It has no hard points."""
+    """No hard points."""
 
     _table: CurveTable | None = PrivateAttr(None)
     _hub: Hub | None = PrivateAttr(None)
@@ -103,7 +103,7 @@ class Curves(SuspensionSection):
 
     @property
     def table(self) -> CurveTable:
-        """The table of the file."""
+        """Content of the table of the file."""
         assert self._table is not None, "the file is opened with the car"
         return self._table
 
@@ -114,17 +114,17 @@ class Curves(SuspensionSection):
         return self._hub
 
     def oddities(self) -> Iterator[str]:
-        """Sentence on the columns of the file that are not used."""
-        if self.table.left_out:
-            yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.left_out)}."
+        """Yield a sentence on the columns of the file that are not used."""
+        if self.table.unused_columns:
+            yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.unused_columns)}."
 
     def steers_left(self, centre: Point) -> bool:
         """Whether rack travel to the left steers to the left by the table."""
-        return self._steer_per_rack(self.of(Side("front", "left", 1.0))) > 0.0
+        return self._steer_rate(self.of(Side("front", "left", 1.0))) > 0.0
 
     def steered_angle(self, rack: float) -> float:
-        """Mean angle of both wheels at a travel of the rack to either side, rad. `rack`: in m."""
-        steer = CubicSpline(*self._steer(self.of(Side("front", "left", 1.0))))
+        """Mean angle of both wheels at a travel of the rack, rad. `rack`: m."""
+        steer = CubicSpline(*self._steer_curve(self.of(Side("front", "left", 1.0))))
         return 0.5 * abs(float(steer(rack) - steer(-rack)))
 
     @property
@@ -138,11 +138,11 @@ class Curves(SuspensionSection):
         return float(np.max(least)), float(np.min(largest))
 
     def of(self, side: Side) -> WheelCurves:
-        """The motion of a wheel."""
+        """Curves of a wheel."""
         return wheel_curves(self.table, side, self.hub)
 
     def faults(self) -> Iterator[str]:
-        """Faults of an anti-roll bar without levers, and of columns that the table lacks."""
+        """Yield faults of the lever of the anti-roll bar, and of a compliance that the table does not allow."""
         lengths = self.of(Side("front", "left", 1.0)).lengths
         if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in lengths):
             presence = "is there too" if self.bar.lever is not None else "is not there"
@@ -155,7 +155,7 @@ class Curves(SuspensionSection):
             yield from self.compliance.fits(self.table.second_name)
 
     def stop_faults(self, stops: Stops) -> Iterator[str]:
-        """Fault of a table that does not reach to the ends of the stops."""
+        """Yield a sentence for each stop whose end the table does not reach."""
         least, largest = self.compressions
         for name, reached, gap, travel in (
             ("bump", largest, stops.bump_gap, stops.bump_travel),
@@ -168,7 +168,7 @@ class Curves(SuspensionSection):
                 )
 
     def steering_faults(self, steering: Steering | None) -> Iterator[str]:
-        """The table of the front axle, and no other, is over the travel of the rack up to full lock."""
+        """Yield a fault of the second variable: the travel of the rack up to full lock, on the front axle alone."""
         table = f"{self.key('file')} ({self.file})"
         if steering is None:
             if self.table.second_name == RACK:
@@ -185,9 +185,9 @@ class Curves(SuspensionSection):
                 )
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """Sentence on an angle of the file that is not that of the table."""
+        """Yield a sentence if the declared wheel angle at full lock is not that of the table."""
         table_angle, declared = self.steered_angle(steering.full), steering.front_wheel_angle_max
-        if abs(table_angle - declared) > CURVES_MISS * declared:
+        if abs(table_angle - declared) > ANGLE_TOLERANCE * declared:
             yield (
                 f"{steering.key('front_wheel_angle_max')} is {declared:g} rad, but at full travel of the rack, "
                 f"{steering.full:.3g} m, the wheels of {self.key('file')} ({self.file}) are turned by "
@@ -196,16 +196,16 @@ class Curves(SuspensionSection):
             )
 
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
-        """Add the left side, then the right one, then what joins them.
+        """Add the left side, then the right one, then the anti-roll bar.
 
-        `axle`, `springs`: as of `IndependentSuspension.corners`; `tie_rod`: of no use here: the rack is a coordinate.
+        `axle`, `springs`: as in `IndependentSuspension.corners`; `tie_rod`: not used, as the rack is a coordinate.
         """
         travels = {side.name: b.m.travel(f"wheel travel {side.wheel}") for side in sides(axle)}
         levers = []
         for side in sides(axle):
             travel, w = travels[side.name], side.wheel
             rigid = self.of(side)
-            over, curves = self._table_variables(b, side, rigid, travels)
+            variables, curves = self._table_variables(b, side, rigid, travels)
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
@@ -215,21 +215,21 @@ class Curves(SuspensionSection):
             carrier = b.m.tabled_body(
                 f"carrier {w}",
                 base=base,
-                parameters=over,
-                axes=_axes(curves, over),
-                places=_flat(curves.centres + curves.rotations @ (com - centre), over),
-                rotations=_flat(curves.rotations, over),
+                parameters=variables,
+                axes=_axes(curves, variables),
+                places=_flat(curves.centres + curves.rotations @ (com - centre), variables),
+                rotations=_flat(curves.rotations, variables),
                 mass=share * part.mass,
                 com=com,
                 inertia=[share * value for value in part.inertia],
             )
             for name, link in self.bodies.links.items():
-                link.build(b, side, name, centre, rigid, over if self.table.second_name else [travel])
-            plain = travel.affine * -1.0 + self.spring_length, self.spring_length
-            spring = _number(b, curves, over, "spring_length", f"length of spring {w}") or plain
-            damper = _number(b, curves, over, "damper_length", f"length of damper {w}")
+                link.build(b, side, name, centre, rigid, variables if self.table.second_name else [travel])
+            travel_length = travel.affine * -1.0 + self.spring_length, self.spring_length
+            spring = _tabled_length(b, curves, variables, "spring_length", f"length of spring {w}") or travel_length
+            damper = _tabled_length(b, curves, variables, "damper_length", f"length of damper {w}")
             spring_of_length(b, w, spring, damper, springs)
-            lever = _number(b, curves, over, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
+            lever = _tabled_length(b, curves, variables, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
             if self.bar is not None:
                 levers.append(lever[0] if lever is not None else travel.affine * (1.0 / (self.bar.lever or 1.0)))
             yield Corner(side, carrier, {"carrier": carrier})
@@ -240,35 +240,35 @@ class Curves(SuspensionSection):
     def _table_variables(
         self, b: CarBuilder, side: Side, curves: WheelCurves, travels: Mapping[str, Coordinate]
     ) -> tuple[list[Coordinate], WheelCurves]:
-        """Coordinates over which a wheel is tabled, and its curves over them."""
+        """Coordinates of the variables of a wheel's table, and its curves over them."""
         travel = travels[side.name]
         if self.table.second_name == RACK:
             assert b.rack is not None, "the front axle steers"
             rack = b.rack
             if self.compliance is not None:
-                rack = self.compliance.rack_end(b, side, rack, self._steer_per_rack(curves))
+                rack = self.compliance.rack_end(b, side, rack, self._steer_rate(curves))
             return [travel, rack], curves
-        if self.table.second_name == OTHER:
+        if self.table.second_name == OTHER_TRAVEL:
             return [travel, travels["right" if side.name == "left" else "left"]], curves
         if self.compliance is not None:
             turn = self.compliance.turn(b, side)
             return [travel, turn], self.compliance.turned(curves, side)
         return [travel], curves
 
-    def _steer_per_rack(self, curves: WheelCurves) -> float:
+    def _steer_rate(self, curves: WheelCurves) -> float:
         """Steer angle of a wheel per travel of the rack at the drawing, rad/m."""
-        return float(CubicSpline(*self._steer(curves))(0.0, 1))
+        return float(CubicSpline(*self._steer_curve(curves))(0.0, 1))
 
-    def _steer(self, curves: WheelCurves) -> tuple[Array, Array]:
-        """Travels of the rack, m, and the steer angles there of a wheel at the drawing, rad."""
+    def _steer_curve(self, curves: WheelCurves) -> tuple[Array, Array]:
+        """Travels of the rack, m, and steer angles of a wheel at the drawn height, rad."""
         rotations = curves.rotations[int(np.argmin(np.abs(self.table.travel)))]
         return curves.second, np.arctan2(-rotations[:, 0, 1], rotations[:, 1, 1])
 
 
-def _number(
+def _tabled_length(
     b: CarBuilder, curves: WheelCurves, over: Sequence[Coordinate], column: str, name: str, unit: str = "m"
 ) -> tuple[Affine, float] | None:
-    """A column of lengths as a number of the model, and its value as drawn."""
+    """Add a column of lengths as a lookup-table number; return it with its value as drawn, None without the column."""
     values = curves.lengths.get(column)
     if values is None:
         return None
@@ -278,10 +278,10 @@ def _number(
 
 
 def _axes(curves: WheelCurves, over: Sequence[Coordinate]) -> list[Array]:
-    """Points along one or two coordinates."""
+    """Points of the table along each of one or two variables."""
     return [curves.travel, curves.second][: len(over)]
 
 
 def _flat(values: Array, over: Sequence[Coordinate]) -> Array:
-    """Values over one or two coordinates."""
+    """Values of the table over one or two variables."""
     return values if len(over) == 2 else values[:, 0]

@@ -41,7 +41,7 @@ class DoubleWishbonePoints(Section):
     """Upper end of the spring on the chassis."""
 
     def faults(self) -> Iterator[str]:
-        """Arms, links, axes and the spring must have a length, and be where their names say."""
+        """Yield faults of short arms, links and springs, and of points that are not where their names say."""
         for part in ("lower", "upper"):
             yield from arm(self, part, "wishbone")
         axis = ("lower_ball_joint", "upper_ball_joint")
@@ -92,15 +92,15 @@ class DoubleWishbone(IndependentSuspension):
     """Stop that keeps a knuckle pulled out at full lock from turning over."""
 
     near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "upper_ball_joint", "tie_rod_outer")
-    """Points on what carries the wheel."""
+    """Names of the points on the wheel carrier."""
 
     @property
     def stop_left_out(self) -> str:
-        """Key path of the steering stop."""
+        """Key path of the steering stop if it is missing, else empty."""
         return self.key("steering_stop") if self.steering_stop is None else ""
 
     def faults(self) -> Iterator[str]:
-        """Fault of a steering stop that acts in the drawing."""
+        """Yield a fault of a steering stop that acts in the drawing."""
         if self.steering_stop is None:
             return
         drawn = math.dist(self.points.tie_rod_outer, self.points.lower_pivot_front)
@@ -135,6 +135,7 @@ class DoubleWishbone(IndependentSuspension):
 
 
 def _end_stop(stop: SteeringStop) -> EndStops:
+    """Make the end stop of a spring element."""
     return stop.element(
         EndStops,
         bump_length=stop.length,

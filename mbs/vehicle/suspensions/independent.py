@@ -14,7 +14,7 @@ from mbs.vehicle.springs import AxleSprings
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
-FACTOR = 1.6
+LARGEST_RATIO = 1.6
 """Accepted ratio of the declared and the estimated wheel angle: the estimate neglects the angle of the tie rods and the
 inclination of the steering axis."""
 
@@ -43,7 +43,7 @@ class IndependentSuspension(SuspensionSection):
         key, travel = steering.lateral_travel
         length = abs(self.rod_point("outer")[0] - centre[0])
         estimate = math.asin(min(1.0, travel / max(length, 1e-3)))
-        if not estimate / FACTOR <= angle <= estimate * FACTOR:
+        if not estimate / LARGEST_RATIO <= angle <= estimate * LARGEST_RATIO:
             yield (
                 f"{angle_key} is {angle:g} rad, but {key}, {travel:.3g} m to the side, on a steering arm {length:.3g} "
                 f"m long gives about {estimate:.2g} rad."
@@ -52,8 +52,8 @@ class IndependentSuspension(SuspensionSection):
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left side, then the right one.
 
-        `axle`: "front" or "rear"; `springs`: springs, dampers and stops of the axle; `tie_rod`: gives what the inner
-        ends of the rods hang on.
+        `axle`: "front" or "rear"; `springs`: springs, dampers and stops of the axle; `tie_rod`: returns the owner of
+        the inner end of a rod.
         """
         for side in sides(axle):
             yield self.corner(b, side, springs, tie_rod)
@@ -62,5 +62,5 @@ class IndependentSuspension(SuspensionSection):
     def corner(self, b: CarBuilder, side: Side, springs: AxleSprings, tie_rod: TieRodEnd) -> Corner:
         """Add one side.
 
-        `b`, `springs`, `tie_rod`: as of `corners`; `side`: axle, and left or right.
+        `springs`, `tie_rod`: as in `corners`.
         """

@@ -27,7 +27,7 @@ class LowerArmStrutPoints(Section):
     """Top of the strut on the chassis, upper end of the spring; the strut's axis goes through the ball joint."""
 
     def faults(self) -> Iterator[str]:
-        """Arm, link, axes and strut must have a length, and be where their names say."""
+        """Yield faults of short arms, links and struts, and of points that are not where their names say."""
         yield from arm(self, "lower", "arm")
         axis = ("lower_ball_joint", "strut_top")
         yield from farther(self, "z", axis[1], axis[0], "above", "the strut stands between both", 0.05)
@@ -54,4 +54,4 @@ class LowerArmStrut(StrutSuspension):
     foot: ClassVar[str] = "lower_ball_joint"
     rod: ClassVar[str] = "toe link"
     near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "toe_link_outer")
-    """Points on what carries the wheel."""
+    """Names of the points on the wheel carrier."""

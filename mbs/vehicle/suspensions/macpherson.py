@@ -29,7 +29,7 @@ class MacPhersonPoints(Section):
     """Outer end of the tie rod on the upright."""
 
     def faults(self) -> Iterator[str]:
-        """Arm, rod, axes and strut must have a length, and be where their names say."""
+        """Yield faults of short arms, rods and struts, and of points that are not where their names say."""
         yield from arm(self, "lower", "arm")
         yield from farther(self, "z", "strut_top", "strut_lower", "above", "the spring stands between both", 0.05)
         axis = ("lower_ball_joint", "strut_top")
@@ -56,4 +56,4 @@ class MacPherson(StrutSuspension):
 
     foot: ClassVar[str] = "strut_lower"
     near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "tie_rod_outer")
-    """Points on what carries the wheel."""
+    """Names of the points on the wheel carrier."""

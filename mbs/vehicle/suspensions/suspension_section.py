@@ -17,35 +17,35 @@ class SuspensionSection(Section):
     linked: ClassVar[bool] = True
     """Whether links with hard points carry the wheels."""
     near_wheel: ClassVar[tuple[str, ...]] = ()
-    """Points on what carries the wheel and near to it."""
+    """Names of the points on the wheel carrier."""
 
     def open(self, folder: Path, centre: Point) -> None:
-        """Read its files; done once by the reader of the car. `centre`: of the left wheel as drawn, m.
+        """Read the files of the suspension. `centre`: of the left wheel as drawn, m.
 
-        Raises `CarFileError`: a file is missing or not right.
+        Raises `CarFileError`: a file is missing or not valid.
         """
 
-    def needs_links(self) -> None:
-        """Refuse what has no links. Raises `ModelError`: it has none."""
+    def require_links(self) -> None:
+        """Raise `ModelError` if the suspension has no links."""
         if not self.linked:
             raise ModelError(self.unlinked)
 
     @property
     def unlinked(self) -> str:
-        """A sentence where there are no links, else empty."""
+        """Sentence that the suspension has no links; empty if it has."""
         return ""
 
     @property
     def stop_left_out(self) -> str:
-        """Key path of the stop of the knuckles, where there is a place for one and none is there; else empty."""
+        """Key path of the stop of the knuckles if it is missing; empty if it is there or not possible."""
         return ""
 
     def stop_faults(self, stops: Stops) -> Iterator[str]:
-        """Whether it reaches to the ends of the stops of its springs."""
+        """Yield a sentence if the suspension does not reach the ends of the stops of its springs."""
         yield from ()
 
     def rod_point(self, end: Literal["inner", "outer"]) -> Point | None:
-        """End of the rod that steers or holds the left wheel, m; None where there is no rod."""
+        """End of the tie rod or toe link of the left wheel, m; None without a rod."""
         return None
 
     def steers_left(self, centre: Point) -> bool:
@@ -55,9 +55,9 @@ class SuspensionSection(Section):
         return rod[0] > centre[0]
 
     def steering_faults(self, steering: Steering | None) -> Iterator[str]:
-        """Reasons why the axle cannot be steered so. `steering`: None for the rear axle."""
+        """Yield a sentence if the axle cannot have the steering, or none. `steering`: None for the rear axle."""
         yield from ()
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """Whether full lock turns the wheels by as much as the file says. `centre`: of the left wheel as drawn, m."""
+        """Yield a sentence if the wheel angle at full lock is not that of the file. `centre`: of the left wheel, m."""
         yield from ()

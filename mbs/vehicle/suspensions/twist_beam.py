@@ -1,13 +1,13 @@
 """Twist beam: two trailing arms, joined by a cross-beam that is stiff in bending and soft in torsion.
 
-Each half is a rigid body. They turn on each other about the shear-centre axis of the cross-beam, against its torsional
-stiffness: so W. Matschinsky ("Road Vehicle Suspensions", Wiley) and J. Reimpell, H. Stoll, J. W. Betzler
-("The Automotive Chassis", Butterworth-Heinemann) find the kinematics of such an axle. In bump both arms turn about the
-line of their pivots; in roll each turns about the line from its pivot through the middle of the shear-centre axis.
+Each half is a rigid body. They rotate relative to each other about the shear-centre axis of the cross-beam, against its
+torsional stiffness (W. Matschinsky, "Road Vehicle Suspensions", Wiley; J. Reimpell, H. Stoll, J. W. Betzler, "The
+Automotive Chassis", Butterworth-Heinemann). In bump both arms rotate about the line through their pivots; in roll each
+rotates about the line from its pivot through the middle of the shear-centre axis.
 
-The bushes hold the pivots as ball joints. As the beam is twisted the pivots would come nearer to each other by tenths
-of a millimetre: by so much both halves may slide on each other along the shear-centre axis. Two freedoms remain, bump
-and roll, and mirrored motions are mirrored; each bush takes the side force of its wheel.
+The bushes are ball joints. As the twist of the beam would reduce the distance of the pivots by tenths of a millimetre,
+both halves can slide relative to each other along the shear-centre axis. Two degrees of freedom remain, bump and roll;
+the axle is symmetric, and each bush has the lateral force of its wheel.
 """
 
 import math
@@ -17,7 +17,7 @@ from typing import Literal
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
-from mbs.vehicle.geometry import LEAST, apart, farther
+from mbs.vehicle.geometry import LEAST_LENGTH, apart, farther
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point, TorsionalStiffness
 from mbs.vehicle.section import Section
@@ -44,17 +44,17 @@ class TwistBeamPoints(Section):
     """Upper end of the damper on the chassis."""
 
     def faults(self) -> Iterator[str]:
-        """Arm, spring and damper must have a length, and stand upright."""
+        """Yield faults of short arms, springs and dampers, and of springs and dampers that are upside down."""
         yield from apart(self, "pivot", "cross_beam", "the arm to the cross-beam")
         for part in ("spring", "damper"):
             lower, upper = f"{part}_lower", f"{part}_upper"
             yield from apart(self, lower, upper, f"the {part}", 0.05)
             yield from farther(self, "z", upper, lower, "above", f"the {part} stands on the axle")
             arm = math.hypot(*(getattr(self, lower)[k] - self.pivot[k] for k in (0, 2)))
-            if arm < LEAST:
+            if arm < LEAST_LENGTH:
                 yield (
                     f"{self.key(lower)} is {arm:.3g} m from the axis of {self.key('pivot')}; the lever of the {part} "
-                    f"is {LEAST:g} m long or more."
+                    f"is {LEAST_LENGTH:g} m long or more."
                 )
 
 
@@ -78,14 +78,14 @@ class TwistBeam(SuspensionSection):
     """Masses and inertias."""
 
     def steering_faults(self, steering: Steering | None) -> Iterator[str]:
-        """Fault of a steered twist-beam axle: it cannot steer."""
+        """Yield a fault of a steered axle: it cannot steer."""
         if steering is not None:
             yield f"{self.key('kind')} is '{self.kind}'; such an axle cannot steer and may be the rear one only."
 
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
-        """Add the left half, then the right one, then what joins them.
+        """Add the left half, then the right one, then the cross-beam.
 
-        `axle`, `springs`: as of `IndependentSuspension.corners`; `tie_rod`: of no use here.
+        `axle`, `springs`: as in `IndependentSuspension.corners`; `tie_rod`: not used.
         """
         m, chassis = b.m, b.chassis.body
         halves = []

@@ -22,7 +22,7 @@ from mbs.vehicle.tyres.tyre_section import TyreSection
 if TYPE_CHECKING:
     from mbs.tyre_files import TyreFile
 
-_IN_FILE = {"radius": "UNLOADED_RADIUS times Q_RE0", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
+_FILE_NAMES = {"radius": "UNLOADED_RADIUS times Q_RE0", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
 
 
 class MagicFormula(TyreSection, of=MagicTyre):
@@ -61,10 +61,10 @@ class MagicFormula(TyreSection, of=MagicTyre):
             raise CarFileError(f"{self.key('file')}: {error}") from None
 
     def key(self, field: str) -> str:
-        """Key path of a field, and of what the tyre property file gives."""
+        """Key path of a field, or the name of a number in the tyre property file."""
         if field in type(self).model_fields:
             return super().key(field)
-        return f"{_IN_FILE.get(field, field)} of {super().key('file')}"
+        return f"{_FILE_NAMES.get(field, field)} of {super().key('file')}"
 
     def tyre(self, side: str) -> MagicTyre:
         """Force element of a tyre. `side`: side of the car, "left" or "right"."""
@@ -93,6 +93,7 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     @property
     def _left_tyre(self) -> MagicTyre:
+        """Force element of the left tyre."""
         assert self._tyre is not None, "the file is opened with the car"
         return self._tyre
 
@@ -103,7 +104,7 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     @property
     def bottoming_radius(self) -> float:
-        """Loaded radius below which the rim bears, m."""
+        """Loaded radius below which the tyre bottoms on its rim, m."""
         return self._left_tyre.bottoming_radius
 
     @property
@@ -133,10 +134,11 @@ class MagicFormula(TyreSection, of=MagicTyre):
         return self._friction("X"), self._friction("Y")
 
     def _friction(self, axis: str) -> float:
+        """Largest force relative to the load. `axis`: "X" or "Y", as in the names of coefficients."""
         c, dfz = self._left_tyre.coefficients, 1.0 / self._left_tyre.coefficients.get("LFZO", 1.0) - 1.0
         pressure = self._left_tyre.pressure
-        of_pressure = 1.0 + c.get(f"PP{axis}3", 0.0) * pressure + c.get(f"PP{axis}4", 0.0) * pressure**2
-        largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * of_pressure * c.get(f"LMU{axis}", 1.0)
+        pressure_factor = 1.0 + c.get(f"PP{axis}3", 0.0) * pressure + c.get(f"PP{axis}4", 0.0) * pressure**2
+        largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * pressure_factor * c.get(f"LMU{axis}", 1.0)
         return largest * (self.lmux if axis == "X" else self.lmuy)
 
     @property
@@ -146,16 +148,19 @@ class MagicFormula(TyreSection, of=MagicTyre):
         Slip stiffness at the nominal load, N; stiffness, N/m; damping over stiffness at rest, s, and its decrease with
         the square of the speed, s2/m2.
         """
-        by_slip, stiffness = self._left_tyre.along
-        return by_slip, stiffness, self._left_tyre.settling, 1.0
+        slip_stiffness, stiffness = self._left_tyre.along
+        return slip_stiffness, stiffness, self._left_tyre.settling, 1.0
 
-    def rolling_radius(self, loaded: float) -> float:
-        """Rolling radius of a free wheel, m, that rolls slowly with a loaded radius. `loaded`: that radius, m."""
+    def rolling_radius(self, loaded_radius: float) -> float:
+        """Rolling radius of a free wheel at low speed, m. `loaded_radius`: in m."""
         t, c = self._left_tyre, self._left_tyre.coefficients
         free = self.radius
-        depth, inflated = free - loaded, 1.0 + c.get("PFZ1", 0.0) * t.pressure
+        deflection, pressure_factor = free - loaded_radius, 1.0 + c.get("PFZ1", 0.0) * t.pressure
         if not (c.get("DREFF") or c.get("FREFF")):
-            return free - depth / 3.0
-        load = inflated * (t.stiffness + t.progression * depth) * depth / t.nominal_load
+            return free - deflection / 3.0
+        load = pressure_factor * (t.stiffness + t.progression * deflection) * deflection / t.nominal_load
         drop = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * load) + c.get("FREFF", 0.0) * load
-        return free - t.nominal_load / (inflated * sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)) * drop
+        return (
+            free
+            - t.nominal_load / (pressure_factor * sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)) * drop
+        )

@@ -36,7 +36,7 @@ class Curve(Section, of=TyreCurve):
     slide_slip: tuple[Slip, Slip]
 
     def faults(self) -> Iterator[str]:
-        """Faults of curves whose force does not rise to its maximum and fall to sliding at both loads."""
+        """Yield faults of curves whose force does not rise to its maximum and fall to sliding at both loads."""
         for k in range(2):
             if self.slide_slip[k] <= self.max_slip[k]:
                 yield (
@@ -90,7 +90,7 @@ class TMeasy(TyreSection, of=Tyre):
     bore: Bore | None = None
 
     def faults(self) -> Iterator[str]:
-        """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too."""
+        """Yield faults of trails that do not vanish in order, and of values at no load and at the largest load."""
         faults = [
             f"{self.key('trail_end')}.{k} is {self.trail_end[k]:g}; it must be larger than "
             f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
@@ -109,24 +109,26 @@ class TMeasy(TyreSection, of=Tyre):
 
     @property
     def friction(self) -> tuple[float, float]:
-        """Largest longitudinal and lateral force over the load, at the nominal load on the road of the reference."""
+        """Largest longitudinal and lateral force over the load, at the nominal load and the reference friction."""
         longitudinal, lateral = (c.max_force[0] / self.nominal_load for c in (self.longitudinal, self.lateral))
         return longitudinal, lateral
 
     @property
     def carcass(self) -> tuple[float, float, float, float]:
-        """Along the heading: slip stiffness at the nominal load, N, stiffness of the carcass, N/m, its damping over
-        that at rest, s, and how that fades by the square of the speed, s2/m2.
+        """Longitudinal properties of the carcass.
+
+        Slip stiffness at the nominal load, N; stiffness, N/m; damping over stiffness at rest, s, and its decrease with
+        the square of the speed, s2/m2.
         """
         stiffness = self.carcass_stiffness[0]
         return self.longitudinal.slope[0], stiffness, self.carcass_damping[0] / stiffness, 0.0
 
-    def rolling_radius(self, loaded: float) -> float:
-        """Way of a free wheel per radian, m. `loaded`: loaded radius, m."""
-        return (2.0 * self.radius + loaded) / 3.0
+    def rolling_radius(self, loaded_radius: float) -> float:
+        """Rolling radius of a free wheel, m. `loaded_radius`: in m."""
+        return (2.0 * self.radius + loaded_radius) / 3.0
 
     def tyre(self, side: str = "left") -> Tyre:
-        """The tyre of the engine, the same on both sides. `side`: not used."""
+        """Force element of a tyre, the same on both sides. `side`: not used."""
         curves = {name: getattr(self, name).element(TyreCurve) for name in ("longitudinal", "lateral")}
         bore = None if self.bore is None else self.bore.element(TyreBore)
         return self.element(Tyre, **curves, friction_factor=self.grip, bore=bore)

@@ -9,7 +9,7 @@ class TyreSection(Section):
     """Tyres of an axle."""
 
     def open(self, folder: Path) -> None:
-        """Read their file, if there is one; done once by the reader of the car.
+        """Read the tyre property file, if the formula has one; called once by the reader of the car.
 
-        Raises `CarFileError`: it is missing, or not right.
+        Raises `CarFileError`: the file is missing or not valid.
         """

@@ -7,14 +7,14 @@ import mbs
 from mbs.elements import GridRoad
 from mbs.roads import write_road
 from mbs.worlds.make_world import read_world
-from mbs.worlds.obstacles import added
+from mbs.worlds.obstacles import added_height
 from tests.roads.worlds.test_proving_ground import FILE
 
 
 def loads(car, obstacle, spacing, speed, folder):
     """Largest loads of a front and a rear tyre over an obstacle of the world alone."""
     x = obstacle.at[0] - 20.0 + spacing * np.arange(round(60.0 / spacing)) + 0.37 * spacing
-    heights = added(obstacle, x, np.full(len(x), obstacle.at[1]))
+    heights = added_height(obstacle, x, np.full(len(x), obstacle.at[1]))
     road = GridRoad((float(x[0]), -20.0), (spacing, 40.0), np.repeat(heights[:, None], 2, axis=1), 0.9)
     write_road(road, folder / "a.road")
     pose = mbs.Pose(obstacle.at[0] - 6.0, 0.0, 0.0, 0.0, speed)

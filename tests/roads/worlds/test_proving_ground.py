@@ -8,7 +8,7 @@ import pytest
 
 from hosts.driving.courses import TRACKS, course_of
 from mbs.worlds.make_world import read_world
-from mbs.worlds.scenery import cone_places, scenery_of
+from mbs.worlds.scenery import cone_positions, scenery_of
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.world_types import FRICTIONS, Cones
 
@@ -164,9 +164,9 @@ def test_the_cones_stand_along_the_gates_that_are_driven(terrain, name):
 
 def test_the_slalom_has_cones_every_18_m(terrain):
     cones = next(c for c in terrain.world.cones if c.slalom is not None)
-    places = np.array(cone_places(cones))
+    places = np.array(cone_positions(cones))
     assert np.allclose(np.diff(places[:, 0]), 18.0)
-    turned = np.array(cone_places(Cones(slalom=3, start=(1.0, 2.0, 90.0))))
+    turned = np.array(cone_positions(Cones(slalom=3, start=(1.0, 2.0, 90.0))))
     assert np.allclose(turned, [(1.0, 2.0), (1.0, 20.0), (1.0, 38.0)])
 
 

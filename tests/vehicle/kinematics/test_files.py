@@ -63,7 +63,7 @@ def test_tables_of_the_command_are_axles_by_their_curves(made):
     assert "front_table.csv, rear_table.csv: where the wheels stand" in printed
     assert len(read_curves(folder, "rear_table.csv", "key", 1.0).travel) > 4
     parallel = read_curves(folder, "front_parallel.csv", "key", 1.0)
-    assert parallel.both
+    assert parallel.has_right_wheel
     both = parallel.columns["wheel_centre_y_right"] + parallel.columns["wheel_centre_y_left"]
     assert np.abs(both).max() < 1e-9
     for motion in ("opposite", "single"):

@@ -181,7 +181,7 @@ def test_tangent_and_bending_of_the_way(car, axle):
         link.solve(at.q, at.travel + s * direction[:2], at.rack + s * direction[2]).q for s in (step, -step)
     )  # fmt: skip
     np.testing.assert_allclose(at.tangent @ direction, (ahead - behind) / (2.0 * step), atol=1e-5)
-    bend = link.bends(at, direction[:, None])[:, 0]
+    bend = link.second_derivatives(at, direction[:, None])[:, 0]
     np.testing.assert_allclose(bend, (ahead - 2.0 * at.q + behind) / step**2, atol=2e-3)
     assert np.abs(bend).max() > 1.0
 

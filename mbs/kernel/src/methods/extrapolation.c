@@ -56,7 +56,7 @@ ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, i
 
 /* Weighted sum of n vectors of a length. */
 ALI3_INLINED void sum_weighted_vectors(real *restrict to, const real *restrict from, int64_t length, const real *weight,
-                               int32_t n) {
+                                       int32_t n) {
   const real w = weight[0];
   ALI3_EACH(0, length, ALI3_AT(to) = w * ALI3_AT(from))
   for (int32_t k = 1; k < n; k++) ali3_add_multiple(to, from + k * length, weight[k], length);

@@ -18,7 +18,7 @@ class CalculixFrame(MatrixFrame):
     """Input deck, name.inp; name.sti, name.mas and name.dof lie beside it."""
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there."""
+        """Files of the matrices, all of which exist."""
         return (beside(folder, self.deck, self.key("deck")),)
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:

@@ -11,7 +11,7 @@ from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
 from mbs.vehicle.files import beside
 from mbs.vehicle.table import read_table
 
-FAR = 1e3  # m
+LARGEST_COORDINATE = 1e3  # m
 
 
 class MatricesFrame(MatrixFrame):
@@ -27,21 +27,22 @@ class MatricesFrame(MatrixFrame):
     """Table of the nodes in the order of the matrices: name, x, y, z."""
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there."""
+        """Files of the matrices, all of which exist."""
         return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the files."""
         stiffness, mass, _ = self.files(folder)
         rows = read_table(folder, self.nodes, self.key("nodes"), ("name", "x", "y", "z"))
-        positions = [[row.number(axis, -FAR, FAR, "m") for axis in "xyz"] for row in rows]
+        positions = [[row.number(axis, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m") for axis in "xyz"] for row in rows]
         matrices = self._matrix("stiffness", stiffness), self._matrix("mass", mass)
         return external_model(*matrices, positions, [row["name"] for row in rows])
 
     def _matrix(self, field: str, path: Path) -> Sparse:
+        """Read the matrix of a field. Raises `ModelError`: it cannot be read."""
         try:
             return read_matrix(path)
         except ModelError:
             raise
-        except Exception as error:  # what a damaged file does to the readers of SciPy is not declared
+        except Exception as error:  # the errors of SciPy's readers on damaged files have no common class
             raise ModelError(f"{self.key(field)}: {path.name} holds no matrix that can be read: {error}.") from error

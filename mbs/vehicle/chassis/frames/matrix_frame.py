@@ -20,15 +20,15 @@ class MatrixFrame(FrameSection):
 
     @abstractmethod
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there."""
+        """Files of the matrices, all of which exist."""
 
     def check(self, folder: Path) -> None:
-        """Look for the files."""
+        """Check that the files exist."""
         self.files(folder)
 
     @abstractmethod
     def finite_elements(self, folder: Path) -> FiniteElementModel:
-        """Read the matrices. Raises `ModelError`: a file is missing, or the matrices are no free model."""
+        """Read the matrices. Raises `ModelError`: a file is missing, or the body has supports."""
 
     def structure(self, folder: Path) -> Structure:
         """Read the matrices and the gauges, each of which must be on their nodes."""

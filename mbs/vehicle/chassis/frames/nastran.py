@@ -24,7 +24,7 @@ class NastranFrame(MatrixFrame):
     """Name of the mass matrix in it."""
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there."""
+        """Files of the matrices, all of which exist."""
         return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:

@@ -37,6 +37,6 @@ class TubesFrame(TubeTables):
 
 @lru_cache(maxsize=4)
 def _assembled(frame: bytes) -> FiniteElementModel:
-    """The model of a pickled `Frame`: cars that differ in other numbers share it."""
+    """Finite-element model of a pickled `Frame`, cached: cars that differ in other numbers share it."""
     model: FiniteElementModel = pickle.loads(frame).finite_element_model()
     return model

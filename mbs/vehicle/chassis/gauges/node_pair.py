@@ -35,16 +35,17 @@ class NodePair(Section):
         yield Reading(STRESS, name, "Pa", text, self.E * row, self.nodes)
 
     def _strain(self, model: FiniteElementModel, field: str) -> np.ndarray:
+        """Row of the strain between the nodes of a field over the nodal displacements, shape (n_dof,)."""
         ends = getattr(self, field)
         for node in ends:
             if node not in model.names:
                 raise ModelError(f"{self.key(field)} names node {node!r}; the frame has no such node.")
         a, b = (model.node(node) for node in ends)
-        along = model.positions[b] - model.positions[a]
-        length = float(np.linalg.norm(along))
+        vector = model.positions[b] - model.positions[a]
+        length = float(np.linalg.norm(vector))
         if length == 0.0:
             raise ModelError(f"{self.key(field)} is {list(ends)}; the two nodes are at one place.")
         row = np.zeros(model.n_dof)
-        row[model.freedoms(b)] = along / length**2
-        row[model.freedoms(a)] = -along / length**2
+        row[model.freedoms(b)] = vector / length**2
+        row[model.freedoms(a)] = -vector / length**2
         return row

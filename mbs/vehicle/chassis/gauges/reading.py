@@ -13,17 +13,17 @@ class Reading:
     """An output of the car that is linear in the displacements of the nodes of its frame."""
 
     quantity: str
-    """First part of the output's name, as "stress"."""
+    """First part of the name of the output, such as "stress"."""
     gauge: str
-    """Second part."""
+    """Name of the gauge, the second part."""
     unit: str
     description: str
     row: np.ndarray
-    """Shape (n_dof,) or that and three a node: per nodal displacement, m and rad, and per acceleration (`recovery`)."""
+    """Factors of nodal displacements, m and rad, shape (n_dof,), or also of nodal accelerations (`recovery`)."""
     between: tuple[str, str] | None = None
-    """Nodes between which the gauge sits; None: it has no one place."""
+    """Nodes between which the gauge lies; None: it has no single position."""
     along: float = 0.5
-    """Place from the first of them to the second, from 0 to 1."""
+    """Relative position from the first of them to the second, 0 to 1."""
 
     @property
     def name(self) -> str:
@@ -32,5 +32,5 @@ class Reading:
 
 
 def in_order(readings: Iterable[Reading]) -> tuple[Reading, ...]:
-    """Forces and moments first, then stresses, each in the order of the file. `readings`: gauge by gauge."""
+    """Sort readings: forces and moments, then stresses, each in the order of the file."""
     return tuple(sorted(readings, key=lambda reading: reading.quantity == STRESS))

@@ -29,7 +29,7 @@ WAYS = {
     "front": (1.0, 0.0, 0.0),
     "rear": (-1.0, 0.0, 0.0),
 }
-ALONG = 0.3  # sine of the angle to a tube below which a direction names no fibre of it
+LEAST_SINE = 0.3  # of the angle between a tube and the direction of a fibre
 
 
 class TubeGauge(Section):
@@ -55,10 +55,10 @@ class TubeGauge(Section):
     def strain_gauge(
         self, name: str, ends: tuple[np.ndarray, np.ndarray], radius: float, elements: range
     ) -> StrainGauge:
-        """The gauge on the elements of its tube.
+        """Make the gauge on the elements of its tube.
 
         `ends`: first and last joint of the tube, m, shape (3,); `radius`: outer radius of the tube, m; `elements`: of
-        the tube, first joint first. Raises `ModelError`: the fibre is named by a direction in which the tube runs.
+        the tube from the first joint on. Raises `ModelError`: the direction of the fibre is that of the tube.
         """
         position = self.place * len(elements)
         number = min(int(position), len(elements) - 1)
@@ -101,13 +101,13 @@ class TubeGauge(Section):
             yield Reading(quantity, name, unit, text, matrix(frame).toarray()[0], ends, gauge.xi)
 
     def _direction(self, axes: np.ndarray) -> tuple[float, float]:
-        """Unit vector (y, z) of the section towards the fibre."""
+        """Unit vector (y, z) from the centre of the section to the fibre."""
         if not isinstance(self.fibre, str):
             angle = math.radians(self.fibre)
             return -math.sin(angle), math.cos(angle)
         _, y, z = axes @ np.array(WAYS[self.fibre])
         norm = math.hypot(y, z)
-        if norm < ALONG:
+        if norm < LEAST_SINE:
             raise ModelError(
                 f"{self.key('fibre')} is '{self.fibre}', but the tube from {self.tube[0]} to {self.tube[1]} runs in "
                 "that direction; name another fibre or its angle."
