@@ -282,7 +282,11 @@ def _equidistant(points: Array, largest_spacing: float) -> Array:
     """
     steps = np.diff(points)
     zero = int(np.argmin(np.abs(points)))
-    if np.ptp(steps) <= SPACING_TOLERANCE * steps.max() and abs(points[zero]) < POINT_TOLERANCE and len(steps) <= MOST_INTERVALS:
+    if (
+        np.ptp(steps) <= SPACING_TOLERANCE * steps.max()
+        and abs(points[zero]) < POINT_TOLERANCE
+        and len(steps) <= MOST_INTERVALS
+    ):
         count = math.ceil(steps.max() / largest_spacing)
         step = steps.mean() / count
         return points if count == 1 else step * np.arange(-zero * count, (len(points) - 1 - zero) * count + 1)
