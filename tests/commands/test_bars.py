@@ -12,7 +12,7 @@ def test_lines_count_each_thing_once_and_become_rarer(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(bars, "DELAY", 0.02)
-    monkeypatch.setattr(bars._Lines, "_apart", 0.02)
+    monkeypatch.setattr(bars._Lines, "_interval", 0.02)
     for _ in bars.bar(range(40), desc="work"):
         time.sleep(0.01)
     lines = capsys.readouterr().err.splitlines()
