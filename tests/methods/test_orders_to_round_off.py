@@ -38,7 +38,7 @@ def reduced_governor(end):
         along = np.array([0.5 * L * c, L - 0.5 * L * s - z])
         length = np.hypot(*along)
         by_a, by_z = along @ [-0.5 * L * s, -0.5 * L * c] / length, -along[1] / length
-        tension = f.STIFFNESS * (length - f.REST) + f.DAMPING * (by_a * ad + by_z * zd)
+        tension = f.STIFFNESS * (length - f.FREE_LENGTH) + f.DAMPING * (by_a * ad + by_z * zd)
         turn = 0.5 * slope * spin**2 - 2.0 * tension * by_a + 2.0 * mass * gravity * d * c
         return [
             ad,
@@ -48,7 +48,7 @@ def reduced_governor(end):
             -2.0 * tension * by_z / cube - gravity,
         ]
 
-    start = [f.DROP, f.SLIDER_HEIGHT, f.SPIN, 0.0, 0.0]
+    start = [f.START_ANGLE, f.SLIDER_HEIGHT, f.SPIN, 0.0, 0.0]
     return solve_ivp(rates, (0.0, end), start, method="Radau", rtol=1e-12, atol=1e-14).y[:, -1]
 
 

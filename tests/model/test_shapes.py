@@ -164,7 +164,7 @@ def test_wrong_values_of_every_kind_are_refused(kind):
     m.shape(arm, kind, **options)
     m.shapes.clear()
     for name in options:
-        needed = name in KINDS[kind].needs
+        needed = name in KINDS[kind].required
         optional = lambda label, value, needed=needed: value is None and not needed  # noqa: E731
         problems = problems_of(lambda value, name=name: m.shape(arm, kind, **(options | {name: value})), name, optional)
         assert problems == []

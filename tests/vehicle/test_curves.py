@@ -107,7 +107,7 @@ def test_compliance_is_that_of_the_forces_in_the_contact(content: dict, folder: 
         Fy += load * np.sin(out["chassis.roll"]) - moved * out["chassis.ay"]
         assert turn == pytest.approx(sign * c_x * Fx + c_y * Fy + c_m * Mz, rel=0.03)
     ends = sum(at[f"rack end F{side}"] - at["rack travel"] for side in "LR")
-    stiffness = car.front.suspension._steer_per_rack(car.front.suspension.of(Side("front", "left", 1.0))) ** 2 / c_m
+    stiffness = car.front.suspension._steer_rate(car.front.suspension.of(Side("front", "left", 1.0))) ** 2 / c_m
     assert out["steering_rack_force"] == pytest.approx(stiffness * ends, rel=1e-3)
 
 

@@ -35,7 +35,7 @@ def test_a_clock_that_goes_leaves_no_file_open() -> None:
     clock = LinuxClock()
     if clock.spent() is None:
         pytest.skip("a kernel without CONFIG_SCHED_INFO")
-    opened = Path(f"/proc/self/fd/{clock._waits}")
+    opened = Path(f"/proc/self/fd/{clock._statistics}")
     assert opened.exists()
     del clock
     gc.collect()
@@ -72,14 +72,14 @@ def test_time_that_others_ran_is_distinguished_from_sleep() -> None:
 
 def test_the_obtained_priority_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     tried = []
-    for name, message in (("_fifo", ""), ("_nice", ""), ("_keep_memory", "")):
+    for name, message in (("_set_fifo", ""), ("_set_nice", ""), ("_lock_memory", "")):
         monkeypatch.setattr(room, name, lambda name=name, message=message: tried.append(name) or message)
     if sys.platform == "win32":
         pytest.skip("the calls of POSIX")
     assert "no priority above the usual" in request_priority()
-    assert tried == ["_fifo", "_nice", "_keep_memory"]
-    monkeypatch.setattr(room, "_nice", lambda: "nice.")
+    assert tried == ["_set_fifo", "_set_nice", "_lock_memory"]
+    monkeypatch.setattr(room, "_set_nice", lambda: "nice.")
     assert request_priority() == "nice."
-    monkeypatch.setattr(room, "_fifo", lambda: "first in, first out.")
-    monkeypatch.setattr(room, "_keep_memory", lambda: "Locked.")
+    monkeypatch.setattr(room, "_set_fifo", lambda: "first in, first out.")
+    monkeypatch.setattr(room, "_lock_memory", lambda: "Locked.")
     assert request_priority() == "first in, first out. Locked."

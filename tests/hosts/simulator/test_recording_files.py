@@ -31,14 +31,14 @@ from pathlib import Path
 from hosts.recordings.recording import Recorder
 recorder = Recorder(Path(sys.argv[1]), ["u", "y"], {}, dict(
     fmu="car.fmu", guid="g", inputs=1, step=0.002, start={}), sys.argv[2])
-recorder._describe()
+recorder._write_description()
 recorder.event(0.0, "told", "begun", epoch=0)
 told = False
 for k in range(10**9):
     recorder.row(k, 0.002 * k, 0, [0.5, k * 1.0])
-    if recorder._written >= 4000 and not told:
+    if recorder._row_count >= 4000 and not told:
         told = True
-        print(recorder._written, flush=True)
+        print(recorder._row_count, flush=True)
 """
 
 
