@@ -125,7 +125,7 @@ export function largestErrors(motion, track, t) {
 
 const identityPose = () => ({ position: new Vector3(), quaternion: new Quaternion(), scale: new Vector3(1, 1, 1) });
 
-/** Sets a pose to that of time `k`. @param {ReturnType<typeof motionless>} pose @param {Motion | Track} motion @param {number} k */
+/** Sets a pose to that of time `k`. @param {ReturnType<typeof identityPose>} pose @param {Motion | Track} motion @param {number} k */
 function setPose(pose, { position, quaternion, scale }, k) {
   pose.position.fromArray(position, 3 * k);
   pose.quaternion.fromArray(quaternion, 4 * k);
@@ -133,5 +133,5 @@ function setPose(pose, { position, quaternion, scale }, k) {
   return pose;
 }
 
-/** Position of a point of a node. @param {Vector3} point @param {ReturnType<typeof motionless>} pose */
+/** Position of a point of a node. @param {Vector3} point @param {ReturnType<typeof identityPose>} pose */
 const transformed = (point, { position, quaternion, scale }) => point.clone().multiply(scale).applyQuaternion(quaternion).add(position);
