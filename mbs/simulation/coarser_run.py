@@ -44,10 +44,13 @@ def coarser_step_factors(
     return [factor for factor in resolved if factor in (resolved[0], 2)]
 
 
-def largest_difference(known: Accuracy, method: str, h: float) -> float:
-    """Estimated difference of a run in steps of `h`, s, from the coarser one it was compared with, over the range."""
-    order, factor = known.order or float(METHOD_TABLE[method].order), (known.compared_step or h) / h
-    return 0.0 if known.error is None else known.error * (factor**order - 1.0)
+def largest_difference(known: Accuracy, method: str, ratio: float) -> float:
+    """Difference of a run from the coarser one by which `known` was estimated, over the range.
+
+    `ratio`: step of the coarser run over that of the run.
+    """
+    order = known.order or float(METHOD_TABLE[method].order)
+    return 0.0 if known.error is None else known.error * (ratio**order - 1.0)
 
 
 def _halved_parts(report: Report | None) -> float:
@@ -72,20 +75,26 @@ class CoarserRuns:
         report = refined.run[0].report
         assert settings is not None
         assert report is not None
-        compared, has_states = refined.compared, len(refined.system.arrays["y0"]) > 0
-        iterations = int(uses_one_iteration(settings, compared, has_states))
+        has_states = len(refined.system.arrays["y0"]) > 0
+        iterations = int(uses_one_iteration(settings, refined.compared, has_states))
         # past a singular position long steps of high order may be right while the run is wrong
         by_order = refined.is_smooth and METHOD_TABLE[settings.method].order <= 2
-        for factor in coarser_step_factors(settings, compared, has_states, refined.unresolved, report):
+        for factor in coarser_step_factors(settings, refined.compared, has_states, refined.unresolved, report):
             limit = CLEAR * (factor - 1) if by_order else CLEAR
-            estimate = self.run(factor, iterations, limit)
-            if estimate is not None and largest_difference(estimate, settings.method, refined.h) <= limit:
+            compared = self.run(factor, iterations, limit)
+            if compared is None:
+                continue
+            estimate, ratio = compared
+            if largest_difference(estimate, settings.method, ratio) <= limit:
                 order = METHOD_TABLE[settings.method].order
                 return refined.at_least(estimate, accuracy.energy_drift(report)) if order > 2 else estimate
         return None
 
-    def run(self, factor: int, iterations: int, limit: float) -> Accuracy | None:
-        """Accuracy by a run with steps about `factor` times as long.
+    def run(self, factor: int, iterations: int, limit: float) -> tuple[Accuracy, float] | None:
+        """Accuracy by a run with steps about `factor` times as long, and the ratio of both steps.
+
+        The estimate counts the steps that were made; the ratio is no smaller than that of the steps before halvings,
+        so that a run that is halved almost to the same steps has to be nearer.
 
         None if the steps are too few or were halved to those of the first run, the run fails or ends at another time,
         or a sensor differs by more than `limit` of its range. `iterations`: largest number of Newton iterations per
@@ -118,7 +127,7 @@ class CoarserRuns:
         shared = min(len(run[0].t), len(other[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):
             return None
-        return refined.estimate(run, other, h, 1.0 / made_ratio)
+        return refined.estimate(run, other, h, 1.0 / made_ratio), max(made_ratio, step_ratio)
 
     def _halved_parts(self, samples: int) -> float:
         """Mean number of parts into which the first run halved a step, up to a number of samples."""

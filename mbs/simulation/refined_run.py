@@ -205,7 +205,7 @@ class RefinedRuns:
                 self.known = verdict
             if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
                 break
-        if parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
+        if not self.divisor and parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
             _, differences_of_last = self._differences(self._refined[parts // 2], self._refined[parts])
             sensors = {name: error + differences_of_last.get(name, 0.0) for name, error in verdict.sensors.items()}
             units = dict[str, float]()
@@ -265,7 +265,7 @@ class RefinedRuns:
         return [(self.h / n, gaps[n] + remainder) for n in sorted(self._refined)]
 
     def at_least(self, known: Accuracy, error: float) -> Accuracy:
-        """`known` with no smaller errors than `error` of the range, as the energy shows it of a method of high order.
+        """`known` with no smaller errors than `error` of the range, as the energy shows it of Runge-Kutta methods.
 
         Past a singular position such a method loses its order, by which a difference from a coarser run is scaled.
         """

@@ -33,7 +33,7 @@ def test_long_steps_that_are_solved_to_the_end_would_hide_it() -> None:
 @pytest.mark.parametrize("h", [0.1, 0.05])
 def test_a_coarser_run_that_is_halved_to_the_same_steps_says_nothing(h: float) -> None:
     """A flyball governor by energy-momentum, 9 % off: steps twice as long are halved to those of the run."""
-    with pytest.warns(mbs.AccuracyWarning, match="off by about 9"):
+    with pytest.warns(mbs.AccuracyWarning, match=r"off by about 9(\.\d)? %"):
         run = mbs.simulate(
             system_of("flyball"), 10.0, h, method="energy_momentum", every=round(0.2 / h), progress=False
         )
@@ -55,7 +55,7 @@ def test_an_estimate_of_high_order_is_at_least_what_the_energy_shows() -> None:
 def test_the_difference_is_that_of_the_steps_that_were_made() -> None:
     """Of five steps between two samples twice the step makes two."""
     known = Accuracy(None, None, 0.0, compared_step=0.25, order=2.0, units={"m": 0.0066})
-    assert largest_difference(known, "ali3p", 0.1) == pytest.approx(0.0066 * (2.5**2 - 1.0))
+    assert largest_difference(known, "ali3p", 2.5) == pytest.approx(0.0066 * (2.5**2 - 1.0))
 
 
 @pytest.mark.parametrize(

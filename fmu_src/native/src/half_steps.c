@@ -1,5 +1,6 @@
 /* Error estimate by a second motion. After an abrupt change of a force of a tyre, a contact or a spring with end stops,
- * and after a start in long steps, the motion is computed again with 1/2 of a short step up to 1/8 of a long one, until
+ * and after a start in long steps, the motion is computed again with 1/2 of a short step up to 1/8 of a long one, and at
+ * most half of the parts into which it was halved, until
  * both motions agree for 0.5 s or the budget is spent; the difference of their outputs estimates the error of the step.
  * Without a road the growth of the error is extrapolated. There is no second motion in runs without abrupt forces, or
  * after a warning. It is a snapshot of the same instance; late steps are those that it has not computed yet: expensive
@@ -151,15 +152,17 @@ void slave_half_steps_free(slave *s) {
 /* Whether there is a road. Without one errors are of order two, and also grow without abrupt forces. */
 static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system) > 0; }
 
-/* Number of parts into which the second motion divides a step of h. */
-static int64_t parts(const slave *s, double h) {
+/* Number of parts into which the second motion divides a step of h that was not halved. */
+static int64_t nominal_parts(const slave *s, double h) {
   int64_t n = 2;
   while (has_road(s) && n < ALI3_MOST_PARTS && h / (double)n > SHORT) n *= 2;
   return n;
 }
 
 /* Duration of the second motion after a start, s, which costs as much as BUDGET in ALI3_MOST_PARTS parts. */
-static double start_span(const slave *s, double h) { return BUDGET * (double)ALI3_MOST_PARTS / (double)parts(s, h); }
+static double start_span(const slave *s, double h) {
+  return BUDGET * (double)ALI3_MOST_PARTS / (double)nominal_parts(s, h);
+}
 
 /* One inner step of the second motion, which the kernel has, in the first late step. A step with slopes is never late,
  * so that the present slopes are its own. */
@@ -285,11 +288,12 @@ static void run_second(slave *s, size_t most, int64_t made, int64_t room) {
 }
 
 /* Appends the communication step to the late steps. `span`: s for which the second motion runs after an abrupt force;
- * 0: there was none. `halvings`: of its inner steps; the second motion makes at most half of what they left. */
+ * 0: there was none. `halvings`: of its inner steps; the parts of the second motion are at most half as long as the mean
+ * part of the first one. */
 static void store_late_step(slave *s, double now, double span, int64_t halvings) {
   slave_half_steps *t = &s->half_steps;
   const double made = 1.0 + (double)halvings / (double)s->completed.n;
-  const int64_t n_parts = (int64_t)fmax((double)parts(s, s->completed.h), 2.0 * ceil(made));
+  const int64_t n_parts = (int64_t)fmax((double)nominal_parts(s, s->completed.h), ceil(2.0 * made - 1e-9));
   const double begin = now - (double)s->completed.n * s->completed.h;
   const bool starts =
       span > 0.0 && !(begin < t->scheduled - 0.5 * (now - begin)); /* times of both motions differ by round-off */
@@ -387,7 +391,7 @@ slave_status slave_half_steps_advance(slave *s) {
   t->simulated += length;
   if (abrupt && !allocate(s)) return SLAVE_OK;
   if (t->end != NULL && (abrupt || t->remaining > 0.0 || t->n_late > 0)) {
-    const bool waits = parts(s, s->completed.h) == 2 && !s->completed.sloped;
+    const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
     store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0, halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->completed.n);
   }

@@ -146,7 +146,7 @@ typedef struct { /* a communication step that the second motion has not computed
   bool sloped, starts; /* inputs have slopes; the second motion may start here from `start` */
 } slave_late_step;
 
-typedef struct { /* the second motion, with half the step, see half_steps.c */
+typedef struct { /* the second motion, with at most half the step, see half_steps.c */
   void *end, *second, *start; /* snapshots: the first motion after the step, the second motion, its next start;
                                  NULL: not needed yet */
   double *input; /* work: nu */
@@ -163,8 +163,8 @@ typedef struct { /* the second motion, with half the step, see half_steps.c */
   int64_t iterations, cost; /* of the first motion so far; of the last inner step of the second motion */
   double remaining, spent, simulated; /* s: still to run by the second motion, 0: it rests; run by it; by the first */
   double difference, time; /* largest unreported relative difference; its time, s */
-  double h, ratio; /* there: inner step, s; as in slave_late_step */
-  int64_t parts; /* the same */
+  double h, ratio; /* inner step, s, and ratio of the late step with `difference` */
+  int64_t parts; /* of that step in the second motion */
   double origin; /* s: `simulated` when the state was last set */
   double early_difference, late_difference; /* largest in the second quarter of a start, and after it; relative */
   double checked, predicted; /* s: end of the comparison of a start; time at which the growing error is large */
