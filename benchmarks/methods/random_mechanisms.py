@@ -41,7 +41,7 @@ def model_of(d: Mechanism, rates: bool = False) -> mbs.Model:
     for i, j in enumerate(d.joints):
         first, second, name = body_of[j.first], body_of[j.second], f"j{i}"
         if j.kind == "pin":
-            m.pin(name, first, j.point, on=j.held[0] <= 0.0)
+            m.pin(name, first, j.point, on=j.closed[0] <= 0.0)
         elif j.kind == "line":
             m.point_on_line(name, (first, j.point), (m.ground, j.point), axis=j.axis)
         elif j.kind == "ball" or d.dimension == 2:
