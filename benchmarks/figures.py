@@ -62,7 +62,7 @@ def puma_table() -> list[RemadeTable]:
     """Errors of the PUMA with the default and the two most accurate methods: the paper's Table 2."""
     system = mbs.compile(puma_scene.build())
     runs = [(method, h) for method in ("ali3p", "energy_momentum_4", "radau_5") for h in (0.1, 0.05, 0.01)]
-    text = puma.puma_blocks([puma.measure(system, method, h, 1) for method, h in runs])["table 2"]
+    text = puma.puma_blocks([puma.measure(system, method, h) for method, h in runs])["table 2"]
     return [RemadeTable(PAPER, text, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
 
 
