@@ -120,9 +120,14 @@ def missed_share(report: Report, method: str) -> float:
     return missed / total if total > 0.0 else 0.0
 
 
+def mean_parts(steps: float, halvings: float) -> float:
+    """Mean number of parts into which steps were halved."""
+    return 1.0 + halvings / max(steps, 1)
+
+
 def step_divisor(steps: int, halvings: int) -> int:
     """Divisor of the step for a refined run with half of the mean step that was made."""
-    return max(2, math.ceil(2.0 * (1.0 + halvings / max(steps, 1)) - 1e-9))
+    return max(2, math.ceil(2.0 * mean_parts(steps, halvings) - 1e-9))
 
 
 def sampling_interval(every: int, steps: int) -> int:

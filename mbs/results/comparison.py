@@ -281,11 +281,20 @@ def differences(
     comparison.widen(
         {name: missed_load(coarse[name], fine[name]) for name, quantity in compared.items() if quantity.load}
     )
-    sizes, units = comparison.sizes(), dict[str, float]()
+    sizes = comparison.sizes()
     gaps = {name: gap for name, gap in comparison.gaps.items() if name in sizes}
-    for name, size in sizes.items():
-        units[compared[name].unit] = max(gaps[name] / size, units.get(compared[name].unit, 0.0))
-    return units, gaps, sizes
+    return errors_by_unit(gaps, sizes, compared), gaps, sizes
+
+
+def errors_by_unit(
+    errors: Mapping[str, float], sizes: Mapping[str, float], compared: Mapping[str, Compared]
+) -> dict[str, float]:
+    """Largest error over its size, per unit, of errors of sensors by name."""
+    units = dict[str, float]()
+    for name, error in errors.items():
+        unit = compared[name].unit
+        units[unit] = max(error / sizes[name], units.get(unit, 0.0))
+    return units
 
 
 def missed_load(one: Array, other: Array) -> float:

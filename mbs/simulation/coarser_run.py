@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED
 from mbs.results import accuracy
-from mbs.results.accuracy import CLEAR, Accuracy, missed_share
+from mbs.results.accuracy import CLEAR, Accuracy, mean_parts, missed_share
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, needs_two_motions
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
@@ -51,12 +51,6 @@ def largest_difference(known: Accuracy, method: str, ratio: float) -> float:
     """
     order = known.order or float(METHOD_TABLE[method].order)
     return 0.0 if known.error is None else known.error * (ratio**order - 1.0)
-
-
-def _halved_parts(report: Report | None) -> float:
-    """Mean number of parts into which a run halved a step."""
-    assert report is not None
-    return 1.0 + report.halvings / max(report.steps, 1)
 
 
 class TooFarError(Exception):
@@ -119,7 +113,10 @@ class CoarserRuns:
             other = refined.rerun(h, steps, 1.0 / step_ratio, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
             return None
-        made_ratio = step_ratio * self._halved_parts(stride * (len(other[0].t) - 1)) / _halved_parts(other[0].report)
+        made = other[0].report
+        assert made is not None
+        parts = self._mean_parts(stride * (len(other[0].t) - 1))
+        made_ratio = step_ratio * parts / mean_parts(made.steps, made.halvings)
         if made_ratio <= 1.0:
             return None
         if len(other[0].t) >= smooth_from:
@@ -129,12 +126,14 @@ class CoarserRuns:
             return None
         return refined.estimate(run, other, h, 1.0 / made_ratio), max(made_ratio, step_ratio)
 
-    def _halved_parts(self, samples: int) -> float:
-        """Mean number of parts into which the first run halved a step, up to a number of samples."""
+    def _mean_parts(self, samples: int) -> float:
+        """Mean number of parts into which the first run halved its steps, up to a number of samples."""
         for recorded_samples, counters in self.refined.path:
             if recorded_samples >= samples:
-                return 1.0 + counters["halvings"] / max(counters["steps"], 1.0)
-        return _halved_parts(self.refined.run[0].report)
+                return mean_parts(counters["steps"], counters["halvings"])
+        report = self.refined.run[0].report
+        assert report is not None
+        return mean_parts(report.steps, report.halvings)
 
     @property
     def _smooth_from(self) -> float:

@@ -17,6 +17,7 @@ from mbs.results.comparison import (
     Comparison,
     compared_sensors,
     differences,
+    errors_by_unit,
     instants,
     select_compared,
     shows_motion,
@@ -208,11 +209,7 @@ class RefinedRuns:
         if not self.divisor and parts == MOST_PARTS * self.parts and self._is_unsure(verdict, parts):
             _, differences_of_last = self._differences(self._refined[parts // 2], self._refined[parts])
             sensors = {name: error + differences_of_last.get(name, 0.0) for name, error in verdict.sensors.items()}
-            units = dict[str, float]()
-            for name, error in sensors.items():
-                unit = self.compared[name].unit
-                units[unit] = max(units.get(unit, 0.0), error / self._sizes[name])
-            verdict = replace(verdict, units=units, sensors=sensors)
+            verdict = replace(verdict, units=errors_by_unit(sensors, self._sizes, self.compared), sensors=sensors)
         return replace(verdict, check_cost=self.cost)
 
     def _is_unsure(self, known: Accuracy, parts: int) -> bool:
