@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
-from benchmarks.car.scene_instructions import counter
+from benchmarks.car.scene_instructions import instructions
 
 _ARITHMETIC = re.compile(
     r"^\s*([0-9a-f]+):\s+v?(?:add|sub|mul|div|sqrt|min|max|addsub|hadd|(fn?m(?:add|sub)\d{3}))(sd|pd)\s+(\S.*)$", re.M
@@ -27,19 +27,15 @@ def executed(command: Sequence[str]) -> tuple[int | None, int | None]:
     Operations are sums, differences, products, quotients, square roots and extrema of doubles, one for each number of a
     vector, those of the C library too. They are None without objdump and 0 on other processors than x86-64.
     """
-    valgrind = counter()
-    if valgrind is None:
-        return None, None
+    if disassembler() is None:
+        return instructions(command), None
     with tempfile.TemporaryDirectory() as folder:
         profile = Path(folder, "profile")
-        options = ("--tool=callgrind", "--dump-instr=yes", "--compress-pos=no", "--compress-strings=no")
-        run = [valgrind, *options, f"--callgrind-out-file={profile}", *command]
-        subprocess.run(run, capture_output=True, text=True, check=True)
-        lines = [*_executions(profile.read_text(encoding="utf-8"))]
-    instructions = sum(count for _, _, count in lines)
-    if disassembler() is None:
-        return instructions, None
-    return instructions, sum(count * _numbers(binary).get(address, 0) for binary, address, count in lines)
+        total = instructions(command, profile, ("--dump-instr=yes", "--compress-pos=no", "--compress-strings=no"))
+        if total is None:
+            return None, None
+        executions = _executions(profile.read_text(encoding="utf-8"))
+        return total, sum(count * _numbers(binary).get(address, 0) for binary, address, count in executions)
 
 
 def _executions(profile: str) -> Iterator[tuple[str, int, int]]:

@@ -30,16 +30,18 @@ def counter() -> str | None:
     return shutil.which("valgrind")
 
 
-def instructions(command: Sequence[str]) -> int | None:
+def instructions(command: Sequence[str], profile: Path = Path("/dev/null"), options: Sequence[str] = ()) -> int | None:
     """Instructions of a program, the same on a busy machine and on an idle one; None without valgrind.
+
+    `profile`: file that callgrind writes; `options`: of callgrind.
 
     Raises `RuntimeError`: valgrind did not say how many.
     """
     valgrind = counter()
     if valgrind is None:
         return None
-    options = ("--tool=callgrind", "--callgrind-out-file=/dev/null")
-    process = subprocess.run([valgrind, *options, *command], capture_output=True, text=True, check=True)
+    run = [valgrind, "--tool=callgrind", f"--callgrind-out-file={profile}", *options, *command]
+    process = subprocess.run(run, capture_output=True, text=True, check=True)
     result = _COLLECTED.search(process.stderr)
     if result is None:
         raise RuntimeError(f"{valgrind} did not say how many instructions it has counted.")
