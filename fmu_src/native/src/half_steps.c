@@ -1,10 +1,9 @@
 /* Error estimate by a second motion. After an abrupt change of a force of a tyre, a contact or a spring with end stops,
  * and after a start in long steps, the motion is computed again with 1/2 of a short step up to 1/8 of a long one, and at
- * most half of the parts into which it was halved, until
- * both motions agree for 0.5 s or the budget is spent; the difference of their outputs estimates the error of the step.
- * Without a road the growth of the error is extrapolated. There is no second motion in runs without abrupt forces, or
- * after a warning. It is a snapshot of the same instance; late steps are those that it has not computed yet: expensive
- * ones are left to calls with fewer iterations. */
+ * most half of the mean part of a halved one, until both motions agree for 0.5 s or the budget is spent; the difference
+ * of their outputs estimates the error of the step. Without a road the growth of the error is extrapolated. There is no
+ * second motion in runs without abrupt forces, or after a warning. It is a snapshot of the same instance; late steps are
+ * those that it has not computed yet: expensive ones are left to calls with fewer iterations. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
