@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from ali3.isolated_processes import Lost
 from ali3.temporary_folder import temporary_folder
 
 _ONE_STORE = Lock()
@@ -22,6 +23,7 @@ class NoProcess:
 
     def __init__(self, work: Callable[[Any, Any], Any], *_: object, **options: object) -> None:
         self._work: Any = pickle.loads(pickle.dumps(work))
+        self._closed = False
 
     def do(
         self,
@@ -33,14 +35,18 @@ class NoProcess:
     ) -> object:
         """See `Isolated.do`."""
         with _ONE_STORE, temporary_folder() as folder, pytest.MonkeyPatch.context() as patch:
+            if self._closed:
+                return Lost("was ended")
             store = folder / "rows"
             patch.setattr("ali3.processes._store", store)
             return finish(self._work(task, tell), store)
 
     def close(self) -> None:
-        """Free the FMU of a study."""
-        if hasattr(self._work, "close"):
-            self._work.close()
+        """Free the FMU of a study, behind the run that a process would be ended in."""
+        with _ONE_STORE:
+            self._closed = True
+            if hasattr(self._work, "close"):
+                self._work.close()
 
 
 @contextmanager
