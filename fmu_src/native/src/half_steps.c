@@ -10,18 +10,23 @@
 
 #include "slave.h"
 
-static const double SPAN = 0.5; /* s after an abrupt step or a difference: five periods of a wheel, or a landing */
+/* s after an abrupt step or a difference, times `stretch`: five periods of a wheel, or a landing */
+static const double SPAN = 0.5;
 /* Limits of the second motion: s from a start on in ALI3_MOST_PARTS parts; after it s, plus a share of the simulated
- * time. */
+ * time; s times `stretch`. */
 static const double BUDGET = 2.0, SHARE = 0.1;
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre */
 /* Iterations of both motions in an inner step of up to 2 SHORT; the second motion is delayed where it needs more. */
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* late steps */
 
+/* Factor on durations of the second motion with steps of h: longer steps than ALI3_MOST_PARTS of SHORT are not those of
+ * a wheel, and as many of them are computed again as of these. */
+static double stretch(double h) { return fmax(1.0, h / ((double)ALI3_MOST_PARTS * SHORT)); }
+
 /* Whether the second motion has used its budget up to a step. */
 static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->spent > BUDGET + SHARE * step->simulated;
+  return t->spent > BUDGET * stretch(step->h) + SHARE * step->simulated;
 }
 
 /* Richardson extrapolation: error of a motion from its difference to one with 1/n of the step, for order two as of
@@ -160,7 +165,7 @@ static int64_t nominal_parts(const slave *s, double h) {
 
 /* Duration of the second motion after a start, s, which costs as much as BUDGET in ALI3_MOST_PARTS parts. */
 static double start_span(const slave *s, double h) {
-  return BUDGET * (double)ALI3_MOST_PARTS / (double)nominal_parts(s, h);
+  return BUDGET * stretch(h) * (double)ALI3_MOST_PARTS / (double)nominal_parts(s, h);
 }
 
 /* One inner step of the second motion, which the kernel has, in the first late step. A step with slopes is never late,
@@ -240,7 +245,7 @@ static void compare(slave *s, const slave_late_step *step) {
   }
   t->remaining -= length;
   if (disagree(difference) && !budget_is_spent(t, step))
-    t->remaining = fmax(t->remaining, SPAN); /* it may still grow, as with a spinning wheel */
+    t->remaining = fmax(t->remaining, SPAN * stretch(step->h)); /* it may still grow, as with a spinning wheel */
   t->spent += length;
   if (!(t->remaining > 0.0)) conclude(s, step, difference);
 }
@@ -359,7 +364,8 @@ static slave_status report_prediction(slave *s, double now) {
 /* Logs a difference after SPAN, or at the end of the run, and a prediction at its time. */
 static slave_status report_motion(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  const slave_status judged = t->difference > 0.0 && (ended || now > t->time + SPAN) ? report_difference(s) : SLAVE_OK;
+  const slave_status judged =
+      t->difference > 0.0 && (ended || now > t->time + SPAN * stretch(t->h)) ? report_difference(s) : SLAVE_OK;
   return s->event_said || now < t->predicted ? judged : report_prediction(s, now);
 }
 
@@ -391,7 +397,8 @@ slave_status slave_half_steps_advance(slave *s) {
   if (abrupt && !allocate(s)) return SLAVE_OK;
   if (t->end != NULL && (abrupt || t->remaining > 0.0 || t->n_late > 0)) {
     const bool waits = (nominal_parts(s, s->completed.h) == 2 || halvings > 0) && !s->completed.sloped;
-    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN) : 0.0, halvings);
+    store_late_step(s, now, abrupt ? (at_start ? start_span(s, s->completed.h) : SPAN * stretch(s->completed.h)) : 0.0,
+                    halvings);
     run_second(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->completed.n);
   }
   return report_motion(s, now, false);

@@ -216,5 +216,6 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_contact_points = {
-    ALI3_CONTACT_POINTS, .evaluate = evaluate, .discrete = discrete, .depth = depth, .check = check,
+    ALI3_CONTACT_POINTS,  .evaluate = evaluate, .discrete = discrete, .depth = depth,
+    .first_force = FORCE, .n_forces = 3,        .check = check,
 };

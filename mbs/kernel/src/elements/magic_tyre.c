@@ -234,6 +234,8 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_magic_tyre = {
-    ALI3_MAGIC_TYRE,          .evaluate = evaluate, .start = ali3_tyre_start, .start_words = ALI3_TYRE_START_WORDS,
-    .depth = ali3_tyre_depth, .check = check,
+    ALI3_MAGIC_TYRE,          .evaluate = evaluate,
+    .start = ali3_tyre_start, .start_words = ALI3_TYRE_START_WORDS,
+    .depth = ali3_tyre_depth, .n_forces = ALI3_TYRE_FORCES,
+    .check = check,
 };

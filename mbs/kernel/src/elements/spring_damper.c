@@ -58,7 +58,7 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_spring_damper = {
-    ALI3_SPRING_DAMPER, .evaluate = evaluate, .discrete = discrete, .conservative = true,
-    .lossy = lossy,     .stops = stops,       .event = event,       .check = check,
+    ALI3_SPRING_DAMPER, .evaluate = evaluate, .discrete = discrete, .conservative = true, .lossy = lossy,
+    .stops = stops,     .first_force = 1,     .n_forces = 1,        .event = event,       .check = check,
 };
 #endif

@@ -118,6 +118,6 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_spring_damper_table = {
-    ALI3_SPRING_DAMPER_TABLE, .evaluate = evaluate, .discrete = discrete, .conservative = true,
-    .lossy = lossy,           .stops = stops,       .check = check,
+    ALI3_SPRING_DAMPER_TABLE, .evaluate = evaluate, .discrete = discrete, .conservative = true, .lossy = lossy,
+    .stops = stops,           .first_force = 1,     .n_forces = 1,        .check = check,
 };

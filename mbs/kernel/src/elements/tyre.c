@@ -212,6 +212,7 @@ const ali3_element_type ali3_tyre = {
     .start = ali3_tyre_start,
     .start_words = ALI3_TYRE_START_WORDS,
     .depth = ali3_tyre_depth,
+    .n_forces = ALI3_TYRE_FORCES,
     .check = check,
 };
 #endif

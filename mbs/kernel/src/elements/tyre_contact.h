@@ -12,6 +12,8 @@
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
 #define ALI3_TYRE_NO_GRIP 1e-6 /* friction ratio below which the horizontal forces are 0 */
 
+enum { ALI3_TYRE_LOAD = 2, ALI3_TYRE_FORCES }; /* output that is the load, and number of forces, the first outputs */
+
 /* Bits of the active pieces of a tyre's force law; those of the second contact are shifted by
  * ALI3_TYRE_CONTACT_BITS. */
 enum {

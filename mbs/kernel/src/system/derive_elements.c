@@ -67,17 +67,14 @@ static void derive_element(ali3_system *s, int32_t e) {
 
 /* Range of the outputs of an element that are forces of a contact or a stop. */
 static ali3_contact_forces_of contact_of(const ali3_system *s, int32_t e) {
-  /* output of a tyre; number of the first outputs that are forces, of elements on roads */
-  enum { LOAD = 2, OF_A_TYRE = 3 };
   const ali3_element_type *kind = s->el_kind[e];
-  const int32_t out = s->el_out_ptr[e], n_out = s->el_out_ptr[e + 1] - out;
-  const bool tyre = kind->depth == ali3_tyre_depth, stop = kind->stops;
-  const int32_t first = out + (stop ? 1 : 0), n = stop ? 1 : n_out < OF_A_TYRE ? n_out : OF_A_TYRE;
+  const int32_t first = s->el_out_ptr[e] + kind->first_force;
+  const bool tyre = kind->depth == ali3_tyre_depth;
   return (ali3_contact_forces_of){.element = e,
                                   .first = first,
-                                  .n = n,
-                                  .judged = tyre ? out + LOAD : first,
-                                  .n_judged = tyre ? 1 : n,
+                                  .n = kind->n_forces,
+                                  .judged = tyre ? first + ALI3_TYRE_LOAD : first,
+                                  .n_judged = tyre ? 1 : kind->n_forces,
                                   .tyre = tyre,
                                   .touches = kind->depth != NULL};
 }
@@ -97,7 +94,7 @@ void ali3_elements_derive(ali3_system *s) {
                                         .integer = s->el_int_ptr[e],
                                         .state = s->el_state_ptr[e],
                                         .out = s->el_out_ptr[e]};
-    if (s->el_kind[e]->depth != NULL || s->el_kind[e]->stops) s->contact[s->n_contact++] = contact_of(s, e);
+    if (s->el_kind[e]->n_forces > 0) s->contact[s->n_contact++] = contact_of(s, e);
     s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
     derive_element(s, e);
   }
