@@ -158,6 +158,22 @@ def double_pendulum_rates() -> mbs.Model:
     return double_pendulum("double_pendulum_rates", 1)
 
 
+def slow_stops() -> mbs.Model:
+    """Two masses of a kilogram between springs with stops, on a line; a period takes minutes."""
+    m = mbs.Model("slow_stops", dimension=2, gravity=(0.0, -9.81e-6))
+    m.step, m.stop_time = 6.0, 6000.0
+    masses = [m.point_mass(f"mass {k}", mass=1.0 + k, position=(0.0, -1.0 - k)) for k in range(2)]
+    stops = EndStops(0.8, 0.03, 1.3, 0.03, bump_loss=300.0, rebound_loss=300.0)
+    ends = [(m.ground, (0.0, 0.0)), *masses]
+    for k, (length, stiffness) in enumerate(((1.1, 3e-5), (1.0, 1e-4))):
+        m.point_on_line(f"line {k}", (masses[k], None), (m.ground, (0.0, 0.0)), axis=(0.0, 1.0))
+        m.spring_damper(
+            f"spring {k}", ends[k], ends[k + 1], stiffness=stiffness, damping=2e-4, free_length=length, stops=stops
+        )
+        m.sense_position(f"y{k}", masses[k], None, "y")
+    return m
+
+
 def double_pendulum_accelerations() -> mbs.Model:
     """The same with no output that is compared."""
     return double_pendulum("double_pendulum_accelerations", 2)

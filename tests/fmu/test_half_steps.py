@@ -266,6 +266,21 @@ def test_steps_that_are_all_halved_are_compared_with_half_of_their_halves(
     assert float(re.search(r"([\d.]+) %", warning)[1]) == pytest.approx(24.0, abs=2.0)
 
 
+def test_steps_of_seconds_are_compared_as_often_as_short_ones(build: Callable[..., Path], host: HostMaker) -> None:
+    """Of 600 steps of 6 s; stops are met from the 60th on."""
+    rows, warnings = [], []
+    for step in (0.1, 6.0):
+        driven = host(build("slow_stops")).start({"step_size": step})
+        for k in range(600):
+            driven.step(k * 6.0, 6.0)
+            rows.append([driven.get(f"y{i}") for i in range(2)])
+        driven.slave.terminate()
+        warnings.append([m for m in driven.messages if WORDS in m])
+    fine, coarse = np.split(np.array(rows), 2)
+    assert np.abs(coarse - fine).max() > 0.05 * np.ptp(fine, axis=0).max()
+    assert [len(w) for w in warnings] == [0, 1]
+
+
 def test_short_steps_of_a_motion_that_parts_late_are_reported(build: Callable[..., Path], host: HostMaker) -> None:
     """The double pendulum is right for 2 s, and off by a quarter after 3 s."""
     tips, warnings = [], []

@@ -221,3 +221,29 @@ def test_energy_momentum_keeps_energy_on_the_edge_of_a_kerb():
     assert r["fx"].min() < -5.0
     assert r["fz"].max() > 10.0
     assert np.abs(r["energy"] - r["energy"][0]).max() < 1e-8 * r["energy"][0]
+
+
+def test_steps_of_a_similar_box_of_a_microgram_are_divided_alike():
+    """A box that slides and tumbles: changes of forces count, and not that of the number of points that touch."""
+
+    def tumble(mass):
+        m = mbs.Model("box", gravity=(0.0, 0.0, -G))
+        body = m.body("box", mass=mass, com=(0.0, 0.0, 1.0), inertia=mass * np.array([0.1, 0.15, 0.2]))
+        corners = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.4, 0.4) for z in (0.7, 1.3)]
+        contact = ContactPoints(stiffness=2e3 * mass, stick_stiffness=2e3 * mass, stick_damping=50.0 * mass, loss=0.3)
+        m.contact_points("corners", body, corners, road=m.road(PlaneRoad(friction=MU)), contact=contact)
+        m.initial_velocity(body, linear=(3.0, 0.5, 0.0), angular=(1.0, 2.0, 0.5))
+        for c in "xyz":
+            m.sense_position(c, body, None, c)
+        r = run(mbs.compile(m), 0.8, 0.02)
+        return r.report.divisions, np.array([r[c] for c in "xyz"])
+
+    (divisions, positions), (small_divisions, small_positions) = tumble(1.0), tumble(1e-6)
+    assert 0 < small_divisions == divisions
+    assert small_positions == pytest.approx(positions, abs=1e-6)
+
+
+@pytest.mark.parametrize("speed", [(0.5, 0.0, 0.0), (0.0, 0.5, 0.0)])
+def test_steps_in_which_friction_lets_go_are_divided_in_each_direction(speed):
+    r = run(block(PlaneRoad(friction=MU), speed, -0.002), 0.3, 0.01)
+    assert r.report.divisions > 0
