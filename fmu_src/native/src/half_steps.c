@@ -20,9 +20,9 @@ static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* late steps */
 
-/* Factor on durations of the second motion with steps of h: longer steps than ALI3_MOST_PARTS of SHORT are not those of
- * a wheel, and as many of them are computed again as of these. */
-static double stretch(double h) { return fmax(1.0, h / ((double)ALI3_MOST_PARTS * SHORT)); }
+/* Factor on durations of the second motion with steps of h: above ALI3_MOST_PARTS of 2 SHORT the motion is slower than a
+ * wheel, and as many steps are computed again as of that length. */
+static double stretch(double h) { return fmax(1.0, h / (2.0 * (double)ALI3_MOST_PARTS * SHORT)); }
 
 /* Whether the second motion has used its budget up to a step. */
 static bool budget_is_spent(const slave_half_steps *t, const slave_late_step *step) {
