@@ -192,9 +192,8 @@ static bool begin_late_step(slave *s, const slave_late_step *step) {
   if (step->span > 0.0 && !budget_is_spent(t, step) && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
     t->remaining = fmax(t->remaining, step->span);
-  } else if (step->span > 0.0) {
-    log_unchecked(s, step->end,
-                  budget_is_spent(t, step) ? "the time of the second motion is spent" : "one of them failed");
+  } else if (step->span > 0.0 && budget_is_spent(t, step)) {
+    log_unchecked(s, step->end, "the time of the second motion is spent");
   }
   return t->remaining > 0.0;
 }
@@ -260,10 +259,12 @@ static int64_t advance_second(slave *s) {
     const bool good = make_inner_step(s, step) == ALI3_OK;
     cost = report_of(s).iterations - before;
     if (good && t->n_made < step->parts * step->n) return cost;
-    if (good)
+    if (good) {
       compare(s, step);
-    else
+    } else {
       t->remaining = 0.0;
+      log_unchecked(s, step->end, "a step of it failed");
+    }
   }
   t->n_made = 0;
   t->first = (t->first + 1) % MOST_LATE;
