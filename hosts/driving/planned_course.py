@@ -26,7 +26,7 @@ SMOOTHNESS = 0.01  # weight of the sum of all changes: it settles what the large
 class PlannedCourse(Course):
     """A course with a line of its own."""
 
-    line: Callable[[float], tuple[float, float, float]] = lambda x: (0.0, 0.0, 0.0)
+    line: Callable[[float], tuple[float, float, float]]
     """Of x in m to y in m, slope and second derivative."""
 
     def path(self, x: float) -> tuple[float, float, float]:

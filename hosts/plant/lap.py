@@ -9,9 +9,9 @@ from gymnasium import spaces
 from hosts.common.arguments import positive
 from hosts.common.errors import HostError
 from hosts.common.world_files import make_world
-from hosts.driving.course import Course
 from hosts.driving.driver import CONSTANTS
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.driving.planned_course import PlannedCourse
 from hosts.plant.car import Car
 from hosts.plant.environments import Floats, LaneEnvironment, two_numbers
 from hosts.plant.lane import Lane
@@ -105,18 +105,6 @@ class ProvingGroundLap(LaneEnvironment):
         return observation, reward, bool(lap or out or refused), self._steps >= self._most, info
 
 
-class _Straightened(Course):
-    """A lane by its way: what a driver of courses sees of it."""
-
-    def __init__(self, lane: Lane) -> None:
-        super().__init__("lane", ())
-        object.__setattr__(self, "lane", lane)
-
-    def path(self, x: float) -> tuple[float, float, float]:
-        """See `hosts.driving.course.Course.path`: always in its middle."""
-        return 0.0, 0.0, float(self.lane.curvature(x))  # type: ignore[attr-defined]
-
-
 class LapDriver:
     """The driver of the manoeuvres, who holds a speed, on the lane of an environment.
 
@@ -138,8 +126,11 @@ class LapDriver:
         if missing := [name for name in CONSTANTS.values() if name not in constants]:
             raise HostError(f"The driver needs constants that the car does not provide: {', '.join(missing)}.")
         dimensions = {name: constants[constant] for name, constant in CONSTANTS.items()}
-        self.environment, driver_speed = environment, positive(speed, "The speed of the driver", "m/s")
-        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=driver_speed, **dimensions))
+        self.environment, lane = environment, environment.lane
+        settings = DriverSettings(speed=positive(speed, "The speed of the driver", "m/s"), **dimensions)
+        # In axes along the lane, as those of `act`, the lane is straight and only its curvature is left.
+        course = PlannedCourse("lane", (), lambda x: (0.0, 0.0, float(lane.curvature(x))))
+        self.driver = CourseFollower(course, settings)
 
     def act(self, seen: Floats) -> Floats:
         """The action for an observation."""
