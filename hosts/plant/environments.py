@@ -233,13 +233,13 @@ class AntiLockBraking(CarEnvironment):
         return self._within(self._now[:11])
 
 
-for _name, _room, _several in (
+for _name, _module, _function in (
     ("LaneKeeping", "environments", "lane_keeping"),
     ("AntiLockBraking", "environments", "anti_lock_braking"),
     ("ProvingGroundLap", "lap", "proving_ground_lap"),
 ):
     gymnasium.register(
         f"ali3/{_name}-v0",
-        entry_point=f"hosts.plant.{_room}:{_name}",
-        vector_entry_point=f"hosts.plant.vector_environment:{_several}",
+        entry_point=f"hosts.plant.{_module}:{_name}",
+        vector_entry_point=f"hosts.plant.vector_environment:{_function}",
     )
