@@ -49,7 +49,7 @@ def no_world(roads: list[Any]) -> World:
     return World("", None, content)
 
 
-def make_world(world: str, tell: Callable[[str], None], thin: bool = False) -> World:
+def make_world(world: str, tell: Callable[[str], None] = lambda line: None, thin: bool = False) -> World:
     """A world by its name, or from a file.
 
     `world`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: takes lines that say how far it

@@ -72,7 +72,7 @@ class ProvingGroundLap(LaneEnvironment):
     ) -> None:
         self._speed = two_numbers(speed, "speeds at the start")
         if road is None:
-            road = str(make_world("proving_ground", lambda line: None).road)
+            road = str(make_world("proving_ground").road)
         plant = Car(car, step=step, inputs=("steering", "throttle", "brake"), parameters={"road.file": road})
         super().__init__(plant, ring(), seconds, most=(20.0, 90.0))
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)

@@ -127,5 +127,4 @@ def _fidelities(fmu: Fmu, asked: Sequence[int]) -> list[int | None]:
 def _grounds(out: Path, worlds: Sequence[str]) -> list[Ground]:
     folder = out / "roads"
     jumps = [jump_ground(folder), jump_ground(folder, (1e5, -1e5))]
-    world_grounds = [world_ground(name, folder / f"world_{k}") for k, name in enumerate(worlds)]
-    return [*2 * jumps, *2 * world_grounds, *IN_THE_FMU]
+    return [*2 * jumps, *2 * [world_ground(name) for name in worlds], *IN_THE_FMU]
