@@ -80,8 +80,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.fmu.fmu_source import FmuSource
-    from hosts.recordings.load_manoeuvre import check_manoeuvre_option
-    from hosts.recordings.manoeuvre_option import manoeuvre_of
+    from hosts.recordings.load_manoeuvre import check_manoeuvre_option, manoeuvre_of
     from hosts.run.course_result import course_result
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page

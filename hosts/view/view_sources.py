@@ -24,7 +24,7 @@ from hosts.fmu.fmu import Fmu, described
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.format import is_recording
-from hosts.recordings.manoeuvre_option import manoeuvre_of
+from hosts.recordings.load_manoeuvre import manoeuvre_of
 from hosts.recordings.recorded_view import other_build, recorded_view
 from hosts.view.result_tables import Table, read_table
 
