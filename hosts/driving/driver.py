@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 from ali3.decimal_number import parse_number
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.pilot import ACTS, OBSERVED, refuse_missing

@@ -13,7 +13,7 @@ from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
 from hosts.common.wheels import WHEELS
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.car import Car
 from hosts.plant.lane import Lane

@@ -12,8 +12,8 @@ from ali3.reading import is_file, is_folder, no_file
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
+from hosts.driving.course import TRACKS, course_of
 from hosts.driving.course_scenery import with_course, with_marks
-from hosts.driving.courses import TRACKS, course_of
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import with_names_of
 from hosts.driving.manoeuvre_settings import apply_settings

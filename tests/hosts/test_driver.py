@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.driving.driver import DriverSettings, make_driver
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 

@@ -12,8 +12,7 @@ from hosts.catalogue.passage import Passage
 from hosts.catalogue.preparation import RunUp, constant_inputs
 from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
-from hosts.driving.course import Course
-from hosts.driving.courses import course_of
+from hosts.driving.course import Course, course_of
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.line_follower import LineFollower
 from hosts.driving.pilots.pilot import Pilot
