@@ -11,6 +11,7 @@ from ali3.files import atomic_file, check_writable
 from ali3.message_text import brief
 from ali3.parameter_set import Entry, ParameterSet
 from ali3.temporary_folder import temporary_folder
+from ali3.unit_definition import KINDS
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -21,11 +22,8 @@ from hosts.systems.connections import Wire, fmus_of, starts_of, wires_of
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON = f"{{{_SSP}Common}}"
 _STRUCTURE = f"{{{_SSP}Description}}"
-_FIRST = {"Float64": "Real", "Float32": "Real", "Int32": "Integer"}
-"""Types of FMI 3.0 as SSP 1.0 has them."""
 SET = "start"
 """Name of the parameter set of each part: Ecos applies those of one name, which it is asked for."""
-
 
 _VERSIONS = ("1.0", "2.0")
 
@@ -59,7 +57,7 @@ def write_ssp(
     ------
     HostError
         There is no such part or variable, a value is none of its variable, a name cannot be that of a file or part,
-        SSP has no such version, or a wire ends at a variable that the version has no type for.
+        SSP has no such version, or a wire ends at an element of an array.
     FileError
         The file cannot be written; an older one is then unchanged.
     """
@@ -126,7 +124,7 @@ def _component(
             (scalar,) = fmu.scalars([variable])
             if scalar.size > 1:
                 raise HostError(f"'{part}.{variable}' is a part of an array; SSP wires whole variables only.")
-            kind = _FIRST.get(scalar.type, scalar.type) if version == "1.0" else scalar.type
+            kind = KINDS.get(scalar.type, scalar.type) if version == "1.0" else scalar.type
             SubElement(end, f"{_COMMON}{kind}")
     if (values := f"resources/{part}.ssv") in content:
         bindings = SubElement(component, f"{_STRUCTURE}ParameterBindings")
