@@ -5,15 +5,15 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import INITIAL_SPEED
+from hosts.driving.pilots.course_follower import CourseFollower
 from hosts.driving.result import Result
 
 _CLOSE = 3.0  # km/h: tolerance of the speed of entry in ISO 3888
 _STANDS = 0.5  # m/s: below it the car stands, and a later stop time would not help
 
 
-def course_result(result: Result, driver: Driver) -> tuple[list[tuple[str, str]], NDArray[np.float64]]:
+def course_result(result: Result, driver: CourseFollower) -> tuple[list[tuple[str, str]], NDArray[np.float64]]:
     """The row of the summary table with the verdict, none without a recorded path; and the gates, shape (gates, 4):
     first and last x, right and left y, m.
 
@@ -26,7 +26,7 @@ def course_result(result: Result, driver: Driver) -> tuple[list[tuple[str, str]]
     return [(course.name, _verdict(result, driver))], gates
 
 
-def _verdict(result: Result, driver: Driver) -> str:
+def _verdict(result: Result, driver: CourseFollower) -> str:
     course, length, width = driver.course, driver.settings.vehicle_length, driver.settings.vehicle_width
     x, y, yaw = (result[f"chassis.{name}"] for name in ("x", "y", "yaw"))
     out = course.corners_outside(x, y, yaw, length, width)
@@ -47,7 +47,7 @@ def _verdict(result: Result, driver: Driver) -> str:
     return f"passed, {-out:.2f} m to spare; {entered}"
 
 
-def _more(result: Result, driver: Driver) -> str:
+def _more(result: Result, driver: CourseFollower) -> str:
     """A remedy where not all lanes were driven, as the end of a sentence."""
     x, speed, gates = result["chassis.x"], float(result["speed"][-1]), driver.course.gates
     if (late := x[0] + 0.5 * driver.settings.vehicle_length - gates[0].x_start) > 0.0:

@@ -8,8 +8,8 @@ from pathlib import Path
 from ali3.columns import in_columns
 from ali3.files import atomic_file, check_writable, write_text
 from hosts.common.options import ROAD
-from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.course_follower import CourseFollower
 from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.driving.state_file import write_state
@@ -42,7 +42,7 @@ def write_record(
     settings: Settings,
     result: Result,
     file: Path,
-    driver: Driver | None = None,
+    driver: CourseFollower | None = None,
     names: Mapping[str, tuple[str, float, float]] | None = None,
 ) -> None:
     """Write the record of a run and of the settings of its FMU as JSON.
@@ -55,7 +55,7 @@ def write_record(
         Communication step, s.
     file : Path
         Its folder is made if it is not there.
-    driver : Driver, optional
+    driver : CourseFollower, optional
         Who has steered; with its course the view draws its cones.
     names : mapping of str to (str, float, float), optional
         By the FMU's names those of the table, with factor and offset: value of the FMU = factor * that + offset.
