@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
@@ -69,9 +69,8 @@ def car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.
     panels = [p for p in _CAR_PANELS if any(n in result and not n.startswith(hidden) for _, n, _ in p.lines)]
     lines = -(-len(panels) // 3)
     height = 4.0 + 2.6 * lines
-    figure = plt.figure(figsize=(16, height), layout="constrained")
-    engine: Any = figure.get_layout_engine()
-    engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
+    layout = ConstrainedLayoutEngine(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
+    figure = plt.figure(figsize=(16, height), layout=layout)
     grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
     _path(figure.add_subplot(grid[0, :2]), result, np.zeros((0, 4)) if gates is None else gates)
     table_of(figure.add_subplot(grid[0, 2]), rows)

@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 from ali3.chart_style import COLOURS, STYLE
@@ -44,10 +44,9 @@ def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
     panels = [(unit, names[k : k + 5]) for unit, names in groups.items() for k in range(0, len(names), 5)][:_MAX_PANELS]
     columns = 3 if len(panels) + 1 > 4 else 2
     lines = -(-(len(panels) + 1) // columns)
-    figure = plt.figure(figsize=(16, 1.2 + 3.3 * lines), layout="constrained")
-    rect = (0.005, 0.005, 0.99, 1.0 - 0.6 / (1.2 + 3.3 * lines) - 0.005)
-    engine: Any = figure.get_layout_engine()
-    engine.set(rect=rect, w_pad=0.1, h_pad=0.1)
+    height = 1.2 + 3.3 * lines
+    layout = ConstrainedLayoutEngine(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height - 0.005), w_pad=0.1, h_pad=0.1)
+    figure = plt.figure(figsize=(16, height), layout=layout)
     grid = figure.add_gridspec(lines, columns)
     first: Axes | None = None
     for k, (unit, names) in enumerate(panels):
