@@ -13,7 +13,7 @@ from ali3.message_text import brief
 from ali3.reading import LARGEST_STATE, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, STATES, VERSION
+from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, REFUSED, RESTARTS, REWIND, STATE, STATES, VERSION
 from hosts.recordings.tables import TABLE, Rows, blocks_of, joined, recorded
 
 _NEAR = 1e-3  # relative round-off of a difference of times
@@ -169,6 +169,12 @@ class RecordedDrive:
     def rewound_to(self) -> list[RowKey]:
         """Rows whose states were restored."""
         return [_back_to(event) for event in self.events if event.get("kind") == REWIND]
+
+    @property
+    def refused_inputs(self) -> list[float]:
+        """Inputs of a refused step at the end, or an empty list."""
+        last = self.events[-1] if self.events else {}
+        return list(last["inputs"]) if last.get("kind") == REFUSED and "inputs" in last else []
 
     @property
     def first_epoch(self) -> int:
