@@ -1,8 +1,9 @@
 """Manoeuvres as plain CSV files."""
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -19,11 +20,10 @@ from hosts.driving.state_file import read_state
 _LATEST = ON_TIME * 2.0**52  # s; later times are farther apart than `ON_TIME` as double numbers
 # The remark of a page on a table without its oldest rows.
 _CUT_REMARK = re.compile("the first .* s are not in this table")
-
-
 _KEYS = ("start", "state", "step", "outputs from", "held")
-SIMILARITY = 0.75
-"""Similarity from which a remark counts as a misspelt key."""
+_SIMILARITY = 0.75  # from which a remark counts as a misspelt key
+
+_Parsed = TypeVar("_Parsed", float, Value)
 
 
 def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeuvre:
@@ -69,9 +69,12 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
             name, at, instant = content.rpartition(" at ")
             if not at:
                 raise HostError(f"{where}: {brief(content.strip())} is not of the form FILE at TIME.")
-            state = read_state(path.parent, name.strip(), where), number_of(instant, f"{where}, time of the state")
+            state = (
+                read_state(path.parent, name.strip(), where),
+                _parsed(parse_number, instant, f"{where}, time of the state"),
+            )
         elif key.strip() == "step":
-            step = number_of(content, f"{where}, communication step")
+            step = _parsed(parse_number, content, f"{where}, communication step")
             if not step > 0.0:
                 raise HostError(f"{where}: the communication step is {step:g} s; it must be positive.")
         elif _CUT_REMARK.fullmatch(key.strip()):
@@ -80,7 +83,7 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
             recorded = content.strip()
         elif key.strip() == "held":
             held = {name.strip() for name in content.split(",")}
-        elif content and (meant := near_names(key.strip(), _KEYS, 1, SIMILARITY)):
+        elif content and (meant := near_names(key.strip(), _KEYS, 1, _SIMILARITY)):
             raise HostError(
                 f"{where}: {brief(key.strip() + ':')} is not a key of a table; did you mean '{meant[0]}:'? In a remark "
                 "leave the colon out."
@@ -128,20 +131,12 @@ def _add_start_values(start_values: dict[str, Value], assignments: Iterable[str]
             raise HostError(f"{where}: {brief(assignment.strip())} is not of the form name=value.")
         if name.strip() in start_values:
             raise HostError(f"{where}: the start value {brief(name.strip())} is given twice.")
-        start_values[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")
+        start_values[name.strip()] = _parsed(parse_value, value, f"{where}, start value {brief(name.strip())}")
 
 
-def number_of(text: str, where: str) -> float:
-    """The number of a text. Raises `HostError`; `where`: the place in the file, for messages."""
+def _parsed(parse: Callable[[str], _Parsed], text: str, where: str) -> _Parsed:
+    """A number or a value from its text. Raises `HostError`; `where`: the place in the file, for messages."""
     try:
-        return parse_number(text)
-    except ValueError as error:
-        raise HostError(f"{where}: {error}.") from None
-
-
-def value_of(text: str, where: str) -> Value:
-    """The value of a text, see `parse_value`. Raises `HostError`; `where`: the place in the file, for messages."""
-    try:
-        return parse_value(text)
+        return parse(text)
     except ValueError as error:
         raise HostError(f"{where}: {error}.") from None
