@@ -166,18 +166,13 @@ def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict
         if not 0.0 < options.step <= 1.0:
             raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
         results["step"] = options.step
-    known_names = {name for fmu in fmus for name in fmu.variables.names}
-    plottable = {n for fmu in fmus for n in known_names if _plottable(fmu, n)}
+    plottable = {n for fmu in fmus for n in fmu.variables.names if fmu.variables[n].causality in ("input", "output")}
     for name in options.plot:
         if name not in plottable:
             raise HostError(f"--plot: {name!r} is not an input or output of {' or '.join(f.name for f in fmus)}.")
     if options.plot:
         results["plots"] = list(options.plot)
     return results
-
-
-def _plottable(fmu: FmuParts, name: str) -> bool:
-    return name in fmu.variables.names and fmu.variables[name].causality in ("input", "output")
 
 
 def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value]:

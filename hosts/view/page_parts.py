@@ -112,14 +112,11 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
 def build_line(path: Path) -> str:
     """The command that builds an FMU of this file's name with what a page needs."""
     snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem)).lower()
-    label = f"{'--car' if _has_car(path) else '--scene'} {quote(snake)}"
+    with opened(path) as archive:
+        has_car = any(name.startswith(f"{_ROOM}car/") for name in archive.names)
+    label = f"{'--car' if has_car else '--scene'} {quote(snake)}"
     out = "" if path.parent == Path("dist") else f" --out {quote(str(path.parent))}"
     return f"{command_name('build')} {label} --kind native --platforms this,{PLATFORM}{out}"
-
-
-def _has_car(path: Path) -> bool:
-    with opened(path) as archive:
-        return any(name.startswith(f"{_ROOM}car/") for name in archive.names)
 
 
 def _check_kind(path: Path, description: ModelDescription) -> None:
@@ -129,10 +126,9 @@ def _check_kind(path: Path, description: ModelDescription) -> None:
             f"{path} is an FMU of {tool}; a page runs FMUs that {command_name('build')} has built, which carry a "
             "binary in WebAssembly and their drawing."
         )
-    version = description.fmiVersion
-    python = "PythonFMU" in tool
-    kind = "the kind python, which needs a Python" if python else f"FMI {version}"
-    if version != "2.0" or description.coSimulation is None or python:
+    needs_python = "PythonFMU" in tool
+    if description.fmiVersion != "2.0" or description.coSimulation is None or needs_python:
+        kind = "the kind python, which needs a Python" if needs_python else f"FMI {description.fmiVersion}"
         raise HostError(f"{path} is an FMU of {kind}; a page runs the kind native (FMI 2.0): {build_line(path)}")
 
 

@@ -56,7 +56,9 @@ def show(options: argparse.Namespace) -> int:
     notes: list[str] = []
     written: list[object] = list(_exports(recordings, options, notes))
     if page is not None:
-        written.append(_write_page(page, recordings, options, notes))
+        page_file = write_page(page, recordings, options=_start(recordings, options), most=options.most)
+        notes += page_file.notes
+        written.append(f"{page_file.path} ({1e-6 * page_file.size:.2g} MB)")
     for note in dict.fromkeys(notes):
         print(note)
     print(f"written: {', '.join(map(str, written))}")
@@ -97,12 +99,6 @@ def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict
             raise HostError(f"--at is {options.at:g} s; it was recorded from {ends[0]:g} s to {ends[1]:g} s.")
         start["time"] = options.at
     return start
-
-
-def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> str:
-    page_file = write_page(page, recordings, options=_start(recordings, options), most=options.most)
-    notes += page_file.notes
-    return f"{page_file.path} ({1e-6 * page_file.size:.2g} MB)"
 
 
 def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> Iterator[Path]:
