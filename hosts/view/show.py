@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ali3.columns import some_of
 from ali3.command_run import GOOD, NOT_GOOD
 from ali3.files import check_writable
 from ali3.near_names import near_names
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from ali3.scene.recording import Recording
 
 _PLOTTED = 3  # signals of a result that is not drawn
+_LISTED = 5  # signals of a message
 
 
 def show(options: argparse.Namespace) -> int:
@@ -50,9 +52,9 @@ def show(options: argparse.Namespace) -> int:
     known_names = dict.fromkeys(name for recording in recordings for name in recording.columns)
     unknown = next((name for name in options.plot if name not in known_names), None)
     if unknown is not None:
-        raise HostError(
-            f"There is no signal {unknown!r} to be plotted; the result has {_some(list(known_names), unknown)}."
-        )
+        near = near_names(unknown, known_names, _LISTED, 0.4)
+        listed = some_of(dict.fromkeys([*near, *known_names]), len(near) or _LISTED)
+        raise HostError(f"There is no signal {unknown!r} to be plotted; the result has {listed}.")
     notes: list[str] = []
     written: list[object] = list(_exports(recordings, options, notes))
     if page is not None:
@@ -120,9 +122,3 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes
     if options.mp4 is not None:
         notes += write_mp4(options.mp4, recordings, size=size, camera=options.camera, options=start).notes
         yield options.mp4
-
-
-def _some(names: list[str], word: str) -> str:
-    """A few of many names, those that are alike first."""
-    listed = near_names(word, names, 5, 0.4) or names[:5]
-    return ", ".join(listed) + (f" and {len(names) - len(listed)} more" if len(names) > len(listed) else "")
