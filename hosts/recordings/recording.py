@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
-from ali3.files import atomic_file, check_writable, make_folder, write_text
+from ali3.files import check_writable, make_folder, write_bytes, write_text
 from hosts.common.closable import Closable
 from hosts.common.numbers import Value
 from hosts.common.program import version_of
@@ -192,8 +192,7 @@ class Recorder(Closable):
         that of the first row.
         """
         file = self.folder / STATE if count is None else self.folder / STATES / f"{epoch}-{count}.state"
-        with atomic_file(file) as temporary:
-            temporary.write_bytes(content)
+        write_bytes(file, content)
 
     def flush(self) -> None:
         """Write the rows in memory."""
