@@ -14,7 +14,7 @@ from pathlib import Path
 from ali3.alias_file import Content
 from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
-from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
+from fmu_src.build.arguments import Systems, known_platforms, systems_by_number
 from fmu_src.build.progress_line import watched
 from fmu_src.description.nominal_values import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
@@ -27,7 +27,7 @@ from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_na
 from fmu_src.variables.renamed_variables import Renamed, renamed
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import by_name_in_system, check_fidelities, variable_table, with_uncomputed
-from mbs.common.checks import instance_of
+from mbs.common.checks import instance_of, whole
 from mbs.compiler.generated.library import named_code_of
 from mbs.compiler.ports import map_followers
 
@@ -113,7 +113,8 @@ def build_fmu(
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"There is no FMU kind '{kind}'; the kinds are {', '.join(KINDS)}.")
     platform_names = known_platforms(platforms, able_platforms(kind), kind)
-    file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
+    instance_of((str, PathLike), out, "the folder of an FMU", "a path")
+    file = Path(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
     check_writable(file)
     # one library is there soon enough
     with compiled_ahead(
@@ -168,7 +169,7 @@ class FmuBuilder:
     ) -> None:
         systems_by_fidelity = systems_by_number(system)
         systems, followers = map_followers(list(systems_by_fidelity.values()))
-        fidelity = default_fidelity(fidelity, len(systems_by_fidelity))
+        fidelity = whole(fidelity, "the default fidelity of an FMU", 0, len(systems) - 1, ValueError)
         metas = [s.meta for s in systems]
         check_fidelities(metas)
         meta = metas[fidelity]
