@@ -25,7 +25,7 @@ from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import check_manoeuvre_option, load_manoeuvre
 from hosts.view.open_page import open_page
 from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
-from hosts.view.page_text import Page, script_of
+from hosts.view.page_text import page_text, script_of
 from hosts.view.view_sources import ViewRunOptions, recordings_of
 
 if TYPE_CHECKING:
@@ -43,10 +43,10 @@ _MOST_PICTURES = 4
 def live(options: argparse.Namespace) -> int:
     """Write one HTML file that runs FMUs of this program in any browser, and open it; gives the exit code."""
     with temporary_folder() as folder:
-        return _written(options, options_with_road(options, folder))
+        return _write(options, options_with_road(options, folder))
 
 
-def _written(options: argparse.Namespace, set_options: FmuOptions) -> int:
+def _write(options: argparse.Namespace, set_options: FmuOptions) -> int:
     if len(options.what) > _MOST_PICTURES:
         raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
@@ -64,35 +64,41 @@ def _written(options: argparse.Namespace, set_options: FmuOptions) -> int:
     fmus = [fmu_parts(path, road if world is None else str(world.road)) for path in paths]
     names = _names(fmus, options.name)
     manoeuvre = _manoeuvre(fmus, options.manoeuvre)
-    places = {} if world is None else _places(world, fmus[0])
-    first = next(iter(places.values()), {})
-    start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, set_options)}
-    report_starts([start])
-    if fmus[0].own_road is not None:
-        start[ROAD] = fmus[0].own_road.name
-    settings = {
-        "name": name,
-        **_page_options(fmus, options),
-        "start": start,
-        **({"places": places} if places else {}),
-    }
+    page_options = {"name": name, **_page_options(fmus, options), **_starts(fmus, world, manoeuvre, set_options)}
     recordings = _beside(results, fmus[0])
-    ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
-    with_binaries = [with_binary(fmu) for fmu in fmus]
-    with reported_when_long("making the page"):
-        page = Page(with_binaries, names, settings, manoeuvre, recordings, ends)
-        text = page.text(options.title if options.title is not None else ", ".join(names))
+    named_fmus = [(name, _with_binary(fmu)) for name, fmu in zip(names, fmus, strict=True)]
+    title = options.title if options.title is not None else ", ".join(names)
+    with _reported_when_long("making the page"):
+        text = page_text(title, named_fmus, page_options, manoeuvre, recordings)
     with atomic_file(file) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
+    _report(file, fmus, world)
+    if not options.no_open:
+        open_page(file)
+    return 0
+
+
+def _report(file: Path, fmus: Sequence[FmuParts], world: World | None) -> None:
+    """Print what is not drawn, the size of the page and how the world was thinned."""
     for fmu in fmus:
         for item in fmu.scene.get("missing", []):
             print(f"{fmu.name}: {item['name']} is not drawn: {item['why'].rstrip('.')}.")
     print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; it opens from disk in a browser and needs nothing else")
     if world is not None and world.content.get("thin"):
         print(world.content["thin"])
-    if not options.no_open:
-        open_page(file)
-    return 0
+
+
+def _starts(
+    fmus: Sequence[FmuParts], world: World | None, manoeuvre: Manoeuvre | None, set_options: FmuOptions
+) -> dict[str, Any]:
+    """Start values of the page, and those of the places of its world, if there are any."""
+    places = {} if world is None else _places(world, fmus[0])
+    first = next(iter(places.values()), {})
+    start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, set_options)}
+    report_starts([start])
+    if fmus[0].own_road is not None:
+        start[ROAD] = fmus[0].own_road.name
+    return {"start": start} | ({"places": places} if places else {})
 
 
 def _world(options: argparse.Namespace, road: Value) -> World | None:
@@ -190,14 +196,14 @@ def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value
     return start
 
 
-def with_binary(fmu: FmuParts) -> FmuParts:
+def _with_binary(fmu: FmuParts) -> FmuParts:
     """The FMU itself if it has a binary in WebAssembly, else one with it, compiled from its own sources.
 
     Raises `HostError`: it cannot be compiled here; with the command that builds one that has it.
     """
     if fmu.wasm is not None:
         return fmu
-    with temporary_folder() as folder, reported_when_long(f"compiling {fmu.path.name} for WebAssembly"):
+    with temporary_folder() as folder, _reported_when_long(f"compiling {fmu.path.name} for WebAssembly"):
         arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", str(folder))
         try:
             run_ali3(*arguments)
@@ -211,7 +217,7 @@ def with_binary(fmu: FmuParts) -> FmuParts:
 
 
 @contextmanager
-def reported_when_long(what: str) -> Iterator[None]:
+def _reported_when_long(what: str) -> Iterator[None]:
     """A context that prints a line if its work takes longer than two seconds."""
     timer = Timer(_PATIENCE, lambda: print(f"{what} ...", flush=True))
     timer.daemon = True
