@@ -26,6 +26,24 @@ _KINDS = "native,fmi3,python"
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
     """Run the command; `prog` is how the user typed it."""
+    parser = _parser(prog)
+    options = parser.parse_args(arguments)
+    if options.ports is not None and options.car is None:
+        parser.error("--ports needs a car, as in ali3 build prototype")
+    if options.fidelity is not None and options.car is None:
+        parser.error("--fidelity needs a car, as in ali3 build prototype")
+    if options.plain and (options.kernel or options.fmu is not None):
+        reason = "the kernel has no code of a model" if options.kernel else "--fmu compiles the C in the FMU"
+        parser.error(f"--plain needs a car or a scene to build; {reason}")
+    if options.kernel:
+        return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
+    options.out = options.out or Path("dist")
+    if options.fmu is not None:
+        return run_command(lambda: _add_platforms(options), (RuntimeError,))
+    return run_command(lambda: _build(options), (ValueError, RuntimeError))
+
+
+def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
     target_group = parser.add_mutually_exclusive_group()
     target_group.add_argument(
@@ -94,20 +112,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
-    options = parser.parse_args(arguments)
-    if options.ports is not None and options.car is None:
-        parser.error("--ports needs a car, as in ali3 build prototype")
-    if options.fidelity is not None and options.car is None:
-        parser.error("--fidelity needs a car, as in ali3 build prototype")
-    if options.plain and (options.kernel or options.fmu is not None):
-        reason = "the kernel has no code of a model" if options.kernel else "--fmu compiles the C in the FMU"
-        parser.error(f"--plain needs a car or a scene to build; {reason}")
-    if options.kernel:
-        return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
-    options.out = options.out or Path("dist")
-    if options.fmu is not None:
-        return run_command(lambda: _add_platforms(options), (RuntimeError,))
-    return run_command(lambda: _build(options), (ValueError, RuntimeError))
+    return parser
 
 
 def _build_kernel(platforms: str, out: Path | None) -> int:
