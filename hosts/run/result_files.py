@@ -89,14 +89,7 @@ def write_record(
 
 def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:
     """Print tables, what the FMU logged and where the files are. Result: exit code: 0 if every step is good."""
-    for rows in tables:
-        for line in in_columns(rows):
-            print(line)
-    for message in dict.fromkeys(result.messages):
-        print(f"FMU: {message}")
-    if result.ended:
-        print(result.ended)
-    if wrong := result.not_finite():
-        print(wrong)
+    for line in (*(line for rows in tables for line in in_columns(rows)), *result.remarks()):
+        print(line)
     print(f"written: {', '.join(map(str, files))}")
     return 0 if result.is_good else 1

@@ -270,12 +270,8 @@ def _of_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Recordi
         scene = scene if driver is None else with_course(scene, driver.course)
         scene = with_marks(scene, result.marks, _ON_THE_GROUND)
     notes += [": ".join(missed) for missed in result.missed]
-    notes += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
-    if wrong := result.not_finite():
-        notes.append(wrong)
-    if result.ended:
-        notes.append(result.ended)
-    elif result.failed_steps:
+    notes += result.remarks()
+    if result.failed_steps and not result.ended:
         notes.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
     title = name if manoeuvre_name is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
