@@ -3,6 +3,9 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ali3.message_text import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
@@ -13,6 +16,14 @@ def positive(value: Any, what: str, unit: str) -> float:
     if not is_finite(value) or value <= 0.0:
         raise HostError(f"{what} is {brief(value)}; it must be a positive number, in {unit}.")
     return float(value)
+
+
+def array_of(values: object) -> NDArray[np.float64]:
+    """Values as an array of numbers; one number that is not finite if they are none."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        return np.array(np.nan)
 
 
 def mapping(value: object, what: str) -> Mapping[str, Any]:

@@ -9,7 +9,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from ali3.message_text import brief
-from hosts.common.arguments import mapping
+from hosts.common.arguments import array_of, mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
 from hosts.common.wheels import WHEELS
@@ -58,10 +58,7 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
         """An action, held within its space; refused if it is not one, before anything changes."""
         box = self.action_space
         assert isinstance(box, spaces.Box)
-        try:
-            array = np.asarray(action, dtype=float)
-        except (TypeError, ValueError, OverflowError):
-            array = np.array(np.nan)
+        array = array_of(action)
         if array.shape != box.shape or not np.isfinite(array).all():
             raise HostError(f"The action is {brief(action)}; it must be {box.shape[0]} finite numbers, in an array.")
         clipped: NDArray[np.float64] = np.clip(array, box.low, box.high)

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
 from ali3.message_text import brief
-from hosts.common.arguments import positive
+from hosts.common.arguments import array_of, positive
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
 from hosts.driving.course import Course
@@ -141,10 +141,7 @@ class Lane:
 
 def _numbers(values: ArrayLike, what: str) -> NDArray[np.float64]:
     """Numbers of a size that a lane has; `what`, a plural, is the subject of the error."""
-    try:
-        numbers = np.asarray(values, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        numbers = np.array(np.nan)
+    numbers = array_of(values)
     if not (np.abs(numbers) <= FARTHEST).all():
         raise HostError(f"{what} are {brief(values)}; they must be numbers up to {FARTHEST:g} m.")
     return numbers
