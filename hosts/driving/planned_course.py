@@ -64,11 +64,9 @@ def planned(course: Course, begin: float, length: float, width: float) -> Planne
     rows, bounds = [], []
 
     def demand(matrix: csr_array, column: tuple[float, float], most: NDArray[np.float64]) -> None:
-        rows.append(hstack([matrix, csr_array(np.tile(column, (matrix.shape[0], 1))), no_sums(matrix.shape[0])]))
+        height = matrix.shape[0]
+        rows.append(hstack([matrix, csr_array(np.tile(column, (height, 1))), csr_array((height, len(x)))]))
         bounds.append(most)
-
-    def no_sums(height: int) -> csr_array:
-        return csr_array((height, len(x)))
 
     none = np.zeros(len(x))
     for sign in (1.0, -1.0):
