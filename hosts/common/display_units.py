@@ -20,7 +20,7 @@ _SHOWN = {
 
 
 class Shown(NamedTuple):
-    """How a unit is shown: its own values times `factor` are in `unit`."""
+    """A display unit: values in the unit itself times `factor` are in `unit`."""
 
     unit: str
     factor: float

@@ -44,7 +44,7 @@ def add_setting_options(parser: argparse._ActionsContainer) -> None:
 
 
 def fmu_options(options: argparse.Namespace) -> FmuOptions:
-    """What was given by the options of `add_setting_options`."""
+    """The values of the options of `add_setting_options`."""
     return FmuOptions(options.parameters, options.set)
 
 

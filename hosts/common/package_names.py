@@ -1,4 +1,4 @@
-"""Names of what comes with the package, so that a misspelt one is reported before anything is built for it."""
+"""Names of cars and worlds of the package, so that a misspelt one is reported before anything is built for it."""
 
 from pathlib import Path
 
@@ -26,6 +26,6 @@ def check_world(world: str) -> None:
         _refuse("world", world, names)
 
 
-def _refuse(what: str, name: str, names: list[str]) -> None:
-    near = did_you_mean(name, names, f"the {what}s of the package are {', '.join(names)}", 1)
-    raise HostError(f"There is no {what} {brief(name)} and no such file{near}")
+def _refuse(kind: str, name: str, names: list[str]) -> None:
+    near = did_you_mean(name, names, f"the {kind}s of the package are {', '.join(names)}", 1)
+    raise HostError(f"There is no {kind} {brief(name)} and no such file{near}")

@@ -18,7 +18,7 @@ _Single = gymnasium.Env[Floats, Floats]
 
 
 class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
-    """An environment that a thread steps ahead; who then asks for the same calls gets what they gave."""
+    """An environment that a thread steps ahead; later calls of `step` and `reset` return these results."""
 
     def __init__(self, env: _Single) -> None:
         super().__init__(env)
@@ -26,7 +26,7 @@ class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
         self._results: list[Any] = []  # of the next calls; an exception is raised there
 
     def ahead(self, action: Floats, autoreset: AutoresetMode) -> None:
-        """What `SyncVectorEnv.step` asks of an environment: a step, a new start, or both."""
+        """Make the calls of `SyncVectorEnv.step` for an environment: a step, a new start, or both."""
         self._results = []
         try:
             if self._ended and autoreset == AutoresetMode.NEXT_STEP:
@@ -94,13 +94,13 @@ class VectorEnvironment(SyncVectorEnv[Floats, Floats]):
             raise HostError(f"The actions are {brief(actions)}; they must be {self.num_envs}, one an environment.")
         pairs = list(zip(self.envs, gymnasium.vector.utils.iterate(self.action_space, actions), strict=True))
 
-        def share(first: int) -> None:
+        def step_share(first: int) -> None:
             for env, action in pairs[first :: self._threads]:
                 env.ahead(action, self.autoreset_mode)  # type: ignore[attr-defined]
 
-        begun = [self._pool.submit(share, first) for first in range(1, self._threads)]
-        share(0)
-        wait(begun)
+        futures = [self._pool.submit(step_share, first) for first in range(1, self._threads)]
+        step_share(0)
+        wait(futures)
         return super().step(actions)
 
     def close_extras(self, **options: Any) -> None:
