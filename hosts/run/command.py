@@ -100,7 +100,7 @@ def _run(options: argparse.Namespace) -> int:
         manoeuvre, settings = apply_settings(opened, manoeuvre, set_options, options.fidelity, source.theirs)
         manoeuvre = replace(manoeuvre, start=source.ours(manoeuvre.start))
         without_manoeuvre = options.manoeuvre is None
-        stem = _words(path.stem) if without_manoeuvre else f"{_words(path.stem)}_{manoeuvre.name}"
+        stem = _snake_case(path.stem) if without_manoeuvre else f"{_snake_case(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         steps_per_row = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
@@ -121,5 +121,5 @@ def _driver_setting(text: str) -> tuple[str, float]:
     return name, quantity(unit_of(name) or unit_of(f"vehicle.{name}") or "")(value)
 
 
-def _words(name: str) -> str:
+def _snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()

@@ -17,9 +17,9 @@ from hosts.fmu.settings import Settings
 
 
 def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
-    """Table, picture and record of a run; `FileError` at once, before the run, if they cannot be written.
+    """Table, picture and record of a run. `stem`: name of the files without suffix.
 
-    `stem`: name of the files without suffix.
+    Raises `FileError` before the run if they cannot be written.
     """
     table, picture, record = (out / f"{stem}{suffix}" for suffix in (".csv", ".png", ".json"))
     for file in (table, picture, record):
@@ -56,7 +56,7 @@ def write_record(
     file : Path
         Its folder is made if it is not there.
     driver : CourseFollower, optional
-        Who has steered; with its course the view draws its cones.
+        Driver of the run; the view draws the cones of its course.
     names : mapping of str to (str, float, float), optional
         By the FMU's names those of the table, with factor and offset: value of the FMU = factor * that + offset.
     """
@@ -88,7 +88,7 @@ def write_record(
 
 
 def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:
-    """Print tables, what the FMU logged and where the files are. Result: exit code: 0 if every step is good."""
+    """Print tables, remarks on the run and the paths of the files. Result: exit code, 0 if every step is good."""
     for line in (*(line for rows in tables for line in in_columns(rows)), *result.remarks()):
         print(line)
     print(f"written: {', '.join(map(str, files))}")

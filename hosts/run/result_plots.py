@@ -14,7 +14,7 @@ from ali3.chart_style import COLOURS, STYLE
 from ali3.charts import save_picture
 from hosts.driving.result import Result
 from hosts.run.car_page import car_page
-from hosts.run.plot_panels import draw_lines, table_of
+from hosts.run.plot_panels import draw_lines, draw_table
 
 _MAX_PANELS = 9
 
@@ -38,7 +38,7 @@ def plot_page(
 
 def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
     groups: dict[str, list[str]] = {}
-    # Poses of bodies are there to be drawn; they would fill the page.
+    # Poses of bodies serve drawings and would fill the page.
     for name in [n for n in result.names if not n.startswith("body.")] or result.names:
         groups.setdefault(result.units[name], []).append(name)
     panels = [(unit, names[k : k + 5]) for unit, names in groups.items() for k in range(0, len(names), 5)][:_MAX_PANELS]
@@ -55,5 +55,5 @@ def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
         series = [(n, result[n], COLOURS[j]) for j, n in enumerate(names)]
         draw_lines(axes, result.time, series, ", ".join(names) if len(", ".join(names)) < 46 else f"in {unit}", unit)
         axes.set_xlabel("time, s")
-    table_of(figure.add_subplot(grid[len(panels) // columns, len(panels) % columns]), rows)
+    draw_table(figure.add_subplot(grid[len(panels) // columns, len(panels) % columns]), rows)
     return figure
