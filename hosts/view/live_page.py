@@ -1,4 +1,4 @@
-"""A page that runs FMUs: the work of ``ali3 view --live``."""
+"""Writes a page that runs FMUs: ``ali3 view --live``."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from hosts.fmu.settings import Settings
 from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import check_manoeuvre_option, load_manoeuvre
 from hosts.view.open_page import open_page
-from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
+from hosts.view.page_parts import PLATFORM, build_command, fmu_parts
 from hosts.view.page_text import page_text, script_of
 from hosts.view.view_sources import ViewRunOptions, recordings_of
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from hosts.fmu.variables import Variable
     from hosts.view.page_parts import FmuParts
 
-_PATIENCE = 2.0
+_REPORT_DELAY = 2.0
 _MOST_PICTURES = 4
 
 
@@ -62,10 +62,10 @@ def _write(options: argparse.Namespace, set_options: FmuOptions) -> int:
     check_writable(file)
     world = _world(options, road)
     fmus = [fmu_parts(path, road if world is None else str(world.road)) for path in paths]
-    names = _names(fmus, options.name)
+    names = _titles(fmus, options.name)
     manoeuvre = _manoeuvre(fmus, options.manoeuvre)
     page_options = {"name": name, **_page_options(fmus, options), **_starts(fmus, world, manoeuvre, set_options)}
-    recordings = _beside(results, fmus[0])
+    recordings = _recordings_beside(results, fmus[0])
     named_fmus = [(name, _with_binary(fmu)) for name, fmu in zip(names, fmus, strict=True)]
     title = options.title if options.title is not None else ", ".join(names)
     with _reported_when_long("making the page"):
@@ -102,7 +102,7 @@ def _starts(
 
 
 def _world(options: argparse.Namespace, road: Value) -> World | None:
-    """The world that goes into the page."""
+    """The world of the page, if one is asked for."""
     if options.world is None:
         return None
     if road:
@@ -120,14 +120,14 @@ def _places(world: World, fmu: FmuParts) -> dict[str, dict[str, Value]]:
     return {name: values for name, values in world.places().items() if set(values) <= set(fmu.variables.names)}
 
 
-def _manoeuvre(fmus: Sequence[FmuParts], named: str | None) -> Manoeuvre | None:
-    """Inputs over time, checked."""
-    if named is None:
+def _manoeuvre(fmus: Sequence[FmuParts], name: str | None) -> Manoeuvre | None:
+    """A manoeuvre whose columns the FMUs have; None without a name."""
+    if name is None:
         return None
     names = [name for fmu in fmus for name in fmu.variables.names]
-    manoeuvre = with_names_of(load_manoeuvre(named), names)
+    manoeuvre = with_names_of(load_manoeuvre(name), names)
     script_of(manoeuvre)
-    settable = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
+    settable = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _is_settable(v)]
     unknown = next((name for name in manoeuvre.inputs if name not in settable), None)
     if unknown is not None:
         raise HostError(
@@ -138,12 +138,12 @@ def _manoeuvre(fmus: Sequence[FmuParts], named: str | None) -> Manoeuvre | None:
     return manoeuvre
 
 
-def _held(variable: Variable) -> bool:
+def _is_settable(variable: Variable) -> bool:
     return variable.causality == "input" or variable.variability == "tunable"
 
 
-def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
-    """Results that are drawn beside the first FMU, with its drawing where they have none."""
+def _recordings_beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
+    """Recordings that are drawn beside the first FMU, with its drawing if they have none."""
     if not results:
         return []
     recordings, notes, _ = recordings_of(results, fmu.path, ViewRunOptions(None, None, None, FmuOptions([], [])))
@@ -155,10 +155,11 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     return recordings
 
 
-def _names(fmus: Sequence[FmuParts], own_titles: Sequence[str]) -> list[str]:
-    if len(own_titles) > len(fmus):
-        raise HostError(f"--name is given {len(own_titles)} times for {len(fmus)} FMUs; give it once for each.")
-    titles = [*own_titles, *(fmu.name for fmu in fmus[len(own_titles) :])]
+def _titles(fmus: Sequence[FmuParts], titles_of_user: Sequence[str]) -> list[str]:
+    """Titles of the pictures: those of the user, then names of the models, which are numbered if they are equal."""
+    if len(titles_of_user) > len(fmus):
+        raise HostError(f"--name is given {len(titles_of_user)} times for {len(fmus)} FMUs; give it once for each.")
+    titles = [*titles_of_user, *(fmu.name for fmu in fmus[len(titles_of_user) :])]
     for k, title in enumerate(titles):
         if title in titles[:k]:
             titles[k] = f"{title} {titles[: k + 1].count(title)}"
@@ -166,7 +167,7 @@ def _names(fmus: Sequence[FmuParts], own_titles: Sequence[str]) -> list[str]:
 
 
 def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Any]:
-    """What the page starts with, checked."""
+    """Checked options of the page: whether it runs at once, step and plots."""
     results: dict[str, Any] = {"run": not options.paused}
     if options.step is not None:
         if not 0.0 < options.step <= 1.0:
@@ -182,7 +183,7 @@ def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict
 
 
 def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value]:
-    """Start values that the first FMU must have; the others take those that they have too."""
+    """Start values by ``--parameters`` and ``--set``: the first FMU must have them, the others may."""
     settings = Settings(fmus[0].variables)
     for file in set_options.sets:
         settings.add_set(file)
@@ -197,9 +198,9 @@ def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value
 
 
 def _with_binary(fmu: FmuParts) -> FmuParts:
-    """The FMU itself if it has a binary in WebAssembly, else one with it, compiled from its own sources.
+    """The FMU with a binary in WebAssembly, which is compiled from its own sources if it has none.
 
-    Raises `HostError`: it cannot be compiled here; with the command that builds one that has it.
+    Raises `HostError`: it cannot be compiled here; with the command that builds such an FMU.
     """
     if fmu.wasm is not None:
         return fmu
@@ -209,17 +210,17 @@ def _with_binary(fmu: FmuParts) -> FmuParts:
             run_ali3(*arguments)
             return replace(fmu, wasm=fmu_parts(Path(folder, fmu.path.name)).wasm)
         except HostError as error:
-            why = str(error).rstrip(".")
+            reason = str(error).rstrip(".")
     raise HostError(
-        f"{fmu.path} has no binary in WebAssembly, and none could be added ({why}); build it with "
-        f"{build_line(fmu.path)}"
+        f"{fmu.path} has no binary in WebAssembly, and none could be added ({reason}); build it with "
+        f"{build_command(fmu.path)}"
     )
 
 
 @contextmanager
-def _reported_when_long(what: str) -> Iterator[None]:
+def _reported_when_long(text: str) -> Iterator[None]:
     """A context that prints a line if its work takes longer than two seconds."""
-    timer = Timer(_PATIENCE, lambda: print(f"{what} ...", flush=True))
+    timer = Timer(_REPORT_DELAY, lambda: print(f"{text} ...", flush=True))
     timer.daemon = True
     timer.start()
     try:

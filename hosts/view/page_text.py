@@ -1,4 +1,4 @@
-"""The text of a page that runs FMUs, beside recordings that go along."""
+"""The text of a page that runs FMUs beside recordings."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ def page_text(
     options : mapping
         Of the page: ``name`` of what it records, ``run`` at once, ``start`` values, ``step``, ``plots``.
     manoeuvre : Manoeuvre, optional
-        Inputs over time, which a person may take over.
+        Inputs over time, until the user takes over.
     recordings : sequence of Recording
         Drawn beside the FMUs at the same time.
     """
@@ -44,7 +44,7 @@ def page_text(
 def script_of(manoeuvre: Manoeuvre) -> dict[str, Any]:
     """Inputs over time as the page reads them.
 
-    Raises `HostError`: the manoeuvre has a driver: he cannot sit in a page.
+    Raises `HostError`: the manoeuvre has a driver, whom a page does not have.
     """
     if manoeuvre.driver:
         raise HostError(

@@ -1,4 +1,4 @@
-"""Results and runs in a page, as pictures, films and animations: the work of ``ali3 view`` without ``--live``."""
+"""Shows results and runs in a page, as pictures, films and animations: ``ali3 view`` without ``--live``."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from viewer.video import write_mp4
 if TYPE_CHECKING:
     from ali3.scene.recording import Recording
 
-_PLOTTED = 3  # signals of a result that is not drawn
+_MOST_PLOTTED = 3  # signals of a result that is not drawn
 _LISTED = 5  # signals of a message
 
 
 def show(options: argparse.Namespace) -> int:
-    """Write what is asked for and open the page; gives the exit code."""
-    page = _page(options)
+    """Write the page or other files, and open the page; returns the exit code."""
+    page = _page_path(options)
     check_manoeuvre_option(options.manoeuvre)
     options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
     for file in (page, options.png, options.mp4, options.gltf):
@@ -58,7 +58,7 @@ def show(options: argparse.Namespace) -> int:
     notes: list[str] = []
     written: list[object] = list(_exports(recordings, options, notes))
     if page is not None:
-        page_file = write_page(page, recordings, options=_start(recordings, options), most=options.most)
+        page_file = write_page(page, recordings, options=_player_options(recordings, options), most=options.most)
         notes += page_file.notes
         written.append(f"{page_file.path} ({1e-6 * page_file.size:.2g} MB)")
     for note in dict.fromkeys(notes):
@@ -69,8 +69,8 @@ def show(options: argparse.Namespace) -> int:
     return GOOD if good else NOT_GOOD
 
 
-def _page(options: argparse.Namespace) -> Path | None:
-    """Where the page goes; none where only other files were asked for."""
+def _page_path(options: argparse.Namespace) -> Path | None:
+    """Path of the page; None if only other files are asked for."""
     if options.out is None and (options.png, options.mp4, options.gltf) != (None, None, None):
         return None
     first = options.what[0]
@@ -79,18 +79,18 @@ def _page(options: argparse.Namespace) -> Path | None:
     return Path(folder, f"{first.stem}{driven}{'_compared' if len(options.what) > 1 else ''}.html")
 
 
-def _look(options: argparse.Namespace) -> dict[str, Any]:
+def _drawing_options(options: argparse.Namespace) -> dict[str, Any]:
     """Options of the drawing."""
     factor = {} if options.deformation is None else {"deformation": options.deformation}
     return {"arrows": options.arrows, "stress": options.stress} | factor
 
 
-def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:
+def _player_options(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:
     """Options of the player."""
-    start = _look(options)
+    start = _drawing_options(options)
     plots = list(options.plot)
     if not plots and all(recording.scene is None for recording in recordings):
-        plots = list(recordings[0].columns)[:_PLOTTED]
+        plots = list(recordings[0].columns)[:_MOST_PLOTTED]
     if plots:
         start["plots"] = plots
     if options.camera is not None:
@@ -104,8 +104,8 @@ def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict
 
 
 def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> Iterator[Path]:
-    """Write the pictures, films and animations that were asked for, and note what there is to say of them."""
-    start = _look(options)
+    """Write the pictures, films and animations that are asked for, and append remarks on them to `notes`."""
+    start = _drawing_options(options)
     size = (options.size[0], options.size[1])
     if options.gltf is not None:
         gltf_file = write_gltf(options.gltf, recordings[0])
