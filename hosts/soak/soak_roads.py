@@ -32,7 +32,7 @@ _WAVES = (-45.0, 0.0, 20.0, 1.8, 0.03)  # x, y, side, wavelength, amplitude, m
 
 @dataclass(frozen=True)
 class Ground:
-    """A road with what is driven at on it."""
+    """A road with its targets."""
 
     road: str
     """Of the parameter `road.file`."""
@@ -83,9 +83,9 @@ def jump_heights() -> tuple[NDArray[np.float64], tuple[Target, ...]]:
 
 
 def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
-    """Make the road file with ramps, by ``ali3 road``.
+    """Make the road file with ramps, by ``ali3 road``. `centre`: of the square, m.
 
-    `centre`: of the square, m. Raises `HostError`: the road cannot be made.
+    Raises `HostError`: the road cannot be made.
     """
     heights, targets = jump_heights()
     x, y = centre
