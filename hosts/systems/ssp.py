@@ -23,7 +23,7 @@ _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON = f"{{{_SSP}Common}}"
 _STRUCTURE = f"{{{_SSP}Description}}"
 SET = "start"
-"""Name of the parameter set of each part: Ecos applies those of one name, which it is asked for."""
+"""Name of the parameter set of each part: Ecos applies the sets of the name that it is given."""
 
 _VERSIONS = ("1.0", "2.0")
 
@@ -90,7 +90,7 @@ def write_ssp(
 def _document(
     name: str, fmus: Mapping[str, Fmu], wires: Sequence[Wire], content: Mapping[str, Path], version: str
 ) -> bytes:
-    """The description of the system; elements that would be empty are left out, as its schema wants it."""
+    """The description of the system, without empty elements, which its schema does not allow."""
     root = Element(f"{_STRUCTURE}SystemStructureDescription", name=name, version=version)
     system = SubElement(root, f"{_STRUCTURE}System", name=name)
     if fmus:
@@ -98,10 +98,10 @@ def _document(
         for part, fmu in fmus.items():
             _component(elements, part, fmu, wires, content, version)
     if wires:
-        joined = SubElement(system, f"{_STRUCTURE}Connections")
+        connections = SubElement(system, f"{_STRUCTURE}Connections")
         for w in wires:
             ends = {"startElement": w.source, "startConnector": w.output, "endElement": w.target}
-            SubElement(joined, f"{_STRUCTURE}Connection", ends | {"endConnector": w.input})
+            SubElement(connections, f"{_STRUCTURE}Connection", ends | {"endConnector": w.input})
     register_namespace("ssd", _STRUCTURE[1:-1])
     register_namespace("ssc", _COMMON[1:-1])
     indent(root)
@@ -112,7 +112,7 @@ def _document(
 def _component(
     elements: Element, part: str, fmu: Fmu, wires: Sequence[Wire], content: Mapping[str, Path], version: str
 ) -> None:
-    """One part with the ends of its wires and its parameter set."""
+    """Add a part with the ends of its wires and its parameter set."""
     kind = "application/x-fmu-sharedlibrary"
     component = SubElement(elements, f"{_STRUCTURE}Component", name=part, type=kind, source=f"resources/{part}.fmu")
     ends = {(w.output, "output") for w in wires if w.source == part}
@@ -132,6 +132,6 @@ def _component(
 
 
 def _entries(fmu: Fmu, values: Mapping[str, Value]) -> list[Entry]:
-    """Start values of a part as a parameter set has them."""
+    """Start values of a part as entries of a parameter set."""
     variables = {name: fmu.table.settable(name, "") for name in values}
     return [Entry(name, v.kind, value_text(v, values[name]), None) for name, v in variables.items()]
