@@ -16,7 +16,7 @@ TRACKS: dict[str, Track] = {"iso_3888_1": "ISO 3888-1", "iso_3888_2": "ISO 3888-
 EASE = 5.0
 """Length by which curves of the path extend into the lanes, m: bends are wider, at little cost in lateral space."""
 ROWS = 1.0
-"""Largest distance of rows that show whether lanes were kept, m; in a bend of 20 m a chord of it is off by 6 mm."""
+"""Largest distance of rows for a verdict on lanes, m; in a bend of 20 m its chord deviates by 6 mm."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Course:
         ]
 
     def not_driven(self, x: NDArray[np.float64], length: float) -> str:
-        """The first lane that a vehicle has not driven, as a sentence without a full stop; empty if it has driven all.
+        """A clause on the first lane that a vehicle has not driven; empty if it has driven all.
 
         `x`: centre of the vehicle, m, shape (n,); `length`: of the vehicle, m. It must begin before the first lane,
         reach each lane, and end behind the last one, with rows close enough in between.

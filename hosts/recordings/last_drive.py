@@ -86,10 +86,10 @@ def recorded_manoeuvre(folder: Path) -> Manoeuvre:
     """
     drive = read_recording(folder)
     last = last_drive(drive)
-    return manoeuvre_of(drive, last, 0, len(last.inputs) - 1, None if last.whole else drive.start_state)
+    return manoeuvre_between(drive, last, 0, len(last.inputs) - 1, None if last.whole else drive.start_state)
 
 
-def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, state: bytes | None) -> Manoeuvre:
+def manoeuvre_between(drive: RecordedDrive, last: LastDrive, first: int, stop: int, state: bytes | None) -> Manoeuvre:
     """The steps between two rows as a manoeuvre, whose first row has the inputs at its start."""
     inputs = last.inputs[[*range(first, stop + 1), stop]]
     time = drive.step * np.array([0, *range(stop - first + 1)], dtype=np.float64)
