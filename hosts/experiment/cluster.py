@@ -16,7 +16,7 @@ from hosts.common.errors import HostError
 from hosts.experiment.cluster_runs import remove_from_workers
 from hosts.experiment.cluster_worker import ExperimentPlugin, UnpackedFmu, worker_fault
 
-_PATIENCE = 20.0  # s for an answer
+_TIMEOUT = 20.0  # s for an answer
 _ENCRYPTED = ("tls://", "wss://")
 
 
@@ -24,7 +24,7 @@ def client_of(address: str) -> Client:
     """A client of the scheduler at an address. Raises `HostError`: no scheduler answers, or certificates are wrong."""
     _check_encryption(address)
     try:
-        return Client(address, timeout=_PATIENCE, set_as_default=False)
+        return Client(address, timeout=_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:
         message = " ".join(str(error).split())
         raise HostError(f"No scheduler of Dask answers at {address}: {message[:200]}") from None

@@ -30,7 +30,7 @@ def export_manoeuvre(
     Parameters
     ----------
     out : Path
-        CSV file. For a part that does not begin with the start, the state at its begin is computed by repeating the
+        CSV file. For a part that does not begin with the start, its initial state is computed by repeating the
         recording in the FMU, and written beside the file with the suffix ``.state``.
     begin, end : float, optional
         Times of the FMU, s.

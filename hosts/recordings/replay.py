@@ -194,7 +194,7 @@ def _compare_rows(task: tuple[RecordedDrive, Path], progress: Callable[[int], No
     drive, fmu = task
     replayed = ReplayResult()
     outputs = drive.names[len(drive.inputs) :]
-    visited: set[str] = set()
+    differing: set[str] = set()
     count, time = 0, 0.0
     with Repeater(drive, fmu) as repeater:
         replayed.notes = repeater.notes
@@ -217,8 +217,8 @@ def _compare_rows(task: tuple[RecordedDrive, Path], progress: Callable[[int], No
                 columns = _different_columns(np.where(is_recorded[k], recorded[k], repeated), repeated)
                 replayed.different += bool(len(columns))
                 for j in columns:
-                    if outputs[j] not in visited:
-                        visited.add(outputs[j])
+                    if outputs[j] not in differing:
+                        differing.add(outputs[j])
                         replayed.first.append(Difference(count, time, outputs[j], recorded[k, j], repeated[j]))
             progress(replayed.rows)
         _compare_last_refusal(drive, repeater, replayed, count, time)
