@@ -133,7 +133,7 @@ def build_fmu(
 
 
 class FmuBuilder:
-    """Builds the kinds of FMU of one scene; what they share is made once.
+    """Builds the kinds of FMU of one scene, whose common parts are made once.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ class FmuBuilder:
         return replace(self._contents, model_name=fmu_name(self._name)).parameters
 
     def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
-        """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""
+        """Number of pieces of work that `build` will report for these kinds and platforms."""
         run = not self._runs and any(kind in _FACES for kind in work)
         return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
 
@@ -247,7 +247,7 @@ def _label(number: int) -> str:
 
 @contextmanager
 def _told(say: Say, what: str, note: str = "") -> Iterator[None]:
-    """Says what is going on once it takes long, and that it still goes on."""
+    """A context for work that is reported when it takes long, repeatedly, and at its end."""
     begin = time.perf_counter()
     with watched(lambda lasted: say(f"{what}: {lasted:.0f} s{f' ({note})' if note else ''} ..."), _REPEATED):
         yield

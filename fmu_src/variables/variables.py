@@ -176,10 +176,10 @@ def variable_table(
     table += [v for v in (_CAPPED_RESIDUAL,) if v.name not in sensor_names]
     table += _ahead(meta, table)
     table += [_constant(entry) for entry in meta.get("constants", ())]
-    table = _near(meta, table)
+    table = _with_watched_outputs(meta, table)
     table = [replace(v, name=_UNDERSCORED.sub("_", v.name)) for v in table]
     check_names(table)
-    return _distinct(table)
+    return _with_distinct_descriptions(table)
 
 
 def _settings(pose: bool, step_size: float, fidelities: Sequence[str], fidelity: int, has_lead: bool) -> list[Variable]:
@@ -268,11 +268,11 @@ def _ahead(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]
     ]
 
 
-def _near(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
-    """With the places of the outputs that inputs name."""
+def _with_watched_outputs(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
+    """The table with the places of the outputs by which inputs are watched."""
     index = {v.name: k for k, v in enumerate(table)}
-    near = {entry["name"]: index[entry["near"]] for entry in meta["inputs"] if "near" in entry}
-    return [replace(v, other=near[v.name]) if v.source == "input" and v.name in near else v for v in table]
+    watched = {entry["name"]: index[entry["near"]] for entry in meta["inputs"] if "near" in entry}
+    return [replace(v, other=watched[v.name]) if v.source == "input" and v.name in watched else v for v in table]
 
 
 def _constant(entry: Mapping[str, Any]) -> Variable:
@@ -284,15 +284,17 @@ def _constant(entry: Mapping[str, Any]) -> Variable:
     )
 
 
-def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
+def _with_distinct_descriptions(table: Sequence[Variable]) -> tuple[Variable, ...]:
     """Descriptions that several variables share are preceded by the part of the model, or by the name."""
     shared = Counter(v.description for v in table)
-    prefixed = [_preceded(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
+    prefixed = [_with_prefix(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
     shared = Counter(v.description for v in prefixed)
-    return tuple(_preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, prefixed, strict=True))
+    return tuple(
+        _with_prefix(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, prefixed, strict=True)
+    )
 
 
-def _preceded(v: Variable, word: str) -> Variable:
+def _with_prefix(v: Variable, word: str) -> Variable:
     if not (v.description and word):
         return v
     if v.description.startswith(_DEPRECATED):  # the first word of what goes
