@@ -68,8 +68,9 @@ def _write(options: argparse.Namespace, set_options: FmuOptions) -> int:
     recordings = _recordings_beside(results, fmus[0])
     named_fmus = [(name, _with_binary(fmu)) for name, fmu in zip(names, fmus, strict=True)]
     title = options.title if options.title is not None else ", ".join(names)
+    ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
     with _reported_when_long("making the page"):
-        text = page_text(title, named_fmus, page_options, manoeuvre, recordings)
+        text = page_text(title, named_fmus, page_options, manoeuvre, recordings, ends)
     with atomic_file(file) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     _report(file, fmus, world)

@@ -16,8 +16,9 @@ def page_text(
     title: str,
     fmus: Sequence[tuple[str, FmuParts]],
     options: Mapping[str, Any],
-    manoeuvre: Manoeuvre | None,
-    recordings: Sequence[Recording],
+    manoeuvre: Manoeuvre | None = None,
+    recordings: Sequence[Recording] = (),
+    ends: Sequence[str] = (),
 ) -> str:
     """The HTML file of a page. Raises `ViewerError`: the script of the viewer is not there and cannot be built.
 
@@ -31,13 +32,15 @@ def page_text(
         Inputs over time, until the user takes over.
     recordings : sequence of Recording
         Drawn beside the FMUs at the same time.
+    ends : sequence of str
+        Messages of the page at the end of each recording.
     """
     data: dict[str, Any] = {"fmus": [fmu.record(name) for name, fmu in fmus], "options": dict(options)}
     if manoeuvre is not None:
         data["script"] = packed(json.dumps(script_of(manoeuvre)).encode())
     if recordings:
         data["beside"] = page_data([recording.thinned() for recording in recordings], {})
-        data["ends"] = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
+        data["ends"] = list(ends)
     return html_document(title, data, "ALi3Viewer.drive")
 
 
