@@ -17,7 +17,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from ali3.chart_description import described, png_metadata
-from ali3.files import atomic_file
+from ali3.files import atomic_file, write_bytes
 from ali3.message_text import clean
 
 _PIXELS_PER_INCH = 96  # of CSS
@@ -38,8 +38,7 @@ class Drawing:
 
     def write(self, file: Path) -> Path:
         """Write the SVG to a file and return its path."""
-        with atomic_file(file) as temporary:
-            temporary.write_bytes(self.svg)
+        write_bytes(file, self.svg)
         return file
 
 

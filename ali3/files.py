@@ -44,6 +44,12 @@ def write_text(file: str | os.PathLike[str], text: str) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
+def write_bytes(file: str | os.PathLike[str], content: bytes) -> None:
+    """Write a whole file; see `atomic_file`."""
+    with atomic_file(file) as temporary:
+        temporary.write_bytes(content)
+
+
 def write_json(file: str | os.PathLike[str], content: Any) -> None:
     """Write a whole JSON file in UTF-8, whose numbers are finite; see `atomic_file`."""
     write_text(file, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")

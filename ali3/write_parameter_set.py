@@ -4,7 +4,7 @@ import os
 from importlib.metadata import version
 
 from ali3.errors import UserError
-from ali3.files import atomic_file
+from ali3.files import write_bytes
 from ali3.parameter_set import ParameterSet
 from ali3.read_parameter_set import read_parameter_set
 
@@ -27,8 +27,7 @@ def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], 
         The file cannot be written.
     """
     data = parameter_set_bytes(parameters, as_built)
-    with atomic_file(file) as temporary:
-        temporary.write_bytes(data)
+    write_bytes(file, data)
 
 
 def parameter_set_bytes(parameters: ParameterSet, as_built: bool) -> bytes:

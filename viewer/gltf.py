@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import reason
-from ali3.files import atomic_file, check_writable
+from ali3.files import check_writable, write_bytes
 from ali3.scene.base64_numbers import encoded
 from ali3.scene.decimation import chosen_times
 from ali3.scene.errors import ViewerError
@@ -103,8 +103,7 @@ def write_gltf(
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
     if target.suffix.lower() == ".gltf":
         content = _gltf_text(content)
-    with atomic_file(path) as temporary:
-        temporary.write_bytes(content)
+    write_bytes(path, content)
     notes = list(recording.notes)
     notes += [f"{item['name']} is not drawn: {item['why']}" for item in recording.missing]
     notes += answer["notes"]

@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from ali3.files import atomic_file, check_writable
+from ali3.files import check_writable, write_bytes
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
 from ali3.temporary_folder import temporary_folder
@@ -94,6 +94,5 @@ def write_picture(
     if not begin <= time <= end:
         raise ViewerError(f"There is no picture at {time:g} s; it was recorded from {begin:g} s to {end:g} s.")
     (picture,) = pictures(thinned_recordings, [time], size, camera, options)
-    with atomic_file(path) as temporary:
-        temporary.write_bytes(picture)
+    write_bytes(path, picture)
     return notes_of(thinned_recordings)

@@ -11,8 +11,8 @@ import mbs
 from ali3.scene.recording import Recording
 from benchmarks.car import fidelity_runs, manoeuvres
 from benchmarks.pictures import driven_worlds
+from hosts.driving.course import course_of
 from hosts.driving.course_scenery import with_course
-from hosts.driving.courses import course_of
 from mbs.model.model import Model
 from mbs.scenes import (
     bicycle,

@@ -14,7 +14,7 @@ from ali3.scene.recording import Recording
 from fmu_src.build.command import main as build
 from hosts.view.command import main as view
 from hosts.view.page_parts import FmuParts, fmu_parts
-from hosts.view.page_text import Page
+from hosts.view.page_text import page_text
 from mbs.scenes import double_four_bar
 
 _FAILS = "ali3p_no_projection"
@@ -65,13 +65,13 @@ def double_four_bar_beside(folder: Path) -> str:
     recording = Recording(
         system.scene, trajectory.poses.t, dict(trajectory.poses.items()), name="the same without projections"
     )
-    page = Page(
-        *([fmu], ["ALi3 with projections: it runs on"]),
+    return page_text(
+        "The double four-bar through its singular positions",
+        [("ALi3 with projections: it runs on", fmu)],
         {"name": "double_four_bar", "run": True, "step": 0.01, "plots": ["energy.total", "B0.position.y"]},
         recordings=[recording],
         ends=[f"{reason}."],
     )
-    return page.text("The double four-bar through its singular positions")
 
 
 def puma(folder: Path) -> str:

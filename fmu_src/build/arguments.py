@@ -1,14 +1,12 @@
 """Checks of the arguments of `build_fmu`, made before any file is written; each error is one sentence."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import mbs
 from fmu_src.native.platforms import PLATFORMS
 from mbs import ArgumentTypeError
-from mbs.common.checks import instance_of, shown, whole
+from mbs.common.checks import instance_of, shown
 
 Systems = mbs.System | Sequence[mbs.System] | Mapping[int, mbs.System]
 
@@ -34,17 +32,6 @@ def systems_by_number(system: Systems) -> dict[int, mbs.System]:
     ):
         raise ValueError(f"The Systems of an FMU are numbered {shown(numbers)}; the numbers must be 0, 1, 2 and on.")
     return {k: systems[k] for k in sorted(numbers)}
-
-
-def default_fidelity(fidelity: int, count: int) -> int:
-    """The number of the fidelity that an FMU starts with, among `count`."""
-    return whole(fidelity, "the default fidelity of an FMU", 0, count - 1, ValueError)
-
-
-def folder(out: str | PathLike[str]) -> Path:
-    """The folder of an FMU."""
-    kinds: tuple[type[Any], ...] = (str, PathLike)
-    return Path(instance_of(kinds, out, "the folder of an FMU", "a path"))
 
 
 def known_platforms(platforms: Sequence[str] | None, able: Sequence[str], kind: str) -> tuple[str, ...]:

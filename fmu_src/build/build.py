@@ -14,7 +14,7 @@ from pathlib import Path
 from ali3.alias_file import Content
 from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
-from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
+from fmu_src.build.arguments import Systems, known_platforms, systems_by_number
 from fmu_src.build.progress_line import watched
 from fmu_src.description.nominal_values import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
@@ -27,7 +27,7 @@ from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_na
 from fmu_src.variables.renamed_variables import Renamed, renamed
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import by_name_in_system, check_fidelities, variable_table, with_uncomputed
-from mbs.common.checks import instance_of
+from mbs.common.checks import instance_of, whole
 from mbs.compiler.generated.library import named_code_of
 from mbs.compiler.ports import map_followers
 
@@ -113,7 +113,8 @@ def build_fmu(
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"There is no FMU kind '{kind}'; the kinds are {', '.join(KINDS)}.")
     platform_names = known_platforms(platforms, able_platforms(kind), kind)
-    file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
+    instance_of((str, PathLike), out, "the folder of an FMU", "a path")
+    file = Path(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
     check_writable(file)
     # one library is there soon enough
     with compiled_ahead(
@@ -132,7 +133,7 @@ def build_fmu(
 
 
 class FmuBuilder:
-    """Builds the kinds of FMU of one scene; what they share is made once.
+    """Builds the kinds of FMU of one scene, whose common parts are made once.
 
     Parameters
     ----------
@@ -168,7 +169,7 @@ class FmuBuilder:
     ) -> None:
         systems_by_fidelity = systems_by_number(system)
         systems, followers = map_followers(list(systems_by_fidelity.values()))
-        fidelity = default_fidelity(fidelity, len(systems_by_fidelity))
+        fidelity = whole(fidelity, "the default fidelity of an FMU", 0, len(systems) - 1, ValueError)
         metas = [s.meta for s in systems]
         check_fidelities(metas)
         meta = metas[fidelity]
@@ -205,7 +206,7 @@ class FmuBuilder:
         return replace(self._contents, model_name=fmu_name(self._name)).parameters
 
     def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
-        """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""
+        """Number of pieces of work that `build` will report for these kinds and platforms."""
         run = not self._runs and any(kind in _FACES for kind in work)
         return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
 
@@ -246,7 +247,7 @@ def _label(number: int) -> str:
 
 @contextmanager
 def _told(say: Say, what: str, note: str = "") -> Iterator[None]:
-    """Says what is going on once it takes long, and that it still goes on."""
+    """A context for work that is reported when it takes long, repeatedly, and at its end."""
     begin = time.perf_counter()
     with watched(lambda lasted: say(f"{what}: {lasted:.0f} s{f' ({note})' if note else ''} ..."), _REPEATED):
         yield

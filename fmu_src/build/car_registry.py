@@ -1,6 +1,6 @@
 """Finds a car by its name or its file, compiles it in all fidelities and adds the data that its FMU stores."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -9,6 +9,7 @@ from typing import Any
 import mbs
 from ali3.archives import LARGEST_UNPACKED
 from ali3.message_text import shortened
+from ali3.named_files import files_in
 from ali3.reading import is_file, read_bytes
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.system_with_poses import Maker, posed_systems
@@ -111,22 +112,10 @@ def car_files(car: Car) -> dict[str, bytes]:
     `car`: as `mbs.vehicle.load` gives it.
     """
     folder = car.folder.resolve()
-    named_files = {(folder / text).resolve() for text in _texts(car.model_dump())}
-    files = {folder / _FILE} | {file for file in named_files if folder in file.parents and is_file(file)}
+    named_files = {file.resolve() for file in files_in(car.model_dump(), folder)}
+    files = {folder / _FILE} | {file for file in named_files if folder in file.parents}
     files_by_path = {f"{FOLDER}/{file.relative_to(folder).as_posix()}": file for file in sorted(files)}
     return {path: read_bytes(file, LARGEST_UNPACKED) for path, file in files_by_path.items()}
-
-
-def _texts(data: Any) -> Iterator[str]:
-    """All texts of a car that may be names of files."""
-    if isinstance(data, str) and 0 < len(data) < 200 and "\0" not in data:
-        yield data
-    elif isinstance(data, dict):
-        for value in data.values():
-            yield from _texts(value)
-    elif isinstance(data, (list, tuple)):
-        for value in data:
-            yield from _texts(value)
 
 
 def _is_path(car: str) -> bool:

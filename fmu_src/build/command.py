@@ -26,6 +26,24 @@ _KINDS = "native,fmi3,python"
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
     """Run the command; `prog` is how the user typed it."""
+    parser = _parser(prog)
+    options = parser.parse_args(arguments)
+    if options.ports is not None and options.car is None:
+        parser.error("--ports needs a car, as in ali3 build prototype")
+    if options.fidelity is not None and options.car is None:
+        parser.error("--fidelity needs a car, as in ali3 build prototype")
+    if options.plain and (options.kernel or options.fmu is not None):
+        reason = "the kernel has no code of a model" if options.kernel else "--fmu compiles the C in the FMU"
+        parser.error(f"--plain needs a car or a scene to build; {reason}")
+    if options.kernel:
+        return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
+    options.out = options.out or Path("dist")
+    if options.fmu is not None:
+        return run_command(lambda: _add_platforms(options), (RuntimeError,))
+    return run_command(lambda: _build(options), (ValueError, RuntimeError))
+
+
+def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
     target_group = parser.add_mutually_exclusive_group()
     target_group.add_argument(
@@ -94,20 +112,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
-    options = parser.parse_args(arguments)
-    if options.ports is not None and options.car is None:
-        parser.error("--ports needs a car, as in ali3 build prototype")
-    if options.fidelity is not None and options.car is None:
-        parser.error("--fidelity needs a car, as in ali3 build prototype")
-    if options.plain and (options.kernel or options.fmu is not None):
-        reason = "the kernel has no code of a model" if options.kernel else "--fmu compiles the C in the FMU"
-        parser.error(f"--plain needs a car or a scene to build; {reason}")
-    if options.kernel:
-        return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
-    options.out = options.out or Path("dist")
-    if options.fmu is not None:
-        return run_command(lambda: _add_platforms(options), (RuntimeError,))
-    return run_command(lambda: _build(options), (ValueError, RuntimeError))
+    return parser
 
 
 def _build_kernel(platforms: str, out: Path | None) -> int:
@@ -188,7 +193,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
-    _report_names(builder.renamed, len(builder.renamed.table))
+    _report_names(builder.renamed)
     platforms = [p for p in TARGETS if p in first or p in rest]
     available = {kind: [p for p in platforms if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not available[k]]:
@@ -198,8 +203,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     first_builds = {kind: list(first) for kind in available if first and set(first) <= set(available[kind])}
     full_builds = {kind: targets for kind, targets in available.items() if first_builds.get(kind) != targets}
     meta = systems[fidelity].meta
-    parameters_written = False
-    for builds in (first_builds, full_builds):
+    for builds in filter(None, (first_builds, full_builds)):
         line.expect(builder.pieces(builds))
         for kind, targets in builds.items():
             file = builder.build(kind, targets, files[kind])
@@ -208,9 +212,9 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
                 f"{len(meta['sensors'])} sensors; for {', '.join(targets)}",
                 flush=True,
             )
-        if builds and not parameters_written:
-            parameters_written = _write_parameters(builder.parameters, parameter_file)
-        if builds is first_builds and first_builds and full_builds:
+        if builds is (first_builds or full_builds):
+            _write_parameters(builder.parameters, parameter_file)
+        if builds is first_builds and full_builds:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
 
@@ -245,13 +249,13 @@ def _report_tables(tables: Sequence[str]) -> None:
     print("".join(f"{table}\n" for table in tables), end="", flush=True)
 
 
-def _report_names(renamed: Renamed, variables: int) -> None:
+def _report_names(renamed: Renamed) -> None:
     named = renamed.named.values()
     if not named:
         return
     other_units = {v.unit for v in named if v.scale != 1.0}
     units = f", in {', '.join(sorted(other_units))} where they have another unit" if other_units else ""
-    print(f"{len(named)} of {variables} variables have other names{units}; the rest keep theirs", flush=True)
+    print(f"{len(named)} of {len(renamed.table)} variables have other names{units}; the rest keep theirs", flush=True)
     reasons: dict[str, list[str]] = {}
     for name, reason in renamed.left_out.items():
         reasons.setdefault(reason, []).append(name)
@@ -264,15 +268,14 @@ def _report_grip(grip: Mapping[str, str]) -> None:
         print(f"{axle}: {text}", flush=True)
 
 
-def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
-    """Write the set of all parameters, unless there is one that a person has edited; True."""
+def _write_parameters(parameters: ParameterSet, file: Path) -> None:
+    """Write the set of all parameters, unless there is one that a person has edited."""
     from fmu_src.variables.parameter_file import write_beside
 
     if write_beside(parameters, file):
         print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)
     else:
         print(f"{file}: differs from what a build writes, and is kept", flush=True)
-    return True
 
 
 def _able(kind: str, platform: str) -> bool:

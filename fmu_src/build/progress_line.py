@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 PATIENCE = 2.0
-"""What takes longer is reported, s."""
-_REDRAWN = 0.5
-_REPEATED = 30.0
+"""Longer work is reported, s."""
+_REDRAW_INTERVAL = 0.5  # s, on a terminal
+_REPEAT_INTERVAL = 30.0  # s, in a file
 
 
 @contextmanager
@@ -33,7 +33,7 @@ def watched(tell: Callable[[float], None], then: float) -> Iterator[None]:
 
 
 class ProgressLine:
-    """Says what goes on once it takes longer than two seconds.
+    """Reports work that takes longer than two seconds.
 
     On a terminal it is one line that is drawn again and again; in a file it is a line at the beginning, every half a
     minute and at the end.
@@ -45,12 +45,12 @@ class ProgressLine:
         self._done, self._total = 0, 0
 
     def expect(self, total: int) -> None:
-        """Count from here on: so many pieces of work will come."""
+        """Begin to count. `total`: pieces of work to come."""
         self._done, self._total = 0, total
 
     @contextmanager
     def told(self, what: str, note: str = "") -> Iterator[None]:
-        """A context in which `what` is done; `note` says why it may take long."""
+        """A context for work that is reported. `what`: the work; `note`: why it may take long."""
         words = f" ({note})" if note else ""
 
         def tell(lasted: float) -> None:
@@ -59,7 +59,7 @@ class ProgressLine:
 
         begin = time.perf_counter()
         try:
-            with watched(tell, _REDRAWN if self._drawn else _REPEATED):
+            with watched(tell, _REDRAW_INTERVAL if self._drawn else _REPEAT_INTERVAL):
                 yield
         finally:
             took = time.perf_counter() - begin

@@ -78,7 +78,7 @@ def load_fidelities(
         module = sys.modules[build.__module__]
         fidelities = getattr(module, "fidelities", None)
         if not callable(fidelities) or build.__name__ != "build":
-            return name, posed_systems({0: lambda: _built(scene, build)}, 0, poses, tell), 0
+            return name, posed_systems({0: lambda: _model(scene, build)}, 0, poses, tell), 0
         makers = fidelities()
         numbers = sorted(makers)
         if numbers != list(range(len(makers))):
@@ -98,11 +98,11 @@ def car_of_scene(scene: str) -> Car | None:
 
 
 def _system(scene: str, build: Callable[..., Any]) -> mbs.System:
-    model = _built(scene, build)
+    model = _model(scene, build)
     return mbs.compile(model) if isinstance(model, mbs.Model) else model
 
 
-def _built(scene: str, build: Callable[..., Any]) -> mbs.Model | mbs.System:
+def _model(scene: str, build: Callable[..., Any]) -> mbs.Model | mbs.System:
     missing = [
         p.name
         for p in inspect.signature(build).parameters.values()
@@ -141,7 +141,7 @@ def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
         except (SceneError, PosesError):
             raise
         except Exception as error:
-            raise _own_text(error, path) from error
+            raise _error_in_scene(error, path) from error
 
 
 class _Neighbours(MetaPathFinder):
@@ -173,8 +173,8 @@ def _neighbours(folder: Path) -> Iterator[None]:
         sys.meta_path.remove(finder)
 
 
-def _own_text(error: Exception, path: Path) -> Exception:
-    """The error as it is where the engine refused the model in a sentence; else with its place in the user's files."""
+def _error_in_scene(error: Exception, path: Path) -> Exception:
+    """An error of the engine as it is, which is a sentence; another one with its place in the files of the user."""
     if isinstance(error, SyntaxError):
         return SceneError(f"{error.filename}, line {error.lineno}: {error.msg}.")
     frames = traceback.extract_tb(error.__traceback__)

@@ -123,11 +123,8 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
     for reference, v in enumerate(table):
         _variable(variables, reference, v, types)
     for reference, text in enumerate(head.texts, start=len(table)):
-        fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
-        text_attributes = {"name": text.name, "valueReference": str(reference), "description": text.description}
-        ElementTree.SubElement(
-            ElementTree.SubElement(variables, "ScalarVariable", text_attributes | fixed), "String", start=text.start
-        )
+        scalar = ElementTree.SubElement(variables, "ScalarVariable", text_attributes(text, reference))
+        ElementTree.SubElement(scalar, "String", start=text.start)
     _structure(root, with_texts(table, reach, head.texts))
     return to_bytes(root)
 
@@ -228,15 +225,25 @@ def _types(root: ElementTree.Element, table: Sequence[Variable]) -> None:
 
 
 def _variable(parent: ElementTree.Element, reference: int, v: Variable, types: dict[str, dict[str, str]]) -> None:
-    attributes = {"name": v.name, "valueReference": str(reference)}
-    if v.description:
-        attributes["description"] = v.description
-    attributes |= {"causality": v.causality, "variability": v.variability}
+    attributes = leading_attributes(v.name, reference, v.description, v.causality, v.variability)
     if v.causality != "input":
         attributes["initial"] = "calculated" if v.causality == "output" else "exact"
     scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
     value = {"declaredType": declared_type(v, types)} | variable_attributes(v)
     ElementTree.SubElement(scalar, "Integer" if v.whole else "Real", value)
+
+
+def leading_attributes(name: str, reference: int, description: str, causality: str, variability: str) -> dict[str, str]:
+    """Attributes that all variables begin with; the same in FMI 2.0 and 3.0."""
+    attributes = {"name": name, "valueReference": str(reference)}
+    if description:
+        attributes["description"] = description
+    return attributes | {"causality": causality, "variability": variability}
+
+
+def text_attributes(text: TextVariable, reference: int) -> dict[str, str]:
+    """Attributes of a variable that is text; the same in FMI 2.0 and 3.0."""
+    return leading_attributes(text.name, reference, text.description, "parameter", "fixed") | {"initial": "exact"}
 
 
 def variable_attributes(v: Variable) -> dict[str, str]:

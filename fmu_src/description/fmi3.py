@@ -11,7 +11,9 @@ from fmu_src.description.description import (
     declared_type,
     declared_types,
     dependency_attributes,
+    leading_attributes,
     span_of_derivatives,
+    text_attributes,
     to_bytes,
     units,
     variable_attributes,
@@ -69,11 +71,8 @@ def model_description_fmi3(
     if time == len(arrays):
         _time(variables, time)
     for reference, text in enumerate(head.texts, start=len(arrays) + 1):
-        fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
-        text_attributes = {"name": text.name, "valueReference": str(reference), "description": text.description}
-        ElementTree.SubElement(
-            ElementTree.SubElement(variables, "String", text_attributes | fixed), "Start", value=text.start
-        )
+        element = ElementTree.SubElement(variables, "String", text_attributes(text, reference))
+        ElementTree.SubElement(element, "Start", value=text.start)
     _structure(root, arrays, with_texts(table, reach, head.texts), (len(table), len(head.texts)))
     annotation = ElementTree.SubElement(ElementTree.SubElement(root, "Annotations"), "Annotation", type=DERIVATIVES)
     annotation.append(span_of_derivatives(table))
@@ -258,10 +257,7 @@ def _variable(
     table: Sequence[Variable],
 ) -> None:
     v = array.of
-    attributes = {"name": array.name, "valueReference": str(reference)}
-    if array.description:
-        attributes["description"] = array.description
-    attributes |= {"causality": v.causality, "variability": v.variability}
+    attributes = leading_attributes(array.name, reference, array.description, v.causality, v.variability)
     attributes["declaredType"] = declared_type(v, types)
     if v.causality == "parameter":
         attributes["initial"] = "exact"

@@ -1,4 +1,4 @@
-"""Typical sizes of outputs: a drive at build time, in which all inputs move moderately."""
+"""Nominal values of outputs, from a drive at build time in which all inputs move moderately."""
 
 import math
 import re
@@ -13,12 +13,12 @@ from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
 
 SECONDS = 4.0
-_SPEED = 15.0  # m/s, where the pose has one
-_SHARE = 0.3  # amplitude of an input over the distance from its start value to the ends of its range
-_OPEN = 1.0  # half-width of the range of an input that has none
-_FIRST = 0.4  # Hz, of the first input
-_RATIO = 1.3  # of the frequencies of an input and the one before it
-# Wheels and sides, which are one size: _FL and _RR, left and right.
+_INITIAL_SPEED = 15.0  # m/s, if the System has an initial pose
+_AMPLITUDE = 0.3  # of an input, over the distance from its start value to the ends of its range
+_HALF_WIDTH = 1.0  # of the range of an input without one
+_LOWEST_FREQUENCY = 0.4  # Hz, of the first input
+_FREQUENCY_RATIO = 1.3  # of an input to the one before it
+# Words of wheels and sides, whose outputs share a nominal value: _FL and _RR, left and right.
 _SIDE = re.compile(r"(?<![A-Za-z])(FL|FR|RL|RR|left|right)(?![A-Za-z])")
 
 
@@ -27,14 +27,16 @@ _MOST_STEPS = 4000
 
 
 def with_nominal(
-    table: Sequence[Variable], driven: Mapping[int, float], tried: Mapping[int, float]
+    table: Sequence[Variable], sizes_of_drive: Mapping[int, float], sizes_of_trials: Mapping[int, float]
 ) -> tuple[Variable, ...]:
     """Real outputs get a typical size: the power of ten below the largest value, for wheels and sides the same.
 
-    `driven`, `tried`: largest values by the places of outputs: of a drive, and of trials for those that a drive does
-    not move.
+    `sizes_of_drive`, `sizes_of_trials`: largest values by the places of outputs, of a drive and, for outputs that it
+    does not move, of trials.
     """
-    sizes = {i: driven[i] if driven.get(i, 0.0) > _ROUND_OFF else size for i, size in tried.items()}
+    sizes = {
+        i: sizes_of_drive[i] if sizes_of_drive.get(i, 0.0) > _ROUND_OFF else size for i, size in sizes_of_trials.items()
+    }
     group = [_SIDE.sub("*", v.name) for v in table]
     largest: dict[str, float] = {}
     for i, size in sizes.items():
@@ -60,22 +62,23 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
         h = float(system.meta["experiment"]["step_s"])
         try:
             if system.meta["floating"]:
-                kernel.set_pose(speed=_SPEED)
+                kernel.set_pose(speed=_INITIAL_SPEED)
             kernel.initialise(0.0)
             for k in range(min(round(SECONDS / h), _MOST_STEPS)):
                 for n, v in enumerate(inputs):
-                    kernel.set_input(v.index, _moved(v, math.sin(math.tau * _FIRST * _RATIO**n * k * h)))
-                kernel.step(h)  # before it drag and traction are new to a flexible frame, whose points jump
+                    fraction = math.sin(math.tau * _LOWEST_FREQUENCY * _FREQUENCY_RATIO**n * k * h)
+                    kernel.set_input(v.index, _input_value(v, fraction))
+                kernel.step(h)  # only then: drag and traction begin suddenly and make points of a flexible frame jump
                 largest = np.maximum(largest, np.abs(kernel.sensors()))
         except KernelError:
             continue
     return {i: float(largest[index]) for i, index in sensor_numbers.items()}
 
 
-def _moved(v: Variable, part: float) -> float:
-    """An input at a part from -1 to 1 of its share of the range."""
+def _input_value(v: Variable, fraction: float) -> float:
+    """Value of an input. `fraction`: of its amplitude, -1 to 1."""
     start = v.start or 0.0
     if v.tried is not None:
-        return start + _SHARE * part * v.tried
-    low, high = (start + s * _OPEN if end is None else end for s, end in ((-1.0, v.min), (1.0, v.max)))
-    return start + _SHARE * (part * (high - start) if part > 0.0 else -part * (low - start))
+        return start + _AMPLITUDE * fraction * v.tried
+    low, high = (start + s * _HALF_WIDTH if end is None else end for s, end in ((-1.0, v.min), (1.0, v.max)))
+    return start + _AMPLITUDE * (fraction * (high - start) if fraction > 0.0 else -fraction * (low - start))

@@ -1,4 +1,4 @@
-"""Parameters in groups that reach an initial state for one reason, so that trying them costs no more for many of them.
+"""Groups of parameters that affect an initial state in one way, so that the trials of many cost no more than of few.
 
 A start in static equilibrium is where forces at rest balance: parameters that change a force at rest or a guide move
 it, all of them in the same way as far as declared dependencies go. Those of roads move it where a start is put on
@@ -29,9 +29,13 @@ def parameter_groups(
     moving: list[int] = []
     roads: list[int] = []
     other_parameters: list[int] = []
-    static = {int(p) for p in arrays["static_par"]}  # their values do not count while the equilibrium is sought
+    static = {int(p) for p in arrays["static_par"]}  # without effect in the search of the equilibrium
     settles = len(arrays["static_start"]) > 0
-    configurations = [configuration for d in _DISPLACEMENTS for configuration in _beside(arrays["q0"].tolist(), d, rng)]
+    configurations = [
+        configuration
+        for d in _DISPLACEMENTS
+        for configuration in _opposite_configurations(arrays["q0"].tolist(), d, rng)
+    ]
     forces = [_force(kernel, q) for q in configurations]
     for p in range(len(arrays["par_value"])):
         targets = set(arrays["par_target"][arrays["par_ptr"][p] : arrays["par_ptr"][p + 1]].tolist())
@@ -47,8 +51,8 @@ def parameter_groups(
     return [group for group in (moving, roads, other_parameters) if group]
 
 
-def _beside(q0: list[float], size: float, rng: random.Random) -> list[list[float]]:
-    """Two opposite places, for stops at both ends."""
+def _opposite_configurations(q0: list[float], size: float, rng: random.Random) -> list[list[float]]:
+    """Two configurations on opposite sides of `q0`, so that stops at both ends act."""
     offsets = [rng.choice((-size, size)) * rng.uniform(0.5, 1.0) for _ in q0]
     return [[q + sign * d for q, d in zip(q0, offsets, strict=True)] for sign in (1.0, -1.0)]
 
@@ -56,7 +60,7 @@ def _beside(q0: list[float], size: float, rng: random.Random) -> list[list[float
 def _changes_force(
     kernel: Instance, p: int, value: Callable[[int], float], places: list[list[float]], forces: list[bytes]
 ) -> bool:
-    """Whether a force at rest is another one with other values; also where none of them is taken."""
+    """Whether a parameter changes a force at rest; also true if the kernel takes none of its values."""
     is_compared = False
     for q, force in zip(places, forces, strict=True):
         kernel.reset()

@@ -21,10 +21,10 @@ from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.kernel.header.sensor_reads import SENSOR_READS, SensorReads
 
 _SEED = 20_261_120
-_INITIAL_TRIES = 6
-_STEP_TRIES = 9
+_INITIAL_TRIALS = 6
+_STEP_TRIALS = 9
 _STEPS = 40
-_POSE = {
+_POSE_RANGES = {
     "initial.x": 20.0,
     "initial.y": 20.0,
     "initial.z": 0.2,
@@ -38,7 +38,7 @@ _OPEN_RANGE = 10.0
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
 _WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.DIRECTION)
-_SECOND = 2  # order of second rates, which need accelerations
+_SECOND_ORDER = 2  # of rates, which need accelerations
 _ON_ROAD = (ElementType.TYRE, ElementType.MAGIC_TYRE, ElementType.CONTACT_POINTS)
 _FEEDTHROUGH, _MOTION, _FORCE = "feedthrough", "motion", "force"
 
@@ -56,28 +56,28 @@ class Dependencies:
 def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:
     """Measure dependencies and sizes over a System or all its fidelities; the result is the same at every call."""
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
-    tries = _Tries(table, outputs)
+    trials = _Trials(table, outputs)
     for system in systems:
-        tries.system(system, Instance(LoadedSystem(system.kernel_bytes())))
-    tries.close(systems)
+        trials.system(system, Instance(LoadedSystem(system.kernel_bytes())))
+    trials.close(systems)
     return Dependencies(
-        {i: None if i in tries.settling else tuple(sorted(tries.initial[i])) for i in outputs},
-        tries.size,
+        {i: None if i in trials.settling else tuple(sorted(trials.initial[i])) for i in outputs},
+        trials.size,
     )
 
 
-class _Tries:
+class _Trials:
     """Trial starts and steps of Systems with random values, and the dependencies and sizes that they have shown."""
 
     def __init__(self, table: Sequence[Variable], outputs: Sequence[int]) -> None:
         self.table = table
         self.outputs = outputs
         self.sensed = [i for i in outputs if table[i].source == "sensor"]
-        self.moved: dict[int, set[int]] = {i: set() for i in outputs}  # inputs that change it over a step
+        self.changed_over_step: dict[int, set[int]] = {i: set() for i in outputs}  # inputs that change it over a step
         self.initial: dict[int, set[int]] = {i: set() for i in outputs}
         self.settling: set[int] = set()
         self.size = dict.fromkeys(outputs, 0.0)
-        self.of_fidelity: list[list[list[float] | None]] = []
+        self.starts_of_fidelities: list[list[list[float] | None]] = []
         self.share = 1.0
         self.inputs = [i for i, v in enumerate(table) if v.source == "input"]
         self.parameters = [i for i, v in enumerate(table) if v.source == "parameter"]
@@ -89,7 +89,7 @@ class _Tries:
         groups = self._groups(system, kernel)
         compared = dict.fromkeys(map(tuple, groups), False)
         starts = [self._start(kernel, {})]
-        for k in range(_INITIAL_TRIES):
+        for k in range(_INITIAL_TRIALS):
             self.share = _SHARES[k % len(_SHARES)]
             values = {i: self._random(i, rng) for i in self.settable}
             starts.append(self._start(kernel, values))
@@ -104,13 +104,13 @@ class _Tries:
         unknown = {i for group, was_compared in compared.items() if not was_compared for i in group}
         for i in self.outputs:  # no start has shown whether they depend on these
             self.initial[i] |= unknown
-        self.of_fidelity.append(starts)
+        self.starts_of_fidelities.append(starts)
         fidelity = next((i for i, v in enumerate(self.table) if v.source == "fidelity"), None)
         if fidelity is not None:
-            for first_start, other_start in zip(self.of_fidelity[0], starts, strict=True):
+            for first_start, other_start in zip(self.starts_of_fidelities[0], starts, strict=True):
                 self._compare(self.initial, fidelity, first_start, other_start)
         h = float(system.meta["experiment"]["step_s"])
-        for k in range(_STEP_TRIES):
+        for k in range(_STEP_TRIALS):
             self.share = _SHARES[k % len(_SHARES)]
             self._steps(kernel, h, rng)
 
@@ -130,15 +130,19 @@ class _Tries:
         }
         placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
         forced = {k for i in self.sensed if kind[i] == _FORCE for k in self.initial[i]}
-        on_road = {i for i in self.sensed if any(_meets_road(system, self.table[i].index) for system in systems)}
+        on_road = {
+            i for i in self.sensed if any(_reads_road_element(system, self.table[i].index) for system in systems)
+        }
         for i in self.outputs:
             if i in on_road:  # constant on level ground, such as its normal, but not on a kerb that no wheel stands on
                 self.initial[i] |= placed | forced
             if kind.get(i) == _FORCE and self.initial[i]:
                 self.initial[i] |= placed
         if any(v.source == "settling" for v in self.table):
-            driven = any(self.moved[i] for i in self.sensed if kind[i] != _FEEDTHROUGH)
-            moving = {i for i in self.sensed if self.initial[i] or self.moved[i] or (driven and kind[i] == _FORCE)}
+            driven = any(self.changed_over_step[i] for i in self.sensed if kind[i] != _FEEDTHROUGH)
+            moving = {
+                i for i in self.sensed if self.initial[i] or self.changed_over_step[i] or (driven and kind[i] == _FORCE)
+            }
             moving = {i for i in moving if kind[i] != _FEEDTHROUGH}
             predicted = {i for i in self.outputs if self.table[i].source == "ahead"}
             self.settling = moving | {i for i in predicted if {self.table[i].index, self.table[i].other} & moving}
@@ -158,13 +162,13 @@ class _Tries:
         except KernelError:
             pass  # the last accepted state remains
         state = kernel.save()
-        base = self._stepped(kernel, h)
+        base = self._sensors_after_step(kernel, h)
         for i in self.inputs:
             kernel.restore(state)
             kernel.set_input(self.table[i].index, self._random(i, rng))
-            self._compare(self.moved, i, base, self._stepped(kernel, h))
+            self._compare(self.changed_over_step, i, base, self._sensors_after_step(kernel, h))
 
-    def _stepped(self, kernel: Instance, h: float) -> list[float] | None:
+    def _sensors_after_step(self, kernel: Instance, h: float) -> list[float] | None:
         """Sensors after one step; None if it fails."""
         try:
             kernel.step(h)
@@ -173,13 +177,17 @@ class _Tries:
         return list(kernel.sensors())
 
     def _compare(
-        self, reach: dict[int, set[int]], variable: int, one: list[float] | None, other: list[float] | None
+        self,
+        reach: dict[int, set[int]],
+        variable: int,
+        sensors: list[float] | None,
+        changed_sensors: list[float] | None,
     ) -> None:
         """Add a variable to the dependencies of all outputs that differ between two lists of sensors."""
-        if one is None or other is None:
+        if sensors is None or changed_sensors is None:
             return
         for i in self.sensed:
-            if one[self.table[i].index] != other[self.table[i].index]:
+            if sensors[self.table[i].index] != changed_sensors[self.table[i].index]:
                 reach[i].add(variable)
 
     def _sizes(self, sensors: list[float]) -> None:
@@ -189,7 +197,7 @@ class _Tries:
     def _random(self, i: int, rng: random.Random) -> float:
         """A random value of a variable within the present share of its range."""
         v = self.table[i]
-        span = _POSE.get(v.name, _OPEN_RANGE) if v.source == "pose" else _OPEN_RANGE
+        span = _POSE_RANGES.get(v.name, _OPEN_RANGE) if v.source == "pose" else _OPEN_RANGE
         centre = v.start or 0.0
         if v.tried is not None:
             return centre + self.share * rng.uniform(-v.tried, v.tried)
@@ -203,7 +211,7 @@ class _Tries:
     def _start(self, kernel: Instance, values: dict[int, float]) -> list[float] | None:
         """Sensors of the initial state with given values; None if the start fails."""
         kernel.reset()
-        pose = [0.0] * len(_POSE)
+        pose = [0.0] * len(_POSE_RANGES)
         try:
             for i, value in values.items():
                 v = self.table[i]
@@ -229,11 +237,11 @@ def _kind(system: mbs.System, sensor: int) -> str:
     reads = SENSOR_READS[kind]
     if reads == SensorReads.INPUTS:
         return _FEEDTHROUGH
-    is_second_rate = kind in _WITH_ORDER and int(system.arrays["sen_int"][offset]) == _SECOND
+    is_second_rate = kind in _WITH_ORDER and int(system.arrays["sen_int"][offset]) == _SECOND_ORDER
     return _MOTION if reads in (SensorReads.MOTION, SensorReads.SOLVER) and not is_second_rate else _FORCE
 
 
-def _meets_road(system: mbs.System, sensor: int) -> bool:
+def _reads_road_element(system: mbs.System, sensor: int) -> bool:
     """Whether a sensor reads an output of an element on a road."""
     if SensorType(system.arrays["sen_type"][sensor]) != SensorType.ELEMENT_OUTPUT:
         return False

@@ -15,7 +15,7 @@ Frame = dict[str, Any]
 Shared = tuple[str, Sequence[float], str, Sequence[float]]
 """A point that two frames share: frame and place in it, twice."""
 GROUND = "ground"
-FLATTEST = 1e-3  # height over side of a triangle whose plane fixes a frame
+LEAST_HEIGHT = 1e-3  # over the longest side, of a triangle that determines a frame
 BUILD_ALL = "build the FMU with --poses all"
 
 
@@ -28,13 +28,13 @@ class Bound:
     moved: dict[str, Array]
     """Each of shape (3,): place of the drawing's origin in the frame, where it is not 0, m."""
     lost: dict[str, str]
-    """Frames that nothing moves, and why."""
+    """Frames that no variable moves, with the reason."""
     amplitudes: dict[str, str]
     """Variables of amplitudes by the columns of the drawing."""
 
 
 def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Shared]) -> Bound:
-    """Find what moves the frames of a drawing. `shared`: points that frames share."""
+    """Find the variables that move the frames of a drawing. `shared`: points that frames share."""
     rows, bound = SensorRows(system), Bound({}, {}, {}, {})
     assert system.drawing is not None, "asked for before"
     bodies = {amplitudes.columns[0]: amplitudes for amplitudes in system.drawing.places.bodies}
@@ -42,8 +42,8 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
         if "position" in frame and frame["position"][0] in rows.names:
             bound.frames[name] = dict(frame)  # sensors place it in the model already
         elif "position" in frame:
-            _by_columns(rows, name, frame, bodies[frame["position"][0]], bound)
-    _by_points(frames, shared, bound)
+            _bind_by_sensors(rows, name, frame, bodies[frame["position"][0]], bound)
+    _bind_by_points(frames, shared, bound)
     turns = {turn.column: turn for turn in system.drawing.places.turns}
     for name, frame in frames.items():
         if "parent" not in frame:
@@ -68,8 +68,8 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
     return bound
 
 
-def _by_columns(rows: SensorRows, name: str, frame: Frame, place: BodyPlace, bound: Bound) -> None:
-    """A body whose pose is output, at any of its points."""
+def _bind_by_sensors(rows: SensorRows, name: str, frame: Frame, place: BodyPlace, bound: Bound) -> None:
+    """Bind the frame of a body whose pose is an output, at any of its points."""
     body = rows.body(place)
     orientations = [
         names for names, axes in rows.quaternions() if body.axes is not None and np.allclose(axes, body.axes)
@@ -81,7 +81,7 @@ def _by_columns(rows: SensorRows, name: str, frame: Frame, place: BodyPlace, bou
             continue
         own_quaternion = tuple(f"{names[0][:-1]}q{c}" for c in "wxyz")
         if body.axes is None:
-            poses += [(names, offset, own_quaternion)] if rows.unturned(own_quaternion) else []
+            poses += [(names, offset, own_quaternion)] if rows.is_identity(own_quaternion) else []
         elif orientations:
             poses.append((names, offset, own_quaternion if own_quaternion in orientations else orientations[0]))
     if not poses:
@@ -92,24 +92,24 @@ def _by_columns(rows: SensorRows, name: str, frame: Frame, place: BodyPlace, bou
         bound.moved[name] = shift
     start = frame.get("start")
     bound.frames[name] = {"position": list(names), "quaternion": list(quaternion)} | (
-        {} if start is None else {"start": [_shifted(start, -shift), start[1]]}
+        {} if start is None else {"start": [_shifted_start(start, -shift), start[1]]}
     )
 
 
-def _shifted(start: Sequence[Sequence[float]], local: Array) -> list[float]:
-    """Place of a local point of a start."""
+def _shifted_start(start: Sequence[Sequence[float]], local: Array) -> list[float]:
+    """Position of a local point at the start, m."""
     turned = matrices(np.array([start[1]]))[0] @ local
     return [float(x) + 0.0 for x in np.array(start[0]) + turned]
 
 
-def _by_points(frames: Mapping[str, Frame], shared: Sequence[Shared], bound: Bound) -> None:
-    """Bodies that share three points with frames that are moved, one after the other."""
+def _bind_by_points(frames: Mapping[str, Frame], shared: Sequence[Shared], bound: Bound) -> None:
+    """Bind frames that share three points with bound frames, one after the other."""
     unbound = [name for name, frame in frames.items() if "position" in frame and name not in bound.frames]
     has_new = True
     while has_new:
         has_new = False
         for name in list(unbound):
-            frame = _carried(frames[name], _anchors(name, shared, bound))
+            frame = _frame_on_points(frames[name], _anchors(name, shared, bound))
             if frame is not None:
                 bound.frames[name] = frame
                 unbound.remove(name)
@@ -119,7 +119,7 @@ def _by_points(frames: Mapping[str, Frame], shared: Sequence[Shared], bound: Bou
 
 
 def _anchors(name: str, shared: Sequence[Shared], bound: Bound) -> list[tuple[Array, list[Any]]]:
-    """Points of a frame, each with the point of a moved frame that it lies on."""
+    """Points of a frame, each with the coinciding point of a bound frame."""
     anchors = []
     for frame_a, point_a, frame_b, point_b in shared:
         for own_frame, own_point, other_frame, other_point in (
@@ -132,14 +132,14 @@ def _anchors(name: str, shared: Sequence[Shared], bound: Bound) -> list[tuple[Ar
     return anchors
 
 
-def _carried(frame: Frame, anchors: Sequence[tuple[Array, list[Any]]]) -> Frame | None:
+def _frame_on_points(frame: Frame, anchors: Sequence[tuple[Array, list[Any]]]) -> Frame | None:
     """The frame on the three of its points that span the largest triangle."""
     largest: tuple[float, Sequence[tuple[Array, list[Any]]]] = (0.0, ())
     for triangle in combinations(anchors, 3):
         (a, _), (b, _), (c, _) = triangle
         area = float(np.linalg.norm(np.cross(b - a, c - a)))
         longest_side = max(float(np.linalg.norm(p - q)) for p, q in ((a, b), (b, c), (c, a)))
-        if area > FLATTEST * longest_side**2 and area > largest[0]:
+        if area > LEAST_HEIGHT * longest_side**2 and area > largest[0]:
             largest = area, triangle
     if not largest[1]:
         return None

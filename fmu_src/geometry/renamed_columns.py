@@ -14,7 +14,8 @@ def with_renamed_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]
     """The scene with the names of the FMU's variables as its columns.
 
     `scene`: as `fmu_src.geometry.geometry.geometry` gives it; `named`: variables that have another name, by their names
-    in it. A scene is in SI units: what reads one that has another is left out, frames with a word in ``missing``.
+    in it. A scene is in SI units: parts that read a variable in another unit are left out, frames with an entry in
+    ``missing``.
     """
     scaled = {ours for ours, v in named.items() if v.scale != 1.0}
     frames, missing = dict(scene["frames"]), list(scene["missing"])
@@ -26,31 +27,31 @@ def with_renamed_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]
     for name in sorted(lost_frames):
         units = ", ".join(f"{named[c].name} in {named[c].unit}" for c in columns_of(frames[name]) if c in scaled)
         missing.append({"name": name, "why": f"a scene is in SI units, and the FMU has {units or 'what it stands on'}"})
-    kept_frames = {key: _called(part, named) for key, part in frames.items() if key not in lost_frames}
+    kept_frames = {key: _with_columns(part, named) for key, part in frames.items() if key not in lost_frames}
     kept_parts = {
         key: [
             p for p in scene[key] if not (scaled.intersection(columns_of(p)) or lost_frames.intersection(frames_of(p)))
         ]
         for key in ("shapes", "arrows", "flexible")
     } | {"roads": scene["roads"]}
-    renamed = {key: [_called(part, named) for part in parts] for key, parts in kept_parts.items()}
+    renamed = {key: [_with_columns(part, named) for part in parts] for key, parts in kept_parts.items()}
     renamed["arrows"] = [
-        arrow | _slips(ours, named) for arrow, ours in zip(renamed["arrows"], kept_parts["arrows"], strict=True)
+        arrow | _renamed_slips(ours, named) for arrow, ours in zip(renamed["arrows"], kept_parts["arrows"], strict=True)
     ]
-    renamed["flexible"] = [part | _gauges(part, named, scaled) for part in renamed["flexible"]]
+    renamed["flexible"] = [part | _renamed_gauges(part, named, scaled) for part in renamed["flexible"]]
     focus = "" if scene["focus"] in lost_frames else scene["focus"]
     return {**scene, **renamed, "frames": kept_frames, "missing": missing, "focus": focus}
 
 
-def _gauges(part: Mapping[str, Any], named: Mapping[str, Variable], odd: set[str]) -> dict[str, Any]:
-    """The gauges of a flexible part with their columns as they are called; SI units only."""
+def _renamed_gauges(part: Mapping[str, Any], named: Mapping[str, Variable], scaled: set[str]) -> dict[str, Any]:
+    """The gauges of a flexible part with renamed columns, those in SI units only."""
     if "gauges" not in part:
         return {}
-    return {"gauges": [_called(gauge, named) for gauge in part["gauges"] if gauge["value"] not in odd]}
+    return {"gauges": [_with_columns(gauge, named) for gauge in part["gauges"] if gauge["value"] not in scaled]}
 
 
-def _slips(arrow: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
-    """What of a tyre has another name: its slips and speeds, by which marks, dust and sound go; SI units only."""
+def _renamed_slips(arrow: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
+    """Renamed slips and speeds of a tyre, for its marks, dust and sound; those in SI units only."""
     if "tyre" not in arrow:
         return {}
     wheel = arrow["tyre"]["contact"][0].rpartition(".")[0]
@@ -59,13 +60,13 @@ def _slips(arrow: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str,
     return {"slips": slips} if slips else {}
 
 
-def _called(part: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
-    return {key: _name(value, named) if key in _COLUMNS else value for key, value in part.items()}
+def _with_columns(part: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
+    return {key: _renamed_column(value, named) if key in _COLUMNS else value for key, value in part.items()}
 
 
-def _name(value: Any, named: Mapping[str, Variable]) -> Any:
+def _renamed_column(value: Any, named: Mapping[str, Variable]) -> Any:
     if isinstance(value, str):
         return named[value].name if value in named else value
     if isinstance(value, Mapping):
-        return {key: _name(part, named) for key, part in value.items()}
-    return [_name(part, named) for part in value] if isinstance(value, (list, tuple)) else value
+        return {key: _renamed_column(part, named) for key, part in value.items()}
+    return [_renamed_column(part, named) for part in value] if isinstance(value, (list, tuple)) else value

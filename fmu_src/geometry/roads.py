@@ -35,8 +35,9 @@ def with_parameters(
             numbers = NUMBERS.get(RoadType(int(system.arrays["road_type"][k])), ())
             for name, number in MOVED.items():
                 real_index = first_number + numbers.index(number) if number in numbers else -1
-                if _writing(system, real_index) in numbers_of_fmu:
-                    variables[name] = _writing(system, real_index)
+                parameter = _parameter_of(system, real_index)
+                if parameter in numbers_of_fmu:
+                    variables[name] = parameter
                     if name == number and changed_road["kind"] != "file":
                         changed_road[name] = float(system.arrays["road_real"][real_index])
         if k in files and changed_road["kind"] != "file":
@@ -45,7 +46,7 @@ def with_parameters(
     return entries
 
 
-def _writing(system: mbs.System, real: int) -> str:
+def _parameter_of(system: mbs.System, real: int) -> str:
     """The parameter that writes a number of the roads as it is; empty: none."""
     a = system.arrays
     for k in range(len(a["par_target"])):

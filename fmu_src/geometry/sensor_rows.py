@@ -11,7 +11,7 @@ from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.system.drawing import BodyPlace
 
 Array = NDArray[np.float64]
-CLOSE = 1e-9  # parts of the largest number: rows that differ by less are one
+TOLERANCE = 1e-9  # of the largest number, for equal rows
 AXES = "xyz"
 QUATERNION = "wxyz"
 
@@ -75,10 +75,10 @@ class SensorRows:
         """The place in a body, from its origin, m, whose components these sensors are; None: none is."""
         offset = np.array([self._linear[name] for name in names]) - body.origin
         if body.axes is None:
-            return np.zeros(3) if _same(offset, 0.0 * offset, body.origin) else None
+            return np.zeros(3) if _is_equal(offset, 0.0 * offset, body.origin) else None
         matrix = body.axes.transpose(1, 2, 0).reshape(-1, 3)
         coordinates: Array = np.asarray(np.linalg.lstsq(matrix, offset.ravel(), rcond=None)[0], float)
-        return coordinates if _same(matrix @ coordinates, offset.ravel(), offset) else None
+        return coordinates if _is_equal(matrix @ coordinates, offset.ravel(), offset) else None
 
     def quaternions(self) -> list[tuple[tuple[str, ...], Array]]:
         """Names of sensors of a quaternion with the rows of the axes that it orients."""
@@ -93,16 +93,20 @@ class SensorRows:
             if len(components) == len(QUATERNION)
         ]
 
-    def unturned(self, names: Sequence[str]) -> bool:
+    def is_identity(self, names: Sequence[str]) -> bool:
         """Whether these sensors are the constants 1, 0, 0, 0."""
         rows = [self._linear.get(name) for name in names]
-        return all(row is not None and _same(row, _constant(row, k == 0), row) for k, row in enumerate(rows))
+        return all(row is not None and _is_equal(row, _constant(row, k == 0), row) for k, row in enumerate(rows))
 
     def angle(self, row: int) -> str | None:
         """The sensor of an angle, from its row among the places."""
         coefficients = self._full(row, 1)[0]
         return next(
-            (name for name, row_of_sensor in self._linear.items() if _same(row_of_sensor, coefficients, coefficients)),
+            (
+                name
+                for name, row_of_sensor in self._linear.items()
+                if _is_equal(row_of_sensor, coefficients, coefficients)
+            ),
             None,
         )
 
@@ -115,7 +119,7 @@ class SensorRows:
             element = self._integers(k)[0]
             if ElementType(arrays["el_type"][element]) == ElementType.SPIN_ANGLE:
                 spin = self._signal(int(arrays["el_sig"][int(arrays["el_sig_ptr"][element]) + 6]))
-                if _same(spin[:-1], coefficients[:-1], coefficients):
+                if _is_equal(spin[:-1], coefficients[:-1], coefficients):
                     return self.names[k]
         return None
 
@@ -140,8 +144,8 @@ class SensorRows:
         return [float(v) for v in a["sen_real"][int(a["sen_real_ptr"][sensor]) : int(a["sen_real_ptr"][sensor + 1])]]
 
 
-def _same(a: Array, b: Array, scale: Array) -> bool:
-    return bool(np.all(np.abs(a - b) <= CLOSE * max(1.0, float(np.max(np.abs(scale), initial=0.0)))))
+def _is_equal(a: Array, b: Array, scale: Array) -> bool:
+    return bool(np.all(np.abs(a - b) <= TOLERANCE * max(1.0, float(np.max(np.abs(scale), initial=0.0)))))
 
 
 def _constant(row: Array, value: float) -> Array:

@@ -9,7 +9,7 @@ from fmu_src.geometry.sensor_rows import Array
 
 
 def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str, Any]:
-    """A shape, arrow or flexible part in frames whose origins were moved.
+    """A shape, arrow or flexible part in frames with other origins.
 
     `moved`, shape (3,): place of the old origin in the new frame, m, by frame.
     """
@@ -20,24 +20,24 @@ def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str,
         if shift is None:
             return shifted
         if part.get("kind") == "cylinder":
-            shifted["ends"] = [_plus(point, shift) for point in part["ends"]]
+            shifted["ends"] = [_shifted_point(point, shift) for point in part["ends"]]
         elif "nodes" in part:
-            shifted["nodes"] = [_plus(point, shift) for point in part["nodes"]]
+            shifted["nodes"] = [_shifted_point(point, shift) for point in part["nodes"]]
         else:
-            shifted["at"] = _plus(part.get("at", (0.0, 0.0, 0.0)), shift)
+            shifted["at"] = _shifted_point(part.get("at", (0.0, 0.0, 0.0)), shift)
         return shifted
     for key in ("points", "ends", "between"):
         if key in part:
-            shifted[key] = [_anchor(anchor, moved) for anchor in part[key]]
+            shifted[key] = [_shifted_anchor(anchor, moved) for anchor in part[key]]
     if "vector" in part:
-        shifted["at"] = _anchor(part["at"], moved)
+        shifted["at"] = _shifted_anchor(part["at"], moved)
     return shifted
 
 
-def _anchor(anchor: Any, moved: Mapping[str, Array]) -> list[Any]:
+def _shifted_anchor(anchor: Any, moved: Mapping[str, Array]) -> list[Any]:
     name, point = anchor
-    return [name, _plus(point, moved[name]) if name in moved else list(point)]
+    return [name, _shifted_point(point, moved[name]) if name in moved else list(point)]
 
 
-def _plus(place: Any, shift: Array) -> list[float]:
+def _shifted_point(place: Any, shift: Array) -> list[float]:
     return [float(x) + 0.0 for x in np.asarray(place, float) + shift]

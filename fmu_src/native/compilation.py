@@ -8,7 +8,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ali3.files import atomic_file
+from ali3.files import write_bytes
 from fmu_src.native.archive import identity_of
 from fmu_src.native.sources import DETOUR, HERE, shell_files
 from fmu_src.native.universal_binary import universal
@@ -94,8 +94,7 @@ def _files(face: str, table: Path, generated: Mapping[str, str]) -> tuple[list[P
         copies[compiled[-1]] = data
     for copy, data in copies.items():
         if not copy.is_file():
-            with atomic_file(copy) as temporary:
-                temporary.write_bytes(data)
+            write_bytes(copy, data)
     return compiled, [cache_folder / name for name in _INCLUDE]
 
 

@@ -133,12 +133,11 @@ class NativeContents:
         scene = {GEOMETRY: self.geometry} if self.geometry else {}
         return systems | road_resources(self.system.meta) | dict(self.origin) | scene
 
-    @property
-    def origin_text(self) -> list[str]:
-        """A paragraph of the documentation about `origin`; none where there is nothing."""
-        if not self.origin:
-            return []
-        return [f"Made from the files that lie in it as {', '.join(sorted(self.origin))}."]
+    def documentation(self, paragraphs: Sequence[str]) -> bytes:
+        """The page of documentation; before the paragraphs of its kind of FMU one about `origin`, if there is any."""
+        origin = [f"Made from the files that lie in it as {', '.join(sorted(self.origin))}."] if self.origin else []
+        head = self.model_name, self.description, self.version, self.step_size, self.table
+        return documentation(*head, [*origin, *paragraphs]).encode()
 
     @property
     def stop_time(self) -> float:
@@ -187,7 +186,7 @@ def pack_native(
     file: Path,
     told: Telling,
     libraries: dict[tuple[str, str], bytes],
-) -> str:
+) -> None:
     """Compile and write the FMU.
 
     Parameters
@@ -199,14 +198,8 @@ def pack_native(
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
     libraries : dict
-        Libraries by model and folder that were compiled before; those compiled here are added.
-
-    Returns
-    -------
-    str
-        The GUID (instantiation token), a hash of all the content.
+        As for `compiled_libraries`.
     """
-    name = contents.model_name
     identity, guid = contents.identity(face.name)
     table_c = face.tables(contents, identity, guid)
     sources = packed_sources(face.name, table_c, contents.generated)
@@ -214,22 +207,11 @@ def pack_native(
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.resources,
         "documentation/licenses/license.txt": licence("ali3"),
-        "documentation/index.html": _page(contents, [*contents.origin_text, *face.words]),
+        "documentation/index.html": contents.documentation(face.words),
         face.picture: _picture(runs[0]),
-    } | reference_files(name, runs, contents.stop_time, contents.step_size, contents.parameters)
-    with temporary_folder() as temporary:
-        table = Path(temporary, "table.c")
-        table.write_text(table_c, encoding="utf-8")
-        for platform in platforms:
-            library = name + SUFFIXES[platform]
-            for folder, targets in face.binaries[platform].items():
-                if (name, folder) not in libraries:
-                    with told(f"{face.name}: compiling for {folder}", first_time(platform)):
-                        binary = compile_library(
-                            targets, face.name, table, contents.generated, Path(temporary), library
-                        )
-                    libraries[name, folder] = binary
-                files[f"binaries/{folder}/{library}"] = libraries[name, folder]
+    } | reference_files(contents.model_name, runs, contents.stop_time, contents.step_size, contents.parameters)
+    binaries = {platform: face.binaries[platform] for platform in platforms}
+    files |= compiled_libraries(contents, face.name, table_c, binaries, told, libraries)
     head = contents.description_head(
         guid,
         tool=f"ALi3 {contents.version}",
@@ -238,19 +220,39 @@ def pack_native(
     )
     with told(f"{face.name}: packing"):
         write_zip(files | face.documents(head, contents), file)
-    return guid
+
+
+def compiled_libraries(
+    contents: NativeContents,
+    face: str,
+    table_c: str,
+    binaries: Mapping[str, Mapping[str, Sequence[str]]],
+    told: Telling,
+    libraries: dict[tuple[str, str], bytes],
+) -> dict[str, bytes]:
+    """Libraries of an FMU by their paths in it.
+
+    `binaries`: as of `Face`; `told`: as for `pack_native`; `libraries`: by model and folder those that were compiled
+    before; those compiled here are added.
+    """
+    files, name = {}, contents.model_name
+    with temporary_folder() as temporary:
+        table = Path(temporary, "table.c")
+        table.write_text(table_c, encoding="utf-8")
+        for platform, targets_by_folder in binaries.items():
+            library = name + SUFFIXES[platform]
+            for folder, targets in targets_by_folder.items():
+                if (name, folder) not in libraries:
+                    with told(f"{face}: compiling for {folder}", first_time(platform)):
+                        binary = compile_library(targets, face, table, contents.generated, Path(temporary), library)
+                    libraries[name, folder] = binary
+                files[f"binaries/{folder}/{library}"] = libraries[name, folder]
+    return files
 
 
 def first_time(platform: str) -> str:
     """Message about the time that the first compilation takes."""
     return "the first time, Windows' C runtime is compiled too: some minutes" if platform == "win64" else ""
-
-
-def _page(contents: NativeContents, words: Sequence[str]) -> bytes:
-    text = documentation(
-        contents.model_name, contents.description, contents.version, contents.step_size, contents.table, words
-    )
-    return text.encode()
 
 
 def _picture(run: ReferenceRun) -> bytes:

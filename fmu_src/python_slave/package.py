@@ -7,18 +7,19 @@ from pathlib import Path
 
 import pythonfmu
 
-from ali3.temporary_folder import temporary_folder
 from fmu_src.description.description import model_description
-from fmu_src.description.documentation import documentation
 from fmu_src.native.archive import identity_of, licence, write_zip
-from fmu_src.native.compilation import compile_library
-from fmu_src.native.package import NativeContents, Telling, first_time
+from fmu_src.native.package import NativeContents, Telling, compiled_libraries
 from fmu_src.native.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.native.sources import shell_files
 
 _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent
 _PYTHONFMU_MODULES = ("_version", "default_experiment", "enums", "fmi2slave", "logmsg", "variables")
+_PARAGRAPH = (
+    "FMI 2.0 co-simulation through Python: the host's machine needs Python 3.10 or newer, and no package. "
+    "The calls pass a class in Python; the slave in C answers them as it does in the native FMU."
+)
 _PYTHONFMU_LIBRARY = {"linux64": "libpythonfmu-export.so", "win64": "pythonfmu-export.dll"}
 
 
@@ -28,7 +29,7 @@ def pack_python(
     file: Path,
     told: Telling,
     libraries: dict[tuple[str, str], bytes],
-) -> str:
+) -> None:
     """Compile and write the FMU.
 
     Parameters
@@ -42,12 +43,7 @@ def pack_python(
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
     libraries : dict
-        Libraries by model and platform that were compiled before; those compiled here are added.
-
-    Returns
-    -------
-    str
-        The GUID, a hash of all the content.
+        As for `fmu_src.native.package.compiled_libraries`.
     """
     name = contents.model_name
     package = _package()
@@ -68,18 +64,7 @@ def pack_python(
         "resources/slavemodule.txt": main_module.encode(),
         "documentation/licenses/license.txt": licence("ali3"),
         "documentation/licenses/PythonFMU.txt": licence("pythonfmu"),
-        "documentation/index.html": documentation(
-            name,
-            contents.description,
-            contents.version,
-            contents.step_size,
-            contents.table,
-            [
-                *contents.origin_text,
-                "FMI 2.0 co-simulation through Python: the host's machine needs Python 3.10 or newer, and no package. "
-                "The calls pass a class in Python; the slave in C answers them as it does in the native FMU.",
-            ],
-        ).encode(),
+        "documentation/index.html": contents.documentation([_PARAGRAPH]),
         "modelDescription.xml": model_description(
             contents.description_head(
                 guid, tool=f"ALi3 {contents.version}, PythonFMU {pythonfmu.__version__}", needs_execution_tool=True
@@ -88,21 +73,10 @@ def pack_python(
             contents.reach,
         ),
     }
-    with temporary_folder() as temporary:
-        table = Path(temporary, "table.c")
-        table.write_text(contents.table_c(identity, guid), encoding="utf-8")
-        for platform in platforms:
-            library = name + SUFFIXES[platform]
-            if (name, platform) not in libraries:
-                with told(f"python: compiling for {platform}", first_time(platform)):
-                    binary = compile_library(
-                        TARGETS[platform], "python", table, contents.generated, Path(temporary), library
-                    )
-                libraries[name, platform] = binary
-            files[f"binaries/{platform}/{library}"] = libraries[name, platform]
+    binaries = {platform: {platform: TARGETS[platform]} for platform in platforms}
+    files |= compiled_libraries(contents, "python", contents.table_c(identity, guid), binaries, told, libraries)
     with told("python: packing"):
         write_zip(files, file)
-    return guid
 
 
 def _package() -> dict[str, bytes]:

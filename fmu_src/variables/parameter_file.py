@@ -6,7 +6,6 @@ from pathlib import Path
 
 from ali3.message_text import range_text
 from ali3.parameter_set import Entry, ParameterSet, parameter_text
-from ali3.unit_definition import UnitDefinition
 from ali3.write_parameter_set import is_as_built, write_parameter_set
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.units import parse_unit
@@ -17,9 +16,8 @@ def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVari
     """Parameter set with the start values of all parameters of a table of variables, and of text variables."""
     parameters = [v for v in table if v.causality == "parameter" and v.start is not None]
     units = {v.unit: parse_unit(v.unit, foreign=bool(v.ours)) for v in parameters if not v.whole}
-    definitions = {n: UnitDefinition(u.exponents, u.factor) for n, u in sorted(units.items())}
     text_entries = [Entry(t.name, "String", t.start, None, parameter_text(t.description, "", "fixed")) for t in texts]
-    return ParameterSet(name, [_entry(v) for v in parameters] + text_entries, definitions)
+    return ParameterSet(name, [_entry(v) for v in parameters] + text_entries, dict(sorted(units.items())))
 
 
 def write_beside(parameters: ParameterSet, file: Path) -> bool:

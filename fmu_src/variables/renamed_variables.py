@@ -1,4 +1,4 @@
-"""Variables under the names, and in the units, of another program."""
+"""Variables under names and in units of another program."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ class Renamed:
     table: tuple[Variable, ...]
     """In the same order."""
     left_out: Mapping[str, str]
-    """Our names that keep theirs though the file has another, and why."""
+    """Names of variables that keep them although the file has other ones, with the reason."""
 
     @property
     def named(self) -> dict[str, Variable]:
@@ -31,9 +31,9 @@ class Renamed:
 def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     """The variables as an alias file calls them.
 
-    `table`: with our names; `content`: of the file. What it computes from several variables keeps our name, and so does
-    what needs another zero. Raises `UserError`: the file names none of the variables, without ``partial`` one that is
-    not there, a name twice, or one that no variable of an FMU can have.
+    `table`: with our names; `content`: of the file. Variables that it computes from several, or with an offset, keep
+    our name. Raises `UserError`: the file names none of the variables, without ``partial`` one that does not exist, a
+    name twice, or one that no variable of an FMU can have.
     """
     index = {v.name: k for k, v in enumerate(table)}
     values = {v.name: v for v in table if v.source == "constant"}
@@ -48,7 +48,7 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
                 raise UserError(f"{entry.where}: this model has no such variable{hint} partial = true leaves it out.")
             continue
         k = index[ours]
-        renamed_variable = _theirs(table[k], entry, content, values)
+        renamed_variable = _renamed_variable(table[k], entry, content, values)
         if isinstance(renamed_variable, Variable) and renamed_variable.scale != 1.0 and k in watched:
             renamed_variable = f"it is of a port, which works in {table[k].unit}"
         if isinstance(renamed_variable, str):
@@ -65,8 +65,8 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     return result
 
 
-def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Variable]) -> Variable | str:
-    """The variable as it is called there, or why it is not."""
+def _renamed_variable(v: Variable, entry: Entry, content: Content, values: Mapping[str, Variable]) -> Variable | str:
+    """The variable under its other name, or the reason why it has none."""
     value = entry.value
     if "from" in value:
         return "the other program has it only in another form, from which it is computed"
@@ -84,7 +84,7 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
     else:
         base = v.unit
     target_unit = base if unit is None else unit
-    scale = number(factor, f"{entry.where}: factor") / _size(target_unit, base, entry)
+    scale = number(factor, f"{entry.where}: factor") / _factor(target_unit, base, entry)
     if scale == 0.0:
         raise UserError(f"{entry.where}: factor is 0; it must be another number.")
     if scale != 1.0 and (v.source not in _SCALED or v.whole):
@@ -106,8 +106,8 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
     )
 
 
-def _size(unit: str, base: str, entry: Entry) -> float:
-    """How many of the SI unit of a value are one of a unit."""
+def _factor(unit: str, base: str, entry: Entry) -> float:
+    """The factor of a unit to the SI unit of its quantity."""
     try:
         target_unit, base_unit = parse_unit(unit, foreign=True), parse_unit(base)
     except ValueError as error:

@@ -2,34 +2,21 @@
 
 import math
 import re
-from dataclasses import dataclass
 
-from ali3.unit_definition import BASE_UNITS
+from ali3.unit_definition import BASE_UNITS, UnitDefinition
+from ali3.units import UNITS
 
 # Symbol -> (exponents of the base units, factor to the base units).
 _SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
     **{name: ({name: 1}, 1.0) for name in BASE_UNITS},
-    "N": ({"kg": 1, "m": 1, "s": -2}, 1.0),
-    "J": ({"kg": 1, "m": 2, "s": -2}, 1.0),
-    "W": ({"kg": 1, "m": 2, "s": -3}, 1.0),
-    "Pa": ({"kg": 1, "m": -1, "s": -2}, 1.0),
-    "Hz": ({"s": -1}, 1.0),
+    **{name: UNITS[name][:2] for name in ("N", "J", "W", "Pa", "Hz")},
     "V": ({"kg": 1, "m": 2, "s": -3, "A": -1}, 1.0),
-    "Nm": ({"kg": 1, "m": 2, "s": -2}, 1.0),
+    "Nm": UNITS["N.m"][:2],
     "Ns": ({"kg": 1, "m": 1, "s": -1}, 1.0),
-    "deg": ({"rad": 1}, math.pi / 180.0),
-    "mm": ({"m": 1}, 1e-3),
-    "km": ({"m": 1}, 1e3),
-    "rpm": ({"rad": 1, "s": -1}, math.pi / 30.0),
-    "MPa": ({"kg": 1, "m": -1, "s": -2}, 1e6),
-    "%": ({}, 0.01),
-    "1": ({}, 1.0),
+    **{name: UNITS[name][:2] for name in ("deg", "mm", "km", "rpm", "MPa", "%", "1")},
 }
 # Of other programs: in a model `g` may be meant as grams and `h` as a height.
-_FOREIGN: dict[str, tuple[dict[str, int], float]] = {
-    "h": ({"s": 1}, 3600.0),
-    "g": ({"m": 1, "s": -2}, 9.80665),
-}
+_FOREIGN: dict[str, tuple[dict[str, int], float]] = {"h": ({"s": 1}, 3600.0), "g": UNITS["g"][:2]}
 
 _TOKEN = re.compile(r"([A-Za-z]+|1|%)\^?([+-]?\d+)?")
 
@@ -84,29 +71,17 @@ def canonical_unit(name: str) -> str:
     return re.sub(r"[*· ]+", ".", name).replace("^", "").replace("Nm", "N.m")
 
 
-@dataclass(frozen=True)
-class Unit:
-    """A unit in SI base units."""
-
-    name: str
-    """As written on the variables."""
-    exponents: dict[str, int]
-    """Base unit to exponent, zeros left out, in the order of the FMI standard."""
-    factor: float
-    """Value in base units = factor * value."""
-
-
-def parse_unit(name: str, foreign: bool = False) -> Unit:
+def parse_unit(name: str, foreign: bool = False) -> UnitDefinition:
     """Read a unit such as ``m/s2``, ``N.m/rad``, ``kg m2``.
 
     `name`: products by ``.``, ``*`` or a space; everything after a ``/`` divides; powers as digits with or without
     ``^``; `foreign`: whether ``h`` is an hour and ``g`` standard gravity, as other programs have them; in models they
-    are not known. Raises `ValueError` if a symbol is not known.
+    are not known. Exponents are in the order of the FMI standard. Raises `ValueError` if a symbol is not known.
 
     Examples
     --------
     >>> parse_unit("N.m/rad")
-    Unit(name='N.m/rad', exponents={'kg': 1, 'm': 2, 's': -2, 'rad': -1}, factor=1.0)
+    UnitDefinition(exponents={'kg': 1, 'm': 2, 's': -2, 'rad': -1}, factor=1.0, offset=0.0)
     >>> parse_unit("mm/s").factor
     0.001
     """
@@ -125,4 +100,4 @@ def parse_unit(name: str, foreign: bool = False) -> Unit:
             factor *= scale**power
             for symbol, exponent in base.items():
                 exponents[symbol] += power * exponent
-    return Unit(name, {b: e for b, e in exponents.items() if e}, factor)
+    return UnitDefinition({b: e for b, e in exponents.items() if e}, factor)

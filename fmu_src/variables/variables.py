@@ -165,45 +165,7 @@ def variable_table(
         _ranged(entry, "parameter", "fixed" if entry.get("fixed") else "tunable", "parameter", k, entry["value"])
         for k, entry in enumerate(meta["parameters"])
     ]
-    if pose:
-        table += [
-            Variable(name, "parameter", "fixed", unit, text, "pose", k, 0.0, display_unit=_display(name, unit))
-            for k, (name, unit, text) in enumerate(_POSE)
-        ]
-    table.append(
-        Variable(
-            STEP_SIZE,
-            "parameter",
-            "fixed",
-            "s",
-            "Desired inner step; a communication step is divided into equal inner steps of about this length",
-            "step_size",
-            0,
-            step_size,
-            step_size / 100.0,
-            step_size * 10.0,
-        )
-    )
-    if len(fidelities) > 1:
-        names_text = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
-        text = "Level of detail of the model" + (f": {names_text}" if names_text else "")
-        last = float(len(fidelities) - 1)
-        table.append(
-            Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
-        )
-    text = "Largest number of iterations of an inner step, which is then accepted as it is and counted; 0: no limit"
-    table.append(
-        Variable(
-            *(STEP_ITERATIONS, "parameter", "fixed", "1", text, "step_iterations", 0, 0.0, 0.0, _MOST_ITERATIONS),
-            whole=True,
-        )
-    )
-    if pose:
-        text = "Time for which the horizontal motion is held before the start while tyres, springs and steering settle"
-        table.append(Variable(SETTLING, "parameter", "fixed", "s", text, "settling", 0, 0.0, 0.0, LONGEST_SETTLING))
-    if meta.get("ahead"):
-        text = "Number of communication steps by which the points at which the road is evaluated lie ahead"
-        table.append(Variable(LEAD, "parameter", "fixed", "1", text, "lead", 0, 1.0, 0.0, _LONGEST_LEAD))
+    table += _settings(pose, step_size, fidelities, fidelity, bool(meta.get("ahead")))
     table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
     sensor_names = {entry["name"] for entry in meta["sensors"]}
     table += [
@@ -214,10 +176,51 @@ def variable_table(
     table += [v for v in (_CAPPED_RESIDUAL,) if v.name not in sensor_names]
     table += _ahead(meta, table)
     table += [_constant(entry) for entry in meta.get("constants", ())]
-    table = _near(meta, table)
+    table = _with_watched_outputs(meta, table)
     table = [replace(v, name=_UNDERSCORED.sub("_", v.name)) for v in table]
     check_names(table)
-    return _distinct(table)
+    return _with_distinct_descriptions(table)
+
+
+def _settings(pose: bool, step_size: float, fidelities: Sequence[str], fidelity: int, has_lead: bool) -> list[Variable]:
+    """Parameters that are not of the model: initial pose, step, fidelity and limits of the solver.
+
+    `has_lead`: whether outputs are ahead of the road; the others as for `variable_table`.
+    """
+    settings = [
+        _setting(name, unit, text, "pose", 0.0, index=k, display_unit=_display(name, unit))
+        for k, (name, unit, text) in enumerate(_POSE if pose else ())
+    ]
+    text = "Desired inner step; a communication step is divided into equal inner steps of about this length"
+    settings.append(_setting(STEP_SIZE, "s", text, "step_size", step_size, step_size / 100.0, step_size * 10.0))
+    if len(fidelities) > 1:
+        names_text = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
+        text = "Level of detail of the model" + (f": {names_text}" if names_text else "")
+        last = float(len(fidelities) - 1)
+        settings.append(_setting(FIDELITY, "1", text, FIDELITY, float(fidelity), 0.0, last, whole=True))
+    text = "Largest number of iterations of an inner step, which is then accepted as it is and counted; 0: no limit"
+    settings.append(_setting(STEP_ITERATIONS, "1", text, "step_iterations", 0.0, 0.0, _MOST_ITERATIONS, whole=True))
+    if pose:
+        text = "Time for which the horizontal motion is held before the start while tyres, springs and steering settle"
+        settings.append(_setting(SETTLING, "s", text, "settling", 0.0, 0.0, LONGEST_SETTLING))
+    if has_lead:
+        text = "Number of communication steps by which the points at which the road is evaluated lie ahead"
+        settings.append(_setting(LEAD, "1", text, "lead", 1.0, 0.0, _LONGEST_LEAD))
+    return settings
+
+
+def _setting(
+    name: str,
+    unit: str,
+    text: str,
+    source: str,
+    start: float,
+    low: float | None = None,
+    high: float | None = None,
+    index: int = 0,
+    **more: Any,
+) -> Variable:
+    return Variable(name, "parameter", "fixed", unit, text, source, index, start, low, high, **more)
 
 
 def by_name_in_system(table: Sequence[Variable], meta: Mapping[str, Any]) -> dict[str, Variable]:
@@ -265,11 +268,11 @@ def _ahead(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]
     ]
 
 
-def _near(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
-    """With the places of the outputs that inputs name."""
+def _with_watched_outputs(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
+    """The table with the places of the outputs by which inputs are watched."""
     index = {v.name: k for k, v in enumerate(table)}
-    near = {entry["name"]: index[entry["near"]] for entry in meta["inputs"] if "near" in entry}
-    return [replace(v, other=near[v.name]) if v.source == "input" and v.name in near else v for v in table]
+    watched = {entry["name"]: index[entry["near"]] for entry in meta["inputs"] if "near" in entry}
+    return [replace(v, other=watched[v.name]) if v.source == "input" and v.name in watched else v for v in table]
 
 
 def _constant(entry: Mapping[str, Any]) -> Variable:
@@ -281,15 +284,17 @@ def _constant(entry: Mapping[str, Any]) -> Variable:
     )
 
 
-def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
+def _with_distinct_descriptions(table: Sequence[Variable]) -> tuple[Variable, ...]:
     """Descriptions that several variables share are preceded by the part of the model, or by the name."""
     shared = Counter(v.description for v in table)
-    prefixed = [_preceded(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
+    prefixed = [_with_prefix(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
     shared = Counter(v.description for v in prefixed)
-    return tuple(_preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, prefixed, strict=True))
+    return tuple(
+        _with_prefix(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, prefixed, strict=True)
+    )
 
 
-def _preceded(v: Variable, word: str) -> Variable:
+def _with_prefix(v: Variable, word: str) -> Variable:
     if not (v.description and word):
         return v
     if v.description.startswith(_DEPRECATED):  # the first word of what goes

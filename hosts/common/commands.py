@@ -11,11 +11,11 @@ from hosts.common.errors import HostError
 ERROR = "error: "
 
 
-def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -> str:
-    """Run another command to its end. `hear`: hears each line of its standard error at once.
+def run_ali3(*arguments: str, on_line: Callable[[str], None] = lambda line: None) -> str:
+    """Run another command to its end. `on_line`: called with each line of its standard error.
 
-    Result: its standard error. What it prints is left out. Raises `HostError`: it did not succeed; with its words, or
-    how its process ended.
+    Result: its standard error; its standard output is dropped. Raises `HostError`: it did not succeed; with its
+    message, or how its process ended.
     """
     if wrong := next((text for text in arguments if "\0" in text), None):
         raise HostError(f"{brief(wrong)} has a zero byte, which no name and no value may have.")
@@ -32,7 +32,7 @@ def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -
         try:
             for line in process.stderr:
                 lines.append(line)
-                hear(line.strip())
+                on_line(line.strip())
         except BaseException:  # SIGTERM for this process alone: the other one would be waited for
             process.terminate()
             raise

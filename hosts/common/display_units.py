@@ -1,5 +1,6 @@
 """The units in which reports show what is computed in those of the SI: degrees, deg/g, km/h; tables of data keep SI."""
 
+import math
 from typing import NamedTuple
 
 from ali3.units import known_unit, typeset
@@ -16,11 +17,10 @@ _SHOWN = {
     "m/s": "km/h",
     "Pa": "MPa",
 }
-_RAD_PER_PERIOD = 6.283185307179586
 
 
 class Shown(NamedTuple):
-    """How a unit is shown: its own values times `factor` are in `unit`."""
+    """A display unit: values in the unit itself times `factor` are in `unit`."""
 
     unit: str
     factor: float
@@ -33,7 +33,7 @@ def shown_in(unit: str, name: str = "") -> Shown:
     wheels (``omega``) in rpm, as the FMU declares it, other angular velocities in deg/s.
     """
     if unit == "rad/s" and name.endswith("frequency"):
-        return Shown("Hz", 1.0 / _RAD_PER_PERIOD)
+        return Shown("Hz", 1.0 / math.tau)
     display_unit = "rpm" if unit == "rad/s" and "omega" in name else _SHOWN.get(unit, unit)
     return Shown(display_unit, 1.0 if display_unit == unit else conversion(unit, display_unit))
 

@@ -34,12 +34,12 @@ def or_null(value: float) -> float | None:
 
 
 def is_round_off(change: float, size: float) -> bool:
-    """Whether a change of a number of this size is no effect of anything, but rounding and the solver's tolerance."""
+    """Whether a change of a number of this size is within rounding and the solver's tolerance."""
     return abs(change) <= max(1e-9 * abs(size), 1e-12)
 
 
 def text_of(value: Value) -> str:
-    """A value as `value_of` reads it."""
+    """The text of a value, as `parse_value` reads it."""
     if isinstance(value, bool):
         return str(value).lower()
     return f'"{value}"' if isinstance(value, str) else repr(value)

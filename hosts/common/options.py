@@ -1,10 +1,12 @@
 """Options of the command line that every host has: the FMU, and what is set in it before it starts."""
 
 import argparse
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from ali3.options import add_option
+from hosts.common.numbers import Value, text_of
 
 ROAD = "road.file"
 """Parameter of an FMU for the file of its road."""
@@ -42,5 +44,11 @@ def add_setting_options(parser: argparse._ActionsContainer) -> None:
 
 
 def fmu_options(options: argparse.Namespace) -> FmuOptions:
-    """What was given by the options of `add_setting_options`."""
+    """The values of the options of `add_setting_options`."""
     return FmuOptions(options.parameters, options.set)
+
+
+def set_arguments(values: Mapping[str, Value]) -> list[str]:
+    """Words of a command line that set these values by ``--set``, for commands that repeat a run."""
+    texts = {name: value if isinstance(value, str) else text_of(value) for name, value in values.items()}
+    return [word for name, text in texts.items() for word in ("--set", f"{name}={text}")]

@@ -1,4 +1,4 @@
-"""Names of what comes with the package, so that a misspelt one is reported before anything is built for it."""
+"""Names of cars and worlds of the package, so that a misspelt one is reported before anything is built for it."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ _MBS = Path(ali3.__file__).parents[1] / "mbs"
 def check_car(car: Path) -> None:
     """Refuse a word that is neither a file here nor the name of a car; `HostError` with a near name, or all."""
     names = sorted(file.parent.name for file in (_MBS / "vehicle" / "cars").glob("*/car.toml"))
-    if not _is_there(car) and str(car) not in names:
+    if not (is_file(car) or is_folder(car)) and str(car) not in names:
         _refuse("car", str(car), names)
 
 
@@ -22,17 +22,10 @@ def check_world(world: str) -> None:
     """Refuse a word that is neither a file here nor the name of a world or road; `HostError` as `check_car`."""
     roads = (_MBS / "roads" / "files").glob("*.road")
     names = sorted(file.stem for file in (*(_MBS / "worlds").glob("*.toml"), *roads))
-    if not _is_there(world) and world.removesuffix(".road") not in names:
+    if not (is_file(world) or is_folder(world)) and world.removesuffix(".road") not in names:
         _refuse("world", world, names)
 
 
-def _refuse(what: str, name: str, names: list[str]) -> None:
-    near = did_you_mean(name, names, f"the {what}s of the package are {', '.join(names)}", 1)
-    raise HostError(f"There is no {what} {brief(name)} and no such file{near}")
-
-
-def _is_there(name: str | Path) -> bool:
-    try:
-        return is_file(name) or is_folder(name)
-    except (OSError, ValueError):  # a name that no file can have
-        return False
+def _refuse(kind: str, name: str, names: list[str]) -> None:
+    near = did_you_mean(name, names, f"the {kind}s of the package are {', '.join(names)}", 1)
+    raise HostError(f"There is no {kind} {brief(name)} and no such file{near}")

@@ -23,12 +23,15 @@ def program_digest() -> str:
     return digest.hexdigest()
 
 
+def version_of(package: str) -> str:
+    """The version of a package, or that it is not installed, as ALi3 in a clone."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "not installed"
+
+
 def versions() -> dict[str, str]:
     """Versions of Python and of the packages that make the runs."""
-    results = {"python": platform.python_version(), "platform": platform.platform()}
-    for package in _PACKAGES:
-        try:
-            results[package] = version(package)
-        except PackageNotFoundError:  # a clone that is not installed
-            results[package] = "not installed"
-    return results
+    python = {"python": platform.python_version(), "platform": platform.platform()}
+    return python | {package: version_of(package) for package in _PACKAGES}

@@ -21,7 +21,7 @@ MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".ob
 
 
 def options_with_road(options: argparse.Namespace, out: Path) -> FmuOptions:
-    """What was given by `hosts.common.options.fmu_options`, behind the road of ``--road``, if there is one.
+    """The options of `hosts.common.options.fmu_options`, after the road of ``--road`` if one is given.
 
     `out`: as of `road_value`.
     """
@@ -32,7 +32,7 @@ def options_with_road(options: argparse.Namespace, out: Path) -> FmuOptions:
 
 
 def road_value(road: str, out: Path) -> str:
-    """What the parameter ``road.file`` of an FMU is set to.
+    """The value of the parameter ``road.file`` of an FMU.
 
     `road`: a road file here; the name of one in the FMU; or what ``ali3 road`` makes one of without further options;
     `out`: folder that takes the road file that is made. Returns the path of the file, or the name as it is. Raises
@@ -43,31 +43,31 @@ def road_value(road: str, out: Path) -> str:
         return str(path.absolute()) if is_file(path) or is_folder(path) else road
     road_file = make_folder(out) / f"{path.stem}.road"
     output = run_ali3("road", str(path), str(road_file))
-    print(output, end="", file=sys.stderr)  # what is odd about the road
+    print(output, end="", file=sys.stderr)  # warnings about the road
     return str(road_file.absolute())
 
 
 def report_starts(starts: Iterable[Mapping[str, object]]) -> None:
-    """Tell before drives begin that they begin beside their roads, on standard error, of each road once.
+    """Report on standard error which drives begin beside their roads, for each road once.
 
-    `starts`: start values; one without a file here as its parameter ``road.file`` says nothing.
+    `starts`: start values; those whose parameter ``road.file`` is no file here are skipped.
     """
     for start in starts:
         road = start.get(ROAD)
-        if not isinstance(road, str) or not is_file(Path(road)) or road in _TOLD:
+        if not isinstance(road, str) or not is_file(Path(road)) or road in _REPORTED:
             continue
         x, y = (float(str(start.get(name, 0.0))) for name in ("initial.x", "initial.y"))
-        if _beside(road, x, y):
-            _TOLD.add(road)
+        if _is_beside(road, x, y):
+            _REPORTED.add(road)
             print(run_ali3("road", road, "--start", f"{x}", f"{y}"), end="", file=sys.stderr, flush=True)
 
 
-_TOLD = set[str]()
+_REPORTED = set[str]()
 
 
-def _beside(road: str, x: float, y: float) -> bool:
-    """Whether a point is farther from the extent of a road than one usually starts."""
-    record = _place(road, Path(road).stat().st_mtime_ns)
+def _is_beside(road: str, x: float, y: float) -> bool:
+    """Whether a point is farther from the extent of a road than usual starts are."""
+    record = _position_record(road, Path(road).stat().st_mtime_ns)
     if record is None:
         return False
     ends = zip((x, y), *(json.loads(record["keys"][key]) for key in ("origin", "extent")), strict=True)
@@ -75,8 +75,8 @@ def _beside(road: str, x: float, y: float) -> bool:
 
 
 @cache
-def _place(road: str, changed: int) -> dict[str, Any] | None:
-    """The record of where a road lies; None for one without an end. `changed`: its time, ns."""
+def _position_record(road: str, modified: int) -> dict[str, Any] | None:
+    """The record of the extent of a road; None for an infinite one. `modified`: its time, ns."""
     with temporary_folder() as folder:
         run_ali3("road", road, "--start", "0", "0", "--json", str(folder / "road.json"))
         (rows,) = read_json(folder / "road.json").values()

@@ -1,4 +1,4 @@
-"""Units as data loggers, engineers and programs write them, in SI base units, and those of our names of variables."""
+"""Units as data loggers, engineers and programs write them, in SI base units, and the units of our variables."""
 
 import math
 import re
@@ -8,7 +8,7 @@ from ali3.unit_definition import UnitDefinition
 from ali3.units import OTHER_NAMES, UNITS, known_unit, plain_unit, same_quantity
 from hosts.common.errors import HostError
 
-_OF_OUR_NAMES = (
+_UNITS_OF_NAMES = (
     (r"steering_(wheel|arm)_torque|drive_torque|motor_torque|.*\.(brake_torque|M[xyz])", "N.m"),
     (r"steering_wheel_angle.*|used\.steering_wheel_angle_demand|sideslip|steering_demand_excess", "rad"),
     (r"steering_(arm|link)_angle", "rad"),
@@ -46,7 +46,7 @@ def unit_definition(text: str, where: str) -> UnitDefinition:
 
 def unit_of(name: str) -> str | None:
     """The unit of a variable of ours as FMI writes it, such as ``rad/s``; None where the name is not known."""
-    return next((unit for pattern, unit in _OF_OUR_NAMES if re.fullmatch(pattern, name)), None)
+    return next((unit for pattern, unit in _UNITS_OF_NAMES if re.fullmatch(pattern, name)), None)
 
 
 def conversion(unit: str, other: str, where: str = "the unit") -> float:
@@ -71,6 +71,6 @@ def _is_hertz(text: str) -> bool:
     return OTHER_NAMES.get(name, name) == "Hz"
 
 
-def says_nothing(unit: UnitDefinition) -> bool:
-    """Whether it is the plain number 1, which FMUs also give where nobody has thought of a unit."""
+def is_plain_one(unit: UnitDefinition) -> bool:
+    """Whether a unit is the number 1, which FMUs also declare where the unit is not known."""
     return not unit.exponents and (unit.factor, unit.offset) == (1.0, 0.0)

@@ -30,7 +30,7 @@ class World:
         """Start values by name of the place."""
         return {p["name"]: {ours: float(p[key]) for key, ours in _START.items()} for p in self.content["places"]}
 
-    def for_hello(self) -> dict[str, Any]:
+    def summary(self) -> dict[str, Any]:
         """The first message to a page; the drawing follows on request."""
         return {key: self.content[key] for key in ("name", "places", "bounds")}
 
@@ -49,22 +49,22 @@ def no_world(roads: list[Any]) -> World:
     return World("", None, content)
 
 
-def make_world(world: str, tell: Callable[[str], None], thin: bool = False) -> World:
+def make_world(world: str, tell: Callable[[str], None] = lambda line: None, thin: bool = False) -> World:
     """A world by its name, or from a file.
 
-    `world`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: takes lines that say how far it
-    is, where it is made for the first time; `thin`: few and round numbers, as a page carries it. Raises `HostError`: it
-    is not a world; with the words of ``ali3 road --world``.
+    `world`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: called with lines of progress
+    when it is made for the first time; `thin`: with few and rounded numbers, for a page. Raises `HostError`: it is not
+    a world; with the message of ``ali3 road --world``.
     """
     file = Path(world)
-    room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if is_file(file) else "named"
-    folder = cache_folder("worlds", f"{room}-thin" if thin else room)
+    key = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if is_file(file) else "named"
+    folder = cache_folder("worlds", f"{key}-thin" if thin else key)
 
-    def hear(line: str) -> None:
+    def on_line(line: str) -> None:
         if line and not line.startswith(ERROR):  # which is raised
             tell(line)
 
-    run_ali3("road", "--world", world, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
+    run_ali3("road", "--world", world, "--out", str(folder), *(["--thin"] if thin else []), on_line=on_line)
     # A description has a name of its own; the record of another one that stood in the file before is older.
     record = max(folder.glob("*.json"), key=lambda path: path.stat().st_mtime_ns) if is_file(file) else None
     content = read_world_record(record or folder / f"{file.stem}.json")

@@ -1,4 +1,4 @@
-"""The JSON file that ``ali3 road --world`` writes beside the road of a world: what is drawn of it."""
+"""The JSON file with the drawing of a world, which ``ali3 road --world`` writes beside its road."""
 
 from pathlib import Path
 from typing import Any
@@ -26,7 +26,7 @@ def read_world_record(file: Path) -> dict[str, Any]:
 
 
 def world_beside(road: Path) -> dict[str, Any] | None:
-    """The record of the world that a road file is of; None where none of that name lies beside it.
+    """The record of the world of a road file; None if there is no record of that name beside it.
 
     Raises `HostError`: it is a world that cannot be read, or that of another road file of that name.
     """

@@ -9,6 +9,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ali3.chart_style import BLUE, COLOURS, RED, STYLE
 from ali3.charts import MANY_POINTS
@@ -32,9 +33,8 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
     rows = len(names) + bool(inputs)
     height = 0.5 + 2.1 * rows
     with plt.rc_context(_STYLE):
-        figure = plt.figure(figsize=(13.0, height), layout="constrained")
-        engine: Any = figure.get_layout_engine()
-        engine.set(rect=(0.0, 0.0, 1.0, 1.0 - 0.35 / height))
+        layout = ConstrainedLayoutEngine(rect=(0.0, 0.0, 1.0, 1.0 - 0.35 / height))
+        figure = plt.figure(figsize=(13.0, height), layout=layout)
         figure.suptitle(title, x=0.01, y=1.0 - 0.08 / height, ha="left", va="top", fontsize=12, fontweight="bold")
         grid = figure.add_gridspec(rows, 2, width_ratios=(1.7, 1.0))
         shared_axis = None

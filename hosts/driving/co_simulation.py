@@ -56,8 +56,8 @@ def _slope_setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence
 
 def _not_finite_text(time: float, acts: Mapping[str, float], observation: Mapping[str, float]) -> str:
     act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
-    sense = next((f": the output {n} of the FMU is {x}" for n, x in observation.items() if not math.isfinite(x)), "")
-    return f"At {time:.4g} s the driver asks for {act}{sense}."
+    fault = next((f": the output {n} of the FMU is {x}" for n, x in observation.items() if not math.isfinite(x)), "")
+    return f"At {time:.4g} s the driver asks for {act}{fault}."
 
 
 def columns_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> tuple[list[str], list[str]]:

@@ -7,12 +7,16 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.iso_3888 import Gate
+from ali3.iso_3888 import Gate, Track, lanes
+from ali3.near_names import did_you_mean
+from hosts.common.errors import HostError
 
-# Length by which curves of the path extend into the lanes, m: bends are wider, at little cost in lateral space.
+TRACKS: dict[str, Track] = {"iso_3888_1": "ISO 3888-1", "iso_3888_2": "ISO 3888-2"}
+"""Tracks by their names in manoeuvres."""
 EASE = 5.0
+"""Length by which curves of the path extend into the lanes, m: bends are wider, at little cost in lateral space."""
 ROWS = 1.0
-"""Largest distance of rows that show whether lanes were kept, m; in a bend of 20 m a chord of it is off by 6 mm."""
+"""Largest distance of rows for a verdict on lanes, m; in a bend of 20 m its chord deviates by 6 mm."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +53,7 @@ class Course:
         ]
 
     def not_driven(self, x: NDArray[np.float64], length: float) -> str:
-        """The first lane that a vehicle has not driven, as a sentence without a full stop; empty if it has driven all.
+        """A clause on the first lane that a vehicle has not driven; empty if it has driven all.
 
         `x`: centre of the vehicle, m, shape (n,); `length`: of the vehicle, m. It must begin before the first lane,
         reach each lane, and end behind the last one, with rows close enough in between.
@@ -88,3 +92,15 @@ class Course:
                         excess = np.maximum(cy[inside] - gate.y_left, gate.y_right - cy[inside])
                         largest = max(largest, float(excess.max()))
         return largest
+
+
+def course_of(name: str, vehicle_width: float, x_start: float = 15.0) -> Course:
+    """The course of a name.
+
+    `name`: one of `TRACKS`; `vehicle_width`: without mirrors, m; `x_start`: of the first lane, m. Raises `HostError` if
+    there is no such course.
+    """
+    if name not in TRACKS:
+        near = did_you_mean(name, TRACKS, f"known are: {', '.join(TRACKS)}")
+        raise HostError(f"There is no course '{name}'{near}")
+    return Course(TRACKS[name], lanes(TRACKS[name], vehicle_width, x_start))

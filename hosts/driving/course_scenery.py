@@ -17,10 +17,10 @@ from viewer.looks import LOOKS
 
 Array = NDArray[np.float64]
 
-_WIDTH = 0.15  # m, of lines
-# limits of the number of sections of a circle; between them one per metre
-_FEWEST = 72
-_MOST = 3600
+_LINE_WIDTH = 0.15  # m, of lines
+# Limits of the number of sections of a circle, which are 1 m long in between.
+_LEAST_SECTIONS = 72
+_MOST_SECTIONS = 3600
 
 
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
@@ -59,13 +59,13 @@ def scenery_of(marks: Sequence[Mark]) -> list[Mark]:
     for mark in marks:
         if mark["kind"] == "circle":
             (x, y), radius = mark["centre"], mark["radius"]
-            sections = min(max(_FEWEST, math.ceil(2.0 * math.pi * radius)), _MOST)
+            sections = min(max(_LEAST_SECTIONS, math.ceil(2.0 * math.pi * radius)), _MOST_SECTIONS)
             angles = np.linspace(0.0, 2.0 * math.pi, sections + 1)
             points = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)]).tolist()
-            scenery.append({"kind": "line", "points": points, "width": _WIDTH})
+            scenery.append({"kind": "line", "points": points, "width": _LINE_WIDTH})
         elif mark["kind"] == "line":
             points = [[float(x), float(y)] for x, y in mark["points"]]
-            scenery.append({"kind": "line", "points": points, "width": _WIDTH, "colour": mark["colour"]})
+            scenery.append({"kind": "line", "points": points, "width": _LINE_WIDTH, "colour": mark["colour"]})
         elif mark["kind"] == "lanes":
             x0, y0, yaw = mark["pose"]
             c, s = math.cos(yaw), math.sin(yaw)

@@ -7,15 +7,12 @@ from dataclasses import fields, replace
 from ali3.decimal_number import parse_number
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.pilot import ACTS, OBSERVED, refuse_missing
 from hosts.driving.simulated_fmu import SimulatedFmu
 
-__all__ = ["CONSTANTS", "Driver", "DriverSettings", "make_driver"]
-
-Driver = CourseFollower
 _POSITIVE = ("speed", "wheelbase", "wheel_angle_max", "vehicle_length", "vehicle_width")
 CONSTANTS = {
     "wheelbase": "vehicle.wheelbase",
@@ -26,7 +23,7 @@ CONSTANTS = {
 """Settings of a driver that are constants of the FMU, and the names of these."""
 
 
-def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> Driver:
+def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> CourseFollower:
     """Driver from the ``[driver]`` section of a manoeuvre and the constants of the FMU.
 
     `settings`: ``course`` and the fields of `DriverSettings`; they take precedence over the constants of the FMU;
@@ -58,7 +55,7 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
                 f"constant '{constant}'); give it as --driver {name}=NUMBER, or in [driver] of the manoeuvre."
             )
     values = DriverSettings(**numbers)
-    return Driver(course_of(settings["course"], values.vehicle_width), values)
+    return CourseFollower(course_of(settings["course"], values.vehicle_width), values)
 
 
 def with_settings(
@@ -88,7 +85,7 @@ def check_drivable(inputs: Collection[str], outputs: Collection[str], subject: s
     refuse_missing([n for n in ACTS if n not in inputs] + [n for n in OBSERVED if n not in outputs], subject)
 
 
-def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
+def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> CourseFollower | None:
     """The driver of a manoeuvre with the constants of the FMU; None if the manoeuvre has no driver.
 
     Raises `HostError` if the FMU is not a car for a driver, or a setting is wrong or missing.

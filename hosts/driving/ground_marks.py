@@ -12,9 +12,9 @@ from hosts.driving.result import Result
 Mark: TypeAlias = dict[str, Any]
 """Kind and coordinates x and y, m, of lanes, a line or a circle."""
 _LINE_LENGTH = 4.0  # m, of a line across the path
-_STEADY = 10.0  # s, shortest time of constant steering on a circle
+_SHORTEST_CIRCLE = 10.0  # s of constant steering
 _SETTLING = 2.0  # s, until the car drives the circle
-_MOVING = 1.0  # m/s, least speed
+_LEAST_SPEED = 1.0  # m/s
 
 
 def with_ground_marks(result: Result, pilot: object | None) -> Result:
@@ -55,17 +55,17 @@ def marks_of_inputs(result: Result) -> list[Mark]:
     if not steering.any():
         unbraked = np.flatnonzero(brake <= 0.0)
         begin = int(unbraked[-1]) if len(unbraked) else len(time) - 1
-        if begin == len(time) - 1 or not abs(result["speed"][begin]) > _MOVING:
+        if begin == len(time) - 1 or not abs(result["speed"][begin]) > _LEAST_SPEED:
             return []
         return [line_across(*(float(result[name][begin]) for name in ("chassis.x", "chassis.y", "chassis.yaw")))]
     constant_from = int(np.flatnonzero(steering != steering[-1])[-1]) + 1 if (steering != steering[-1]).any() else 0
     settled = int(np.searchsorted(time, time[constant_from] + _SETTLING))
-    if steering[-1] == 0.0 or time[-1] - time[constant_from] < _STEADY or "chassis.wz" not in result:
+    if steering[-1] == 0.0 or time[-1] - time[constant_from] < _SHORTEST_CIRCLE or "chassis.wz" not in result:
         return []
     names = ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz")
     x, y, yaw, speed, rate = (float(result[name][settled]) for name in names)
     yaw += float(result["sideslip"][settled]) if "sideslip" in result else 0.0
-    if not (abs(speed) > _MOVING and abs(rate) * 1000.0 > abs(speed)):
+    if not (abs(speed) > _LEAST_SPEED and abs(rate) * 1000.0 > abs(speed)):
         return []
     radius = speed / rate
     return [circle((x - radius * math.sin(yaw), y + radius * math.cos(yaw)), abs(radius))]

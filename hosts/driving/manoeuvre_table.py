@@ -1,8 +1,10 @@
 """Manoeuvres as plain CSV files."""
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -13,17 +15,16 @@ from ali3.tables import HEADING, TextTable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
-from hosts.driving.run_record import record_of, rows_before_jumps
+from hosts.driving.run_record import RunRecord, record_of, rows_before_jumps
 from hosts.driving.state_file import read_state
 
 _LATEST = ON_TIME * 2.0**52  # s; later times are farther apart than `ON_TIME` as double numbers
 # The remark of a page on a table without its oldest rows.
 _CUT_REMARK = re.compile("the first .* s are not in this table")
-
-
 _KEYS = ("start", "state", "step", "outputs from", "held")
-SIMILARITY = 0.75
-"""Similarity from which a remark counts as a misspelt key."""
+_SIMILARITY = 0.75  # from which a remark counts as a misspelt key
+
+_Parsed = TypeVar("_Parsed", float, Value)
 
 
 def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeuvre:
@@ -49,45 +50,12 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
             )
     if names[0] != "time" or len(names) < 2:
         raise HostError(f'{path}: the heading is {brief(", ".join(names))}; it must be "time" and the names of inputs.')
-    rows: list[list[float]] = []
-    for row in table.rows():
-        rows.append(table.numbers(row))
-        if len(rows) > 1 and rows[-1][0] < rows[-2][0]:
-            raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
-    if not rows:
-        raise HostError(f"{path} contains no values; it needs a heading and at least one row.")
-    check_begin(rows[0][0], rows[-1][0], path)
-    record = record_of(path)
-    recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
-    step, start_values = record.step, dict[str, Value]()
-    for number, comment in table.comments:
-        key, _, content = comment.lstrip("# ").partition(":")
-        where = f"{path}, line {number}"
-        if key.strip() == "start":
-            _add_start_values(start_values, content.split(","), where)
-        elif key.strip() == "state":
-            name, at, instant = content.rpartition(" at ")
-            if not at:
-                raise HostError(f"{where}: {brief(content.strip())} is not of the form FILE at TIME.")
-            state = read_state(path.parent, name.strip(), where), number_of(instant, f"{where}, time of the state")
-        elif key.strip() == "step":
-            step = number_of(content, f"{where}, communication step")
-            if not step > 0.0:
-                raise HostError(f"{where}: the communication step is {step:g} s; it must be positive.")
-        elif _CUT_REMARK.fullmatch(key.strip()):
-            raise HostError(f"{where}: {key.strip()}, so that the run cannot be repeated; record a shorter one.")
-        elif key.strip() == "outputs from":
-            recorded = content.strip()
-        elif key.strip() == "held":
-            held = {name.strip() for name in content.split(",")}
-        elif content and (meant := near_names(key.strip(), _KEYS, 1, SIMILARITY)):
-            raise HostError(
-                f"{where}: {brief(key.strip() + ':')} is not a key of a table; did you mean '{meant[0]}:'? In a remark "
-                "leave the colon out."
-            )
-    if recorded and recorded not in names[1:]:
-        raise HostError(f"{path}: there is no column {brief(recorded)}, with which outputs would begin.")
-    inputs = names[1 : names.index(recorded)] if recorded else names[1:]
+    rows = _rows_of(table, path)
+    record = _with_remarks(record_of(path), table.comments, path)
+    first_output = record.outputs_from
+    if first_output and first_output not in names[1:]:
+        raise HostError(f"{path}: there is no column {brief(first_output)}, with which outputs would begin.")
+    inputs = names[1 : names.index(first_output)] if first_output else names[1:]
     if lost := [n for n in inputs if n in record.lost and (input_names is None or n in input_names)]:
         raise HostError(
             f"{path} was written every {record.interval:g} s, and {', '.join(lost)} moved in between otherwise than "
@@ -99,15 +67,68 @@ def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeu
     columns = {
         name: values[:, k] for k, name in enumerate(inputs, start=1) if input_names is None or name in input_names
     }
-    held_inputs = frozenset(inputs if held is None and recorded else held or ())
+    held_inputs = frozenset(inputs if record.held is None and first_output else record.held or ())
     if not held_inputs <= set(inputs):
         raise HostError(
             f"{path}: {brief(min(held_inputs - set(inputs)))} is listed as held but is not an input of the table."
         )
-    start = {name: value for name, value in (start | start_values).items() if name not in columns}
     return Manoeuvre(
-        path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, held_inputs & set(columns), step=step
+        path.stem,
+        values[:, 0],
+        columns,
+        stop_time=float(values[-1, 0]),
+        start={name: value for name, value in record.start.items() if name not in columns},
+        state=record.state[0],
+        state_time=record.state[1],
+        held=held_inputs & set(columns),
+        step=record.step,
     )
+
+
+def _rows_of(table: TextTable, path: Path) -> list[list[float]]:
+    """Rows of a table whose times, in the first column, do not decrease."""
+    rows: list[list[float]] = []
+    for row in table.rows():
+        rows.append(table.numbers(row))
+        if len(rows) > 1 and rows[-1][0] < rows[-2][0]:
+            raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
+    if not rows:
+        raise HostError(f"{path} contains no values; it needs a heading and at least one row.")
+    check_begin(rows[0][0], rows[-1][0], path)
+    return rows
+
+
+def _with_remarks(record: RunRecord, comments: Iterable[tuple[int, str]], path: Path) -> RunRecord:
+    """A record with the values of remarks of the table in place of its own. `comments`: see `TextTable`."""
+    start: dict[str, Value] = {}
+    for line, comment in comments:
+        key, _, content = comment.lstrip("# ").partition(":")
+        key, where = key.strip(), f"{path}, line {line}"
+        if key == "start":
+            _add_start_values(start, content.split(","), where)
+        elif key == "state":
+            name, at, instant = content.rpartition(" at ")
+            if not at:
+                raise HostError(f"{where}: {brief(content.strip())} is not of the form FILE at TIME.")
+            state = read_state(path.parent, name.strip(), where)
+            record = replace(record, state=(state, _parsed(parse_number, instant, f"{where}, time of the state")))
+        elif key == "step":
+            step = _parsed(parse_number, content, f"{where}, communication step")
+            if not step > 0.0:
+                raise HostError(f"{where}: the communication step is {step:g} s; it must be positive.")
+            record = replace(record, step=step)
+        elif key == "outputs from":
+            record = replace(record, outputs_from=content.strip())
+        elif key == "held":
+            record = replace(record, held={name.strip() for name in content.split(",")})
+        elif _CUT_REMARK.fullmatch(key):
+            raise HostError(f"{where}: {key}, so that the run cannot be repeated; record a shorter one.")
+        elif content and (near := near_names(key, _KEYS, 1, _SIMILARITY)):
+            raise HostError(
+                f"{where}: {brief(key + ':')} is not a key of a table; did you mean '{near[0]}:'? In a remark leave "
+                "the colon out."
+            )
+    return replace(record, start={**record.start, **start})
 
 
 def check_begin(first: float, last: float, path: Path) -> None:
@@ -128,20 +149,12 @@ def _add_start_values(start_values: dict[str, Value], assignments: Iterable[str]
             raise HostError(f"{where}: {brief(assignment.strip())} is not of the form name=value.")
         if name.strip() in start_values:
             raise HostError(f"{where}: the start value {brief(name.strip())} is given twice.")
-        start_values[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")
+        start_values[name.strip()] = _parsed(parse_value, value, f"{where}, start value {brief(name.strip())}")
 
 
-def number_of(text: str, where: str) -> float:
-    """The number of a text. Raises `HostError`; `where`: the place in the file, for messages."""
+def _parsed(parse: Callable[[str], _Parsed], text: str, where: str) -> _Parsed:
+    """A number or a value from its text. Raises `HostError`; `where`: the place in the file, for messages."""
     try:
-        return parse_number(text)
-    except ValueError as error:
-        raise HostError(f"{where}: {error}.") from None
-
-
-def value_of(text: str, where: str) -> Value:
-    """The value of a text, see `parse_value`. Raises `HostError`; `where`: the place in the file, for messages."""
-    try:
-        return parse_value(text)
+        return parse(text)
     except ValueError as error:
         raise HostError(f"{where}: {error}.") from None

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 
-_LARGEST = 0.01  # of the range of a column, largest difference without a note
-_MOST_PARTS = 100  # of a communication step, for a shorter one
-_SAME_END = 1e-3  # of a step
+_LARGEST_SHARE = 0.01  # of the range of a column: largest difference without a note
+_MOST_DIVISIONS = 100  # of a communication step that are tried
+_END_TOLERANCE = 1e-3  # of a communication step
 
 
 def missed_inputs(
@@ -33,16 +33,17 @@ def missed_inputs(
     held = {*integers, *manoeuvre.held}
 
     def departures(h: float) -> dict[str, tuple[NDArray[np.intp], NDArray[np.float64]]]:
-        """By column, rows at which inputs in steps of h s differ by more than 1 % from the table, and by how much."""
+        """Rows at which inputs in steps of `h`, s, differ more than 1 % from the table, and differences, by column."""
         rows = np.flatnonzero((manoeuvre.time > 0.0) & (manoeuvre.time < manoeuvre.stop_time))
         rows = rows[rows > 0]
         rows = rows[np.abs(manoeuvre.time[rows] - h * np.round(manoeuvre.time[rows] / h)) > ON_TIME]
-        is_present = {}
+        results = {}
         for name, span in ((name, span) for name, span in ranges.items() if span > 0.0):
             differences = _differences(manoeuvre, name, rows, h, name in linear, name in held)
-            if (differences > _LARGEST * span).any():
-                is_present[name] = rows[differences > _LARGEST * span], differences[differences > _LARGEST * span]
-        return is_present
+            departing = differences > _LARGEST_SHARE * span
+            if departing.any():
+                results[name] = rows[departing], differences[departing]
+        return results
 
     missed = departures(step)
     if not missed:
@@ -50,16 +51,15 @@ def missed_inputs(
     times = np.concatenate([manoeuvre.time[rows] for rows, _ in missed.values()])
     jumped = np.concatenate([_at_jumps(manoeuvre, name, rows, name in held) for name, (rows, _) in missed.items()])
     kinds = [kind for kind, is_present in (("corners", not jumped.all()), ("jumps", jumped.any())) if is_present]
-    worst = max(missed, key=lambda name: float(missed[name][1].max()) / ranges[name])
-    rows, differences = missed[worst]
+    worst_name = max(missed, key=lambda name: float(missed[name][1].max()) / ranges[name])
+    rows, differences = missed[worst_name]
     k = int(differences.argmax())
-    amount = (
-        f"{worst} is off by up to {differences[k]:.3g}, {100.0 * differences[k] / ranges[worst]:.3g} % of its range"
-    )
-    fits = next((h for h in (step / np.arange(2, _MOST_PARTS + 1)).tolist() if not departures(h)), None)
-    remedy = (
-        f"take times that are multiples of {step:g} s" if fits is None else f"--step {fits:.9g} has it to within 1 %"
-    )
+    share = 100.0 * differences[k] / ranges[worst_name]
+    amount = f"{worst_name} is off by up to {differences[k]:.3g}, {share:.3g} % of its range"
+    fitting_step = next((h for h in (step / np.arange(2, _MOST_DIVISIONS + 1)).tolist() if not departures(h)), None)
+    remedy = f"take times that are multiples of {step:g} s"
+    if fitting_step is not None:
+        remedy = f"--step {fitting_step:.9g} has it to within 1 %"
     effect = "becomes a line over its step" if missed.keys() & set(linear) else "comes with the next step"
     return (
         f"{' and '.join(kinds)} inside a communication step",
@@ -90,11 +90,11 @@ def _at_jumps(manoeuvre: Manoeuvre, name: str, rows: NDArray[np.intp], held: boo
 
 def missed_end(stop_time: float, steps: int, step: float) -> tuple[str, str] | None:
     """A note, subject and text, on a run whose whole steps do not end at the stop time, or None."""
-    if abs(steps * step - stop_time) <= _SAME_END * step:
+    if abs(steps * step - stop_time) <= _END_TOLERANCE * step:
         return None
-    fits = stop_time / math.ceil(stop_time / step)
+    fitting_step = stop_time / math.ceil(stop_time / step)
     ended = f"at {steps * step:g} s, a whole number of steps of {step:g} s, in place of {stop_time:g} s"
-    return "end of the run", f"{ended}; --step {fits:.9g} ends there"
+    return "end of the run", f"{ended}; --step {fitting_step:.9g} ends there"
 
 
 def count_text(names: Iterable[str], times: NDArray[np.float64]) -> str:

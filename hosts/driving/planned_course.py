@@ -1,4 +1,4 @@
-"""The line a practised driver takes through a course: the least curvature that the cones allow."""
+"""Plans the line of least curvature through the cones of a course."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,18 +16,18 @@ from hosts.driving.course import Course
 
 BEHIND = 30.0  # m of straight behind the last lane
 KNOTS = 2.0  # m between knots of the spline
-SAMPLES = 0.5  # m between places where curvature and room are looked at
-ROOM_LEFT = 0.5  # part of the room beside the car that is kept for errors of the driver
-BEND_LENGTH = 3.0  # m; weight of the largest change of the curvature over the way against the largest curvature
-SMOOTHNESS = 0.01  # weight of the sum of all changes: it settles what the largest ones leave open
+SAMPLES = 0.5  # m between samples of curvature and clearance
+ROOM_LEFT = 0.5  # share of the clearance of the car that remains for errors of the driver
+BEND_LENGTH = 3.0  # m; weight of the largest rate of the curvature along x against the largest curvature
+SMOOTHNESS = 0.01  # weight of the sum of all rates, which makes the solution unique
 
 
 @dataclass(frozen=True)
 class PlannedCourse(Course):
-    """A course with a line of its own."""
+    """A course with a given line."""
 
-    line: Callable[[float], tuple[float, float, float]] = lambda x: (0.0, 0.0, 0.0)
-    """Of x in m to y in m, slope and second derivative."""
+    line: Callable[[float], tuple[float, float, float]]
+    """Function of x, m: y, m, its slope and second derivative, 1/m."""
 
     def path(self, x: float) -> tuple[float, float, float]:
         y, slope, bend = self.line(x)
@@ -38,14 +38,14 @@ class PlannedCourse(Course):
 def planned(course: Course, begin: float, length: float, width: float) -> PlannedCourse:
     """The course with the line of least curvature.
 
-    `begin`: up to which the line is straight, in the middle of the first lane, m; `length`, `width`: outline of the
-    car, centred on what follows the line, m. Raises `HostError` if a car of this width does not fit through.
+    `begin`: end of the straight line in the middle of the first lane, m; `length`, `width`: outline of the car, whose
+    centre follows the line, m. Raises `HostError` if a car of this width does not fit through.
 
     Notes
     -----
     A quintic spline y(x), whose largest second derivative and, weighted, third derivative are least, while both sides
-    of the car, y + a y' ± width / 2 for a along the car, keep half of the room of each lane. For slopes that are small
-    against one this is a linear program.
+    of the car, y + a y' ± width / 2 for a along the car, keep half of the clearance of each lane. For slopes that are
+    small against one this is a linear program.
     """
     for k, gate in enumerate(course.gates):
         if gate.y_left - gate.y_right <= width:
@@ -64,11 +64,9 @@ def planned(course: Course, begin: float, length: float, width: float) -> Planne
     rows, bounds = [], []
 
     def demand(matrix: csr_array, column: tuple[float, float], most: NDArray[np.float64]) -> None:
-        rows.append(hstack([matrix, csr_array(np.tile(column, (matrix.shape[0], 1))), no_sums(matrix.shape[0])]))
+        height = matrix.shape[0]
+        rows.append(hstack([matrix, csr_array(np.tile(column, (height, 1))), csr_array((height, len(x)))]))
         bounds.append(most)
-
-    def no_sums(height: int) -> csr_array:
-        return csr_array((height, len(x)))
 
     none = np.zeros(len(x))
     for sign in (1.0, -1.0):

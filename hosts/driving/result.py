@@ -78,6 +78,11 @@ class Result:
         row, column = np.argwhere(wrong)[0]
         return f"The output '{self.names[column]}' is {self.values[row, column]} at {self.time[row]:g} s."
 
+    def remarks(self) -> list[str]:
+        """Lines for the user: what the FMU logged, how its process ended, and the first value that is not finite."""
+        messages = [f"FMU: {message}" for message in dict.fromkeys(self.messages)]
+        return [*messages, *filter(None, (self.ended, self.not_finite()))]
+
     def __contains__(self, name: str) -> bool:
         return name in self.names
 

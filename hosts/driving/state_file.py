@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ali3.files import atomic_file
+from ali3.files import write_bytes
 from ali3.named_files import NamedFiles
 from ali3.reading import LARGEST_STATE, read_bytes
 from hosts.common.errors import HostError
@@ -20,6 +20,5 @@ def read_state(folder: Path, name: str, where: str) -> bytes:
 def write_state(state: bytes, file: Path) -> Path:
     """Write a saved state beside a file; the path of the state."""
     beside = file.with_suffix(".state")
-    with atomic_file(beside) as temporary:
-        temporary.write_bytes(state)
+    write_bytes(beside, state)
     return beside

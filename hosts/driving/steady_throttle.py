@@ -17,11 +17,11 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 THROTTLE = "throttle"
 SPEED_TOLERANCE = 0.03
 """Largest relative change of the speed without a note."""
-_LONGEST = 30.0  # s, of the search
+_LONGEST_SEARCH = 30.0  # s
 _WINDOW = 1.0  # s, in which speed and throttle are steady
-_STEADY = 0.004  # range of the throttle
-_CLOSE = 0.0005  # relative error of the speed
-_ACCEPTED = 0.01  # relative error of the speed of a car whose gearbox shifts repeatedly
+_THROTTLE_RANGE = 0.004  # largest range of a steady throttle
+_SPEED_ERROR = 0.0005  # largest relative error of a steady speed
+_ACCEPTED_SPEED_ERROR = 0.01  # relative, of a car whose gearbox shifts repeatedly
 
 
 class _ThrottleFinder:
@@ -48,9 +48,11 @@ class _ThrottleFinder:
         return max(abs(speed - self.speed) for _, speed, _ in self._window) / self.speed
 
     def is_steady(self, time: float, observation: Mapping[str, float]) -> bool:
-        if time < 2.0 * _WINDOW or abs(observation["speed"] - self.speed) > _CLOSE * self.speed:
+        if time < 2.0 * _WINDOW or abs(observation["speed"] - self.speed) > _SPEED_ERROR * self.speed:
             return False
-        return bool(np.ptp([x for _, _, x in self._window]) <= _STEADY and self.relative_error() <= _CLOSE)
+        return bool(
+            np.ptp([x for _, _, x in self._window]) <= _THROTTLE_RANGE and self.relative_error() <= _SPEED_ERROR
+        )
 
     @property
     def throttle(self) -> float:
@@ -71,7 +73,7 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
         manoeuvre,
         time=np.zeros(min(len(manoeuvre.time), 1)),
         inputs=other_inputs,
-        stop_time=_LONGEST,
+        stop_time=_LONGEST_SEARCH,
         find_throttle=False,
     )
     finder = _ThrottleFinder()
@@ -85,7 +87,7 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
         raise HostError(f"{text}; straight on {run.refusal}.")
     if not finder.speed > 0.0:
         raise HostError(f"{text}, which is {finder.speed:.3g} m/s; give one above 0, as --set {INITIAL_SPEED}=22.22.")
-    if finder.relative_error() > _ACCEPTED:
+    if finder.relative_error() > _ACCEPTED_SPEED_ERROR:
         raise HostError(
             f"{text}; straight on the car does not hold {finder.speed:.4g} m/s: after {run.simulated:.3g} s it is at "
             f"{speed:.4g} m/s with a throttle of {finder.throttle:.3g}; start at another speed, as --set "

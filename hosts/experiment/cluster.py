@@ -16,18 +16,8 @@ from hosts.common.errors import HostError
 from hosts.experiment.cluster_runs import remove_from_workers
 from hosts.experiment.cluster_worker import ExperimentPlugin, UnpackedFmu, worker_fault
 
-_PATIENCE = 20.0  # s for an answer
+_TIMEOUT = 20.0  # s for an answer
 _ENCRYPTED = ("tls://", "wss://")
-
-
-def client_of(address: str) -> Client:
-    """A client of the scheduler at an address. Raises `HostError`: no scheduler answers, or certificates are wrong."""
-    _check_encryption(address)
-    try:
-        return Client(address, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError) as error:
-        message = " ".join(str(error).split())
-        raise HostError(f"No scheduler of Dask answers at {address}: {message[:200]}") from None
 
 
 def _check_encryption(address: str) -> None:
@@ -58,12 +48,20 @@ def _check_encryption(address: str) -> None:
 
 @contextmanager
 def connected(scheduler: str) -> Iterator[Client]:
-    """A client of a scheduler, with the certificates of the configuration of Dask, until the end of the block.
+    """A context with a client of a scheduler, with the certificates of the configuration of Dask.
 
-    `scheduler`: its address. Warns if the traffic is not encrypted. Raises `HostError`: no scheduler answers.
+    `scheduler`: its address. Warns if the traffic is not encrypted. Raises `HostError`: no scheduler answers, or the
+    certificates are wrong.
     """
-    with _without_logs(), client_of(scheduler) as client:
-        yield client
+    with _without_logs():
+        _check_encryption(scheduler)
+        try:
+            client = Client(scheduler, timeout=_TIMEOUT, set_as_default=False)
+        except (OSError, ValueError) as error:
+            message = " ".join(str(error).split())
+            raise HostError(f"No scheduler of Dask answers at {scheduler}: {message[:200]}") from None
+        with client:
+            yield client
 
 
 @contextmanager

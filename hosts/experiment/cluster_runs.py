@@ -15,7 +15,7 @@ from ali3.isolated_processes import Lost
 from hosts.common.closable import Closable
 from hosts.experiment.cluster_worker import UnpackedFmu, WrongWorkerError, run_chunk
 
-WORK = 2.0  # s of a chunk: the overhead of Dask is some milliseconds
+CHUNK_DURATION = 2.0  # s; the overhead of Dask is some milliseconds
 _MOST_RUNS = 5000  # of a chunk
 _SMOOTHING = 0.3
 _CHUNKS_PER_WORKER = 2  # sent to each worker at a time
@@ -54,7 +54,7 @@ class ChunkSize:
 
     def size(self, runs_left: int) -> int:
         """Runs of the next chunk; fewer when few runs are left, so that all workers end at about the same time."""
-        return max(1, min(round(WORK / self._seconds), self._most, -(-runs_left // (2 * self.workers))))
+        return max(1, min(round(CHUNK_DURATION / self._seconds), self._most, -(-runs_left // (2 * self.workers))))
 
 
 def remove_from_workers(client: Client, unpacked_fmu: UnpackedFmu) -> None:
@@ -74,7 +74,7 @@ class ClusterRuns(Closable, Generic[T, R]):
         self._client, self._unpacked_fmu, self._size, self._unsent = client, unpacked_fmu, size, runs
         self._pending: dict[Future[Any], tuple[_Chunk[T], _KilledWorkers]] = {}
         self._completed: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
-        self._suspects: deque[tuple[_Chunk[T], _KilledWorkers]] = deque()
+        self._suspect_chunks: deque[tuple[_Chunk[T], _KilledWorkers]] = deque()
         self._connected = clock.monotonic()
         self.chunks = 0
 
@@ -100,10 +100,13 @@ class ClusterRuns(Closable, Generic[T, R]):
         waiting = zip(count(), tasks)
         is_exhausted = False
         while True:
-            while not (is_exhausted or self._suspects) and len(self._pending) < _CHUNKS_PER_WORKER * self._size.workers:
+            while (
+                not (is_exhausted or self._suspect_chunks)
+                and len(self._pending) < _CHUNKS_PER_WORKER * self._size.workers
+            ):
                 is_exhausted = not self._send_next(waiting)
-            if self._suspects and not self._pending:  # alone, so that no other run can be the cause
-                self._send(*self._suspects.popleft())
+            if self._suspect_chunks and not self._pending:  # alone, so that no other run can be the cause
+                self._send(*self._suspect_chunks.popleft())
             if not self._pending:
                 break
             yield from self._collect()
@@ -130,14 +133,14 @@ class ClusterRuns(Closable, Generic[T, R]):
             return
         if future not in self._pending:
             return
-        chunk, earlier = self._pending.pop(future)
+        chunk, killed_before = self._pending.pop(future)
         results: list[R | Lost] = []
         try:
             seconds, results = future.result()
         except KilledWorker as error:
-            killed = (earlier or 0) + error.allowed_failures + 1
-            if earlier is None:
-                self._suspects.extend(([one], killed) for one in chunk)
+            killed = (killed_before or 0) + error.allowed_failures + 1
+            if killed_before is None:
+                self._suspect_chunks.extend(([one], killed) for one in chunk)
             else:
                 results = [Lost(_LOST_MESSAGE.format(killed))]
         except WrongWorkerError:
@@ -145,10 +148,10 @@ class ClusterRuns(Closable, Generic[T, R]):
         except Exception as error:
             # Any error on a worker is one of the chunk.
             if isinstance(error, (CancelledError, OSError)) and future.status != "error":
-                self._pending[future] = chunk, earlier
+                self._pending[future] = chunk, killed_before
                 raise SchedulerLostError from error
-            if earlier is None:
-                self._suspects.append((chunk, 0))
+            if killed_before is None:
+                self._suspect_chunks.append((chunk, 0))
             else:
                 results = [Lost(f"has failed on its worker: {type(error).__name__}: {error}") for _ in chunk]
         else:

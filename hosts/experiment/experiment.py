@@ -14,8 +14,8 @@ from hosts.common.closable import Closable
 from hosts.experiment.pool import Pool
 from hosts.fmu.own_process import PATIENCE
 
-_BAR = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
-_COUNTING_BAR = "{desc} {n:.0f} done, {elapsed} so far"
+_BAR_FORMAT = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
+_COUNTING_BAR_FORMAT = "{desc} {n:.0f} done, {elapsed} so far"
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -95,7 +95,7 @@ class Progress(Closable, Generic[T, R]):
 
     def __init__(self, experiment: Experiment[T, R], whole: float | None = None, before: float = 0.0) -> None:
         self._experiment = experiment
-        bar_format = _COUNTING_BAR if whole is None else _BAR
+        bar_format = _COUNTING_BAR_FORMAT if whole is None else _BAR_FORMAT
         self._bar = bar_of(total=whole, initial=before, bar_format=bar_format, desc=experiment.name)
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""A journal file of results, written as each run ends, so that only running runs are lost by a kill."""
+"""A file of results, each written at the end of its run, so that a kill loses only unfinished runs."""
 
 from contextlib import suppress
 from io import BytesIO

@@ -7,13 +7,13 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.charts import Drawing
 from ali3.files import make_folder
 from ali3.html_elements import Content, document, element, picture
+from hosts.common.program import version_of
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -71,9 +71,5 @@ def commands_cell(lines: Sequence[str]) -> HtmlElement:
 
 
 def _provenance() -> str:
-    try:
-        program = version("ali3")
-    except PackageNotFoundError:
-        program = "without a version"
     now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
-    return f"{now}, by ALi3 {program} on Python {platform.python_version()}, {platform.platform()}."
+    return f"{now}, by ALi3 {version_of('ali3')} on Python {platform.python_version()}, {platform.platform()}."

@@ -16,12 +16,9 @@ def run_key(fmu: Path, *settings: object, files: Iterable[Path] = ()) -> str:
 
     `files`: other files that a run reads, such as roads; missing ones are ignored.
     """
-    contents = [_file_hash(file, (state := file.stat()).st_size, state.st_mtime_ns) for file in _existing(fmu, files)]
+    present = [fmu, *filter(is_file, files)]
+    contents = [_file_hash(file, (state := file.stat()).st_size, state.st_mtime_ns) for file in present]
     return hashlib.sha256(f"{contents} {settings!r} {program_digest()}".encode()).hexdigest()
-
-
-def _existing(fmu: Path, files: Iterable[Path]) -> list[Path]:
-    return [fmu, *(file for file in files if is_file(file))]
 
 
 @cache

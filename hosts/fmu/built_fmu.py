@@ -3,15 +3,16 @@
 import hashlib
 import os
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 import ali3
 from ali3.cache import cache_folder
 from ali3.commands import COMMANDS
-from ali3.errors import FileError, reason
+from ali3.errors import FileError
 from ali3.folders import atomic_folder, forget_oldest
 from ali3.locks import locked
+from ali3.named_files import files_in
 from ali3.reading import is_file, is_folder, read_bytes, read_toml
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
@@ -95,7 +96,9 @@ def car_digest(car: str) -> str:
     if not is_file(file):
         digest.update(f"name {car}".encode())
         return digest.hexdigest()[:32]
-    files = {f for f in file.parent.rglob("*") if is_file(f)} | set(_named_files(file))
+    files = {f for f in file.parent.rglob("*") if is_file(f)}
+    with suppress(FileError):  # the build reports the fault
+        files |= {*files_in(read_toml(file), file.parent)}
     size = sum(f.stat().st_size for f in files)
     if size > _LARGEST_FOLDER:
         raise HostError(
@@ -103,39 +106,9 @@ def car_digest(car: str) -> str:
         )
     digest.update(file.name.encode())
     for source in sorted(files):
-        try:
-            digest.update(
-                os.path.relpath(source, file.parent).encode() + b"\n" + read_bytes(source, _LARGEST_FOLDER, HostError)
-            )
-        except OSError as error:
-            raise HostError(f"{source} cannot be read: {reason(error)}.") from None
+        digest.update(os.path.relpath(source, file.parent).encode() + b"\n")
+        digest.update(read_bytes(source, _LARGEST_FOLDER, HostError))
     return digest.hexdigest()[:32]
-
-
-def _named_files(file: Path) -> Iterator[Path]:
-    """Files that a car file names."""
-    try:
-        content = read_toml(file)
-    except FileError:
-        return  # the build reports the fault
-    for text in _texts(content):
-        try:
-            path = file.parent / text
-            if is_file(path):
-                yield path
-        except (OSError, ValueError):
-            continue
-
-
-def _texts(content: Any) -> Iterator[str]:
-    if isinstance(content, str):
-        yield content
-    elif isinstance(content, dict):
-        for value in content.values():
-            yield from _texts(value)
-    elif isinstance(content, list):
-        for value in content:
-            yield from _texts(value)
 
 
 def program_version() -> str:

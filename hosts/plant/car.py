@@ -88,14 +88,16 @@ class Car(Closable):
             if path_or_name.suffix.lower() == ".fmu"
             else fmu_of_car(str(car), lambda text: None, ports=names)
         )
-        self._always = dict(mapping({} if parameters is None else parameters, "The parameters"))
+        self._parameters = dict(mapping({} if parameters is None else parameters, "The parameters"))
         self.fmu = Fmu(path)
         self._used = self._started = self._closed = False
         try:
-            self.inputs = tuple(self._known(self.fmu.names("input") if inputs is None else inputs, ("input",)))
-            twice = [name for name in self.inputs if self.inputs.count(name) > 1]
-            if twice:
-                raise HostError(f"The input '{twice[0]}' is named {self.inputs.count(twice[0])} times; name it once.")
+            self.inputs = tuple(self._checked_names(self.fmu.names("input") if inputs is None else inputs, ("input",)))
+            repeated = [name for name in self.inputs if self.inputs.count(name) > 1]
+            if repeated:
+                raise HostError(
+                    f"The input '{repeated[0]}' is named {self.inputs.count(repeated[0])} times; name it once."
+                )
         except HostError:
             self.close()
             raise
@@ -138,9 +140,9 @@ class Car(Closable):
         self._check_open()
         if not (seed is None or (isinstance(seed, (int, np.integer)) and seed >= 0)):
             raise HostError(f"The seed is {brief(seed)}; it must be a whole number from 0, or None.")
-        chosen, random = self._always | parameters, np.random.default_rng(seed)
+        chosen, random = self._parameters | parameters, np.random.default_rng(seed)
         # The draw does not depend on the order in which they are named.
-        start = {name: self._drawn(name, chosen[name], random) for name in sorted(chosen)}
+        start = {name: self._drawn_value(name, chosen[name], random) for name in sorted(chosen)}
         if self._used:
             self.fmu.messages.clear()  # in place: who wraps the FMU shares them
             self.fmu.reset()
@@ -149,7 +151,7 @@ class Car(Closable):
         self.fmu.initialise(start)
         self._start_time, self._steps, self._started = 0.0, 0, True
 
-    def _drawn(self, name: str, value: Range, random: np.random.Generator) -> Value:
+    def _drawn_value(self, name: str, value: Range, random: np.random.Generator) -> Value:
         """The value of a parameter, of a range one that is drawn."""
         if isinstance(value, (tuple, list)):
             ends = [end for end in value if is_finite(end)]
@@ -213,7 +215,7 @@ class Car(Closable):
         key = names if isinstance(names, tuple) and {*map(type, names)} <= {str} else texts(names, "The names")
         reader = self._readers.get(key)
         if reader is None:
-            reader = self._readers[key] = self.fmu.reader(self._known(key, _READ))
+            reader = self._readers[key] = self.fmu.reader(self._checked_names(key, _READ))
         values = np.empty(len(key)) if into is None else into
         fits = isinstance(values, np.ndarray) and values.shape == (len(key),) and values.dtype == float
         if not (fits and values.flags.writeable):
@@ -248,11 +250,11 @@ class Car(Closable):
             self._check_open()
             raise HostError("The car has no start yet; reset() gives it one.")
 
-    def _known(self, names: Sequence[str], causalities: tuple[str, ...]) -> list[str]:
-        have = {n for causality in causalities for n in self.fmu.names(causality)}
+    def _checked_names(self, names: Sequence[str], causalities: tuple[str, ...]) -> list[str]:
+        known_names = {n for causality in causalities for n in self.fmu.names(causality)}
         for name in (checked := texts(names, "The names")):
-            if name not in have:
+            if name not in known_names:
                 kind = "input" if causalities == ("input",) else "variable that is a number"
-                some = f"there are {', '.join(sorted(have)[:6])} and others"
-                raise HostError(f"The car has no {kind} {brief(name)}{did_you_mean(name, have, some)}")
+                some = f"there are {', '.join(sorted(known_names)[:6])} and others"
+                raise HostError(f"The car has no {kind} {brief(name)}{did_you_mean(name, known_names, some)}")
         return list(checked)

@@ -9,11 +9,11 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from ali3.message_text import brief
-from hosts.common.arguments import mapping
+from hosts.common.arguments import array_of, mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
 from hosts.common.wheels import WHEELS
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.car import Car
 from hosts.plant.lane import Lane
@@ -21,67 +21,64 @@ from hosts.plant.lane import Lane
 Floats = NDArray[np.float32]
 
 
-def two_numbers(value: Any, what: str) -> tuple[float, float]:
-    """A pair that an environment is given, checked; `what` says in a sentence which it is."""
+def number_pair(value: Any, subject: str) -> tuple[float, float]:
+    """Two finite numbers from 0, else a `HostError`. `subject`: of its sentence, a plural."""
     pair = tuple(value) if isinstance(value, (tuple, list, np.ndarray)) else ()
     if len(pair) != 2 or not all(is_finite(number) and number >= 0.0 for number in pair):
-        raise HostError(f"The {what} of an environment are {brief(value)}; they must be two finite numbers from 0.")
+        raise HostError(f"The {subject} of an environment are {brief(value)}; they must be two finite numbers from 0.")
     return float(pair[0]), float(pair[1])
 
 
 class CarEnvironment(gymnasium.Env[Floats, Floats]):
-    """What the environments share: a car, its start, its step.
+    """Base of the environments: a car, its start and its step.
 
     The `options` of `reset` are parameters of this start as `Car.reset` takes them, in place of what is drawn:
     ``reset(options={"initial.speed": 15.0, "road.friction": (0.5, 0.9)})``. An episode that the car's solver refuses to
-    go on with is terminated; `info["refused"]` has its words then.
+    go on with is terminated; `info["refused"]` then has its message.
     """
 
-    def __init__(self, car: Car, reads: tuple[str, ...], seconds: float) -> None:
+    def __init__(self, car: Car, output_names: tuple[str, ...], seconds: float) -> None:
         if not (is_finite(seconds) and seconds >= car.step_length):
             car.close()
             raise HostError(f"An episode has {brief(seconds)} s; it must be a number, and a step or more.")
-        self.car, self._reads = car, reads
-        self._most = round(seconds / car.step_length)
+        self.car, self._output_names = car, output_names
+        self._most_steps = round(seconds / car.step_length)
         self._steps = 0
-        self._now = np.zeros(len(reads))
+        self._outputs = np.zeros(len(output_names))
 
     def _start(self, seed: int | None, options: dict[str, Any] | None, **ranges: tuple[float, float]) -> None:
         """A start whose numbers are drawn by the generator of the environment."""
-        requested = mapping({} if options is None else options, "The options of a start")
+        parameters = mapping({} if options is None else options, "The options of a start")
         super().reset(seed=seed)
-        self.car.reset(int(self.np_random.integers(2**31)), **ranges | dict(requested))
+        self.car.reset(int(self.np_random.integers(2**31)), **ranges | dict(parameters))
         self._steps = 0
-        self.car.read(self._reads, self._now)
+        self.car.read(self._output_names, self._outputs)
 
-    def _held(self, action: Floats) -> NDArray[np.float64]:
-        """An action, held within its space; refused if it is not one, before anything changes."""
+    def _clipped_action(self, action: Floats) -> NDArray[np.float64]:
+        """An action, clipped to its space. Raises `HostError` before anything changes: it is no array of numbers."""
         box = self.action_space
         assert isinstance(box, spaces.Box)
-        try:
-            array = np.asarray(action, dtype=float)
-        except (TypeError, ValueError, OverflowError):
-            array = np.array(np.nan)
+        array = array_of(action)
         if array.shape != box.shape or not np.isfinite(array).all():
             raise HostError(f"The action is {brief(action)}; it must be {box.shape[0]} finite numbers, in an array.")
         clipped: NDArray[np.float64] = np.clip(array, box.low, box.high)
         return clipped
 
     def _advance(self, inputs: NDArray[np.float64]) -> str:
-        """A step; the words of the solver where it refuses it."""
+        """Make a step. Returns the message of the solver if it refuses the step, else an empty text."""
         self._steps += 1
         try:
             self.car.step(inputs)
         except StepRefusedError as error:
             return str(error)
-        self.car.read(self._reads, self._now)
+        self.car.read(self._output_names, self._outputs)
         return ""
 
-    def _within(self, seen: NDArray[np.float64]) -> Floats:
-        """An observation, held within its space."""
+    def _clipped_observation(self, values: NDArray[np.float64]) -> Floats:
+        """An observation, clipped to its space."""
         box = self.observation_space
         assert isinstance(box, spaces.Box)
-        clipped: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
+        clipped: Floats = np.clip(values, box.low, box.high).astype(np.float32)
         return clipped
 
     def close(self) -> None:
@@ -90,7 +87,7 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
 
 
 class LaneEnvironment(CarEnvironment):
-    """What the environments on a lane share: where the car is on it, and what it sees of it ahead.
+    """Base of the environments on a lane: position of the car on it, and its curvature ahead.
 
     Observation: offset from the middle of the lane m, heading from its direction rad, speed m/s, yaw rate rad/s,
     sideslip rad, steering as it is now, curvature of the lane at `AHEAD` 1/m.
@@ -98,11 +95,11 @@ class LaneEnvironment(CarEnvironment):
 
     AHEAD: tuple[float, ...]
 
-    def __init__(self, car: Car, lane: Lane, seconds: float, most: tuple[float, float]) -> None:
-        """A lane, and the largest offset m and speed m/s of an observation."""
+    def __init__(self, car: Car, lane: Lane, seconds: float, largest: tuple[float, float]) -> None:
+        """`largest`: offset, m, and speed, m/s, of an observation."""
         super().__init__(car, ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz", "sideslip"), seconds)
         self.lane = lane
-        high = np.array([most[0], np.pi, most[1], 10.0, np.pi, 1.0, *len(self.AHEAD) * [1.0]], np.float32)
+        high = np.array([largest[0], np.pi, largest[1], 10.0, np.pi, 1.0, *len(self.AHEAD) * [1.0]], np.float32)
         self.observation_space = spaces.Box(-high, high, dtype=np.float32)
         self._steering = 0.0
 
@@ -111,10 +108,12 @@ class LaneEnvironment(CarEnvironment):
         self.lane.forget()
         self._steering = 0.0
 
-    def _observed(self) -> Floats:
-        x, y, yaw, speed, yaw_rate, sideslip = self._now
+    def _observation(self) -> Floats:
+        x, y, yaw, speed, yaw_rate, sideslip = self._outputs
         offset, heading, curvature = self.lane.sense(x, y, yaw, self.AHEAD)
-        return self._within(np.array([offset, heading, speed, yaw_rate, sideslip, self._steering, *curvature]))
+        return self._clipped_observation(
+            np.array([offset, heading, speed, yaw_rate, sideslip, self._steering, *curvature])
+        )
 
 
 class LaneKeeping(LaneEnvironment):
@@ -144,29 +143,29 @@ class LaneKeeping(LaneEnvironment):
         seconds: float = 8.0,
         step: float = 0.02,
     ) -> None:
-        self._speed = two_numbers(speed, "speeds at the start")
+        self._speed = number_pair(speed, "speeds at the start")
         plant = Car(car, step=step, inputs=("steering", "throttle"))
         width = plant.fmu.constants().get("vehicle.width", 1.6)
-        super().__init__(plant, Lane.of_course(course_of("iso_3888_1", width), 200.0), seconds, most=(5.0, 60.0))
+        super().__init__(plant, Lane.of_course(course_of("iso_3888_1", width), 200.0), seconds, largest=(5.0, 60.0))
         self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """A start in the first lane; see `gymnasium.Env.reset`."""
         ranges = {"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.02, 0.02)}
         self._start(seed, options, **ranges)
-        return self._observed(), {}
+        return self._observation(), {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        steering, before = float(self._held(action)[0]), self._steering
+        steering, before = float(self._clipped_action(action)[0]), self._steering
         self._steering = steering
-        throttle = min(max(0.3 * (0.5 * (self._speed[0] + self._speed[1]) - float(self._now[3])), 0.0), 1.0)
+        throttle = min(max(0.3 * (0.5 * (self._speed[0] + self._speed[1]) - float(self._outputs[3])), 0.0), 1.0)
         refused = self._advance(np.array([steering, throttle]))
-        observation = self._observed()
+        observation = self._observation()
         share = float(observation[0]) / (0.5 * self.lane.width)
         reward = 1.0 - share**2 - 0.01 * (steering - before) ** 2
         out = abs(share) > 1.0
-        ended = self._steps >= self._most or self.lane.way >= self.lane.length - 1.0
+        ended = self._steps >= self._most_steps or self.lane.way >= self.lane.length - 1.0
         return observation, reward, bool(out or refused), bool(ended), {"refused": refused} if refused else {}
 
 
@@ -204,13 +203,13 @@ class AntiLockBraking(CarEnvironment):
         inputs = tuple(f"wheel_{w}.brake_torque_demand" for w in WHEELS)
         slips = tuple(f"wheel_{w}.slip" for w in WHEELS)
         rates = tuple(f"wheel_{w}.omega" for w in WHEELS)
-        reads = ("speed", *slips, *rates, "chassis.wz", "chassis.ax", "chassis.yaw")
-        self._speed = two_numbers(speed, "speeds at the start")
-        self._friction = two_numbers(friction, "frictions of the road")
-        self._torque = np.repeat(two_numbers(torque, "torques of the brakes"), 2)
+        output_names = ("speed", *slips, *rates, "chassis.wz", "chassis.ax", "chassis.yaw")
+        self._speed = number_pair(speed, "speeds at the start")
+        self._friction = number_pair(friction, "frictions of the road")
+        self._torque = np.repeat(number_pair(torque, "torques of the brakes"), 2)
         ports = None if Path(car).suffix.lower() == ".fmu" else "brakes"
         plant = Car(car, ports=ports, step=step, inputs=inputs, parameters={"selector": 0})
-        super().__init__(plant, reads, seconds)
+        super().__init__(plant, output_names, seconds)
         self.action_space = spaces.Box(0.0, 1.0, (4,), np.float32)
         high = np.array([100.0, *4 * [10.0], *4 * [200.0], 20.0, 60.0], np.float32)
         self.observation_space = spaces.Box(-high, high, dtype=np.float32)
@@ -218,28 +217,28 @@ class AntiLockBraking(CarEnvironment):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """A start at speed with free wheels; see `gymnasium.Env.reset`."""
         self._start(seed, options, **{"initial.speed": self._speed, "road.friction": self._friction})
-        return self._observed(), {}
+        return self._observation(), {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        refused = self._advance(self._held(action) * self._torque)
-        speed, yaw = self._now[0], self._now[11]
+        refused = self._advance(self._clipped_action(action) * self._torque)
+        speed, yaw = self._outputs[0], self._outputs[11]
         reward = -float(speed) * self.car.step_length - float(yaw) ** 2
         ended = speed < self.STANDING or abs(yaw) > 0.5
         info = {"refused": refused} if refused else {}
-        return self._observed(), reward, bool(ended or refused), self._steps >= self._most, info
+        return self._observation(), reward, bool(ended or refused), self._steps >= self._most_steps, info
 
-    def _observed(self) -> Floats:
-        return self._within(self._now[:11])
+    def _observation(self) -> Floats:
+        return self._clipped_observation(self._outputs[:11])
 
 
-for _name, _room, _several in (
+for _name, _module, _function in (
     ("LaneKeeping", "environments", "lane_keeping"),
     ("AntiLockBraking", "environments", "anti_lock_braking"),
     ("ProvingGroundLap", "lap", "proving_ground_lap"),
 ):
     gymnasium.register(
         f"ali3/{_name}-v0",
-        entry_point=f"hosts.plant.{_room}:{_name}",
-        vector_entry_point=f"hosts.plant.vector_environment:{_several}",
+        entry_point=f"hosts.plant.{_module}:{_name}",
+        vector_entry_point=f"hosts.plant.vector_environment:{_function}",
     )

@@ -7,16 +7,16 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
 from ali3.message_text import brief
-from hosts.common.arguments import positive
+from hosts.common.arguments import array_of, positive
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
 from hosts.driving.course import Course
 
-SPACING = 0.5  # m between points of the centre line that the nearest one is looked for among
-REACH = 50.0  # m along the lane, before and behind the last place, within which the nearest point is looked for
-ROUNDS = 3  # largest number of iterations of Newton's method from there
+SPACING = 0.5  # m between points of the centre line, among which the nearest is the first estimate
+REACH = 50.0  # m along the lane, before and behind the last place, in which the nearest point is searched
+ITERATIONS = 3  # largest number of iterations of Newton's method from this estimate
 NEAR = 1e-7  # m: the last iteration moves less
-FARTHEST = 1e9  # m, and ways along a lane: what is measured there is still good to a micrometre
+FARTHEST = 1e9  # m, of coordinates and ways along a lane: doubles still resolve a micrometre there
 
 
 class Lane:
@@ -48,7 +48,7 @@ class Lane:
         arc_length = np.concatenate([[0.0], np.cumsum(chords)])
         self.length = float(arc_length[-1])
         line = CubicSpline(arc_length, p, bc_type="periodic" if self.closed else "natural")
-        # One polynomial of place, tangent and its rate: a call costs as much for six numbers as for two.
+        # One polynomial of position and its two derivatives: a call costs as much for six numbers as for two.
         lower = [np.pad(line.derivative(order).c, ((order, 0), (0, 0), (0, 0))) for order in range(3)]
         self._line = PPoly(np.concatenate(lower, axis=2), line.x)
         self._ways = np.linspace(0.0, self.length, max(4, round(self.length / SPACING)) + 1)
@@ -73,21 +73,21 @@ class Lane:
         """
         if not (is_finite(x) and is_finite(y)):
             raise HostError(f"The place on a lane is ({brief(x)}, {brief(y)}); it must be two finite numbers.")
-        away = np.hypot(self._places[:, 0] - x, self._places[:, 1] - y)
+        distance = np.hypot(self._places[:, 0] - x, self._places[:, 1] - y)
         if self._last is not None:
-            gap = np.abs(self._ways - self._last)
-            gap = np.minimum(gap, self.length - gap) if self.closed else gap
-            away = np.where(gap <= REACH, away, np.inf)
-        s = float(self._ways[int(np.argmin(away))])
-        for _ in range(ROUNDS):
+            separation = np.abs(self._ways - self._last)
+            separation = np.minimum(separation, self.length - separation) if self.closed else separation
+            distance = np.where(separation <= REACH, distance, np.inf)
+        s = float(self._ways[int(np.argmin(distance))])
+        for _ in range(ITERATIONS):
             lane_x, lane_y, ahead_x, ahead_y, bend_x, bend_y = self._line(s).tolist()
-            away_x, away_y = lane_x - x, lane_y - y
-            slope = ahead_x**2 + ahead_y**2 + away_x * bend_x + away_y * bend_y
+            error_x, error_y = lane_x - x, lane_y - y
+            slope = ahead_x**2 + ahead_y**2 + error_x * bend_x + error_y * bend_y
             if slope <= 0.0:
                 break
-            moved = (away_x * ahead_x + away_y * ahead_y) / slope
-            s = self._on(s - moved)
-            if abs(moved) < NEAR:
+            change = (error_x * ahead_x + error_y * ahead_y) / slope
+            s = self._on(s - change)
+            if abs(change) < NEAR:
                 break
         self._last = s
         return s
@@ -139,12 +139,9 @@ class Lane:
         return results
 
 
-def _numbers(values: ArrayLike, what: str) -> NDArray[np.float64]:
-    """Numbers of a size that a lane has; `what`, a plural, is the subject of the error."""
-    try:
-        numbers = np.asarray(values, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        numbers = np.array(np.nan)
+def _numbers(values: ArrayLike, subject: str) -> NDArray[np.float64]:
+    """Numbers of a size that a lane has. `subject`: of the error, a plural."""
+    numbers = array_of(values)
     if not (np.abs(numbers) <= FARTHEST).all():
-        raise HostError(f"{what} are {brief(values)}; they must be numbers up to {FARTHEST:g} m.")
+        raise HostError(f"{subject} are {brief(values)}; they must be numbers up to {FARTHEST:g} m.")
     return numbers

@@ -9,11 +9,11 @@ from gymnasium import spaces
 from hosts.common.arguments import positive
 from hosts.common.errors import HostError
 from hosts.common.world_files import make_world
-from hosts.driving.course import Course
 from hosts.driving.driver import CONSTANTS
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.driving.planned_course import PlannedCourse
 from hosts.plant.car import Car
-from hosts.plant.environments import Floats, LaneEnvironment, two_numbers
+from hosts.plant.environments import Floats, LaneEnvironment, number_pair
 from hosts.plant.lane import Lane
 
 # of the ring in `mbs/worlds/proving_ground.toml`
@@ -70,11 +70,11 @@ class ProvingGroundLap(LaneEnvironment):
         step: float = 0.02,
         road: str | None = None,
     ) -> None:
-        self._speed = two_numbers(speed, "speeds at the start")
+        self._speed = number_pair(speed, "speeds at the start")
         if road is None:
-            road = str(make_world("proving_ground", lambda line: None).road)
+            road = str(make_world("proving_ground").road)
         plant = Car(car, step=step, inputs=("steering", "throttle", "brake"), parameters={"road.file": road})
-        super().__init__(plant, ring(), seconds, most=(20.0, 90.0))
+        super().__init__(plant, ring(), seconds, largest=(20.0, 90.0))
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
         self._way = self.driven = 0.0
 
@@ -83,15 +83,15 @@ class ProvingGroundLap(LaneEnvironment):
         ranges = {"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.01, 0.01)}
         self._start(seed, options, **ranges)
         self.driven = 0.0
-        observation = self._observed()
+        observation = self._observation()
         self._way = self.lane.way
         return observation, {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        self._steering, pedal = self._held(action).tolist()
+        self._steering, pedal = self._clipped_action(action).tolist()
         refused = self._advance(np.array([self._steering, max(pedal, 0.0), max(-pedal, 0.0)]))
-        observation = self._observed()
+        observation = self._observation()
         advance = math.remainder(self.lane.way - self._way, self.lane.length)
         before, self._way, self.driven = self.driven, self.lane.way, self.driven + advance
         info: dict[str, Any] = {"refused": refused} if refused else {}
@@ -102,19 +102,7 @@ class ProvingGroundLap(LaneEnvironment):
             )
         out = abs(float(observation[0])) > 0.5 * self.lane.width
         reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * (out or bool(refused))
-        return observation, reward, bool(lap or out or refused), self._steps >= self._most, info
-
-
-class _Straightened(Course):
-    """A lane by its way: what a driver of courses sees of it."""
-
-    def __init__(self, lane: Lane) -> None:
-        super().__init__("lane", ())
-        object.__setattr__(self, "lane", lane)
-
-    def path(self, x: float) -> tuple[float, float, float]:
-        """See `hosts.driving.course.Course.path`: always in its middle."""
-        return 0.0, 0.0, float(self.lane.curvature(x))  # type: ignore[attr-defined]
+        return observation, reward, bool(lap or out or refused), self._steps >= self._most_steps, info
 
 
 class LapDriver:
@@ -138,8 +126,11 @@ class LapDriver:
         if missing := [name for name in CONSTANTS.values() if name not in constants]:
             raise HostError(f"The driver needs constants that the car does not provide: {', '.join(missing)}.")
         dimensions = {name: constants[constant] for name, constant in CONSTANTS.items()}
-        self.environment, driver_speed = environment, positive(speed, "The speed of the driver", "m/s")
-        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=driver_speed, **dimensions))
+        self.environment, lane = environment, environment.lane
+        settings = DriverSettings(speed=positive(speed, "The speed of the driver", "m/s"), **dimensions)
+        # In axes along the lane, as those of `act`, the lane is straight and only its curvature is left.
+        course = PlannedCourse("lane", (), lambda x: (0.0, 0.0, float(lane.curvature(x))))
+        self.driver = CourseFollower(course, settings)
 
     def act(self, seen: Floats) -> Floats:
         """The action for an observation."""

@@ -18,32 +18,37 @@ _Single = gymnasium.Env[Floats, Floats]
 
 
 class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
-    """An environment that a thread steps ahead; who then asks for the same calls gets what they gave."""
+    """An environment that a thread steps ahead; later calls of `step` and `reset` return these results."""
 
     def __init__(self, env: _Single) -> None:
         super().__init__(env)
         self._ended = False
-        self._made: list[Callable[[], Any]] = []  # what the next calls give, or raise
+        self._results: list[Any] = []  # of the next calls; an exception is raised there
 
     def ahead(self, action: Floats, autoreset: AutoresetMode) -> None:
-        """What `SyncVectorEnv.step` asks of an environment: a step, a new start, or both."""
-        self._made = []
+        """Make the calls of `SyncVectorEnv.step` for an environment: a step, a new start, or both."""
+        self._results = []
         try:
             if self._ended and autoreset == AutoresetMode.NEXT_STEP:
-                self._made = [partial(_given, self._start())]
+                self._results = [self._start()]
                 return
-            transition = self._advance(action)
-            self._made = [partial(_given, transition)]
+            self._results = [self._advance(action)]
             if self._ended and autoreset == AutoresetMode.SAME_STEP:
-                self._made.append(partial(_given, self._start()))
+                self._results.append(self._start())
         except BaseException as error:
-            self._made.append(partial(_raised, error))
+            self._results.append(error)
 
     def step(self, action: Floats) -> Any:
-        return self._made.pop(0)() if self._made else self._advance(action)
+        return self._next_result() if self._results else self._advance(action)
 
     def reset(self, **options: Any) -> Any:
-        return self._made.pop(0)() if self._made else self._start(**options)
+        return self._next_result() if self._results else self._start(**options)
+
+    def _next_result(self) -> Any:
+        result = self._results.pop(0)
+        if isinstance(result, BaseException):
+            raise result
+        return result
 
     def _advance(self, action: Floats) -> Any:
         transition = self.env.step(action)
@@ -54,14 +59,6 @@ class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
         start = self.env.reset(**options)
         self._ended = False
         return start
-
-
-def _given(transition: Any) -> Any:
-    return transition
-
-
-def _raised(error: BaseException) -> Any:
-    raise error
 
 
 class VectorEnvironment(SyncVectorEnv[Floats, Floats]):
@@ -97,13 +94,13 @@ class VectorEnvironment(SyncVectorEnv[Floats, Floats]):
             raise HostError(f"The actions are {brief(actions)}; they must be {self.num_envs}, one an environment.")
         pairs = list(zip(self.envs, gymnasium.vector.utils.iterate(self.action_space, actions), strict=True))
 
-        def share(first: int) -> None:
+        def step_share(first: int) -> None:
             for env, action in pairs[first :: self._threads]:
                 env.ahead(action, self.autoreset_mode)  # type: ignore[attr-defined]
 
-        begun = [self._pool.submit(share, first) for first in range(1, self._threads)]
-        share(0)
-        wait(begun)
+        futures = [self._pool.submit(step_share, first) for first in range(1, self._threads)]
+        step_share(0)
+        wait(futures)
         return super().step(actions)
 
     def close_extras(self, **options: Any) -> None:
@@ -112,23 +109,14 @@ class VectorEnvironment(SyncVectorEnv[Floats, Floats]):
         super().close_extras(**options)
 
 
-def _several(environment: Callable[..., _Single], num_envs: int, options: dict[str, Any]) -> VectorEnvironment:
+def _vector_of(environment: Callable[..., _Single], num_envs: int, **options: Any) -> VectorEnvironment:
+    """Environments of one kind with its options, those of `VectorEnvironment` beside them."""
     if not isinstance(num_envs, int) or num_envs < 1:
         raise HostError(f"The number of environments is {brief(num_envs)}; it must be a whole number from 1.")
     vector_options = {name: options.pop(name) for name in ("threads", "autoreset_mode", "copy") if name in options}
     return VectorEnvironment(num_envs * [partial(environment, **options)], **vector_options)
 
 
-def lane_keeping(num_envs: int, **options: Any) -> VectorEnvironment:
-    """Several of `LaneKeeping` with its options, those of `VectorEnvironment` beside them."""
-    return _several(LaneKeeping, num_envs, options)
-
-
-def anti_lock_braking(num_envs: int, **options: Any) -> VectorEnvironment:
-    """Several of `AntiLockBraking` with its options, those of `VectorEnvironment` beside them."""
-    return _several(AntiLockBraking, num_envs, options)
-
-
-def proving_ground_lap(num_envs: int, **options: Any) -> VectorEnvironment:
-    """Several of `ProvingGroundLap` with its options, those of `VectorEnvironment` beside them."""
-    return _several(ProvingGroundLap, num_envs, options)
+lane_keeping = partial(_vector_of, LaneKeeping)
+anti_lock_braking = partial(_vector_of, AntiLockBraking)
+proving_ground_lap = partial(_vector_of, ProvingGroundLap)

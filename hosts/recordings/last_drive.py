@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.recordings.format import REFUSED
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 
 
@@ -46,7 +45,7 @@ def last_drive(drive: RecordedDrive) -> LastDrive:
     rows = _rows_without_rewound(drive)
     begin = max((k for k, row in enumerate(rows) if row.start is not None), default=0)
     rows = rows[begin : begin + 1] + [row for row in rows[begin + 1 :] if row.is_step]
-    refused_inputs = _refused_inputs(drive)
+    refused_inputs = drive.refused_inputs
     if len(rows) + bool(refused_inputs) < 2:
         raise HostError(f"{drive.folder} has no step since its last start.")
     return LastDrive(
@@ -87,10 +86,10 @@ def recorded_manoeuvre(folder: Path) -> Manoeuvre:
     """
     drive = read_recording(folder)
     last = last_drive(drive)
-    return manoeuvre_of(drive, last, 0, len(last.inputs) - 1, None if last.whole else drive.start_state)
+    return manoeuvre_between(drive, last, 0, len(last.inputs) - 1, None if last.whole else drive.start_state)
 
 
-def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, state: bytes | None) -> Manoeuvre:
+def manoeuvre_between(drive: RecordedDrive, last: LastDrive, first: int, stop: int, state: bytes | None) -> Manoeuvre:
     """The steps between two rows as a manoeuvre, whose first row has the inputs at its start."""
     inputs = last.inputs[[*range(first, stop + 1), stop]]
     time = drive.step * np.array([0, *range(stop - first + 1)], dtype=np.float64)
@@ -110,12 +109,6 @@ def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, s
         held=frozenset(columns),
         step=drive.step,
     )
-
-
-def _refused_inputs(drive: RecordedDrive) -> list[float]:
-    """Inputs of a refused step at the end, or an empty list."""
-    last = drive.events[-1] if drive.events else {}
-    return list(last["inputs"]) if last.get("kind") == REFUSED and "inputs" in last else []
 
 
 def _changing_rows(table: NDArray[np.float64]) -> list[int]:

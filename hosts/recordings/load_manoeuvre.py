@@ -1,10 +1,13 @@
-"""A manoeuvre by name, by file or by the folder of a recording."""
+"""The option ``--manoeuvre``: a manoeuvre by name, by file or by the folder of a recording, or none."""
 
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_file import check_manoeuvre, read_manoeuvre
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.recordings.format import is_recording
 from hosts.recordings.last_drive import recorded_manoeuvre
 
@@ -25,3 +28,17 @@ def check_manoeuvre_option(manoeuvre: str | None) -> None:
     """Raise `HostError` if there is no such manoeuvre, before an FMU is built. `manoeuvre`: see `load_manoeuvre`."""
     if manoeuvre is not None and not is_recording(Path(manoeuvre)):
         check_manoeuvre(manoeuvre)
+
+
+def manoeuvre_of(fmu: SimulatedFmu, manoeuvre: str | None, stop_time: float | None) -> Manoeuvre:
+    """The manoeuvre of a run.
+
+    `manoeuvre`: see `load_manoeuvre`; without it inputs keep their start values; `stop_time`: in s; by default that of
+    the manoeuvre, else that of the FMU's default experiment, else 10 s.
+    """
+    if manoeuvre is not None:
+        return load_manoeuvre(manoeuvre, stop_time)
+    if stop_time is None:
+        experiment = fmu.description.defaultExperiment
+        stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0
+    return Manoeuvre("run", np.zeros(0), {}, stop_time)

@@ -10,7 +10,7 @@ from hosts.common.errors import HostError
 from hosts.driving.write_manoeuvre import write_table
 from hosts.fmu.fmu import StepRefusedError
 from hosts.fmu.own_process import in_own_process
-from hosts.recordings.last_drive import LastDrive, last_drive, manoeuvre_of
+from hosts.recordings.last_drive import LastDrive, last_drive, manoeuvre_between
 from hosts.recordings.recorded_drive import RecordedDrive
 from hosts.recordings.replay import Repeater, fmu_of, reads_of
 
@@ -30,7 +30,7 @@ def export_manoeuvre(
     Parameters
     ----------
     out : Path
-        CSV file. For a part that does not begin with the start, the state at its begin is computed by repeating the
+        CSV file. For a part that does not begin with the start, its initial state is computed by repeating the
         recording in the FMU, and written beside the file with the suffix ``.state``.
     begin, end : float, optional
         Times of the FMU, s.
@@ -58,11 +58,11 @@ def export_manoeuvre(
         )
     state = None if last.whole else drive.start_state
     if first > 0:
-        state = _state_at(drive, last, first, fmu, progress)
-    return write_table(manoeuvre_of(drive, last, first, stop, state), out)
+        state = _state_of_row(drive, last, first, fmu, progress)
+    return write_table(manoeuvre_between(drive, last, first, stop, state), out)
 
 
-def _state_at(
+def _state_of_row(
     drive: RecordedDrive, last: LastDrive, row: int, fmu: Path | None, progress: Callable[[int], None]
 ) -> bytes:
     """The state after a row of the last drive, computed in an isolated process."""

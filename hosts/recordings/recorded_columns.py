@@ -7,9 +7,9 @@ from ali3.scene.scene_columns import all_columns
 from hosts.driving.run_checks import steps_of
 from hosts.fmu.geometry import scene_of
 
-# approximate times between recorded values of an output, at least a step
-DRAWN = 0.025  # s, of outputs that are drawn
-OTHERS = 0.1  # s
+# Approximate times between recorded values of an output, at least a communication step.
+DRAWN_INTERVAL = 0.025  # s, of outputs that are drawn
+OTHER_INTERVAL = 0.1  # s
 
 
 def recorded_columns(
@@ -28,6 +28,6 @@ def recorded_columns(
         return intervals | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
     scene = scene_of(fmu)
     drawn_outputs = set(all_columns(scene)) if scene else set()
-    drawn_steps = max(1, round(DRAWN / step))
-    other_steps = drawn_steps * max(1, round(OTHERS / (drawn_steps * step)))
+    drawn_steps = max(1, round(DRAWN_INTERVAL / step))
+    other_steps = drawn_steps * max(1, round(OTHER_INTERVAL / (drawn_steps * step)))
     return intervals | {name: drawn_steps if name in drawn_outputs else other_steps for name in outputs}

@@ -13,10 +13,10 @@ from ali3.message_text import brief
 from ali3.reading import LARGEST_STATE, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, STATES, VERSION
+from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, REFUSED, RESTARTS, REWIND, STATE, STATES, VERSION
 from hosts.recordings.tables import TABLE, Rows, blocks_of, joined, recorded
 
-_NEAR = 1e-3  # relative round-off of a difference of times
+_STEP_TOLERANCE = 1e-3  # relative, of a difference of times
 _KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": dict, "columns": list, "units": dict}
 
 
@@ -104,11 +104,11 @@ class RecordedDrive:
             for k in np.flatnonzero(increments < 0):
                 raise HostError(f"{file}: step {counts[k + 1]} stands after {counts[k]}: its parts are out of order.")
             within = np.flatnonzero((increments > 0) & (np.diff(epochs) == 0))
-            result = np.diff(times)[within] / increments[within]
-            for k in np.flatnonzero(~(np.abs(result - self.step) <= _NEAR * np.abs(result))):
+            steps = np.diff(times)[within] / increments[within]
+            for k in np.flatnonzero(~(np.abs(steps - self.step) <= _STEP_TOLERANCE * np.abs(steps))):
                 raise HostError(
                     f"{self.folder / DESCRIPTION} says a step of {self.step:g} s; after step {counts[within[k]]} it is "
-                    f"{result[k]:g} s in the rows of {file.name}. It must be that of its table."
+                    f"{steps[k]:g} s in the rows of {file.name}. It must be that of its table."
                 )
             last = float(times[-1]), int(counts[-1]), int(epochs[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
@@ -171,6 +171,12 @@ class RecordedDrive:
         return [_back_to(event) for event in self.events if event.get("kind") == REWIND]
 
     @property
+    def refused_inputs(self) -> list[float]:
+        """Inputs of a refused step at the end, or an empty list."""
+        last = self.events[-1] if self.events else {}
+        return list(last["inputs"]) if last.get("kind") == REFUSED and "inputs" in last else []
+
+    @property
     def first_epoch(self) -> int:
         """Epoch of the first row."""
         first = next(iter(self.blocks()), None)
@@ -188,8 +194,8 @@ def read_recording(folder: Path) -> RecordedDrive:
     folder = folder.parent if folder.name == DESCRIPTION else folder
     file = folder / DESCRIPTION
     if not file.is_file():
-        defect = "has no" if folder.is_dir() else "is not a folder with a"
-        raise HostError(f"{folder} {defect} {DESCRIPTION}; name the folder of a recording.")
+        verb = "has no" if folder.is_dir() else "is not a folder with a"
+        raise HostError(f"{folder} {verb} {DESCRIPTION}; name the folder of a recording.")
     meta = read_json(file, HostError)
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise HostError(f"{file} is not a recording of the simulator: its format is not {FORMAT!r}.")

@@ -16,7 +16,7 @@ _MOST_VALUES = 8_000_000  # 64 MB
 
 
 def other_build(fmu: Path, name: str) -> str:
-    """The message that a result is of another FMU."""
+    """The note that a result is of another FMU."""
     return f"{fmu} is another FMU than that of {name}, or was built again since; what is drawn is its own."
 
 

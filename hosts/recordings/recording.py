@@ -9,7 +9,6 @@ import json
 import platform
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -18,9 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
-from ali3.files import atomic_file, check_writable, make_folder, write_text
+from ali3.files import check_writable, make_folder, write_bytes, write_text
 from hosts.common.closable import Closable
 from hosts.common.numbers import Value
+from hosts.common.program import version_of
 from hosts.fmu.fmu import described
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, VERSION, check_new
 from hosts.recordings.tables import Rows, recorded
@@ -80,21 +80,14 @@ def recording_meta(
         "seed": seed,
         "world": world,
         "versions": {
-            "ali3": _version("ali3"),
+            "ali3": version_of("ali3"),
             "tool": description.generationTool or "",
-            "fmpy": _version("fmpy"),
+            "fmpy": version_of("fmpy"),
             "numpy": np.__version__,
             "python": platform.python_version(),
             "system": platform.platform(),
         },
     }
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:  # not installed
-        return "unknown"
 
 
 class Recorder(Closable):
@@ -199,8 +192,7 @@ class Recorder(Closable):
         that of the first row.
         """
         file = self.folder / STATE if count is None else self.folder / STATES / f"{epoch}-{count}.state"
-        with atomic_file(file) as temporary:
-            temporary.write_bytes(content)
+        write_bytes(file, content)
 
     def flush(self) -> None:
         """Write the rows in memory."""

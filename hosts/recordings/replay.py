@@ -14,7 +14,6 @@ from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.fmu.instance import State
 from hosts.fmu.own_process import files_of_drives, in_own_process
-from hosts.recordings.format import REFUSED
 from hosts.recordings.last_drive import LastDrive
 from hosts.recordings.recorded_drive import RecordedDrive, RowKey
 from hosts.recordings.tables import Rows
@@ -195,7 +194,7 @@ def _compare_rows(task: tuple[RecordedDrive, Path], progress: Callable[[int], No
     drive, fmu = task
     replayed = ReplayResult()
     outputs = drive.names[len(drive.inputs) :]
-    visited: set[str] = set()
+    differing: set[str] = set()
     count, time = 0, 0.0
     with Repeater(drive, fmu) as repeater:
         replayed.notes = repeater.notes
@@ -218,8 +217,8 @@ def _compare_rows(task: tuple[RecordedDrive, Path], progress: Callable[[int], No
                 columns = _different_columns(np.where(is_recorded[k], recorded[k], repeated), repeated)
                 replayed.different += bool(len(columns))
                 for j in columns:
-                    if outputs[j] not in visited:
-                        visited.add(outputs[j])
+                    if outputs[j] not in differing:
+                        differing.add(outputs[j])
                         replayed.first.append(Difference(count, time, outputs[j], recorded[k, j], repeated[j]))
             progress(replayed.rows)
         _compare_last_refusal(drive, repeater, replayed, count, time)
@@ -230,10 +229,9 @@ def _compare_last_refusal(
     drive: RecordedDrive, repeater: Repeater, replayed: ReplayResult, count: int, time: float
 ) -> None:
     """Check that a refused step at the end of a recording is refused again."""
-    last = drive.events[-1] if drive.events else {}
-    if last.get("kind") == REFUSED and "inputs" in last and replayed.rows:
+    if drive.refused_inputs and replayed.rows:
         with suppress(HostError):
-            if not repeater.refuses(list(last["inputs"])):
+            if not repeater.refuses(drive.refused_inputs):
                 replayed.first.append(Difference(count, time, "step", 0.0, 1.0))
                 replayed.different += 1
 

@@ -35,8 +35,8 @@ class ParquetTable:
     def __init__(self, folder: Path, names: Sequence[str], units: Mapping[str, str]) -> None:
         import pyarrow as pa
 
-        kinds = (pa.float64(), pa.int64(), pa.int64())
-        keys = [pa.field(name, kind) for name, kind in zip(KEYS, kinds, strict=True)]
+        types = (pa.float64(), pa.int64(), pa.int64())
+        keys = [pa.field(name, kind) for name, kind in zip(KEYS, types, strict=True)]
         values = [pa.field(name, pa.float64(), metadata={"unit": units.get(name, "1")}) for name in names]
         self._schema = pa.schema(keys + values)
         # Doubles of a motion have similar upper bytes, counts equal differences.

@@ -1,33 +1,33 @@
-"""The page of plots of a car: its path from above, and what is usually looked at."""
+"""The page of plots of a car: its path from above, and its usual signals over time."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from ali3.chart_style import BLUE, GREEN, ORANGE, RED, SKY
 from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
-from hosts.run.plot_panels import draw_lines, table_of
+from hosts.run.plot_panels import draw_lines, draw_table
 
 _STANDING = 0.5
 
 
 @dataclass(frozen=True)
 class _Panel:
-    """A plot over time: what, in which unit, which lines (label, variable, colour) and how high it is at least."""
+    """A plot over time: its lines by label, variable and colour, and the smallest span of its axis, in `unit`."""
 
     title: str
     unit: str
     lines: tuple[tuple[str, str, str], ...]
     factor: float = 1.0
-    least: float = 0.0
+    smallest_span: float = 0.0
 
 
 def _wheels(quantity: str) -> tuple[tuple[str, str, str], ...]:
@@ -69,35 +69,37 @@ def car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.
     panels = [p for p in _CAR_PANELS if any(n in result and not n.startswith(hidden) for _, n, _ in p.lines)]
     lines = -(-len(panels) // 3)
     height = 4.0 + 2.6 * lines
-    figure = plt.figure(figsize=(16, height), layout="constrained")
-    engine: Any = figure.get_layout_engine()
-    engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
+    layout = ConstrainedLayoutEngine(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
+    figure = plt.figure(figsize=(16, height), layout=layout)
     grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
     _path(figure.add_subplot(grid[0, :2]), result, np.zeros((0, 4)) if gates is None else gates)
-    table_of(figure.add_subplot(grid[0, 2]), rows)
+    draw_table(figure.add_subplot(grid[0, 2]), rows)
     first: Axes | None = None
     for k, panel in enumerate(panels):
         axes = figure.add_subplot(grid[1 + k // 3, k % 3], sharex=first)
         first = first or axes
-        series = [(label, panel.factor * _shown(result, name), c) for label, name, c in panel.lines if name in result]
+        lines_of_result = [line for line in panel.lines if line[1] in result]
+        series = [
+            (label, panel.factor * _drawn_values(result, name), colour) for label, name, colour in lines_of_result
+        ]
         draw_lines(axes, result.time, series, panel.title, panel.unit, steps=panel.title == "Inputs")
         if k >= len(panels) - 3:
             axes.set_xlabel("time, s")
         low, high = axes.get_ylim()
-        if high - low < panel.least:
+        if high - low < panel.smallest_span:
             middle = 0.5 * (low + high)
-            axes.set_ylim(middle - 0.5 * panel.least, middle + 0.5 * panel.least)
+            axes.set_ylim(middle - 0.5 * panel.smallest_span, middle + 0.5 * panel.smallest_span)
         if panel.title == "Speed":
             axes.set_ylim(min(0.0, low), 1.05 * high)
     return figure
 
 
 def _has_stresses(result: Result) -> bool:
-    """Whether moments and stresses were computed, not only reported as zero."""
+    """Whether moments and stresses were computed; else they are reported as zero."""
     return "stress.computed" in result and bool(result["stress.computed"][0])
 
 
-def _shown(result: Result, name: str) -> np.ndarray:
+def _drawn_values(result: Result, name: str) -> np.ndarray:
     """Values to be drawn: a car that stands has no direction of travel."""
     values = result[name]
     if name != "sideslip" or "chassis.vx" not in result:

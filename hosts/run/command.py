@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
-from functools import partial
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,12 +23,7 @@ from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from hosts.driving.driver import Driver
     from hosts.driving.simulated_fmu import SimulatedFmu
-    from hosts.run.renamed_run import RenamedRun
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
@@ -76,62 +71,44 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
+    from hosts.common.road import options_with_road
+    from hosts.driving.driver import driver_of, with_settings
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import apply_settings
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
     from hosts.driving.runs_with_progress import run_with_bar
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
-    from hosts.recordings.load_manoeuvre import check_manoeuvre_option
-    from hosts.recordings.manoeuvre_option import manoeuvre_of
+    from hosts.fmu.fmu_source import FmuSource
+    from hosts.recordings.load_manoeuvre import check_manoeuvre_option, manoeuvre_of
+    from hosts.run.course_result import course_result
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, pace, summary
 
     check_manoeuvre_option(options.manoeuvre)
-    path, driver_settings = fmu_file(options.fmu), dict(options.driver)
+    path = fmu_file(options.fmu)
     with Fmu(path) as opened:
-        renamed: RenamedRun | None = None
-        if options.aliases is not None:
-            from hosts.run.renamed_run import RenamedRun
-
-            renamed = RenamedRun(opened, options.aliases)
-        fmu: SimulatedFmu = opened if renamed is None else renamed.fmu
+        source = FmuSource.named(opened.path, opened.table, options.aliases)
+        fmu: SimulatedFmu = source.seen(opened)
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
-        if driver_settings:
-            from hosts.driving.driver import with_settings
-
-            manoeuvre = with_settings(manoeuvre, driver_settings, fmu.variables, options.stop_time)
+        manoeuvre = with_settings(manoeuvre, dict(options.driver), fmu.variables, options.stop_time)
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
-        driver: Driver | None = None
-        if manoeuvre.driver:
-            from hosts.driving.driver import driver_of
-
-            driver = driver_of(fmu, manoeuvre)
-        set_all = partial(apply_settings, opened) if renamed is None else renamed.apply_settings
-        set_options = fmu_options(options)
-        if options.road is not None:
-            from hosts.common.road import options_with_road
-
-            set_options = options_with_road(options, options.out)
-        manoeuvre, settings = set_all(manoeuvre, set_options, options.fidelity)
+        driver = driver_of(fmu, manoeuvre)
+        set_options = options_with_road(options, options.out)
+        manoeuvre, settings = apply_settings(opened, manoeuvre, set_options, options.fidelity, source.theirs)
+        manoeuvre = replace(manoeuvre, start=source.ours(manoeuvre.start))
         without_manoeuvre = options.manoeuvre is None
-        stem = _words(path.stem) if without_manoeuvre else f"{_words(path.stem)}_{manoeuvre.name}"
+        stem = _snake_case(path.stem) if without_manoeuvre else f"{_snake_case(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         steps_per_row = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, steps_per_row)
-    course_rows: Sequence[tuple[str, str]] = ()
-    gates: NDArray[np.float64] | None = None
-    if driver is not None:
-        from hosts.run.course_result import course_result
-
-        course_rows, gates = course_result(result, driver)
+    course_rows, gates = ([], None) if driver is None else course_result(result, driver)
     rows = summary(result, step, course_rows)
     write_csv(result, table)
-    names = None if renamed is None else renamed.names
-    write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
+    write_record(fmu, manoeuvre, step, settings, result, record, driver, source.of_record)
     title = settings.title(path.stem if without_manoeuvre else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
     printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
@@ -144,5 +121,5 @@ def _driver_setting(text: str) -> tuple[str, float]:
     return name, quantity(unit_of(name) or unit_of(f"vehicle.{name}") or "")(value)
 
 
-def _words(name: str) -> str:
+def _snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()

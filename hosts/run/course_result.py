@@ -5,19 +5,19 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import INITIAL_SPEED
+from hosts.driving.pilots.course_follower import CourseFollower
 from hosts.driving.result import Result
 
-_CLOSE = 3.0  # km/h: tolerance of the speed of entry in ISO 3888
-_STANDS = 0.5  # m/s: below it the car stands, and a later stop time would not help
+_SPEED_TOLERANCE = 3.0  # km/h, of the entry in ISO 3888
+_STANDING_SPEED = 0.5  # m/s: a slower car stands, and a later stop time would not help
 
 
-def course_result(result: Result, driver: Driver) -> tuple[list[tuple[str, str]], NDArray[np.float64]]:
-    """The row of the summary table with the verdict, none without a recorded path; and the gates, shape (gates, 4):
-    first and last x, right and left y, m.
+def course_result(result: Result, driver: CourseFollower) -> tuple[list[tuple[str, str]], NDArray[np.float64]]:
+    """The verdict as a row of the summary table, none without a recorded path, and the gates.
 
-    "passed": the vehicle stayed inside all gates and entered them at the speed that was asked for.
+    "passed": the vehicle stayed inside all gates and entered them at the target speed. The gates have the shape
+    (gates, 4): first and last x, right and left y, m.
     """
     course = driver.course
     gates = np.array([(g.x_start, g.x_end, g.y_right, g.y_left) for g in course.gates])
@@ -26,28 +26,30 @@ def course_result(result: Result, driver: Driver) -> tuple[list[tuple[str, str]]
     return [(course.name, _verdict(result, driver))], gates
 
 
-def _verdict(result: Result, driver: Driver) -> str:
+def _verdict(result: Result, driver: CourseFollower) -> str:
     course, length, width = driver.course, driver.settings.vehicle_length, driver.settings.vehicle_width
     x, y, yaw = (result[f"chassis.{name}"] for name in ("x", "y", "yaw"))
-    out = course.corners_outside(x, y, yaw, length, width)
-    requested, speed = 3.6 * driver.settings.speed, 3.6 * result["speed"]
+    excess = course.corners_outside(x, y, yaw, length, width)
+    target, speed = 3.6 * driver.settings.speed, 3.6 * result["speed"]
     inside = x + 0.5 * length >= course.gates[0].x_start
     entry = float(speed[int(inside.argmax())]) if inside.any() else math.nan
-    entered = f"entered at {entry:.1f} km/h, {requested:.1f} km/h asked for"
+    entered = f"entered at {entry:.1f} km/h, {target:.1f} km/h asked for"
     missing = course.not_driven(x, length)
+    if missing and excess > 0.0:
+        return f"missed by {excess:.2f} m; {missing}"
     if missing:
-        return f"missed by {out:.2f} m; {missing}" if out > 0.0 else f"not passed: {missing}{_more(result, driver)}"
-    if out > 0.0:
-        return f"missed by {out:.2f} m; {entered}"
-    if not abs(entry - requested) <= _CLOSE:
+        return f"not passed: {missing}{_remedy(result, driver)}"
+    if excess > 0.0:
+        return f"missed by {excess:.2f} m; {entered}"
+    if not abs(entry - target) <= _SPEED_TOLERANCE:
         remedy = f"--driver speed={entry / 3.6:.3g} asks for that"
         if INITIAL_SPEED in result.start and result.start[INITIAL_SPEED] != driver.settings.speed:
             remedy = f"start with --set {INITIAL_SPEED}={driver.settings.speed:g}"
         return f"not passed: {entered}; {remedy}"
-    return f"passed, {-out:.2f} m to spare; {entered}"
+    return f"passed, {-excess:.2f} m to spare; {entered}"
 
 
-def _more(result: Result, driver: Driver) -> str:
+def _remedy(result: Result, driver: CourseFollower) -> str:
     """A remedy where not all lanes were driven, as the end of a sentence."""
     x, speed, gates = result["chassis.x"], float(result["speed"][-1]), driver.course.gates
     if (late := x[0] + 0.5 * driver.settings.vehicle_length - gates[0].x_start) > 0.0:
@@ -56,7 +58,7 @@ def _more(result: Result, driver: Driver) -> str:
         return "; the FMU refused the next step"
     if (distance := gates[-1].x_end + 0.5 * driver.settings.vehicle_length - float(x[-1])) <= 0.0:
         return "; run without --interval"
-    if speed < _STANDS:
+    if speed < _STANDING_SPEED:
         return f"; the car stands at {result.time[-1]:.4g} s"
     if len(x) > 1 and x[-1] < x[-2]:
         return "; at its end the car drives back"

@@ -35,15 +35,15 @@ STEP = 0.01  # s
 DURATION = 15.0  # s
 INTERVALS = ((0.0, 5.0, "at rest"), (5.0, 10.0, "moving"), (10.0, 15.0, "at rest"))  # s
 GAUGES = ("SG1", "SG2", "SG3", "SG4")
-PLACES = {"SG1": "front left", "SG2": "front right", "SG3": "rear left", "SG4": "rear right"}
+POSITIONS = {"SG1": "front left", "SG2": "front right", "SG3": "rear left", "SG4": "rear right"}
 FREQUENCY = 10.0  # Hz
 
 
 def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out: Path, options: FmuOptions) -> int:
-    """Do the test, print its moments and write its files.
+    """Run the test, print its moments and write its files.
 
-    `file`: FMU of the scene; by default `DIST`, else one that is built and kept; `fidelity`: 1 to 3; by default that of
-    the FMU; `step`: communication step, s; by default `STEP`. Result: exit code. Raises `HostError`: the step is too
+    `file`: FMU of the scene; by default `DIST`, else one that is built and cached; `fidelity`: 1 to 3; by default that
+    of the FMU; `step`: communication step, s; by default `STEP`. Result: exit code. Raises `HostError`: the step is too
     long for the filter, or the FMU is none of this scene.
     """
     step = STEP if step is None else step
@@ -80,7 +80,7 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
 
 
 def moments(result: Result, step: float) -> list[dict[str, float | str]]:
-    """Per gauge: value at rest, range before and after the filter as differences from it, what is left at the end."""
+    """Moment of each gauge at rest, and range before and after the filter and end as differences from it, N m."""
     rows: list[dict[str, float | str]] = []
     for gauge in GAUGES:
         x = result[f"bending_moment.{gauge}"]
@@ -112,7 +112,7 @@ def draw(result: Result, step: float, file: Path) -> None:
                 axes.axvspan(begin, end, color="#f2f2f2", zorder=0)
             axes.text(0.5 * (begin + end), 1.0, label, transform=axes.get_xaxis_transform(), ha="center", va="bottom")
         axes.axhline(0.0, color=BLACK, linewidth=0.6)
-        axes.set_title(f"{gauge}, {PLACES[gauge]} (at rest {x[0]:.2f} N m)", loc="left", pad=16, fontsize=11)
+        axes.set_title(f"{gauge}, {POSITIONS[gauge]} (at rest {x[0]:.2f} N m)", loc="left", pad=16, fontsize=11)
         axes.set_ylabel("bending moment less that at rest, N m")
         axes.grid(True, alpha=0.3)
         axes.margins(x=0)

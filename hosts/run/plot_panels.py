@@ -12,11 +12,13 @@ from ali3.units import typeset
 _CHARACTERS = 44
 
 
-def table_of(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
+def draw_table(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
     """The summary, in axes of its own."""
     axes.axis("off")
     axes.set_title("Summary")
-    lines = [(what if k == 0 else "", part) for what, value in rows for k, part in enumerate(wrap(value, _CHARACTERS))]
+    lines = [
+        (label if k == 0 else "", part) for label, value in rows for k, part in enumerate(wrap(value, _CHARACTERS))
+    ]
     n = max(len(lines), 10)
     for k, line in enumerate(lines):
         for x, message, colour in zip((0.0, 0.42), line, ("#555555", BLACK), strict=True):

@@ -8,8 +8,8 @@ from pathlib import Path
 from ali3.columns import in_columns
 from ali3.files import atomic_file, check_writable, write_text
 from hosts.common.options import ROAD
-from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.course_follower import CourseFollower
 from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.driving.state_file import write_state
@@ -17,9 +17,9 @@ from hosts.fmu.settings import Settings
 
 
 def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
-    """Table, picture and record of a run; `FileError` at once, before the run, if they cannot be written.
+    """Table, picture and record of a run. `stem`: name of the files without suffix.
 
-    `stem`: name of the files without suffix.
+    Raises `FileError` before the run if they cannot be written.
     """
     table, picture, record = (out / f"{stem}{suffix}" for suffix in (".csv", ".png", ".json"))
     for file in (table, picture, record):
@@ -42,7 +42,7 @@ def write_record(
     settings: Settings,
     result: Result,
     file: Path,
-    driver: Driver | None = None,
+    driver: CourseFollower | None = None,
     names: Mapping[str, tuple[str, float, float]] | None = None,
 ) -> None:
     """Write the record of a run and of the settings of its FMU as JSON.
@@ -55,8 +55,8 @@ def write_record(
         Communication step, s.
     file : Path
         Its folder is made if it is not there.
-    driver : Driver, optional
-        Who has steered; with its course the view draws its cones.
+    driver : CourseFollower, optional
+        Driver of the run; the view draws the cones of its course.
     names : mapping of str to (str, float, float), optional
         By the FMU's names those of the table, with factor and offset: value of the FMU = factor * that + offset.
     """
@@ -88,15 +88,8 @@ def write_record(
 
 
 def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:
-    """Print tables, what the FMU logged and where the files are. Result: exit code: 0 if every step is good."""
-    for rows in tables:
-        for line in in_columns(rows):
-            print(line)
-    for message in dict.fromkeys(result.messages):
-        print(f"FMU: {message}")
-    if result.ended:
-        print(result.ended)
-    if wrong := result.not_finite():
-        print(wrong)
+    """Print tables, remarks on the run and the paths of the files. Result: exit code, 0 if every step is good."""
+    for line in (*(line for rows in tables for line in in_columns(rows)), *result.remarks()):
+        print(line)
     print(f"written: {', '.join(map(str, files))}")
     return 0 if result.is_good else 1

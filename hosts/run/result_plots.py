@@ -2,19 +2,19 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 from ali3.chart_style import COLOURS, STYLE
 from ali3.charts import save_picture
 from hosts.driving.result import Result
 from hosts.run.car_page import car_page
-from hosts.run.plot_panels import draw_lines, table_of
+from hosts.run.plot_panels import draw_lines, draw_table
 
 _MAX_PANELS = 9
 
@@ -38,16 +38,15 @@ def plot_page(
 
 def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
     groups: dict[str, list[str]] = {}
-    # Poses of bodies are there to be drawn; they would fill the page.
+    # Poses of bodies serve drawings and would fill the page.
     for name in [n for n in result.names if not n.startswith("body.")] or result.names:
         groups.setdefault(result.units[name], []).append(name)
     panels = [(unit, names[k : k + 5]) for unit, names in groups.items() for k in range(0, len(names), 5)][:_MAX_PANELS]
     columns = 3 if len(panels) + 1 > 4 else 2
     lines = -(-(len(panels) + 1) // columns)
-    figure = plt.figure(figsize=(16, 1.2 + 3.3 * lines), layout="constrained")
-    rect = (0.005, 0.005, 0.99, 1.0 - 0.6 / (1.2 + 3.3 * lines) - 0.005)
-    engine: Any = figure.get_layout_engine()
-    engine.set(rect=rect, w_pad=0.1, h_pad=0.1)
+    height = 1.2 + 3.3 * lines
+    layout = ConstrainedLayoutEngine(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height - 0.005), w_pad=0.1, h_pad=0.1)
+    figure = plt.figure(figsize=(16, height), layout=layout)
     grid = figure.add_gridspec(lines, columns)
     first: Axes | None = None
     for k, (unit, names) in enumerate(panels):
@@ -56,5 +55,5 @@ def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
         series = [(n, result[n], COLOURS[j]) for j, n in enumerate(names)]
         draw_lines(axes, result.time, series, ", ".join(names) if len(", ".join(names)) < 46 else f"in {unit}", unit)
         axes.set_xlabel("time, s")
-    table_of(figure.add_subplot(grid[len(panels) // columns, len(panels) % columns]), rows)
+    draw_table(figure.add_subplot(grid[len(panels) // columns, len(panels) % columns]), rows)
     return figure

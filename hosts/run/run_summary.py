@@ -7,9 +7,9 @@ import numpy as np
 from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 
-# A wheel that carries less is in the air, N.
+# N: a wheel with a smaller load is in the air.
 _LIFT_FORCE = 1.0
-# Outputs that hold energy, and those of the work since the start, with the words of the table.
+# Outputs of stored energy, and of the work since the start with labels of the table.
 _STORED = ("energy.kinetic", "energy.gravity", "energy.elastic")
 _WORKS = {
     "energy.drive": "drive",
@@ -19,26 +19,27 @@ _WORKS = {
     "energy.drag": "air",
     "energy.ground": "ground on the chassis",
 }
-# Those that not every car has.
+# Works that not every car has.
 _OTHER_WORKS = {
     "energy.steering": "steering",
     "energy.ports": "ports",
     "energy.road": "roads at ports",
     "energy.added": "added elements",
 }
-# What takes about as long to compute as a step.
-_COSTLY = ("stress.", "bending_moment.")
+# Outputs that take about as long to compute as a step.
+_READ_AT_COST = ("stress.", "bending_moment.")
 _ERROR = "solver.energy_error"
-# An error of the steps beside the largest of such a work, in kJ, that is told: a held input gives the most of it.
-_OPEN = 0.01
-_LEAST_OPEN = 1e-4
+# The error of the steps is reported with such a work from this share of it and from this energy, kJ, on; inputs that
+# are held over a step cause most of it.
+_REPORTED_SHARE = 0.01
+_LEAST_ERROR = 1e-4
 
 
 def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
-    """Rows of the summary table; those whose variables the FMU lacks are left out. The same run has the same rows.
+    """Rows of the summary table, labels and values, which are the same for the same run.
 
-    `step`: communication step, s; `course`: rows of `course_result`, where a driver followed a course.
-    Returns what and how much.
+    Rows whose variables the FMU lacks are left out. `step`: communication step, s; `course`: rows of `course_result`,
+    where a driver followed a course.
     """
     rows: list[tuple[str, str]] = []
     interval = float(result.time[1]) if len(result.time) > 1 else step
@@ -70,13 +71,13 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
         largest = max(loads, key=lambda w: float(loads[w].max()))
         at = result.time[int(loads[largest].argmax())]
         rows.append(("largest wheel load", f"{loads[largest].max():.0f} N ({largest}, at {at:.2f} s)"))
-        lasting = 1e3 * np.diff(result.time)
-        lift = "  ".join(f"{w} {lasting[f[1:] < _LIFT_FORCE].sum():.0f}" for w, f in loads.items())
+        durations = 1e3 * np.diff(result.time)
+        lift = "  ".join(f"{w} {durations[f[1:] < _LIFT_FORCE].sum():.0f}" for w, f in loads.items())
         rows.append(("wheels in the air", f"{lift}  ms"))
     rows += course
-    moved = [name for name in result.late if np.ptp(result[name]) > 0.0]
-    if moved:
-        rows.append(("inputs held over a step", f"{', '.join(moved)}: {500.0 * step:.3g} ms late on average"))
+    changing = [name for name in result.late if np.ptp(result[name]) > 0.0]
+    if changing:
+        rows.append(("inputs held over a step", f"{', '.join(changing)}: {500.0 * step:.3g} ms late on average"))
     rows += [*result.notes, *result.missed]
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
@@ -87,7 +88,7 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
         residual = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
         count = f"{result['solver.capped_steps'][-1]:.0f}"
         rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {residual:.2g} mm"))
-    if any(name.startswith(_COSTLY) and result[name].any() for name in result.names):
+    if any(name.startswith(_READ_AT_COST) and result[name].any() for name in result.names):
         fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
         rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))
     rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))
@@ -95,19 +96,17 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
 
 
 def pace(result: Result, step: float) -> tuple[str, str]:
-    """How fast this machine was, as a row of the summary table; no picture has it. `step`: as for `summary`."""
+    """The speed of this machine as a row of the printed summary; the picture has none. `step`: as for `summary`."""
     factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
     took = f"{result.simulated:.2f} s simulated in {result.wall:.3f} s, step {1e3 * step:g} ms"
     return "real-time factor", f"{factor:.1f} ({took})"
 
 
 def energy_balance(result: Result) -> list[tuple[str, str]]:
-    """Rows of the energy balance of a drive, kJ: its change and the works that sum up to it.
+    """Rows of the energy balance of a drive, kJ: the change of the energy and the works that sum up to it.
 
-    Empty where the FMU lacks one of the outputs.
-
-    What is left of the change has no output of its own: the damping of a flexible structure, in an FMU without
-    `energy.steering` the work of the steering, and what the error of the steps does not name.
+    Empty if the FMU lacks one of the outputs. The rest has no output of its own: the damping of a flexible structure,
+    in an FMU without `energy.steering` the work of the steering, and errors that `solver.energy_error` lacks.
     """
     if any(name not in result for name in (*_STORED, *_WORKS, _ERROR)):
         return []
@@ -120,10 +119,13 @@ def energy_balance(result: Result) -> list[tuple[str, str]]:
     stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in work_names}, change(_ERROR)
     terms = {"change of the energy": stored} | {f"- work of {work_names[n]}": w for n, w in works.items()}
     terms |= {rest_label: stored - sum(works.values()) - error, "- error of the steps": error}
-    rows = {what: f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ" for what, part in terms.items()}
+    rows = {what: f"{round(1e-3 * energy, 4) + 0.0:+.4f} kJ" for what, energy in terms.items()}
     for name in [n for n in _OTHER_WORKS if n in result]:
         largest = float(np.abs(result[name] - result[name][0]).max())
-        if abs(error) > max(_OPEN * largest, 1e3 * _LEAST_OPEN) and largest > 1e3 * _LEAST_OPEN / _OPEN:
+        if (
+            abs(error) > max(_REPORTED_SHARE * largest, 1e3 * _LEAST_ERROR)
+            and largest > 1e3 * _LEAST_ERROR / _REPORTED_SHARE
+        ):
             rows[f"- work of {work_names[name]}"] += (
                 f"; the error of the steps is {abs(error) / largest:.1%} of its largest: shorter steps make it smaller"
             )

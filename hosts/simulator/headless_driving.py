@@ -8,8 +8,9 @@ from typing import Protocol
 
 from ali3.bars import bar
 from hosts.common.errors import HostError
-from hosts.driving.driver import Driver, check_drivable, make_driver
+from hosts.driving.driver import check_drivable, make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.pilots.course_follower import CourseFollower
 from hosts.driving.pilots.pilot import ACTS, OBSERVED
 from hosts.driving.random_driver import RandomDriver
 from hosts.recordings.load_manoeuvre import load_manoeuvre
@@ -53,7 +54,7 @@ class ManoeuvreDriver:
                 "make; give the table that 'ali3 run' writes of it."
             )
         self._manoeuvre = manoeuvre
-        self._driver: Driver | None = None
+        self._driver: CourseFollower | None = None
         if manoeuvre.driver:
             check_drivable(car.inputs, car.names, "this FMU")
             self._driver = make_driver(manoeuvre.driver, car.constants)

@@ -77,7 +77,7 @@ class Prepared:
             "columns": list(columns),
             "constants": dict(constants),
             "step": step,
-            "world": self.world.for_hello(),
+            "world": self.world.summary(),
             "recording": record,
         }
 

@@ -15,13 +15,13 @@ from hosts.soak.last_seconds import RecentSteps
 from hosts.soak.memory import Memory
 from hosts.soak.soak_roads import Ground
 
-_RUN = (15.0, 60.0)  # s, shortest and longest run
-_LYING = 1.0  # s that an overturned car lies still before it is set upright
-_STILL = 1.0  # m/s
-_AGAIN = 100  # steps that are repeated from a saved state
-_MOST_SAVED = 5  # failing stretches of a drive that are written
-_PLACE = ("chassis.x", "chassis.y", "chassis.yaw")
-_TOLD = 5.0  # s simulated between lines of progress
+_RUN_DURATIONS = (15.0, 60.0)  # s, shortest and longest run
+_OVERTURNED_DURATION = 1.0  # s that an overturned car lies still before it is set upright
+_STANDING_SPEED = 1.0  # m/s
+_REPEATED_STEPS = 100  # steps that are repeated from a saved state
+_MOST_STRETCHES = 5  # failing stretches of a drive that are written
+_POSE = ("chassis.x", "chassis.y", "chassis.yaw")
+_PROGRESS_INTERVAL = 5.0  # s simulated between lines of progress
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,9 @@ class Task:
     step: float
     """Communication step, s."""
     start: dict[str, Value]
-    """Set before every start, over those of the seed."""
+    """Set at every start, in place of those of the seed."""
     grounds: tuple[Ground, ...]
-    """Roads, of which one is drawn for each run; none: that of the FMU as it is."""
+    """Roads, of which one is drawn for each run; empty: that of the FMU."""
     out: str
     """Folder for failing stretches."""
     largest_balance: float = LARGEST_BALANCE
@@ -74,14 +74,14 @@ class Outcome:
     counts: Counts = field(default_factory=Counts)
     failures: list[Failure] = field(default_factory=list)
     messages: dict[str, int] = field(default_factory=dict)
-    """What the FMU logged, and how often."""
+    """Messages of the FMU with their numbers."""
     memory_last: float = 0.0
     memory_growth: float = 0.0
-    """`memory_last`, `memory_growth`: MB: of the process at the end of the drive, and its growth since a quarter."""
+    """`memory_last`, `memory_growth`: of the process at the end of the drive, and growth since a quarter, MB."""
 
 
 class _Drive:
-    """The instance with what is kept between its runs."""
+    """The instance of the FMU and the data that its runs share."""
 
     def __init__(self, task: Task, fmu: Fmu, tell: Callable[[float], None]) -> None:
         self.task, self.fmu, self._tell = task, fmu, tell
@@ -96,10 +96,10 @@ class _Drive:
         self.rest = fmu.start_values(self.inputs).tolist()
         self.settable = {n for n, v in fmu.variables.items() if v.causality in ("parameter", "input")}
         self._started = False
-        self._told = 0.0
+        self._reported_time = 0.0
 
     def start(self, values: Mapping[str, Value]) -> list[float]:
-        """A new start of the FMU; outputs after it."""
+        """Start the FMU; returns the outputs."""
         if self._started:
             self.fmu.reset()
         self._started = True
@@ -112,14 +112,14 @@ class _Drive:
 
     def run(self) -> None:
         """A run from a random start until its end or a failure."""
-        task, number = self.task, self.outcome.runs
+        task, run_number = self.task, self.outcome.runs
         self.outcome.runs += 1
-        seed = 100_000 * task.seed + number
-        chance = random.Random(f"run {seed}")
-        ground = self.grounds[int(chance.random() * len(self.grounds))]
-        seconds = _RUN[0] + (_RUN[1] - _RUN[0]) * chance.random()
+        seed = 100_000 * task.seed + run_number
+        generator = random.Random(f"run {seed}")
+        ground = self.grounds[int(generator.random() * len(self.grounds))]
+        seconds = _RUN_DURATIONS[0] + (_RUN_DURATIONS[1] - _RUN_DURATIONS[0]) * generator.random()
         steps = round(min(seconds, task.seconds - self.outcome.simulated) / task.step)
-        again = 1 + int(chance.random() * (steps - _AGAIN - 1))
+        repeated_from = 1 + int(generator.random() * (steps - _REPEATED_STEPS - 1))
         start: dict[str, Value] = {**random_start(seed, ground.targets)}
         if ground.road:
             start["road.file"] = ground.road
@@ -127,54 +127,56 @@ class _Drive:
             start["fidelity"] = task.fidelity
         driver = RandomDriver(seed, self.inputs, ground.targets)
         try:
-            self._steps(driver, start | task.start, max(steps, 1), again if steps > 2 * _AGAIN else 0)
+            self._drive_steps(
+                driver, start | task.start, max(steps, 1), repeated_from if steps > 2 * _REPEATED_STEPS else 0
+            )
         except (BadStepError, StepRefusedError) as error:
-            self._failed(error, number, ground.road)
+            self._add_failure(error, run_number, ground.road)
         for message in self.fmu.messages:
             self.outcome.messages[message] = self.outcome.messages.get(message, 0) + 1
         self.fmu.messages.clear()
 
-    def _steps(self, driver: RandomDriver, start: dict[str, Value], steps: int, again: int) -> None:
-        """Drive; a car that lies on its roof is set upright where it is."""
+    def _drive_steps(self, driver: RandomDriver, start: dict[str, Value], steps: int, repeated_from: int) -> None:
+        """Drive; an overturned car is set upright where it lies."""
         h = self.task.step
         row = self.start(start)
-        self._count, lying = 0, 0
+        self._steps_since_start, overturned_steps = 0, 0
         k = 0
         while k < steps:
             inputs = driver.act(k * h, {name: row[j] for name, j in self.observation})
             row = self._step([inputs.get(name, rest) for name, rest in zip(self.inputs, self.rest, strict=True)])
             k += 1
-            if k == again:
-                row = self._repeated(row)
-                k += _AGAIN
-            lying = lying + 1 if self.watch.overturned and self._still(row) else 0
-            if lying * h > _LYING:
+            if k == repeated_from:
+                row = self._repeat_from_saved_state(row)
+                k += _REPEATED_STEPS
+            overturned_steps = overturned_steps + 1 if self.watch.overturned and self._still(row) else 0
+            if overturned_steps * h > _OVERTURNED_DURATION:
                 row = self.start(start | self._upright(row))
                 self.outcome.uprights += 1
-                self._count, lying = 0, 0
+                self._steps_since_start, overturned_steps = 0, 0
 
     def _step(self, inputs: list[float]) -> list[float]:
-        """A step with its checks; outputs after it."""
+        """Make a step and check it; returns the outputs."""
         h = self.task.step
-        self._tried = inputs
+        self._last_inputs = inputs
         self.set(inputs)
-        self.fmu.step(self._count * h, h)
-        self._count += 1
+        self.fmu.step(self._steps_since_start * h, h)
+        self._steps_since_start += 1
         row = self.get()
-        self.recent.add(self._count * h, [*inputs, *row])
+        self.recent.add(self._steps_since_start * h, [*inputs, *row])
         self.watch.step(row)
         self.outcome.simulated += h
-        if self.outcome.simulated - self._told >= _TOLD:
-            self._told = self.outcome.simulated
+        if self.outcome.simulated - self._reported_time >= _PROGRESS_INTERVAL:
+            self._reported_time = self.outcome.simulated
             self.memory.sample()
-            self._tell(self._told)
+            self._tell(self._reported_time)
         return row
 
-    def _repeated(self, row: list[float]) -> list[float]:
+    def _repeat_from_saved_state(self, row: list[float]) -> list[float]:
         """Save the state, drive on, restore it and drive the same again: outputs must be the same bits."""
-        state, count = self.fmu.state(), self._count
+        state, count = self.fmu.state(), self._steps_since_start
         try:
-            first = [row := self._step(self._tried) for _ in range(_AGAIN)]
+            first = [row := self._step(self._last_inputs) for _ in range(_REPEATED_STEPS)]
             self.fmu.restore(state)
         finally:
             self.fmu.free(state)
@@ -186,37 +188,37 @@ class _Drive:
         return row
 
     def _still(self, row: Sequence[float]) -> bool:
-        return all(row[j] < _STILL for name, j in self.observation if name == "speed")
+        return all(row[j] < _STANDING_SPEED for name, j in self.observation if name == "speed")
 
     def _upright(self, row: Sequence[float]) -> dict[str, Value]:
-        """Start values on the wheels where the car is."""
-        x, y, yaw = (row[self.outputs.index(name)] for name in _PLACE)
+        """Start values that put the car on its wheels where it is."""
+        x, y, yaw = (row[self.outputs.index(name)] for name in _POSE)
         return {"initial.x": x, "initial.y": y, "initial.z": 0.0, "initial.yaw": yaw, "initial.speed": 0.0}
 
-    def _failed(self, error: BadStepError | StepRefusedError, number: int, road: str) -> None:
-        kind, refused = (error.kind, None) if isinstance(error, BadStepError) else ("refused", self._tried)
-        failure = Failure(kind, str(error), number, self._count * self.task.step, road)
-        if len(self.outcome.failures) < _MOST_SAVED:
-            name = f"seed_{self.task.seed}_fidelity_{self.task.fidelity or 0}_run_{number}"
+    def _add_failure(self, error: BadStepError | StepRefusedError, run_number: int, road: str) -> None:
+        kind, refused = (error.kind, None) if isinstance(error, BadStepError) else ("refused", self._last_inputs)
+        failure = Failure(kind, str(error), run_number, self._steps_since_start * self.task.step, road)
+        if len(self.outcome.failures) < _MOST_STRETCHES:
+            name = f"seed_{self.task.seed}_fidelity_{self.task.fidelity or 0}_run_{run_number}"
             folder = Path(self.task.out) / "failures" / name
             failure.manoeuvre = str(self.recent.save(folder, kind, str(error), self.task.seed, refused))
         self.outcome.failures.append(failure)
 
 
 def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> Outcome:
-    """Drive a task. `tell`: hears the simulated seconds that are done.
+    """Drive a task. `tell`: called with the simulated seconds.
 
-    Raises `HostError`: the FMU cannot be started with what is set.
+    Raises `HostError`: the FMU cannot be started with these values.
     """
     begin = clock.perf_counter()
     with Fmu(Path(task.fmu)) as fmu:
-        driven = _Drive(task, fmu, tell)
-        while driven.outcome.simulated < task.seconds - 0.5 * task.step:
-            before = driven.outcome.simulated
-            driven.run()
-            if driven.outcome.simulated == before:  # a start whose first step fails gets no second
-                driven.outcome.simulated += task.step
-    outcome = driven.outcome
+        car_drive = _Drive(task, fmu, tell)
+        while car_drive.outcome.simulated < task.seconds - 0.5 * task.step:
+            before = car_drive.outcome.simulated
+            car_drive.run()
+            if car_drive.outcome.simulated == before:  # a start whose first step fails is not repeated
+                car_drive.outcome.simulated += task.step
+    outcome = car_drive.outcome
     outcome.wall = clock.perf_counter() - begin
-    _, outcome.memory_last, outcome.memory_growth = driven.memory.growth()
+    _, outcome.memory_last, outcome.memory_growth = car_drive.memory.growth()
     return outcome

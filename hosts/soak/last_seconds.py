@@ -19,7 +19,7 @@ class _Row(NamedTuple):
     values: list[float]
 
 
-class _Part(NamedTuple):
+class _Stretch(NamedTuple):
     """A saved state and the steps after it."""
 
     state: bytes
@@ -27,35 +27,35 @@ class _Part(NamedTuple):
 
 
 class RecentSteps:
-    """Keeps what led to the present state. `step`: s."""
+    """Stores the steps before the present state. `step`: s."""
 
     def __init__(self, fmu: Fmu, names: Sequence[str], inputs: Sequence[str], step: float) -> None:
         self._fmu, self._names, self._inputs, self._step = fmu, list(names), list(inputs), step
-        self._parts: list[_Part] = []
+        self._stretches: list[_Stretch] = []
         self._start: dict[str, Value] = {}
-        self._most = max(1, round(_SPAN / step))
+        self._steps_per_stretch = max(1, round(_SPAN / step))
 
     def begin(self, start: Mapping[str, Value], time: float, values: list[float]) -> None:
-        """Say that the FMU was started with these values."""
-        self._start, self._parts = dict(start), []
-        self._next(time, values)
+        """Begin with a start of the FMU with these values."""
+        self._start, self._stretches = dict(start), []
+        self._begin_stretch(time, values)
 
     def add(self, time: float, values: list[float]) -> None:
-        """Keep a step: inputs, and outputs after it."""
-        self._parts[-1].rows.append(_Row(time, values))
-        if len(self._parts[-1].rows) > self._most:
-            self._next(time, values)
+        """Store a step: inputs, and outputs after it."""
+        self._stretches[-1].rows.append(_Row(time, values))
+        if len(self._stretches[-1].rows) > self._steps_per_stretch:
+            self._begin_stretch(time, values)
 
-    def _next(self, time: float, values: list[float]) -> None:
-        self._parts = [*self._parts[-1:], _Part(self._fmu.state_bytes(), [_Row(time, values)])]
+    def _begin_stretch(self, time: float, values: list[float]) -> None:
+        self._stretches = [*self._stretches[-1:], _Stretch(self._fmu.state_bytes(), [_Row(time, values)])]
 
     def save(self, folder: Path, kind: str, text: str, seed: int, refused: Sequence[float] | None) -> Path:
         """Write the stretch as a recording, with a manoeuvre of it. Returns the manoeuvre, for ``ali3 run``."""
-        rows = [*self._parts[0].rows, *(row for part in self._parts[1:] for row in part.rows[1:])]
+        rows = [*self._stretches[0].rows, *(row for part in self._stretches[1:] for row in part.rows[1:])]
         units = {name: self._fmu.variables[name].unit or "1" for name in self._names}
         meta = recording_meta(self._fmu.path, self._step, self._start, seed=seed)
         with Recorder(folder, self._names, units, meta) as recorder:
-            recorder.state(self._parts[0].state)
+            recorder.state(self._stretches[0].state)
             for count, row in enumerate(rows):
                 recorder.row(count, row.time, 0, row.values)
             if refused is not None:

@@ -5,11 +5,11 @@ from statistics import median
 import psutil
 
 LARGEST_GROWTH = 2.0
-"""MB from a quarter of a drive to its end: Python's own memory moves by less, a leak of one state a run is more."""
+"""MB from a quarter of a drive to its end: Python's own varies by less, a leak of a state in each run is more."""
 
 
 class Memory:
-    """Samples of the memory that is resident."""
+    """Samples of the resident memory."""
 
     def __init__(self) -> None:
         self._process = psutil.Process()
@@ -20,10 +20,7 @@ class Memory:
         self._samples.append(1e-6 * self._process.memory_info().rss)
 
     def growth(self) -> tuple[float, float, float]:
-        """After the first quarter, at the end, and the growth between, MB.
-
-        Each is the median of a tenth of the samples, so that a single one does not decide.
-        """
+        """Memory after the first quarter and at the end, and its growth, MB; medians of a tenth of the samples."""
         count = len(self._samples)
         if count < 8:
             return 0.0, 0.0, 0.0

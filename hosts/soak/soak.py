@@ -1,4 +1,4 @@
-"""Drives a car for hours by itself: the work of ``ali3 check FMU --soak``.
+"""Drives a car for hours by itself: ``ali3 check FMU --soak``.
 
 A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden turns,
 roll-overs, resets and rewinds, all in one process. The same seed gives the same drive. Every step is checked.
@@ -36,17 +36,17 @@ _FIDELITIES = (0, 2)
 
 
 def soak(options: argparse.Namespace, prog: str) -> int:
-    """Do the drives that the options of the command say. `prog`: how the user typed the command.
+    """Make the drives of the options of the command. `prog`: the command as the user typed it.
 
-    Result: exit code: 1 if something failed.
+    Result: exit code, 1 if a drive has failed.
     """
     seconds = SECONDS if options.stop_time is None else options.stop_time
     step = STEP if options.step is None else options.step
     if not 0.0 < seconds < math.inf or not 0.0 < step < math.inf:
         raise HostError(f"A drive of {seconds:g} s in steps of {step:g} s; both must be positive and finite.")
-    odd = next((n for n in options.fidelity if not float(n).is_integer()), None)
-    if odd is not None:
-        raise HostError(f"--fidelity is {odd:g}; it must be a whole number.")
+    fraction = next((n for n in options.fidelity if not float(n).is_integer()), None)
+    if fraction is not None:
+        raise HostError(f"--fidelity is {fraction:g}; it must be a whole number.")
     if options.json is not None:
         check_writable(options.json)
     path, out = fmu_file(options.fmu).absolute(), make_folder(options.out or OUT).absolute()
@@ -61,16 +61,16 @@ def soak(options: argparse.Namespace, prog: str) -> int:
         for k in range(options.drives or SEEDS * len(fidelities))
         for fidelity in (fidelities[k % len(fidelities)],)
     ]
-    keys = [run_key(path, task, files=_files(task)) for task in tasks]
+    keys = [run_key(path, task, files=_files_of_task(task)) for task in tasks]
     with ResultStore[Outcome](out, Outcome, "drives", options.again) as store:
         stored = [store.find(key, key) for key in keys]
         outcomes = [outcome or Outcome(task.seed, task.fidelity) for task, outcome in zip(tasks, stored, strict=True)]
         pending = [index for index, outcome in enumerate(stored) if outcome is None]
         report_resumed(len(tasks) - len(pending), len(tasks), "drives")
         try:
-            for index in _driven(tasks, outcomes, pending, options.jobs or available_cores()):
+            for index in _make_drives(tasks, outcomes, pending, options.jobs or available_cores()):
                 store.add(keys[index], keys[index], outcomes[index])
-        finally:  # after Ctrl-C too, of what is done
+        finally:  # also after Ctrl-C, for the finished drives
             print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
             if options.json is not None:
                 record = {
@@ -82,50 +82,49 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     return 0 if all(map(is_good, outcomes)) else 1
 
 
-def _files(task: Task) -> list[Path]:
+def _files_of_task(task: Task) -> list[Path]:
     roads = (file for ground in task.grounds for file in files_of({"road.file": ground.road}))
     return [*files_of(task.start), *roads]
 
 
-def _driven(tasks: Sequence[Task], outcomes: list[Outcome], left: Sequence[int], jobs: int) -> Generator[int]:
-    """Make the drives at these places; gives the place of each that reached its end.
+def _make_drives(tasks: Sequence[Task], outcomes: list[Outcome], pending: Sequence[int], jobs: int) -> Generator[int]:
+    """Make the drives of pending tasks; yields the index of each that reached its end.
 
-    Of one that did not, its outcome has the seconds that it was driven.
+    The outcome of a drive that is lost has its simulated seconds.
     """
     experiment: Experiment[Task, Outcome] = Experiment(
         "soak",
         drive,
         Outcome,
         lambda task: f"soak, seed {task.seed}",
-        [file for task in tasks for file in (Path(task.fmu), *_files(task))],
+        [file for task in tasks for file in (Path(task.fmu), *_files_of_task(task))],
         lambda task: task.seconds,
     )
 
-    def driven(number: int, seconds: float) -> None:
-        outcomes[left[number]].simulated = seconds
+    def report(position: int, seconds: float) -> None:
+        outcomes[pending[position]].simulated = seconds
 
-    with closing(experiment.results([tasks[place] for place in left], experiment.pool(jobs), driven)) as results:
-        for number, _, outcome in results:
+    with closing(experiment.results([tasks[index] for index in pending], experiment.pool(jobs), report)) as results:
+        for position, _, outcome in results:
             if isinstance(outcome, Lost):
-                lost, message = outcomes[left[number]], f"The process of the drive {outcome.how}."
-                lost.failures.append(Failure("crash", message, -1, lost.simulated, ""))
+                partial, message = outcomes[pending[position]], f"The process of the drive {outcome.how}."
+                partial.failures.append(Failure("crash", message, -1, partial.simulated, ""))
             else:
-                outcomes[left[number]] = outcome
-                yield left[number]
+                outcomes[pending[position]] = outcome
+                yield pending[position]
 
 
-def _fidelities(fmu: Fmu, asked: Sequence[int]) -> list[int | None]:
+def _fidelities(fmu: Fmu, requested: Sequence[int]) -> list[int | None]:
     if "fidelity" not in fmu.variables:
-        if asked:
+        if requested:
             raise HostError(f"{fmu.path} has no choice of fidelity.")
         return [None]
-    for fidelity in asked:
+    for fidelity in requested:
         fmu.table["fidelity"].check(fidelity, "--fidelity")
-    return list(asked or _FIDELITIES)
+    return list(requested or _FIDELITIES)
 
 
 def _grounds(out: Path, worlds: Sequence[str]) -> list[Ground]:
     folder = out / "roads"
     jumps = [jump_ground(folder), jump_ground(folder, (1e5, -1e5))]
-    world_grounds = [world_ground(name, folder / f"world_{k}") for k, name in enumerate(worlds)]
-    return [*2 * jumps, *2 * world_grounds, *IN_THE_FMU]
+    return [*2 * jumps, *2 * [world_ground(name) for name in worlds], *IN_THE_FMU]

@@ -9,10 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.files import atomic_file, make_folder
-from ali3.json_reading import read_json
-from hosts.common.commands import run_ali3
-from hosts.common.errors import HostError
 from hosts.common.road import road_value
+from hosts.common.world_files import make_world
 from hosts.driving.random_driver import Target
 
 _SPACING = 0.25  # m, of the points of the road
@@ -34,7 +32,7 @@ _WAVES = (-45.0, 0.0, 20.0, 1.8, 0.03)  # x, y, side, wavelength, amplitude, m
 
 @dataclass(frozen=True)
 class Ground:
-    """A road with what is driven at on it."""
+    """A road with its targets."""
 
     road: str
     """Of the parameter `road.file`."""
@@ -85,9 +83,9 @@ def jump_heights() -> tuple[NDArray[np.float64], tuple[Target, ...]]:
 
 
 def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
-    """Make the road file with ramps, by ``ali3 road``.
+    """Make the road file with ramps, by ``ali3 road``. `centre`: of the square, m.
 
-    `centre`: of the square, m. Raises `HostError`: the road cannot be made.
+    Raises `HostError`: the road cannot be made.
     """
     heights, targets = jump_heights()
     x, y = centre
@@ -105,15 +103,8 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
     return Ground(road, tuple(Target(t.x + x, t.y + y, t.yaw) for t in targets))
 
 
-def world_ground(name: str, folder: Path) -> Ground:
-    """The road of a world, by ``ali3 road --world``; its places are driven at.
-
-    Raises `HostError`: it is not a world; with the words of ``ali3 road --world``.
-    """
-    run_ali3("road", "--world", name, "--out", str(make_folder(folder)))
-    files = sorted(folder.glob("*.json"), key=lambda file: file.stat().st_mtime)
-    if not files:
-        raise HostError(f"{name} is not a world.")
-    world = read_json(files[-1], HostError)
-    targets = tuple(Target(place["x"], place["y"], place["yaw"]) for place in world["places"])
-    return Ground(str((folder / world["road"]).absolute()), targets)
+def world_ground(name: str) -> Ground:
+    """The road of a world, whose places are driven at. Raises `HostError`: it is not a world."""
+    world = make_world(name)
+    targets = tuple(Target(place["x"], place["y"], place["yaw"]) for place in world.content["places"])
+    return Ground(str(world.road), targets)

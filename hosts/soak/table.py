@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 from ali3.columns import in_columns
 from ali3.processes import command_name
-from hosts.common.set_arguments import set_arguments
+from hosts.common.options import set_arguments
 from hosts.soak.drive import Outcome, Task
 from hosts.soak.memory import LARGEST_GROWTH
 

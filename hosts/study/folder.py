@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError,
 
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.columns import some_of
-from ali3.files import atomic_file, make_folder, write_json
+from ali3.files import atomic_file, make_folder, write_bytes, write_json
 from ali3.json_reading import read_json
 from ali3.message_text import VALUE, one_line
 from ali3.reading import no_file, read_bytes
@@ -149,8 +149,7 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
 
 def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu: Path) -> None:
     """Write study file, FMU and record into the folder of a study; the record last, as it marks a complete folder."""
-    with atomic_file(folder / "study.toml") as temporary:
-        temporary.write_bytes(study_file)
+    write_bytes(folder / "study.toml", study_file)
     with atomic_file(folder / fmu.name) as temporary:
         shutil.copyfile(fmu, temporary)
     make_folder(folder / RUNS)
@@ -222,7 +221,6 @@ def update_limits(folder: Path, earlier: dict[str, Any], limits: Mapping[str, An
     if earlier.get("limits", {}) == limits:
         return earlier
     record = {**earlier, "limits": dict(limits)}
-    with atomic_file(folder / "study.toml") as temporary:
-        temporary.write_bytes(content)
+    write_bytes(folder / "study.toml", content)
     write_record(folder, record)
     return record

@@ -14,7 +14,7 @@ from ali3.processes import command_name
 from ali3.reading import is_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.set_arguments import set_arguments
+from hosts.common.options import set_arguments
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import REPEAT, check_no_link
 from hosts.study.plan import runs_of_folder

@@ -29,7 +29,7 @@ from hosts.study.jobs import Job, perform_test
 from hosts.study.worker_data import DONE, FAILED, INCOMPLETE, Outcome, Run, Work, seed_of
 
 if TYPE_CHECKING:
-    from hosts.driving.driver import Driver
+    from hosts.driving.pilots.course_follower import CourseFollower
 
 _MOST_MISSING = 3
 _MOST_MESSAGES = 5
@@ -74,7 +74,7 @@ class Bench:
         assert job.manoeuvre is not None
         fmu, work = self._fmu.fresh(), self._work
         manoeuvre = with_start_values(with_names_of(job.manoeuvre, fmu.variables), values)
-        driver: Driver | None = None
+        driver: CourseFollower | None = None
         if manoeuvre.driver:
             driver = driver_of(fmu, manoeuvre)
         result = run(fmu, manoeuvre, job.step, driver)

@@ -49,8 +49,8 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
     """
     wires = []
     for end, start in mapping(connections, "The connections").items():
-        target, name = _split(end, parts, "input")
-        source, output = _split(start, parts, "output")
+        target, name = _checked_end(end, parts, "input")
+        source, output = _checked_end(start, parts, "output")
         units = [parts[p].variables[n].unit for p, n in ((source, output), (target, name))]
         output_unit, input_unit = (known_unit(unit) if unit else None for unit in units)
         if output_unit is not None and input_unit is not None and output_unit != input_unit:
@@ -69,14 +69,14 @@ def starts_of(start: Mapping[str, Value], parts: Mapping[str, Fmu]) -> dict[str,
     """
     results: dict[str, dict[str, Value]] = {part: {} for part in parts}
     for text, value in mapping(start, "The start values").items():
-        part, name = parted(text, parts)
+        part, name = part_and_name(text, parts)
         source = f"The part '{part}'"
         results[part][name] = parts[part].table.settable(name, source).check(value, source)
     return results
 
 
-def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
-    """Part and variable of ``part.variable``; a `HostError` where there is no such part."""
+def part_and_name(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
+    """Part and variable of ``part.variable``. Raises `HostError`: there is no such part."""
     part, dot, name = text.partition(".") if isinstance(text, str) else ("", "", "")
     if part not in parts:
         hint = f"the parts are {', '.join(parts)}"
@@ -86,8 +86,8 @@ def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
     return part, name
 
 
-def _split(text: str, parts: Mapping[str, Fmu], causality: str) -> tuple[str, str]:
-    part, name = parted(text, parts)
+def _checked_end(text: str, parts: Mapping[str, Fmu], causality: str) -> tuple[str, str]:
+    part, name = part_and_name(text, parts)
     names: Sequence[str] = parts[part].names(causality)
     if name not in names:
         raise HostError(f"The part '{part}' has no {causality} '{name}'{did_you_mean(name, names)}")

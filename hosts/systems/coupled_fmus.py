@@ -18,7 +18,7 @@ from hosts.common.closable import Closable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 from hosts.fmu.fmu import Fmu, StepRefusedError
-from hosts.systems.connections import Wire, fmus_of, parted, starts_of, wires_of
+from hosts.systems.connections import Wire, fmus_of, part_and_name, starts_of, wires_of
 
 Array = NDArray[np.float64]
 Order = Literal["in turn", "at once"]
@@ -29,19 +29,19 @@ INPUTS = ("held", "followed", "repeated")
 
 @dataclass
 class _Part:
-    """A part with what its wires read and set, prepared once."""
+    """A part with functions that read and set the variables of its wires."""
 
     name: str
     fmu: Fmu
     wires: tuple[Wire, ...]
-    give: Callable[[Sequence[float]], None]
+    set_inputs: Callable[[Sequence[float]], None]
     set_slopes: Callable[[Sequence[float]], None] | None
     follows: NDArray[np.bool_]
-    """Which wires may have slopes: those to real inputs."""
+    """Which wires end at real inputs, which may have slopes."""
     outputs: tuple[str, ...]
     read: Callable[[], list[float]]
     last: Array | None = None
-    told: set[str] = field(default_factory=set)
+    reported: set[str] = field(default_factory=set)
 
 
 class CoupledFmus(Closable):
@@ -86,7 +86,7 @@ class CoupledFmus(Closable):
         if order not in ORDERS or inputs not in INPUTS:
             raise HostError(f"order '{order}', inputs '{inputs}'; they must be among {ORDERS} and {INPUTS}.")
         self.step_length, self.order, self.inputs = positive(step, "The communication step", "s"), order, inputs
-        self._steps, self._own, self._state = 0, list[str](), "new"
+        self._steps, self._own_messages, self._state = 0, list[str](), "new"
         with ExitStack() as stack:
             fmus = fmus_of(parts, stack)
             wires = wires_of(connections, fmus)
@@ -110,8 +110,8 @@ class CoupledFmus(Closable):
 
     @property
     def messages(self) -> list[str]:
-        """What was said, with the part that says it; what is said again in a repeated step once."""
-        return [f"{p.name}: {text}" for p in self._parts for text in dict.fromkeys(p.fmu.messages)] + self._own
+        """Messages of the parts, each with its part; those that a repeated step repeats only once."""
+        return [f"{p.name}: {text}" for p in self._parts for text in dict.fromkeys(p.fmu.messages)] + self._own_messages
 
     def fmu(self, name: str) -> Fmu:
         """A part; inputs that no wire sets are set there."""
@@ -121,7 +121,7 @@ class CoupledFmus(Closable):
         return fmus[name]
 
     def initialise(self, **start: Value) -> None:
-        """Start all parts at the time 0, each with what those before it give; once more after steps, too.
+        """Start all parts at the time 0, each with the outputs of those before it; also again after steps.
 
         `start`: parameters and inputs as ``part.variable``. Raises `HostError`: there is no such part, or a part does
         not take its values.
@@ -133,8 +133,8 @@ class CoupledFmus(Closable):
             if used:
                 p.fmu.reset()
             p.last = None
-            fed = {w.input: now[w.source, w.output] for w in p.wires if (w.source, w.output) in now}
-            p.fmu.initialise(fed | by_part[p.name])
+            inputs = {w.input: now[w.source, w.output] for w in p.wires if (w.source, w.output) in now}
+            p.fmu.initialise(inputs | by_part[p.name])
             now |= self._outputs(p, 0.0)
         self._now, self._steps, self._state = now, 0, "whole"
 
@@ -152,10 +152,10 @@ class CoupledFmus(Closable):
         lasts = [p.last for p in self._parts]
         with _saved([] if self._cannot_save else [p.fmu for p in self._parts]) as restore:
             try:
-                now = self._pass(self._now, None)
+                now = self._step_parts(self._now, None)
                 if self.inputs == "repeated":
                     restore()
-                    now = self._pass(self._now, now)
+                    now = self._step_parts(self._now, now)
             except (StepRefusedError, HostError) as error:
                 self._state = "moved in part"
                 if self._cannot_save:
@@ -198,19 +198,19 @@ class CoupledFmus(Closable):
         return np.array(rows)
 
     def _fmus(self) -> dict[str, Fmu]:
-        """The parts, while there are any."""
+        """The parts by name. Raises `HostError`: the system is closed."""
         if self._state == "closed":
             raise HostError("The system is closed; make another one.")
         return {p.name: p.fmu for p in self._parts}
 
     def _reader(self, names: Sequence[str]) -> Callable[[], Array]:
-        """A function that reads variables, prepared once."""
+        """A function that reads variables."""
         fmus = self._fmus()
         if self._state == "new":
             raise HostError("A system must be initialised before its values are read.")
         getters = []
         for text in texts(names, "The variables"):
-            part, name = parted(text, fmus)
+            part, name = part_and_name(text, fmus)
             variables = fmus[part].variables
             if name not in variables or variables[name].type not in ("Real", "Integer"):
                 numbers = [n for n, v in variables.items() if v.type in ("Real", "Integer")]
@@ -218,35 +218,37 @@ class CoupledFmus(Closable):
             getters.append(fmus[part].getter([name]))
         return lambda: np.array([get()[0] for get in getters])
 
-    def _pass(
+    def _step_parts(
         self, begin: Mapping[tuple[str, str], float], end: Mapping[tuple[str, str], float] | None
     ) -> dict[tuple[str, str], float]:
-        """Step all parts from the present state; `end`: outputs at the end as a pass before found them."""
-        now, ends, stepped = dict(begin), (self._steps + 1) * self.step_length, set[str]()
+        """Step all parts from the present state. `end`: outputs at the end of the step, from an earlier pass."""
+        now, end_time, stepped = dict(begin), (self._steps + 1) * self.step_length, set[str]()
         for p in self._parts:
             first = np.array([begin[w.source, w.output] for w in p.wires])
             current = dict(now) if self.order == "in turn" else {}
-            ends_at = [end if follows else None for follows in p.follows]
+            known_ends = [end if follows else None for follows in p.follows]
             newest = np.array(
-                [(e or current or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
+                [(e or current or begin)[w.source, w.output] for e, w in zip(known_ends, p.wires, strict=True)]
             )
-            has_end_value = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
+            is_end_known = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
             try:
                 if p.wires:
-                    self._feed(p, first, newest, np.array(has_end_value), end is not None)
+                    self._set_inputs(p, first, newest, np.array(is_end_known), end is not None)
                 p.fmu.step(self.time, self.step_length)
             except (StepRefusedError, HostError) as error:
                 raise type(error)(f"The part '{p.name}' refused the step from {self.time:.6g} s: {error}") from None
             stepped.add(p.name)
-            now |= self._outputs(p, ends)
+            now |= self._outputs(p, end_time)
         return now
 
-    def _feed(self, p: _Part, first: Array, newest: Array, is_end_known: NDArray[np.bool_], repeated: bool) -> None:
-        """Inputs of a part over the step that follows: at its start, and at its end where that is known."""
+    def _set_inputs(
+        self, p: _Part, first: Array, newest: Array, is_end_known: NDArray[np.bool_], repeated: bool
+    ) -> None:
+        """Set the inputs of a part for the next step, with slopes if it follows them."""
         if p.set_slopes is None or self.inputs == "held":
-            p.give(newest.tolist())
+            p.set_inputs(newest.tolist())
             return
-        p.give(np.where(p.follows, first, newest).tolist())
+        p.set_inputs(np.where(p.follows, first, newest).tolist())
         before = np.zeros_like(first) if p.last is None else first - p.last
         slope = np.where(is_end_known, newest - first, before) / self.step_length
         if not repeated:
@@ -256,15 +258,15 @@ class CoupledFmus(Closable):
     def _outputs(self, p: _Part, time: float) -> dict[tuple[str, str], float]:
         values = p.read()
         for name, value in zip(p.outputs, values, strict=True):
-            if not np.isfinite(value) and name not in p.told:
-                p.told.add(name)
-                self._own.append(f"{p.name}: at {time:.6g} s '{name}' is {value:g}. This is reported once.")
+            if not np.isfinite(value) and name not in p.reported:
+                p.reported.add(name)
+                self._own_messages.append(f"{p.name}: at {time:.6g} s '{name}' is {value:g}. This is reported once.")
         return {(p.name, name): value for name, value in zip(p.outputs, values, strict=True)}
 
 
 @contextmanager
 def _saved(fmus: Sequence[Fmu]) -> Iterator[Callable[[], None]]:
-    """States of FMUs while a step is made; what is given restores them."""
+    """A context with saved states of FMUs; yields a function that restores them."""
     with ExitStack() as stack:
         states = []
         for fmu in fmus:

@@ -11,6 +11,7 @@ from ali3.files import atomic_file, check_writable
 from ali3.message_text import brief
 from ali3.parameter_set import Entry, ParameterSet
 from ali3.temporary_folder import temporary_folder
+from ali3.unit_definition import KINDS
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -21,11 +22,8 @@ from hosts.systems.connections import Wire, fmus_of, starts_of, wires_of
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON = f"{{{_SSP}Common}}"
 _STRUCTURE = f"{{{_SSP}Description}}"
-_FIRST = {"Float64": "Real", "Float32": "Real", "Int32": "Integer"}
-"""Types of FMI 3.0 as SSP 1.0 has them."""
 SET = "start"
-"""Name of the parameter set of each part: Ecos applies those of one name, which it is asked for."""
-
+"""Name of the parameter set of each part: Ecos applies the sets of the name that it is given."""
 
 _VERSIONS = ("1.0", "2.0")
 
@@ -59,7 +57,7 @@ def write_ssp(
     ------
     HostError
         There is no such part or variable, a value is none of its variable, a name cannot be that of a file or part,
-        SSP has no such version, or a wire ends at a variable that the version has no type for.
+        SSP has no such version, or a wire ends at an element of an array.
     FileError
         The file cannot be written; an older one is then unchanged.
     """
@@ -92,7 +90,7 @@ def write_ssp(
 def _document(
     name: str, fmus: Mapping[str, Fmu], wires: Sequence[Wire], content: Mapping[str, Path], version: str
 ) -> bytes:
-    """The description of the system; elements that would be empty are left out, as its schema wants it."""
+    """The description of the system, without empty elements, which its schema does not allow."""
     root = Element(f"{_STRUCTURE}SystemStructureDescription", name=name, version=version)
     system = SubElement(root, f"{_STRUCTURE}System", name=name)
     if fmus:
@@ -100,10 +98,10 @@ def _document(
         for part, fmu in fmus.items():
             _component(elements, part, fmu, wires, content, version)
     if wires:
-        joined = SubElement(system, f"{_STRUCTURE}Connections")
+        connections = SubElement(system, f"{_STRUCTURE}Connections")
         for w in wires:
             ends = {"startElement": w.source, "startConnector": w.output, "endElement": w.target}
-            SubElement(joined, f"{_STRUCTURE}Connection", ends | {"endConnector": w.input})
+            SubElement(connections, f"{_STRUCTURE}Connection", ends | {"endConnector": w.input})
     register_namespace("ssd", _STRUCTURE[1:-1])
     register_namespace("ssc", _COMMON[1:-1])
     indent(root)
@@ -114,7 +112,7 @@ def _document(
 def _component(
     elements: Element, part: str, fmu: Fmu, wires: Sequence[Wire], content: Mapping[str, Path], version: str
 ) -> None:
-    """One part with the ends of its wires and its parameter set."""
+    """Add a part with the ends of its wires and its parameter set."""
     kind = "application/x-fmu-sharedlibrary"
     component = SubElement(elements, f"{_STRUCTURE}Component", name=part, type=kind, source=f"resources/{part}.fmu")
     ends = {(w.output, "output") for w in wires if w.source == part}
@@ -126,7 +124,7 @@ def _component(
             (scalar,) = fmu.scalars([variable])
             if scalar.size > 1:
                 raise HostError(f"'{part}.{variable}' is a part of an array; SSP wires whole variables only.")
-            kind = _FIRST.get(scalar.type, scalar.type) if version == "1.0" else scalar.type
+            kind = KINDS.get(scalar.type, scalar.type) if version == "1.0" else scalar.type
             SubElement(end, f"{_COMMON}{kind}")
     if (values := f"resources/{part}.ssv") in content:
         bindings = SubElement(component, f"{_STRUCTURE}ParameterBindings")
@@ -134,6 +132,6 @@ def _component(
 
 
 def _entries(fmu: Fmu, values: Mapping[str, Value]) -> list[Entry]:
-    """Start values of a part as a parameter set has them."""
+    """Start values of a part as entries of a parameter set."""
     variables = {name: fmu.table.settable(name, "") for name in values}
     return [Entry(name, v.kind, value_text(v, values[name]), None) for name, v in variables.items()]

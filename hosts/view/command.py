@@ -70,8 +70,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 
 def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
-    foreign = _OF_SHOWN if options.live else _OF_LIVE
-    misplaced = given_of(parser, options, foreign)
+    other_options = _OF_SHOWN if options.live else _OF_LIVE
+    misplaced = given_of(parser, options, other_options)
     if misplaced:
         raise HostError(f"{misplaced[0]} {'cannot be combined with' if options.live else 'needs'} --live.")
     if options.live:

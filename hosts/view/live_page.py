@@ -1,4 +1,4 @@
-"""A page that runs FMUs: the work of ``ali3 view --live``."""
+"""Writes a page that runs FMUs: ``ali3 view --live``."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from hosts.fmu.settings import Settings
 from hosts.recordings.format import is_recording
 from hosts.recordings.load_manoeuvre import check_manoeuvre_option, load_manoeuvre
 from hosts.view.open_page import open_page
-from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
-from hosts.view.page_text import Page, script_of
+from hosts.view.page_parts import PLATFORM, build_command, fmu_parts
+from hosts.view.page_text import page_text, script_of
 from hosts.view.view_sources import ViewRunOptions, recordings_of
 
 if TYPE_CHECKING:
@@ -36,17 +36,17 @@ if TYPE_CHECKING:
     from hosts.fmu.variables import Variable
     from hosts.view.page_parts import FmuParts
 
-_PATIENCE = 2.0
+_REPORT_DELAY = 2.0
 _MOST_PICTURES = 4
 
 
 def live(options: argparse.Namespace) -> int:
     """Write one HTML file that runs FMUs of this program in any browser, and open it; gives the exit code."""
     with temporary_folder() as folder:
-        return _written(options, options_with_road(options, folder))
+        return _write(options, options_with_road(options, folder))
 
 
-def _written(options: argparse.Namespace, set_options: FmuOptions) -> int:
+def _write(options: argparse.Namespace, set_options: FmuOptions) -> int:
     if len(options.what) > _MOST_PICTURES:
         raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
@@ -62,41 +62,48 @@ def _written(options: argparse.Namespace, set_options: FmuOptions) -> int:
     check_writable(file)
     world = _world(options, road)
     fmus = [fmu_parts(path, road if world is None else str(world.road)) for path in paths]
-    names = _names(fmus, options.name)
+    names = _titles(fmus, options.name)
     manoeuvre = _manoeuvre(fmus, options.manoeuvre)
-    places = {} if world is None else _places(world, fmus[0])
-    first = next(iter(places.values()), {})
-    start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, set_options)}
-    report_starts([start])
-    if fmus[0].own_road is not None:
-        start[ROAD] = fmus[0].own_road.name
-    settings = {
-        "name": name,
-        **_page_options(fmus, options),
-        "start": start,
-        **({"places": places} if places else {}),
-    }
-    recordings = _beside(results, fmus[0])
+    page_options = {"name": name, **_page_options(fmus, options), **_starts(fmus, world, manoeuvre, set_options)}
+    recordings = _recordings_beside(results, fmus[0])
+    named_fmus = [(name, _with_binary(fmu)) for name, fmu in zip(names, fmus, strict=True)]
+    title = options.title if options.title is not None else ", ".join(names)
     ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
-    with_binaries = [with_binary(fmu) for fmu in fmus]
-    with reported_when_long("making the page"):
-        page = Page(with_binaries, names, settings, manoeuvre, recordings, ends)
-        text = page.text(options.title if options.title is not None else ", ".join(names))
+    with _reported_when_long("making the page"):
+        text = page_text(title, named_fmus, page_options, manoeuvre, recordings, ends)
     with atomic_file(file) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
+    _report(file, fmus, world)
+    if not options.no_open:
+        open_page(file)
+    return 0
+
+
+def _report(file: Path, fmus: Sequence[FmuParts], world: World | None) -> None:
+    """Print what is not drawn, the size of the page and how the world was thinned."""
     for fmu in fmus:
         for item in fmu.scene.get("missing", []):
             print(f"{fmu.name}: {item['name']} is not drawn: {item['why'].rstrip('.')}.")
     print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; it opens from disk in a browser and needs nothing else")
     if world is not None and world.content.get("thin"):
         print(world.content["thin"])
-    if not options.no_open:
-        open_page(file)
-    return 0
+
+
+def _starts(
+    fmus: Sequence[FmuParts], world: World | None, manoeuvre: Manoeuvre | None, set_options: FmuOptions
+) -> dict[str, Any]:
+    """Start values of the page, and those of the places of its world, if there are any."""
+    places = {} if world is None else _places(world, fmus[0])
+    first = next(iter(places.values()), {})
+    start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, set_options)}
+    report_starts([start])
+    if fmus[0].own_road is not None:
+        start[ROAD] = fmus[0].own_road.name
+    return {"start": start} | ({"places": places} if places else {})
 
 
 def _world(options: argparse.Namespace, road: Value) -> World | None:
-    """The world that goes into the page."""
+    """The world of the page, if one is asked for."""
     if options.world is None:
         return None
     if road:
@@ -114,14 +121,14 @@ def _places(world: World, fmu: FmuParts) -> dict[str, dict[str, Value]]:
     return {name: values for name, values in world.places().items() if set(values) <= set(fmu.variables.names)}
 
 
-def _manoeuvre(fmus: Sequence[FmuParts], named: str | None) -> Manoeuvre | None:
-    """Inputs over time, checked."""
-    if named is None:
+def _manoeuvre(fmus: Sequence[FmuParts], name: str | None) -> Manoeuvre | None:
+    """A manoeuvre whose columns the FMUs have; None without a name."""
+    if name is None:
         return None
     names = [name for fmu in fmus for name in fmu.variables.names]
-    manoeuvre = with_names_of(load_manoeuvre(named), names)
+    manoeuvre = with_names_of(load_manoeuvre(name), names)
     script_of(manoeuvre)
-    settable = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
+    settable = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _is_settable(v)]
     unknown = next((name for name in manoeuvre.inputs if name not in settable), None)
     if unknown is not None:
         raise HostError(
@@ -132,12 +139,12 @@ def _manoeuvre(fmus: Sequence[FmuParts], named: str | None) -> Manoeuvre | None:
     return manoeuvre
 
 
-def _held(variable: Variable) -> bool:
+def _is_settable(variable: Variable) -> bool:
     return variable.causality == "input" or variable.variability == "tunable"
 
 
-def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
-    """Results that are drawn beside the first FMU, with its drawing where they have none."""
+def _recordings_beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
+    """Recordings that are drawn beside the first FMU, with its drawing if they have none."""
     if not results:
         return []
     recordings, notes, _ = recordings_of(results, fmu.path, ViewRunOptions(None, None, None, FmuOptions([], [])))
@@ -149,10 +156,11 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     return recordings
 
 
-def _names(fmus: Sequence[FmuParts], own_titles: Sequence[str]) -> list[str]:
-    if len(own_titles) > len(fmus):
-        raise HostError(f"--name is given {len(own_titles)} times for {len(fmus)} FMUs; give it once for each.")
-    titles = [*own_titles, *(fmu.name for fmu in fmus[len(own_titles) :])]
+def _titles(fmus: Sequence[FmuParts], titles_of_user: Sequence[str]) -> list[str]:
+    """Titles of the pictures: those of the user, then names of the models, which are numbered if they are equal."""
+    if len(titles_of_user) > len(fmus):
+        raise HostError(f"--name is given {len(titles_of_user)} times for {len(fmus)} FMUs; give it once for each.")
+    titles = [*titles_of_user, *(fmu.name for fmu in fmus[len(titles_of_user) :])]
     for k, title in enumerate(titles):
         if title in titles[:k]:
             titles[k] = f"{title} {titles[: k + 1].count(title)}"
@@ -160,14 +168,13 @@ def _names(fmus: Sequence[FmuParts], own_titles: Sequence[str]) -> list[str]:
 
 
 def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Any]:
-    """What the page starts with, checked."""
+    """Checked options of the page: whether it runs at once, step and plots."""
     results: dict[str, Any] = {"run": not options.paused}
     if options.step is not None:
         if not 0.0 < options.step <= 1.0:
             raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
         results["step"] = options.step
-    known_names = {name for fmu in fmus for name in fmu.variables.names}
-    plottable = {n for fmu in fmus for n in known_names if _plottable(fmu, n)}
+    plottable = {n for fmu in fmus for n in fmu.variables.names if fmu.variables[n].causality in ("input", "output")}
     for name in options.plot:
         if name not in plottable:
             raise HostError(f"--plot: {name!r} is not an input or output of {' or '.join(f.name for f in fmus)}.")
@@ -176,12 +183,8 @@ def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict
     return results
 
 
-def _plottable(fmu: FmuParts, name: str) -> bool:
-    return name in fmu.variables.names and fmu.variables[name].causality in ("input", "output")
-
-
 def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value]:
-    """Start values that the first FMU must have; the others take those that they have too."""
+    """Start values by ``--parameters`` and ``--set``: the first FMU must have them, the others may."""
     settings = Settings(fmus[0].variables)
     for file in set_options.sets:
         settings.add_set(file)
@@ -195,30 +198,30 @@ def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value
     return start
 
 
-def with_binary(fmu: FmuParts) -> FmuParts:
-    """The FMU itself if it has a binary in WebAssembly, else one with it, compiled from its own sources.
+def _with_binary(fmu: FmuParts) -> FmuParts:
+    """The FMU with a binary in WebAssembly, which is compiled from its own sources if it has none.
 
-    Raises `HostError`: it cannot be compiled here; with the command that builds one that has it.
+    Raises `HostError`: it cannot be compiled here; with the command that builds such an FMU.
     """
     if fmu.wasm is not None:
         return fmu
-    with temporary_folder() as folder, reported_when_long(f"compiling {fmu.path.name} for WebAssembly"):
+    with temporary_folder() as folder, _reported_when_long(f"compiling {fmu.path.name} for WebAssembly"):
         arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", str(folder))
         try:
             run_ali3(*arguments)
             return replace(fmu, wasm=fmu_parts(Path(folder, fmu.path.name)).wasm)
         except HostError as error:
-            why = str(error).rstrip(".")
+            reason = str(error).rstrip(".")
     raise HostError(
-        f"{fmu.path} has no binary in WebAssembly, and none could be added ({why}); build it with "
-        f"{build_line(fmu.path)}"
+        f"{fmu.path} has no binary in WebAssembly, and none could be added ({reason}); build it with "
+        f"{build_command(fmu.path)}"
     )
 
 
 @contextmanager
-def reported_when_long(what: str) -> Iterator[None]:
+def _reported_when_long(text: str) -> Iterator[None]:
     """A context that prints a line if its work takes longer than two seconds."""
-    timer = Timer(_PATIENCE, lambda: print(f"{what} ...", flush=True))
+    timer = Timer(_REPORT_DELAY, lambda: print(f"{text} ...", flush=True))
     timer.daemon = True
     timer.start()
     try:

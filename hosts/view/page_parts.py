@@ -1,4 +1,4 @@
-"""The parts of an FMU for a page: its binary in WebAssembly, its drawing, its resources and its variables."""
+"""Parts of an FMU for a page: its binary in WebAssembly, its drawing, its resources and its variables."""
 
 import base64
 import gzip
@@ -25,13 +25,13 @@ from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.variables import Variables
 
 PLATFORM = "wasm32"
-_ROOM = "resources/"
+_RESOURCES = "resources/"
 _ROADS = "roads/"
 
 
 @dataclass(frozen=True)
 class FmuParts:
-    """An FMU as a page runs it."""
+    """The parts of an FMU that a page needs to run it."""
 
     path: Path
     description: ModelDescription
@@ -50,7 +50,7 @@ class FmuParts:
         return str(self.description.modelName)
 
     def roads(self) -> dict[str, list[Any]]:
-        """Roads of the drawing by what the parameter `road.file` may be set to: none, or a road file in the FMU."""
+        """Roads of the drawing by values of the parameter `road.file`: empty, or the name of a road file in the FMU."""
         if ROAD not in self.variables.names:
             return {}
         own_road = None if self.own_road is None else self.own_road.name
@@ -65,7 +65,7 @@ class FmuParts:
         """The FMU as JSON of the page; `wasm` must be there."""
         assert self.wasm is not None
         scene, additions = self.scene, dict[str, Any]()
-        if self.own_road is not None:  # its drawing is long: it stands among the roads, once
+        if self.own_road is not None:  # its long drawing is written once, among the roads
             world = {"road": self.own_road.name, "scenery": scene.get("scenery", [])}
             scene, additions = scene | {"roads": [], "scenery": []}, {"world": packed(json.dumps(world).encode())}
         return {
@@ -83,7 +83,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
     """Read an FMU for a page.
 
     `road`: of the parameter `road.file`: the name of a road in the FMU, or a road file, which goes into the page.
-    Raises `HostError`: it is not an FMU that a page can run; with what would help.
+    Raises `HostError`: it is not an FMU that a page can run; with a remedy.
     """
     description = described(path)
     _check_kind(path, description)
@@ -92,34 +92,31 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
         if RESOURCE not in names:
             raise HostError(
                 f"{path} has no drawing of itself ({RESOURCE}): it was built by an older version; build it again with "
-                f"{build_line(path)}"
+                f"{build_command(path)}"
             )
         binaries = [n for n in names if n.startswith(f"binaries/{PLATFORM}/") and n.endswith(".wasm")]
         wasm = archive.read(binaries[0]) if binaries else None
-        files = [n for n in names if re.fullmatch(_ROOM + r"(?:[^/]+\.ali3|roads/.+\.road)", n)]
-        resources = {name.removeprefix(_ROOM): archive.read(name) for name in sorted(files)}
+        files = [n for n in names if re.fullmatch(_RESOURCES + r"(?:[^/]+\.ali3|roads/.+\.road)", n)]
+        resources = {name.removeprefix(_RESOURCES): archive.read(name) for name in sorted(files)}
     scene = scene_of(path, {ROAD: str(road)})
     assert scene is not None
-    lost = next((item["why"] for item in scene["missing"] if item["name"] == f"The road {road}"), None)
-    if road and lost is not None:
-        raise HostError(f"The road {road} cannot be used: {lost}.")
+    reason = next((item["why"] for item in scene["missing"] if item["name"] == f"The road {road}"), None)
+    if road and reason is not None:
+        raise HostError(f"The road {road} cannot be used: {reason}.")
     own_road = Path(str(road)) if road and is_file(str(road)) else None
     if own_road is not None:
         resources[_ROADS + own_road.name] = read_bytes(own_road, LARGEST_UNPACKED, HostError)
     return FmuParts(path, description, Variables(description), scene, wasm, resources, own_road)
 
 
-def build_line(path: Path) -> str:
-    """The command that builds an FMU of this file's name with what a page needs."""
+def build_command(path: Path) -> str:
+    """The command that builds an FMU of this file name for a page."""
     snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem)).lower()
-    label = f"{'--car' if _has_car(path) else '--scene'} {quote(snake)}"
+    with opened(path) as archive:
+        has_car = any(name.startswith(f"{_RESOURCES}car/") for name in archive.names)
+    label = f"{'--car' if has_car else '--scene'} {quote(snake)}"
     out = "" if path.parent == Path("dist") else f" --out {quote(str(path.parent))}"
     return f"{command_name('build')} {label} --kind native --platforms this,{PLATFORM}{out}"
-
-
-def _has_car(path: Path) -> bool:
-    with opened(path) as archive:
-        return any(name.startswith(f"{_ROOM}car/") for name in archive.names)
 
 
 def _check_kind(path: Path, description: ModelDescription) -> None:
@@ -129,11 +126,10 @@ def _check_kind(path: Path, description: ModelDescription) -> None:
             f"{path} is an FMU of {tool}; a page runs FMUs that {command_name('build')} has built, which carry a "
             "binary in WebAssembly and their drawing."
         )
-    version = description.fmiVersion
-    python = "PythonFMU" in tool
-    kind = "the kind python, which needs a Python" if python else f"FMI {version}"
-    if version != "2.0" or description.coSimulation is None or python:
-        raise HostError(f"{path} is an FMU of {kind}; a page runs the kind native (FMI 2.0): {build_line(path)}")
+    needs_python = "PythonFMU" in tool
+    if description.fmiVersion != "2.0" or description.coSimulation is None or needs_python:
+        kind = "the kind python, which needs a Python" if needs_python else f"FMI {description.fmiVersion}"
+        raise HostError(f"{path} is an FMU of {kind}; a page runs the kind native (FMI 2.0): {build_command(path)}")
 
 
 def packed(content: bytes) -> str:

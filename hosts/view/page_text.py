@@ -1,8 +1,7 @@
-"""The text of a page that runs FMUs, beside recordings that go along."""
+"""The text of a page that runs FMUs beside recordings."""
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from ali3.scene.recording import Recording
@@ -13,40 +12,42 @@ from viewer.html_document import html_document
 from viewer.page_data import page_data
 
 
-@dataclass(frozen=True)
-class Page:
-    """The content of a page."""
+def page_text(
+    title: str,
+    fmus: Sequence[tuple[str, FmuParts]],
+    options: Mapping[str, Any],
+    manoeuvre: Manoeuvre | None = None,
+    recordings: Sequence[Recording] = (),
+    ends: Sequence[str] = (),
+) -> str:
+    """The HTML file of a page. Raises `ViewerError`: the script of the viewer is not there and cannot be built.
 
-    fmus: Sequence[FmuParts]
-    """Each with its binary; they run in step, with the same inputs."""
-    names: Sequence[str]
-    options: Mapping[str, Any] = field(default_factory=dict)
-    """Of the page: ``name`` of what it records, ``run`` at once, ``start`` values, ``step``, ``plots``."""
-    manoeuvre: Manoeuvre | None = None
-    """Inputs over time, which a person may take over."""
-    recordings: Sequence[Recording] = ()
-    """Drawn beside the FMUs at the same time."""
-    ends: Sequence[str] = ()
-    """What is said when a recording is over, one for each."""
-
-    def text(self, title: str) -> str:
-        """The HTML file. Raises `ViewerError`: the script of the viewer is not there and cannot be built."""
-        data: dict[str, Any] = {
-            "fmus": [fmu.record(name) for fmu, name in zip(self.fmus, self.names, strict=True)],
-            "options": dict(self.options),
-        }
-        if self.manoeuvre is not None:
-            data["script"] = packed(json.dumps(script_of(self.manoeuvre)).encode())
-        if self.recordings:
-            data["beside"] = page_data([recording.thinned() for recording in self.recordings], {})
-            data["ends"] = list(self.ends)
-        return html_document(title, data, "ALi3Viewer.drive")
+    Parameters
+    ----------
+    fmus : sequence of (str, FmuParts)
+        FMUs with their titles and binaries; they run in step, with the same inputs.
+    options : mapping
+        Of the page: ``name`` of what it records, ``run`` at once, ``start`` values, ``step``, ``plots``.
+    manoeuvre : Manoeuvre, optional
+        Inputs over time, until the user takes over.
+    recordings : sequence of Recording
+        Drawn beside the FMUs at the same time.
+    ends : sequence of str
+        Messages of the page at the end of each recording.
+    """
+    data: dict[str, Any] = {"fmus": [fmu.record(name) for name, fmu in fmus], "options": dict(options)}
+    if manoeuvre is not None:
+        data["script"] = packed(json.dumps(script_of(manoeuvre)).encode())
+    if recordings:
+        data["beside"] = page_data([recording.thinned() for recording in recordings], {})
+        data["ends"] = list(ends)
+    return html_document(title, data, "ALi3Viewer.drive")
 
 
 def script_of(manoeuvre: Manoeuvre) -> dict[str, Any]:
     """Inputs over time as the page reads them.
 
-    Raises `HostError`: the manoeuvre has a driver: he cannot sit in a page.
+    Raises `HostError`: the manoeuvre has a driver, whom a page does not have.
     """
     if manoeuvre.driver:
         raise HostError(

@@ -24,16 +24,16 @@ class Table:
     columns: dict[str, NDArray[np.float64]]
     """Each of shape (n,): by name."""
     units: dict[str, str]
-    """Where the headings give them."""
+    """By name, as far as the headings give them."""
     note: str
-    """A sentence where not all rows were read, else empty."""
+    """A sentence if not all rows were read, else empty."""
 
 
 def read_table(path: Path) -> Table:
     """Read a table whose first column is the time.
 
     `path`: CSV: headings ``time`` and names, or ``time [s]`` and ``name [unit]``; lines that begin with ``#`` are left
-    out. Of a table that would fill the memory every so many rows are read. Raises `HostError`: it cannot be read, or is
+    out. Of a table that would fill the memory one of several rows is read. Raises `HostError`: it cannot be read, or is
     no such table; one sentence with file, line and reason.
     """
     text = TextTable(path, HostError, known=("time",), units=True)

@@ -1,4 +1,4 @@
-"""Results and runs in a page, as pictures, films and animations: the work of ``ali3 view`` without ``--live``."""
+"""Shows results and runs in a page, as pictures, films and animations: ``ali3 view`` without ``--live``."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ali3.columns import some_of
 from ali3.command_run import GOOD, NOT_GOOD
 from ali3.files import check_writable
 from ali3.near_names import near_names
@@ -26,12 +27,13 @@ from viewer.video import write_mp4
 if TYPE_CHECKING:
     from ali3.scene.recording import Recording
 
-_PLOTTED = 3  # signals of a result that is not drawn
+_MOST_PLOTTED = 3  # signals of a result that is not drawn
+_LISTED = 5  # signals of a message
 
 
 def show(options: argparse.Namespace) -> int:
-    """Write what is asked for and open the page; gives the exit code."""
-    page = _page(options)
+    """Write the page or other files, and open the page; returns the exit code."""
+    page = _page_path(options)
     check_manoeuvre_option(options.manoeuvre)
     options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
     for file in (page, options.png, options.mp4, options.gltf):
@@ -50,13 +52,15 @@ def show(options: argparse.Namespace) -> int:
     known_names = dict.fromkeys(name for recording in recordings for name in recording.columns)
     unknown = next((name for name in options.plot if name not in known_names), None)
     if unknown is not None:
-        raise HostError(
-            f"There is no signal {unknown!r} to be plotted; the result has {_some(list(known_names), unknown)}."
-        )
+        near = near_names(unknown, known_names, _LISTED, 0.4)
+        listed = some_of(dict.fromkeys([*near, *known_names]), len(near) or _LISTED)
+        raise HostError(f"There is no signal {unknown!r} to be plotted; the result has {listed}.")
     notes: list[str] = []
     written: list[object] = list(_exports(recordings, options, notes))
     if page is not None:
-        written.append(_write_page(page, recordings, options, notes))
+        page_file = write_page(page, recordings, options=_player_options(recordings, options), most=options.most)
+        notes += page_file.notes
+        written.append(f"{page_file.path} ({1e-6 * page_file.size:.2g} MB)")
     for note in dict.fromkeys(notes):
         print(note)
     print(f"written: {', '.join(map(str, written))}")
@@ -65,8 +69,8 @@ def show(options: argparse.Namespace) -> int:
     return GOOD if good else NOT_GOOD
 
 
-def _page(options: argparse.Namespace) -> Path | None:
-    """Where the page goes; none where only other files were asked for."""
+def _page_path(options: argparse.Namespace) -> Path | None:
+    """Path of the page; None if only other files are asked for."""
     if options.out is None and (options.png, options.mp4, options.gltf) != (None, None, None):
         return None
     first = options.what[0]
@@ -75,18 +79,18 @@ def _page(options: argparse.Namespace) -> Path | None:
     return Path(folder, f"{first.stem}{driven}{'_compared' if len(options.what) > 1 else ''}.html")
 
 
-def _look(options: argparse.Namespace) -> dict[str, Any]:
+def _drawing_options(options: argparse.Namespace) -> dict[str, Any]:
     """Options of the drawing."""
     factor = {} if options.deformation is None else {"deformation": options.deformation}
     return {"arrows": options.arrows, "stress": options.stress} | factor
 
 
-def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:
+def _player_options(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:
     """Options of the player."""
-    start = _look(options)
+    start = _drawing_options(options)
     plots = list(options.plot)
     if not plots and all(recording.scene is None for recording in recordings):
-        plots = list(recordings[0].columns)[:_PLOTTED]
+        plots = list(recordings[0].columns)[:_MOST_PLOTTED]
     if plots:
         start["plots"] = plots
     if options.camera is not None:
@@ -99,15 +103,9 @@ def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict
     return start
 
 
-def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> str:
-    page_file = write_page(page, recordings, options=_start(recordings, options), most=options.most)
-    notes += page_file.notes
-    return f"{page_file.path} ({1e-6 * page_file.size:.2g} MB)"
-
-
 def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> Iterator[Path]:
-    """Write the pictures, films and animations that were asked for, and note what there is to say of them."""
-    start = _look(options)
+    """Write the pictures, films and animations that are asked for, and append remarks on them to `notes`."""
+    start = _drawing_options(options)
     size = (options.size[0], options.size[1])
     if options.gltf is not None:
         gltf_file = write_gltf(options.gltf, recordings[0])
@@ -124,9 +122,3 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes
     if options.mp4 is not None:
         notes += write_mp4(options.mp4, recordings, size=size, camera=options.camera, options=start).notes
         yield options.mp4
-
-
-def _some(names: list[str], word: str) -> str:
-    """A few of many names, those that are alike first."""
-    listed = near_names(word, names, 5, 0.4) or names[:5]
-    return ", ".join(listed) + (f" and {len(names) - len(listed)} more" if len(names) > len(listed) else "")

@@ -1,4 +1,4 @@
-"""From what the user names to recordings: results of the hosts, tables of `mbs` runs, FMUs that are run first."""
+"""Recordings for the view: from results of the hosts, tables of `mbs` runs, and FMUs, which are run first."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,8 +12,8 @@ from ali3.reading import is_file, is_folder, no_file
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.options import FmuOptions
+from hosts.driving.course import TRACKS, course_of
 from hosts.driving.course_scenery import with_course, with_marks
-from hosts.driving.courses import TRACKS, course_of
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import with_names_of
 from hosts.driving.manoeuvre_settings import apply_settings
@@ -24,19 +24,18 @@ from hosts.fmu.fmu import Fmu, described
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.format import is_recording
-from hosts.recordings.manoeuvre_option import manoeuvre_of
+from hosts.recordings.load_manoeuvre import manoeuvre_of
 from hosts.recordings.recorded_view import other_build, recorded_view
 from hosts.view.result_tables import Table, read_table
 
-# What a car without inputs of the user's is driven through.
-_CAR_MANOEUVRE = "double_lane_change"
-_WIDEST = 10.0  # m, of a vehicle
-_ON_THE_GROUND = "what the manoeuvre has on the ground"
+_CAR_MANOEUVRE = "double_lane_change"  # of a car if none is given
+_LARGEST_WIDTH = 10.0  # m, of a vehicle
+_MARKS_OF_MANOEUVRE = "what the manoeuvre has on the ground"
 
 
 @dataclass(frozen=True)
 class ViewRunOptions:
-    """How an FMU is run that is to be shown."""
+    """Options of the run of an FMU."""
 
     manoeuvre: str | None
     """As for the command run."""
@@ -52,10 +51,10 @@ class ViewRunOptions:
 def recordings_of(
     paths: Sequence[Path], geometry: Path | None, run: ViewRunOptions
 ) -> tuple[list[Recording], list[str], bool]:
-    """Recordings of all that the user named.
+    """Recordings of paths of the user.
 
-    `geometry`: FMU or scene that results are drawn with, in place of that of their record. Raises `HostError`:
-    something cannot be read or run; one sentence.
+    `geometry`: FMU or scene that results are drawn with, in place of that of their record. Raises `HostError` with one
+    sentence: a path cannot be read or run.
 
     Returns
     -------
@@ -64,12 +63,12 @@ def recordings_of(
     notes : list of str
         Sentences for the user.
     good : bool
-        Whether every FMU that was run made all steps, and its outputs are numbers.
+        Whether every FMU that was run made all steps, and its outputs are finite.
     """
     results: list[Recording] = []
     notes: list[str] = []
     good = True
-    for path, name in zip(paths, _names(paths), strict=True):
+    for path, name in zip(paths, _distinct_names(paths), strict=True):
         if not is_file(path) and not is_folder(path):
             hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
             raise HostError(no_file(path, hint))
@@ -77,12 +76,12 @@ def recordings_of(
         if is_recording(path):
             recording, message = recorded_view(path, name, geometry)
         elif suffix == ".fmu" or (suffix not in (".csv", ".json") and is_archive(path)):
-            recording, message, ran = _of_fmu(path, name, run)
-            good = good and ran
+            recording, message, is_good = _run_fmu(path, name, run)
+            good = good and is_good
         elif suffix in (".csv", ".json"):
-            recording, message = _of_result(path, name, geometry)
+            recording, message = _read_result(path, name, geometry)
         else:
-            raise HostError(_no_kind(path))
+            raise HostError(_unknown_kind(path))
         results.append(recording)
         notes += message
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
@@ -92,7 +91,7 @@ def recordings_of(
 
 
 def _report_other_grounds(recordings: Sequence[Recording]) -> None:
-    """Note of each run that is a ghost on the ground of the first but ran on another."""
+    """Add a note to each run on another ground than that of the first one, which is drawn."""
     grounds = [(one, one.scene.get("roads", [])) for one in recordings if one.scene is not None]
     for ghost, ground in grounds[1:]:
         first, drawn_ground = grounds[0]
@@ -100,7 +99,7 @@ def _report_other_grounds(recordings: Sequence[Recording]) -> None:
             ghost.notes.append(f"It ran on another ground than {first.name}, whose ground is drawn.")
 
 
-def _no_kind(path: Path) -> str:
+def _unknown_kind(path: Path) -> str:
     if is_folder(path):
         return f"{path} is a folder; name a result in it (a .csv file), an FMU, or the folder of a recording."
     if path.suffix.lower() == ".py":
@@ -108,7 +107,7 @@ def _no_kind(path: Path) -> str:
     return f"{path} is neither a result (.csv, .json) nor an FMU (.fmu)."
 
 
-def _names(paths: Sequence[Path]) -> list[str]:
+def _distinct_names(paths: Sequence[Path]) -> list[str]:
     """Names of files, with as much of their folders as makes them differ."""
     parts = [path.absolute().with_suffix("").parts for path in paths]
     names = [part[-1] for part in parts]
@@ -119,8 +118,8 @@ def _names(paths: Sequence[Path]) -> list[str]:
     return [name if names.index(name) == k else f"{name} ({k + 1})" for k, name in enumerate(names)]
 
 
-def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording, list[str]]:
-    """A table with the scene of the FMU that its record names."""
+def _read_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording, list[str]]:
+    """The recording of a table, with the scene of the FMU that its record names, and notes."""
     table_file, record_file = path.with_suffix(".csv"), path.with_suffix(".json")
     if not is_file(table_file):
         raise HostError(f"{path} has no table {table_file.name} beside it; name the .csv file of a result.")
@@ -156,7 +155,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
             "its signals can be plotted, and nothing is drawn; --geometry FILE names an FMU or a scene."
         )
     if source is not None and scene is None:
-        notes.append(_foreign(source))
+        notes.append(_without_scene(source))
     recording = Recording(scene, table.t, table.columns, units, name)
     if scene is not None and recording.scene is not None and scene["shapes"] and not recording.scene["shapes"]:
         why = recording.missing[-1]["why"].rstrip(".") if recording.missing else "no shape has a pose"
@@ -177,7 +176,7 @@ def _record(file: Path) -> dict[str, Any] | None:
 
 
 def _add_names_of_fmu(table: Table, units: dict[str, str], record: dict[str, Any], file: Path) -> None:
-    """Columns that a run with an alias file has under our names, under those of the FMU too: its drawing reads them."""
+    """Add columns under the names of the FMU, which its drawing reads, to a table under our names."""
     names = record.get("names", {})
     try:
         converted = {str(theirs): (str(ours), float(f), float(o)) for theirs, (ours, f, o) in names.items()}
@@ -194,13 +193,13 @@ def _add_names_of_fmu(table: Table, units: dict[str, str], record: dict[str, Any
 
 
 def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:
-    """The scene with the cones that a driver went between, where the record names his course."""
+    """The scene with the cones of the course, if the record names one."""
     course = record.get("course")
     if course is None:
         return scene
     track, width = (course.get(key) if isinstance(course, dict) else None for key in ("track", "vehicle_width"))
     name = next((name for name, gates in TRACKS.items() if gates == track), None)
-    if name is None or not isinstance(width, (int, float)) or not 0.0 < width < _WIDEST:
+    if name is None or not isinstance(width, (int, float)) or not 0.0 < width < _LARGEST_WIDTH:
         raise HostError(
             f"{file}, the record of the result, does not say by 'course' a track of ISO 3888 and a vehicle_width, m."
         )
@@ -208,9 +207,9 @@ def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> d
 
 
 def _with_marks(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:
-    """The scene with what else the manoeuvre has on the ground, where the record names it."""
+    """The scene with the ground marks of the manoeuvre, if the record has some."""
     try:
-        return with_marks(scene, record.get("marks") or [], _ON_THE_GROUND)
+        return with_marks(scene, record.get("marks") or [], _MARKS_OF_MANOEUVRE)
     except (KeyError, TypeError, ValueError, OverflowError):
         raise HostError(
             f"{file}, the record of the result, does not say by 'marks' lanes, lines and circles with their places, m."
@@ -218,7 +217,7 @@ def _with_marks(scene: dict[str, Any], record: dict[str, Any], file: Path) -> di
 
 
 def _fmu_of(record: dict[str, Any], file: Path) -> Path:
-    """The FMU of a record: as it was named, from here or from a folder above the record."""
+    """The FMU of a record: its path is relative to this folder, to that of the record or to one above."""
     fmu_path = Path(record["fmu"])
     record_folder = file.absolute().parent
     candidates = (
@@ -242,15 +241,15 @@ def _units(fmu: Path, token: str) -> tuple[dict[str, str], bool]:
     return units, not token or str(description.guid or description.instantiationToken) == token
 
 
-def _foreign(path: Path) -> str:
+def _without_scene(path: Path) -> str:
     return (
         f"{path} has no {RESOURCE}, which says what there is to draw: its signals can be plotted, and nothing is "
         "drawn; FMUs that ali3 builds have it."
     )
 
 
-def _of_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Recording, list[str], bool]:
-    """Run an FMU: through a manoeuvre, or for its default experiment; whether the run is good."""
+def _run_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Recording, list[str], bool]:
+    """The recording of a run of an FMU, by a manoeuvre or its default experiment; notes; whether the run is good."""
     notes = []
     with Fmu(path) as fmu:
         manoeuvre_name = run_options.manoeuvre
@@ -265,17 +264,13 @@ def _of_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Recordi
         scene = scene_of(path, settings.start)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, run_options.step), driver)
     if scene is None:
-        notes.append(_foreign(path))
+        notes.append(_without_scene(path))
     else:
         scene = scene if driver is None else with_course(scene, driver.course)
-        scene = with_marks(scene, result.marks, _ON_THE_GROUND)
+        scene = with_marks(scene, result.marks, _MARKS_OF_MANOEUVRE)
     notes += [": ".join(missed) for missed in result.missed]
-    notes += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
-    if wrong := result.not_finite():
-        notes.append(wrong)
-    if result.ended:
-        notes.append(result.ended)
-    elif result.failed_steps:
+    notes += result.remarks()
+    if result.failed_steps and not result.ended:
         notes.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
     title = name if manoeuvre_name is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"

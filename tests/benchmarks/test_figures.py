@@ -11,7 +11,7 @@ from benchmarks import figures
 from benchmarks.pictures import chart_commands
 from benchmarks.shared.figures import RemadeTable, between, differences, read, rows_of, same, written
 from benchmarks.shared.pages import DOCS
-from hosts.run.plot_panels import table_of
+from hosts.run.plot_panels import draw_table
 
 MADE = "| method | h s | error | ms |\n| --- | --- | --- | --- |\n| a | 0.1 | 2.5 | 9 |\n| b | 0.1 | 1e-05 | 8 |"
 PAGE = f"text\n<!-- begin t -->\n{MADE}\n| c | 0.1 | 3 | 7 |\n<!-- end t -->\nThe car takes 0.36 s\nof time.\n"
@@ -63,7 +63,7 @@ def test_a_chart_carries_its_description_and_changed_panels_are_reported(tmp_pat
             one.plot([0.0, 1.0], [0.5, 0.5])  # without a name
             one.set_title(title, loc="left")
             one.set(xlabel="time, s", ylabel=unit)
-        table_of(axes[-1], [("largest wheel load", load), ("distance driven", "15 m")])
+        draw_table(axes[-1], [("largest wheel load", load), ("distance driven", "15 m")])
         save_picture(figure, tmp_path / name)
         return description_of(tmp_path / name)
 

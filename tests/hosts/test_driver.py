@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.driving.courses import course_of
-from hosts.driving.driver import DriverSettings, make_driver
+from hosts.driving.course import course_of
+from hosts.driving.driver import make_driver
+from hosts.driving.pilots.course_follower import DriverSettings
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 SETTINGS = {"course": "iso_3888_1", "speed": "15"}

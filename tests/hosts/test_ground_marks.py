@@ -11,8 +11,8 @@ from ali3.scene.base64_numbers import encoded
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.driving.co_simulation import run
+from hosts.driving.course import course_of
 from hosts.driving.course_scenery import scenery_of, with_marks
-from hosts.driving.courses import course_of
 from hosts.driving.ground_marks import lanes, marks_of_inputs
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.braking_pilot import Braking

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.pilots.line_follower import LineFollower

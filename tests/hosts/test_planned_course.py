@@ -5,8 +5,7 @@ import pytest
 
 from ali3.iso_3888 import Gate
 from hosts.common.errors import HostError
-from hosts.driving.course import Course
-from hosts.driving.courses import TRACKS, course_of
+from hosts.driving.course import TRACKS, Course, course_of
 from hosts.driving.planned_course import planned
 from hosts.measures.clearance import clearance
 

@@ -12,8 +12,7 @@ from hosts.catalogue.passage import Passage
 from hosts.catalogue.preparation import RunUp, constant_inputs
 from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
-from hosts.driving.course import Course
-from hosts.driving.courses import course_of
+from hosts.driving.course import Course, course_of
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.line_follower import LineFollower
 from hosts.driving.pilots.pilot import Pilot
@@ -154,7 +153,7 @@ def drive_through(car: TestedCar, layout: _CourseSettings, speed: float, driver:
     def is_over(time: float, outputs: Mapping[str, float]) -> bool:
         if math.isnan(pilot.start):
             return time > run_up.longest
-        x, y, _ = pilot.seen(outputs)
+        x, y, _ = pilot.pose_on_course(outputs)
         return conditions(outputs) or x > course_end or abs(y) > 8.0
 
     stop_time = run_up.longest + 3.0 * course_end / entry_speed

@@ -8,12 +8,12 @@ from hosts.driving.pilots.pilot import Pilot
 
 
 class Braking:
-    """From a time on the steering is fixed, the throttle released and the brake pressed.
+    """Drives as another pilot, then fixes the steering, releases the throttle and presses the brake.
 
     Parameters
     ----------
     before : Pilot
-        Drives until then, with all inputs of this one.
+        Drives until then, with all inputs of this pilot.
     begins : callable
         Function of time and observation; braking begins at the first time at which it is true.
     pedal : float
@@ -49,7 +49,7 @@ class Braking:
 
     @property
     def marks(self) -> list[Mark]:
-        """A line where braking begins, beside what the other pilot drives by."""
+        """Marks of the other pilot, and a line where braking begins."""
         return marks_of(self.before) + ([] if self._pose is None else [line_across(*self._pose)])
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
@@ -61,7 +61,7 @@ class Braking:
             self.onset = time
             if {"chassis.x", "chassis.y", "chassis.yaw"} <= set(observation):
                 self._pose = observation["chassis.x"], observation["chassis.y"], observation["chassis.yaw"]
-        # The input is held over the next step, so that its middle gives the mean pedal.
+        # The input is held over the next step, whose mean pedal is that at its middle.
         share = (time + 0.5 * step - self.onset) / self.rise_time if self.rise_time > 0.0 else 1.0
         pedals = {"throttle": 0.0, "brake": self.pedal * min(share, 1.0)}
         return {**self._fixed_inputs, **pedals, **{name: values[1] for name, values in self.gear.items()}}

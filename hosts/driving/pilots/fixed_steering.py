@@ -7,10 +7,10 @@ from hosts.driving.pilots.pilot import Pilot
 
 
 class FixedSteering:
-    """From a time on the steering does not change; pedals stay with the other pilot.
+    """Drives as another pilot, but with a fixed steering from a time on.
 
-    `fixed_at`: s; `mean_over`: time before that, s; the steering is the mean over it. `value`: of the input since it is
-    fixed.
+    `fixed_at`: s; `mean_over`: duration before it, s, over which the fixed steering is the mean; `value`: the fixed
+    steering; None before.
     """
 
     def __init__(self, pilot: Pilot, fixed_at: float, mean_over: float, name: str = "steering") -> None:

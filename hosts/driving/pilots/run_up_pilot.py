@@ -1,4 +1,4 @@
-"""A pilot that accelerates on a straight and then drives a course that begins at the car."""
+"""A pilot that accelerates on a straight and then drives a course that begins at the position of the car."""
 
 import math
 from collections import ChainMap
@@ -17,13 +17,13 @@ class RunUpPilot:
     Parameters
     ----------
     steering : Pilot
-        Steers along a course in axes with the origin where the car is when it begins, x along its heading.
+        Steers along a course in axes at the pose of the car when it begins, x along its heading.
     speed : float
-        To be held, m/s.
+        Target, m/s.
     begins : callable
-        Of the time and the observation; the course begins at the first time at which it is true.
+        Function of time and observation; the course begins at the first time at which it is true.
     release_at : float
-        Throttle and brake are released for good when the car is there, m along x; infinite: never.
+        Position along x from which on throttle and brake are released, m; infinite: never.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class RunUpPilot:
 
     @property
     def marks(self) -> list[Mark]:
-        """Lanes of the course that is steered along, once it is laid out."""
+        """Lanes of the course, once it has begun."""
         course: Course | None = getattr(self.steering, "course", None)
         return (
             []
@@ -65,14 +65,14 @@ class RunUpPilot:
                 return {"steering": 0.0, **pedals}
             self.start = time
             self.pose = (observation["chassis.x"], observation["chassis.y"], observation["chassis.yaw"])
-        x, y, yaw = self.seen(observation)
+        x, y, yaw = self.pose_on_course(observation)
         self.released = self.released or x >= self.release_at
         if self.released:
             pedals = {"throttle": 0.0, "brake": 0.0}
         here = ChainMap({"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw}, observation)  # type: ignore[arg-type]
         return {**self.steering.act(time, here), **pedals}
 
-    def seen(self, observation: Mapping[str, float]) -> tuple[float, float, float]:
+    def pose_on_course(self, observation: Mapping[str, float]) -> tuple[float, float, float]:
         """Position and heading of the car in the axes of the course, m and rad."""
         x0, y0, yaw0 = self.pose
         dx, dy = observation["chassis.x"] - x0, observation["chassis.y"] - y0

@@ -5,30 +5,30 @@ from collections.abc import Callable, Mapping
 
 
 class SpeedHolder:
-    """PI control of the pedals, with the acceleration of the wanted speed fed forward.
+    """PI control of the pedals, with feedforward of the acceleration of the target speed.
 
     Parameters
     ----------
     speed : float or callable
-        Wanted, m/s; or a function of the time in s.
+        Target, m/s, or a function of the time, s.
     gain : float
         Pedal per m/s.
     integral_gain : float
         Pedal per m.
     acceleration_gain : float
-        Pedal per m/s2 of the wanted speed.
+        Pedal per m/s2 of the target speed.
     brakes : bool
-        Whether the brake is used; else a car that is too fast rolls.
+        Whether the brake is used.
     pedal : float, optional
-        Of its first act, at the wanted speed; negative: of the brake. Default, and
-        without an integral: what the acceleration asks for.
+        Of the first act, at the target speed; negative: of the brake. By default, and without an integral, that of the
+        feedforward.
     sliding : float, optional
-        Slip of both wheels of an axle from which on the throttle is eased, to none at twice this slip; default: never.
-        A car that does not report the slips of its wheels is driven as by default.
+        Slip of both wheels of an axle from which on the throttle is reduced, to zero at twice this slip. By default,
+        and without outputs of slips, it is not reduced.
 
     Notes
     -----
-    The integral waits while a pedal is at its stop or the throttle is eased. `speed` must be an output of the car.
+    The integral is constant while a pedal is at its stop or the throttle is reduced. `speed` must be an output.
     """
 
     def __init__(
@@ -52,29 +52,29 @@ class SpeedHolder:
         self._sliding = sliding
         self._axles: list[list[str]] | None = None if sliding < math.inf else []
 
-    def wanted(self, time: float) -> float:
-        """Speed that is wanted at a time, m/s."""
+    def target_speed(self, time: float) -> float:
+        """Target speed at a time, m/s."""
         return self.speed(time) if callable(self.speed) else self.speed
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`; throttle and brake."""
         step, self._time = time - self._time, time
-        error, forward = self.wanted(time) - observation["speed"], 0.0
+        error, forward = self.target_speed(time) - observation["speed"], 0.0
         if callable(self.speed):
-            # The communication step that is coming is as long as the last one.
+            # The next communication step is as long as the last one.
             ahead = step or 1e-3
-            forward = self.acceleration_gain * (self.wanted(time + ahead) - self.wanted(time)) / ahead
+            forward = self.acceleration_gain * (self.target_speed(time + ahead) - self.target_speed(time)) / ahead
         if self._first is not None:
             self._integral, self._first = (self._first - forward) / self.integral_gain, None
         pedal = self.gain * error + self.integral_gain * self._integral + forward
-        throttle_factor = self._left(observation)
+        throttle_factor = self._throttle_factor(observation)
         if self._lowest < pedal < 1.0 and throttle_factor == 1.0:
             self._integral += step * error
         pedals = {"throttle": throttle_factor * min(max(pedal, 0.0), 1.0)}
         return pedals if self._lowest == 0.0 else pedals | {"brake": min(max(-pedal, 0.0), 1.0)}
 
-    def _left(self, observation: Mapping[str, float]) -> float:
-        """The part of the throttle that an axle which slides leaves."""
+    def _throttle_factor(self, observation: Mapping[str, float]) -> float:
+        """The factor of the throttle at the slips of the axles, 0 to 1."""
         if self._axles is None:
             slips = [n for n in observation if n.startswith("wheel_") and n.endswith(("L.slip", "R.slip"))]
             sides = {n.removesuffix("L.slip").removesuffix("R.slip") for n in slips}

@@ -32,5 +32,5 @@ class SteeringTable:
             )
 
     def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
-        # Times add up with rounding errors; a step must not be missed for them.
+        # Times are sums with rounding errors, which must not hide a step.
         return {self.name: float(np.interp(time + 1e-9, self.time, self.values))}

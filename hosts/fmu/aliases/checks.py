@@ -7,7 +7,7 @@ from ali3.message_text import brief
 from ali3.unit_definition import UnitDefinition
 from ali3.units import known_unit, same_quantity
 from hosts.common.errors import HostError
-from hosts.common.units import says_nothing, unit_of
+from hosts.common.units import is_plain_one, unit_of
 from hosts.fmu.aliases.alias import Alias
 from hosts.fmu.variables import Variable
 
@@ -23,7 +23,7 @@ def declared(variable: Variable) -> str:
 def unit_definition(variable: Variable) -> UnitDefinition | None:
     """The definition of the unit of a real variable; None where the unit has no meaning or is unknown."""
     unit = variable.definition or known_unit(variable.unit or "")
-    return None if unit is None or variable.kind != "Real" or says_nothing(unit) else unit
+    return None if unit is None or variable.kind != "Real" or is_plain_one(unit) else unit
 
 
 def is_si(variable: Variable) -> bool:

@@ -15,7 +15,7 @@ def test_a_measured_speed_is_held_closely_by_pedals_that_do_not_swing(step: floa
     speed, errors, pedals = 20.0, [], []
     for k in range(round(19.0 / step)):
         act = holder.act(k * step, {"speed": speed})
-        errors.append(speed - holder.wanted(k * step))
+        errors.append(speed - holder.target_speed(k * step))
         pedals.append(act["throttle"] - act["brake"])
         speed += step * (8.0 * act["throttle"] - 12.0 * act["brake"] - 1e-3 * speed**2)
     late = round(2.0 / step)

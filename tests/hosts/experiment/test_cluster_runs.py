@@ -9,7 +9,7 @@ import pytest
 from distributed import KilledWorker
 
 from ali3.isolated_processes import Lost
-from hosts.experiment.cluster_runs import WORK, ChunkSize, ClusterRuns, SchedulerLostError
+from hosts.experiment.cluster_runs import CHUNK_DURATION, ChunkSize, ClusterRuns, SchedulerLostError
 from hosts.experiment.cluster_worker import UnpackedFmu
 
 
@@ -103,14 +103,14 @@ def test_what_workers_were_given_is_taken_back_where_runs_are_left_early() -> No
 @pytest.mark.parametrize("seconds", [0.002, 0.1, 30.0])
 def test_a_chunk_is_some_seconds_of_work(seconds: float) -> None:
     size = ChunkSize(seconds, 2).size(1_000_000)
-    assert size == max(1, round(WORK / seconds))
+    assert size == max(1, round(CHUNK_DURATION / seconds))
 
 
 def test_a_wrong_estimate_is_learnt() -> None:
     size = ChunkSize(1.0, 2)
     for _ in range(40):
         size.learn(10, 10 * 0.01)
-    assert size.size(10**6) == pytest.approx(WORK / 0.01, rel=0.01)
+    assert size.size(10**6) == pytest.approx(CHUNK_DURATION / 0.01, rel=0.01)
 
 
 def test_the_memory_of_results_limits_a_chunk() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.plant import Lane
 
 RADIUS = 40.0

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.driving.courses import TRACKS, course_of
+from hosts.driving.course import TRACKS, course_of
 from mbs.worlds.make_world import read_world
 from mbs.worlds.scenery import cone_positions, scenery_of
 from mbs.worlds.terrain import Terrain

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from ali3.cones import cone_places
-from hosts.driving.courses import course_of
+from hosts.driving.course import course_of
 from hosts.run.command import main as run
 from hosts.view.command import main as view
 from mbs.vehicle import load
