@@ -32,8 +32,8 @@ export function el(tag, properties = {}, ...children) {
  */
 export function button(data, text, action, title = "") {
   const onclick = () => {
-    action();
     if (!element.matches(":focus-visible")) element.blur();
+    action();
   };
   const element = el("button", { type: "button", title, data, onclick }, text);
   return element;
@@ -55,6 +55,18 @@ export function select(data, title, options, action, value) {
     if (!element.matches(":focus-visible")) element.blur();
   });
   return element;
+}
+
+/**
+ * Shows or hides a part of the page; the focus in a hidden part goes to the button that opens it.
+ * @param {HTMLElement} part
+ * @param {boolean} open
+ * @param {HTMLElement} [opener]
+ */
+export function show(part, open, opener) {
+  if (!open && part.contains(document.activeElement)) opener?.focus();
+  part.hidden = !open;
+  opener?.setAttribute("aria-pressed", String(open));
 }
 
 /** Options of `select` whose labels are their values. @param {string[]} names */

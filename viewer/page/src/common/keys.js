@@ -11,10 +11,11 @@ let focusedByKeyboard = false;
  * @param {boolean} byKeyboard - Whether the keyboard has moved the focus to it.
  */
 export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
+  if (key === "Escape") return type === "search"; // which it empties
   if (tagName === "SELECT" || tagName === "TEXTAREA" || isContentEditable) return true;
   if (tagName === "INPUT" && /^(number|text|search)$/.test(type)) return true;
   if (!byKeyboard) return false;
-  if (tagName === "INPUT" && type === "range") return /^(Arrow|Page|Home|End)/.test(key);
+  if (tagName === "DIALOG" || (tagName === "INPUT" && type === "range")) return /^(Arrow|Page|Home|End)/.test(key);
   return /^(INPUT|BUTTON|SUMMARY|A)$/.test(tagName) && /^( |Enter)$/.test(key);
 }
 
