@@ -57,18 +57,6 @@ export function select(data, title, options, action, value) {
   return element;
 }
 
-/**
- * Shows or hides a part of the page; the focus in a hidden part goes to the button that opens it.
- * @param {HTMLElement} part
- * @param {boolean} open
- * @param {HTMLElement} [opener]
- */
-export function show(part, open, opener) {
-  if (!open && part.contains(document.activeElement)) opener?.focus();
-  part.hidden = !open;
-  opener?.setAttribute("aria-pressed", String(open));
-}
-
 /** Options of `select` whose labels are their values. @param {string[]} names */
 export function named(names) {
   return names.map((name) => [name, name]);

@@ -1,6 +1,7 @@
 // The plots beside the picture: a list of all signals, and a diagram for each unit of the chosen ones.
 import { Chart, palette } from "./chart.js";
-import { el, select, show } from "../common/dom.js";
+import { el, select } from "../common/dom.js";
+import { show } from "../common/keys.js";
 import { byUnit, found } from "./series.js";
 
 const MAX_LISTED = 300;

@@ -1,7 +1,8 @@
 // The panel of settings: forces, stress, ghosts, colours of the page, and notes.
 import { QUALITIES } from "../looks/picture_quality.js";
-import { el, named, select, show } from "../common/dom.js";
+import { el, named, select } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
+import { show } from "../common/keys.js";
 
 export class Settings {
   /** @param {HTMLElement} parent @param {Data} player the shell of the page @param {Data} source */

@@ -1,7 +1,7 @@
 // The base of all pages: pictures of a source, panel beside them, bar below, settings, keys.
-import { el, show } from "../common/dom.js";
+import { el } from "../common/dom.js";
 import { Help } from "../common/help.js";
-import { keys } from "../common/keys.js";
+import { keys, show } from "../common/keys.js";
 import { Notices } from "../common/notices.js";
 import { cameraActs } from "../common/views.js";
 import { ARBITER_MS } from "../live/input_arbiter.js";
