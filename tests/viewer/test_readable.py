@@ -4,6 +4,7 @@ axe-core looks for controls without a name, faint words, and parts that no reade
 `npm --prefix viewer/page ci --ignore-scripts` installs it; without it its tests are skipped.
 """
 
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import combinations
@@ -19,6 +20,7 @@ from tests.in_browser import axe_findings, wait_until, with_axe
 from tests.viewer.bars import check_bar
 from tests.viewer.hand_scenes import crank
 from tests.viewer.simulator_program import REPORT, Program
+from viewer.bundle import HERE
 from viewer.page_file import write_page
 
 CONTROLS = "button, select, input, summary, a[href]"
@@ -52,6 +54,8 @@ ADDED = """() => {
   const lines = [...logs[1].children].slice(-2).map((line) => line.textContent);
   return { numbers, words, role: box.role, logs: logs.map(({ role }) => role), lines };
 }"""
+LISTED = """() => [...document.querySelectorAll('.a3-help > div > div')]
+  .map((line) => [...line.children].map((part) => part.textContent))"""
 KINDS = ("live", "recorded", "plots", "simulator")
 BAR = ".a3-bar"
 
@@ -215,6 +219,63 @@ def test_the_tabulator_reaches_every_control(shown: Any) -> None:
         if shown.evaluate("() => (left.delete(document.activeElement), left.size)") == 0:
             break
     assert shown.evaluate("() => [...left].map((part) => part.outerHTML.slice(0, 100))") == []
+
+
+def focused(page: Any) -> str:
+    return str(page.evaluate("document.activeElement.dataset.a3 ?? document.activeElement.tagName"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("by", ["Enter", " ", "key"])
+def test_what_the_keyboard_opens_it_closes_and_the_focus_comes_back(shown: Any, by: str) -> None:
+    press, shell = shown.keyboard.press, "(player.cockpit ?? player)"
+    shown.evaluate(f"() => {{ {shell}.settings.toggle(false); {shell}.side(false); }}")
+
+    def opened(name: str, key: str, part: str) -> Any:
+        press("Tab")  # the keyboard moves the focus
+        shown.locator(f'[data-a3="{name}"]').focus()
+        press(key if by == "key" else by)
+        assert shown.locator(part).is_visible()
+        return shown.locator(part)
+
+    settings = opened("settings", "o", ".a3-panel")
+    settings.locator("[data-a3=theme]").focus()  # a list, which keeps letters to itself
+    press("Escape")
+    assert not settings.is_visible()
+    assert focused(shown) == "settings"
+    keys = opened("help", "h", "[data-a3='help list']")
+    for _ in range(3):
+        assert focused(shown) in ("help list", "BODY"), "behind the list of keys"
+        press("Tab")
+    press("Escape")
+    assert not keys.is_visible()
+    assert focused(shown) == "help"
+    side = opened("panels", "g", ".a3-side")
+    side.locator(".a3-find button").focus()
+    press("g")
+    assert not side.is_visible()
+    assert focused(shown) == "panels"
+
+
+@pytest.mark.slow
+def test_what_the_mouse_opened_leaves_the_keys_to_the_page(shown: Any) -> None:
+    for name, part in (("settings", ".a3-panel"), ("help", "[data-a3='help list']")):
+        shown.locator(f'[data-a3="{name}"]').click()
+        assert shown.locator(part).is_visible()
+        for box in shown.locator(f"{part} input[type=checkbox]").all():
+            box.click()
+        shown.keyboard.press("Escape")
+        assert not shown.locator(part).is_visible()
+        assert focused(shown) == "BODY"
+
+
+def test_the_list_of_keys_has_rows_of_the_table_for_this_kind_of_page(shown: Any, kind: str) -> None:
+    rows = json.loads((HERE / "keys.json").read_text(encoding="utf-8"))
+    kinds = {"": KINDS, "driven": ("live", "simulator"), "recorded": ("recorded", "plots"), "simulator": ("simulator",)}
+    expected = [[row["shown"], row["words"]] for row in rows if kind in kinds[row.get("where", "")]]
+    listed = shown.evaluate(LISTED)
+    assert listed == [line for line in expected if line in listed]
+    assert {"P", "Home", "O", "Esc", "H or ?"} <= {key for key, _ in listed}
 
 
 def test_the_tree_of_the_browser_names_every_control(shown: Any) -> None:

@@ -20,6 +20,8 @@ test("an element keeps the keys that it needs, a clicked one leaves them to the 
   }
   assert.deepEqual(taken(input("range"), true), ["ArrowLeft", "Home"]);
   assert.deepEqual(taken(input("range"), false), []);
+  assert.deepEqual(taken({ tagName: "DIALOG" }, true), ["ArrowLeft", "Home"]); // it scrolls
+  assert.deepEqual([input("search"), input("number"), { tagName: "SELECT" }].map((one) => needed(one, "Escape", true)), [true, false, false]);
   assert.deepEqual(taken({ tagName: "CANVAS" }, true), []);
 });
 

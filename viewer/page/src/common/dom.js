@@ -32,8 +32,8 @@ export function el(tag, properties = {}, ...children) {
  */
 export function button(data, text, action, title = "") {
   const onclick = () => {
-    action();
     if (!element.matches(":focus-visible")) element.blur();
+    action();
   };
   const element = el("button", { type: "button", title, data, onclick }, text);
   return element;

@@ -10,12 +10,13 @@ export class Help {
     styled(style);
     const rows = ROWS.filter(({ act, codes }) => (codes ? drives : acts.includes(act)));
     const lines = rows.map(({ shown, words }) => el("div", {}, el("kbd", {}, shown), el("span", {}, words)));
-    this.element = el("div.a3-help", { data: "help list", hidden: true, role: "note", "aria-label": "keys" }, el("div", {}, ...lines));
+    this.element = el("dialog.a3-help", { data: "help list", "aria-label": "keys" }, el("div", {}, ...lines));
     this.element.addEventListener("click", () => this.toggle(false));
   }
 
   /** @param {boolean} [open] */
-  toggle(open = this.element.hidden === true) {
-    this.element.hidden = !open;
+  toggle(open = !this.element.open) {
+    if (!open) this.element.close();
+    else if (!this.element.open) this.element.showModal();
   }
 }

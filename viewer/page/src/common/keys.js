@@ -1,4 +1,4 @@
-// Dispatches key events of a page: to the focused element, else to driving, else to an action.
+// Dispatches key events of a page: to the focused element, else to driving, else to an action; keeps the focus.
 import { actOf } from "./key_table.js";
 
 /** Whether the focus was moved by the keyboard; a clicked check box does not take keys. */
@@ -11,11 +11,24 @@ let focusedByKeyboard = false;
  * @param {boolean} byKeyboard - Whether the keyboard has moved the focus to it.
  */
 export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
+  if (key === "Escape") return type === "search"; // which it empties
   if (tagName === "SELECT" || tagName === "TEXTAREA" || isContentEditable) return true;
   if (tagName === "INPUT" && /^(number|text|search)$/.test(type)) return true;
   if (!byKeyboard) return false;
-  if (tagName === "INPUT" && type === "range") return /^(Arrow|Page|Home|End)/.test(key);
+  if (tagName === "DIALOG" || (tagName === "INPUT" && type === "range")) return /^(Arrow|Page|Home|End)/.test(key);
   return /^(INPUT|BUTTON|SUMMARY|A)$/.test(tagName) && /^( |Enter)$/.test(key);
+}
+
+/**
+ * Shows or hides a part of the page; a focus that the keyboard has moved into a hidden part goes to the button that opens it.
+ * @param {HTMLElement} part
+ * @param {boolean} open
+ * @param {HTMLElement} [opener]
+ */
+export function show(part, open, opener) {
+  if (!open && focusedByKeyboard && part.contains(document.activeElement)) opener?.focus();
+  part.hidden = !open;
+  opener?.setAttribute("aria-pressed", String(open));
 }
 
 /**

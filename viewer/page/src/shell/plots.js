@@ -1,6 +1,7 @@
 // The plots beside the picture: a list of all signals, and a diagram for each unit of the chosen ones.
 import { Chart, palette } from "./chart.js";
 import { el, select } from "../common/dom.js";
+import { show } from "../common/keys.js";
 import { byUnit, found } from "./series.js";
 
 const MAX_LISTED = 300;
@@ -80,9 +81,7 @@ export class Plots {
   }
 
   _open(open) {
-    this.opener.setAttribute("aria-pressed", String(open));
-    if (open !== this.list.hidden) return;
-    this.list.hidden = !open;
+    show(this.list, open, this.opener);
     this._list();
   }
 
@@ -115,6 +114,7 @@ export class Plots {
       if (on) this.differences.add(unit);
       else this.differences.delete(unit);
       this._draw();
+      this.charts.find((chart) => chart.unit === unit).legend.querySelector("button").focus(); // the pressed one is gone
     };
     const runs = this.source.plotted(this.chosen, this.span);
     this.charts = [...byUnit(this.chosen, this.source.columns)].map(

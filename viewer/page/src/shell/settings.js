@@ -2,6 +2,7 @@
 import { QUALITIES } from "../looks/picture_quality.js";
 import { el, named, select } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
+import { show } from "../common/keys.js";
 
 export class Settings {
   /** @param {HTMLElement} parent @param {Data} player the shell of the page @param {Data} source */
@@ -16,10 +17,9 @@ export class Settings {
     this._fill();
   }
 
-  toggle(open = this.panel.hidden) {
-    this.panel.hidden = !open;
+  toggle(open = this.panel.hidden === true) {
+    show(this.panel, open, this.player.bar.buttons.settings);
     this.notes.replaceChildren(...this.player.notices.noted.map((note) => el("p", {}, note)));
-    this.player.bar.buttons.settings.setAttribute("aria-pressed", String(open));
   }
 
   /** Shows values that were set elsewhere. @param {Data} look by name */

@@ -1,7 +1,7 @@
 // The base of all pages: pictures of a source, panel beside them, bar below, settings, keys.
 import { el } from "../common/dom.js";
 import { Help } from "../common/help.js";
-import { keys } from "../common/keys.js";
+import { keys, show } from "../common/keys.js";
 import { Notices } from "../common/notices.js";
 import { cameraActs } from "../common/views.js";
 import { ARBITER_MS } from "../live/input_arbiter.js";
@@ -193,8 +193,7 @@ export class Shell {
   /** Shows or hides the panel beside the picture. @param {boolean} open */
   side(open) {
     if (open) this.plots ??= new Plots(this.sideBox, this, this.source, this.plotted);
-    this.sideBox.hidden = !open;
-    this.bar?.buttons.panels.setAttribute("aria-pressed", String(open));
+    show(this.sideBox, open, this.bar?.buttons.panels);
     this.shape();
     this.plots?.resize();
   }
