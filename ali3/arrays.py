@@ -34,7 +34,7 @@ def read_arrays(
             size = Path(file).stat().st_size
             return {"": _array(stream, size, error, name)}
     arrays: dict[str, NDArray[np.generic]] = {}
-    with Archive(file, error, name, "arrays of NumPy", largest, MOST_MEMORY // _COPIES) as archive:
+    with Archive(file, error, name, "an archive of NumPy arrays", largest, MOST_MEMORY // _COPIES) as archive:
         for entry in archive.names:
             if entry.endswith(".npy"):
                 data = archive.read(entry)
