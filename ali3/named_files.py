@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from ali3.limits import factor, raised
+from ali3.limits import limit_factor, raised
 from ali3.message_text import brief
 from ali3.reading import Error, check_file
 
@@ -38,5 +38,5 @@ class NamedFiles:
                 f"{location}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
             )
         check_file(path, self._remaining_bytes, self._error, f"{location}{brief(name)}")
-        self._remaining_bytes -= int(path.stat().st_size / factor())
+        self._remaining_bytes -= int(path.stat().st_size / limit_factor())
         return path

@@ -24,7 +24,7 @@ from ali3.scene.written_file import WrittenGltf
 from ali3.temporary_folder import temporary_folder
 from viewer.bundle import GLTF, bundle
 from viewer.morph_targets import morph_targets
-from viewer.page_build import node
+from viewer.page_build import node_and_npm
 
 SUFFIXES = (".glb", ".gltf")
 MOST_RATE = 240.0
@@ -156,7 +156,7 @@ def _gltf_text(binary: bytes) -> bytes:
 def _run_writer(request: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[dict[str, Any], bytes]:
     """Answer of the program of Node, and the content of its file; empty if nothing is drawn."""
     try:
-        command = [node()[0], str(bundle().with_name(GLTF))]
+        command = [node_and_npm()[0], str(bundle().with_name(GLTF))]
     except RuntimeError as error:
         raise ViewerError(f"A glTF file cannot be written. {error}") from None
     with temporary_folder() as folder:
