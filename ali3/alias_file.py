@@ -19,7 +19,7 @@ PARTIAL = "partial"
 """Key: whether entries whose variable the FMU lacks are left out; by default they are errors."""
 
 SHIPPED = Path(__file__).parent / "alias_files"
-_MOST_FILES = 10
+_MAX_FILES = 10
 _KEYS = ("name", "factor", "offset", "unit")
 
 
@@ -61,8 +61,8 @@ def read_content(file: Path, depth: int = 0) -> Content:
     if base is not None:
         if not isinstance(base, str):
             raise UserError(f"{file}: {EXTENDS} is {base!r}; it must be the name of an alias file.")
-        if depth >= _MOST_FILES:
-            raise UserError(f"{file}: more than {_MOST_FILES} files extend one another; does one extend itself?")
+        if depth >= _MAX_FILES:
+            raise UserError(f"{file}: more than {_MAX_FILES} files extend one another; does one extend itself?")
         base_content = read_content(_base_file(base, file), depth + 1)
         content = Content(str(file), dict(base_content.entries), dict(base_content.constants), dict(base_content.needs))
     partial = table.pop(PARTIAL, False)

@@ -19,8 +19,8 @@ _HEAD = struct.Struct("<BQQ")
 _ARRAY = "\0array"
 _BYTES = "\0bytes"
 _ARRAY_KINDS = "biufS"
-MOST_TEXT = 200_000_000  # bytes of text of a frame
-MOST_BYTES = 8_000_000_000  # bytes of arrays of a frame
+MAX_TEXT = 200_000_000  # bytes of text of a frame
+MAX_BYTES = 8_000_000_000  # bytes of arrays of a frame
 
 
 class FrameError(Exception):
@@ -42,7 +42,7 @@ def read_frame(stream: IO[bytes], types: Mapping[int, Any]) -> tuple[int, Any]:
     `types`: type of the value by kind; None: any plain value. Raises `EOFError`: there is no frame; `FrameError`.
     """
     kind, text_size, block_size = _HEAD.unpack(_read_exactly(stream, _HEAD.size))
-    if kind not in types or text_size > MOST_TEXT or block_size > MOST_BYTES:
+    if kind not in types or text_size > MAX_TEXT or block_size > MAX_BYTES:
         raise FrameError(f"a frame of kind {kind} with {text_size} and {block_size} bytes")
     text, block = _read_exactly(stream, text_size), _read_exactly(stream, block_size)
     try:

@@ -7,7 +7,7 @@ from ali3.limits import limit_factor, raised
 from ali3.message_text import brief
 from ali3.reading import Error, check_file
 
-MOST_FILES = 1000
+MAX_FILES = 1000
 """Largest number of files that one file names directly or through others."""
 
 
@@ -33,9 +33,9 @@ class NamedFiles:
                 raise
             raise self._error(f"{location}{brief(name)} is not a file name.") from None
         self._count += 1
-        if self._count > raised(MOST_FILES):
+        if self._count > raised(MAX_FILES):
             raise self._error(
-                f"{location}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
+                f"{location}more than {raised(MAX_FILES)} files are named; {brief(name)} is the first too many."
             )
         check_file(path, self._remaining_bytes, self._error, f"{location}{brief(name)}")
         self._remaining_bytes -= int(path.stat().st_size / limit_factor())

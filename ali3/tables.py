@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ali3.errors import FileError, reason
 from ali3.message_text import brief
-from ali3.reading import LONGEST_LINE, Error, open_file, other_encoding
+from ali3.reading import MAX_LINE, Error, open_file, other_encoding
 
 LARGEST = 4_000_000_000
 """Largest size of a table, which is read as a stream, bytes."""
@@ -23,7 +23,7 @@ HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 """A name with its unit, such as ``speed [m/s]``."""
 _WORD = re.compile(r"[^\W\d]\w*")
 _SEPARATORS = (";", "\t", ",")
-_LONGEST_CELL = 1000
+_MAX_CELL = 1000
 
 
 class Row(NamedTuple):
@@ -159,10 +159,10 @@ class TextTable:
                 if message := other_encoding(stream.buffer.read(200)):
                     raise self.error(f"{self.name} is {message}.")
                 stream.seek(0)
-                while text := stream.readline(LONGEST_LINE + 1):
+                while text := stream.readline(MAX_LINE + 1):
                     line += 1
-                    if len(text) > LONGEST_LINE:
-                        raise self.error(f"{self.name}, line {line} has more than {LONGEST_LINE} characters.")
+                    if len(text) > MAX_LINE:
+                        raise self.error(f"{self.name}, line {line} has more than {MAX_LINE} characters.")
                     if "\0" in text:
                         raise self.error(f"{self.name} is not text: there is a zero byte in line {line}.")
                     bare = text.strip()
@@ -252,8 +252,8 @@ def cells_of(line: str, separator: str) -> list[str]:
             raise ValueError(f"this is not a line of a CSV file: {fault}") from None
     else:
         cells = line.split(separator)
-    if len(line) > _LONGEST_CELL and (longest := max(map(len, cells))) > _LONGEST_CELL:
-        raise ValueError(f"a cell has {longest} characters; a number or a name has at most {_LONGEST_CELL}")
+    if len(line) > _MAX_CELL and (longest := max(map(len, cells))) > _MAX_CELL:
+        raise ValueError(f"a cell has {longest} characters; a number or a name has at most {_MAX_CELL}")
     return [cell.strip() for cell in cells]
 
 

@@ -27,9 +27,9 @@ from viewer.morph_targets import morph_targets
 from viewer.page_build import node_and_npm
 
 SUFFIXES = (".glb", ".gltf")
-MOST_RATE = 240.0
+MAX_RATE = 240.0
 _ERROR_LINE = re.compile(r"\s*(Uncaught )?\w*Error\b")
-_MOST_SAMPLES = 20_000  # times at which errors are computed; at least two for each written time
+_MAX_SAMPLES = 20_000  # times at which errors are computed; at least two for each written time
 
 
 def write_gltf(
@@ -81,7 +81,7 @@ def write_gltf(
     scene = _checked_scene(target, recording, rate, speed, deformation)
     check_writable(path)
     begin, span = float(recording.t[0]), float(recording.t[-1] - recording.t[0]) / speed
-    indices = chosen_times(recording.t, max(_MOST_SAMPLES, math.ceil(2.0 * rate * span)), recording.epoch)
+    indices = chosen_times(recording.t, max(_MAX_SAMPLES, math.ceil(2.0 * rate * span)), recording.epoch)
     columns = {name: recording.columns[name][indices] for name in pose_columns(scene)}
     scene["flexible"] = [
         _with_morph_targets(part, number, columns) for number, part in enumerate(scene.get("flexible") or [])
@@ -125,7 +125,7 @@ def _checked_scene(target: Path, recording: Recording, rate: float, speed: float
         raise ViewerError(f"A recording is needed; this is an object of type {type(recording).__name__}.")
     if recording.scene is None:
         raise ViewerError(f"{recording.name!r} has no scene: there are no shapes to write to {target}.")
-    limits = (("rate", rate, 1.0, MOST_RATE), ("speed", speed, 1e-6, 1e4), ("deformation", deformation, 0.0, 1e6))
+    limits = (("rate", rate, 1.0, MAX_RATE), ("speed", speed, 1e-6, 1e4), ("deformation", deformation, 0.0, 1e6))
     for name, value, low, high in limits:
         is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
         if not is_number or not low <= value <= high:

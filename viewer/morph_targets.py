@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ali3.scene.base64_numbers import decoded
 
-MOST = 8
+MAX_TARGETS = 8
 """Largest number of morph targets that every reader of glTF animates."""
 _SAMPLES = 400  # times at which the error is computed
 
@@ -34,10 +34,10 @@ def morph_targets(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) 
     if part.get("computed"):
         amplitudes *= np.nan_to_num(columns[part["computed"]])[:, None] != 0.0
     shapes, weights = modes, amplitudes
-    if modes.shape[1] > MOST:
+    if modes.shape[1] > MAX_TARGETS:
         q, r = np.linalg.qr(modes)
         u, s, v = np.linalg.svd(amplitudes @ r.T, full_matrices=False)
-        shapes, weights = q @ v[:MOST].T, u[:, :MOST] * s[:MOST]
+        shapes, weights = q @ v[:MAX_TARGETS].T, u[:, :MAX_TARGETS] * s[:MAX_TARGETS]
     largest = np.abs(weights).max(axis=0)
     is_moving = largest > 0.0
     shapes, weights = shapes[:, is_moving] * largest[is_moving], weights[:, is_moving] / largest[is_moving]

@@ -8,7 +8,7 @@ from typing import Any
 from ali3.files import atomic_file, check_writable
 from ali3.near_names import near_names
 from ali3.scene.errors import ViewerError
-from ali3.scene.recording import MOST_TIMES, Recording
+from ali3.scene.recording import MAX_TIMES, Recording
 from ali3.scene.written_file import WrittenPage
 from viewer.html_document import html_document
 from viewer.page_data import page_data
@@ -20,7 +20,7 @@ def write_page(
     recordings: Recording | Sequence[Recording],
     title: str | None = None,
     options: Mapping[str, Any] | None = None,
-    most: int = MOST_TIMES,
+    most: int = MAX_TIMES,
 ) -> WrittenPage:
     """Write a page of one recording, or of several that are shown over each other.
 
@@ -77,7 +77,7 @@ def page_html(
     return html_document(page_title, data, "ALi3Viewer.playPage")
 
 
-def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:
+def thinned(recordings: Recording | Sequence[Recording], most: int = MAX_TIMES) -> list[Recording]:
     """Recordings with at most so many times. Raises `ViewerError`: there are none, or an object is no recording."""
     return [recording.thinned(most) for recording in _listed(recordings)]
 

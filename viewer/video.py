@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 SUFFIXES = (".mp4", ".webp", ".gif")
-MOST_FRAMES = 20_000
+MAX_FRAMES = 20_000
 Progress = Callable[[float], None]
 _QUALITY = "12"  # constant rate factor of x264; 0 is lossless
 _WEBP = {"quality": 50, "method": 4, "allow_mixed": True}
@@ -138,9 +138,9 @@ def _times(
     if first > last:
         raise ViewerError(f"The film must begin at {first:g} s and to end before that, at {last:g} s.")
     count = math.floor((last - first) / speed * fps * (1.0 + 1e-9)) + 1
-    if count > MOST_FRAMES:
+    if count > MAX_FRAMES:
         raise ViewerError(
-            f"The film would have {count} pictures, at most {MOST_FRAMES} are made; choose begin and end, a higher "
+            f"The film would have {count} pictures, at most {MAX_FRAMES} are made; choose begin and end, a higher "
             "speed or a lower fps."
         )
     return [min(first + k * speed / fps, last) for k in range(count)]

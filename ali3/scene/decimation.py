@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_MOST_SAMPLES = 200_000  # times at which poses are compared
+_MAX_SAMPLES = 200_000  # times at which poses are compared
 _VISIBLE_DISTANCE = 1e-3  # of the size of the scene
 _VISIBLE_ANGLE = np.radians(1.0)
 
@@ -54,7 +54,7 @@ def largest_gap_of_motion(
     epoch : array of shape (n,)
         The drawing does not move between two retained times of different epochs.
     """
-    samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _MOST_SAMPLES)).astype(np.intp))
+    samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _MAX_SAMPLES)).astype(np.intp))
     intervals = np.clip(np.searchsorted(indices, samples, side="right") - 1, 0, len(indices) - 2)
     a, b = indices[intervals], indices[intervals + 1]
     durations = t[b] - t[a]

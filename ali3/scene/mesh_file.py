@@ -28,13 +28,13 @@ Positions = NDArray[np.float32]
 Triangles = NDArray[np.uint32]
 
 SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
-_LARGEST = 1_000_000_000  # bytes of a file, and of all files that it names
-MOST_TRIANGLES = 100_000
+_MAX_FILE_SIZE = 1_000_000_000  # bytes of a file, and of all files that it names
+MAX_TRIANGLES = 100_000
 """Of a drawn mesh, which takes 1.8 MB of a page."""
 _BYTES_PER_ELEMENT = 64  # bytes of memory for a point, an attribute or an index
 # sizes beyond which the unit of a mesh is doubtful, m
-_LEAST_SIZE = 1e-3
-_MOST_SIZE = 500.0
+_MIN_SIZE = 1e-3
+_MAX_SIZE = 500.0
 
 
 class MeshError(ViewerError):
@@ -42,7 +42,7 @@ class MeshError(ViewerError):
 
 
 def read_mesh(
-    path: str | os.PathLike[str], scale: float = 1.0, *, most_triangles: int = MOST_TRIANGLES
+    path: str | os.PathLike[str], scale: float = 1.0, *, most_triangles: int = MAX_TRIANGLES
 ) -> tuple[Positions, Triangles]:
     """Read the triangles of a mesh from a file.
 
@@ -68,9 +68,9 @@ def read_mesh(
     if len(triangles) > most_triangles:
         points, triangles = _merge_by_grid(path, points, triangles, most_triangles)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    if not _LEAST_SIZE <= size <= _MOST_SIZE:
+    if not _MIN_SIZE <= size <= _MAX_SIZE:
         scale_hint = "in a file in millimetres, scale=0.001 is needed"
-        advice = scale_hint if size > _MOST_SIZE else "scale is given in metres per unit"
+        advice = scale_hint if size > _MAX_SIZE else "scale is given in metres per unit"
         warnings.warn(f"The mesh {path} is {size:.3g} m across; {advice}.", UserWarning, stacklevel=2)
     return points.astype(np.float32), triangles.astype(np.uint32)
 
@@ -114,7 +114,7 @@ def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
 def _load(file: Path, extra: str) -> trimesh.Trimesh:
     suffix = file.suffix.lower()
     options = {"skip_materials": True} if suffix == ".obj" else {}
-    content = read_bytes(file, _LARGEST)
+    content = read_bytes(file, _MAX_FILE_SIZE)
     with read_by_library(str(file), MeshError, "be read as a mesh", extra):
         import trimesh
 
@@ -131,11 +131,11 @@ class _NamedBytes(dict[str, bytes]):
 
     def __init__(self, file: Path) -> None:
         super().__init__()
-        self._file, self._named_files = file, NamedFiles(file.parent, _LARGEST, MeshError)
+        self._file, self._named_files = file, NamedFiles(file.parent, _MAX_FILE_SIZE, MeshError)
 
     def __missing__(self, name: str) -> bytes:
         return read_bytes(
-            self._named_files.file(unquote(name), self._file.parent, str(self._file)), _LARGEST, MeshError
+            self._named_files.file(unquote(name), self._file.parent, str(self._file)), _MAX_FILE_SIZE, MeshError
         )
 
     def get(self, name: str, default: object = None) -> bytes:

@@ -13,10 +13,10 @@ from ali3.scene.errors import ViewerError
 from ali3.scene.scene import check_scene, plain_scene
 from ali3.scene.scene_columns import drawable, pose_columns
 
-MOST_TIMES = 5001  # 10 s in steps of 2 ms
+MAX_TIMES = 5001  # 10 s in steps of 2 ms
 _FULL_TURN = 2.0 * np.pi
-_MOST_NAMED = 4  # columns with the same gaps that a note names
-_LARGEST_POSE = 1e30  # coordinate; pictures and glTF have floats of 32 bits
+_MAX_NAMED = 4  # columns with the same gaps that a note names
+_MAX_POSE = 1e30  # coordinate; pictures and glTF have floats of 32 bits
 
 
 class Recording:
@@ -80,7 +80,7 @@ class Recording:
         else:
             self._set_scene(plain_scene(scene))
 
-    def thinned(self, most: int = MOST_TIMES) -> Recording:
+    def thinned(self, most: int = MAX_TIMES) -> Recording:
         """This recording with at most so many times, uniform in time.
 
         Parameters
@@ -197,8 +197,8 @@ class Recording:
                 gaps.setdefault(is_gap.tobytes(), []).append(name)
         for mask, column_names in gaps.items():
             is_gap = np.frombuffer(mask, bool)
-            more = f" and {len(column_names) - _MOST_NAMED} more" if len(column_names) > _MOST_NAMED else ""
-            names_text = ", ".join(f"'{name}'" for name in column_names[:_MOST_NAMED]) + more
+            more = f" and {len(column_names) - _MAX_NAMED} more" if len(column_names) > _MAX_NAMED else ""
+            names_text = ", ".join(f"'{name}'" for name in column_names[:_MAX_NAMED]) + more
             self.notes.append(
                 f"The column{'s' * (len(column_names) > 1)} {names_text} "
                 f"{'have each' if len(column_names) > 1 else 'has'} {is_gap.sum()} of {len(self.t)} values that are "
@@ -208,11 +208,11 @@ class Recording:
     def _remove_large_values(self, name: str) -> None:
         """Replace numbers that are too large for a pose by NaN, and note how many."""
         values = self.columns.get(name)
-        if values is None or not (is_too_large := np.abs(values) > _LARGEST_POSE).any():
+        if values is None or not (is_too_large := np.abs(values) > _MAX_POSE).any():
             return
         self.columns[name] = np.where(is_too_large, np.nan, values)
         self.notes.append(
-            f"The column '{name}' has {int(is_too_large.sum())} of {len(is_too_large)} values beyond {_LARGEST_POSE:g}."
+            f"The column '{name}' has {int(is_too_large.sum())} of {len(is_too_large)} values beyond {_MAX_POSE:g}."
         )
 
     def _unwrap(self, name: str) -> None:

@@ -20,7 +20,7 @@ from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_c
 _COLLECTED = re.compile(r"Collected : (\d+)")
 SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
 STORED = Path(__file__).parents[1] / "data" / "instructions.json"
-MOST = 1.03
+MAX_RATIO = 1.03
 """Ratio to the stored table from which on a step is dearer."""
 
 
@@ -158,7 +158,7 @@ def compared(rows: Sequence[Row], stored: Sequence[Row]) -> list[str]:
             continue
         quantity = "instructions" if row["instructions"] and stored_row["instructions"] else "factorizations"
         ratio = row[quantity] / stored_row[quantity]
-        if ratio > MOST:
+        if ratio > MAX_RATIO:
             lines.append(
                 f"{row['scene']}, {row['step_ms']:g} ms: {quantity} {100.0 * (ratio - 1.0):.1f} % more a step."
             )

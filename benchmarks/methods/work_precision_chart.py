@@ -32,7 +32,7 @@ OTHERS = {
 """Colour, line style, and markers of the methods of each family."""
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
 """Colour and marker of runs with a tolerance."""
-LARGEST_ERROR = 0.5  # of a drawn run, over the extent of the motion
+MAX_ERROR = 0.5  # of a drawn run, over the extent of the motion
 PANELS = {"wall_s": ("kernel", "drake", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
 """Families in each panel: compiled programs by time, methods that count factorizations."""
 

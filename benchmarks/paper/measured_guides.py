@@ -173,7 +173,7 @@ _SMOOTH = "#0b62c4"
 _MEASURED = "#d55e00"
 _SIGNAL = "#b0b0b0"
 PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
-_LARGEST_SHIFT = 0.5  # s
+_MAX_SHIFT = 0.5  # s
 _EDGE = 0.1  # s at the end that are not compared
 
 
@@ -189,7 +189,7 @@ def moments(run: Trajectory) -> Array:
 
 def best_shift(reference: Array, replayed: Array) -> tuple[int, float]:
     """Delay of moments in steps, and their error after this shift, rms over the rms of the reference."""
-    limit = round(_LARGEST_SHIFT / kerb_test.STEP)
+    limit = round(_MAX_SHIFT / kerb_test.STEP)
 
     def error_of(k: int) -> float:
         one, other = (replayed[k:], reference[: len(reference) - k]) if k >= 0 else (replayed[:k], reference[-k:])

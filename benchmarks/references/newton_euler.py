@@ -20,7 +20,7 @@ COARSE = 1e-8
 FINE = 1e-10
 FINEST = 1e-12
 AGREE = 1e-5  # largest difference of two runs of a reference, over the size of the mechanism
-MOST_CALLS = 100000  # largest number of evaluations of the equations of motion in a run
+MAX_CALLS = 100000  # largest number of evaluations of the equations of motion in a run
 
 
 class NoReferenceError(Exception):
@@ -187,7 +187,7 @@ class Dynamics:
     def rates(self, t: float, x: Array) -> Array:
         """Time derivative of the state."""
         self.calls += 1
-        if self.calls > MOST_CALLS:
+        if self.calls > MAX_CALLS:
             raise NoReferenceError("the reference does not end")
         n, d = self.n, self.d
         mass, force, rows, gamma = self._equations(t, x)

@@ -17,10 +17,10 @@ PORT = "point_reference.Fy"
 """Input of an FMU with the ports ``forces=vehicle`` for the bank as a force."""
 CUT_OFF = 1.0  # Hz, of the low-pass that leaves the bank
 PIECE = 10.0  # m, length of the track pieces over which the bank is averaged
-_SHORTEST = 1000.0  # m, shortest lap
-_LONGEST = 6000.0  # m, longest lap
-_SLOWEST = 5.0  # m/s, least speed in the curvature of the path
-_LEAST_CORRELATION = 0.9  # of the curvatures of two laps
+_MIN_LAP = 1000.0  # m, shortest lap
+_MAX_LAP = 6000.0  # m, longest lap
+_MIN_SPEED = 5.0  # m/s, least speed in the curvature of the path
+_MIN_CORRELATION = 0.9  # of the curvatures of two laps
 _NEARLY = 0.02  # largest difference from the best correlation
 
 
@@ -53,7 +53,7 @@ def bank_of(drive: Drive, seconds: Spans = FITTED) -> Array:
 def distance_and_lap(drive: Drive) -> tuple[Array, float]:
     """Distance along the track at each sample, shape (n,), and the length of a lap, m. Raises `ValueError`: no laps."""
     distance = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
-    return distance, _lap(distance, drive.yaw_rate / np.maximum(drive.vx, _SLOWEST))
+    return distance, _lap(distance, drive.yaw_rate / np.maximum(drive.vx, _MIN_SPEED))
 
 
 def pieces(distance: Array, lap: float) -> NDArray[np.intp]:
@@ -65,14 +65,14 @@ def pieces(distance: Array, lap: float) -> NDArray[np.intp]:
 def _lap(distance: Array, curvature: Array) -> float:
     """Length of a lap, m: the shift with the largest autocorrelation of the path's curvature."""
     even = np.interp(np.arange(0.0, distance[-1]), distance, curvature)
-    shifts = np.arange(int(_SHORTEST), int(min(_LONGEST, distance[-1] - _SHORTEST)))
+    shifts = np.arange(int(_MIN_LAP), int(min(_MAX_LAP, distance[-1] - _MIN_LAP)))
     correlations = np.array([np.corrcoef(even[:-k], even[k:])[0, 1] for k in shifts])
-    if not correlations.max() > _LEAST_CORRELATION:
+    if not correlations.max() > _MIN_CORRELATION:
         raise ValueError(
             f"The drive does not repeat its path: the best correlation of its curvature is {correlations.max():.2f}."
         )
     near = np.flatnonzero(correlations > correlations.max() - _NEARLY)
-    first = near[near <= near[0] + _SHORTEST / 2.0]  # one lap, not several
+    first = near[near <= near[0] + _MIN_LAP / 2.0]  # one lap, not several
     return float(shifts[first[np.argmax(correlations[first])]])
 
 

@@ -9,7 +9,7 @@ from benchmarks.validation.drive import Drive
 Array = NDArray[np.float64]
 TRACK = 1.345  # m, mean of both axles
 BALANCE = 0.70  # front share of the brake force, as in the car file
-_LEAST = 50.0  # N, load of a wheel that would lift off
+_MIN_LOAD = 50.0  # N, load of a wheel that would lift off
 
 
 def simulate(
@@ -40,7 +40,7 @@ def simulate(
         for axle, x, sign in (("front", body.front, -1.0), ("rear", -body.rear, 1.0)):
             at_rest = static_loads[0 if sign < 0.0 else 1]
             loads = [
-                np.maximum(at_rest + sign * longitudinal_transfer - side * lateral_transfer, _LEAST)
+                np.maximum(at_rest + sign * longitudinal_transfer - side * lateral_transfer, _MIN_LOAD)
                 for side in (1.0, -1.0)
             ]
             angle = steer[:, k] if axle == "front" else np.zeros_like(v)
