@@ -25,7 +25,7 @@ LARGEST_ARCHIVE = 2_000_000_000
 LARGEST_UNPACKED = 1_000_000_000
 """Largest size of all entries together, bytes."""
 MAX_ENTRIES = 50_000
-# Signatures of the end records, and their sizes; that of ZIP64 includes its locator.
+# Signatures of the end records, and their sizes; the size for ZIP64 includes its locator.
 _END = b"PK\5\6"
 _END_64 = b"PK\6\6"
 _END_SIZE = 22  # bytes
@@ -104,7 +104,7 @@ class Archive:
             raise self._error(f"{label} cannot be read: {reason(fault)}.") from None
 
     def unpack(self, folder: Path, is_needed: Callable[[str], bool] = lambda name: True) -> None:
-        """Write the files whose names `is_needed` accepts. Raises also `OSError`: the folder cannot be written."""
+        """Write the files whose names `is_needed` accepts. Raises also `OSError` if the folder cannot be written."""
         for entry in self.names:
             if is_needed(entry):
                 file = folder / entry
@@ -131,7 +131,7 @@ def is_archive(file: str | os.PathLike[str]) -> bool:
 
 
 def faults_of(file: str | os.PathLike[str], error: Error = FileError, kind: str = "an archive") -> list[Fault]:
-    """All faults that prevent an archive from being unpacked; `file`, `error`, `kind`: as of `Archive`."""
+    """All faults that prevent an archive from being unpacked; `file`, `error`, `kind`: see `Archive`."""
     with _opened(file, error, str(file), kind, LARGEST_ARCHIVE) as archive:
         return list(_faults(archive, LARGEST_UNPACKED))
 
@@ -210,5 +210,5 @@ def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
         return Fault(f"has {label}, packed by method {info.compress_type}; stored and deflate are", "ISO/IEC 21320-1")
     kind = stat.S_IFMT(info.external_attr >> 16)
     if kind not in (0, stat.S_IFREG, stat.S_IFDIR):
-        return Fault(f"has {label}, which is {'a link' if kind == stat.S_IFLNK else 'no file'}")
+        return Fault(f"has {label}, which is {'a link' if kind == stat.S_IFLNK else 'not a file'}")
     return None

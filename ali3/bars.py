@@ -33,7 +33,7 @@ class _Lines:
 
 
 def bar(*arguments: Any, **options: Any) -> tqdm[Any]:
-    """A bar on the standard error stream that appears after two seconds. `arguments`, `options`: of `tqdm.tqdm`."""
+    """A bar on the standard error stream that appears after two seconds. `arguments`, `options`: see `tqdm.tqdm`."""
     options = {"delay": DELAY} | options
     if sys.stderr.isatty():
         return tqdm(*arguments, **options)

@@ -37,10 +37,10 @@ def ignore_stopping() -> None:
 
 
 def how_ended(code: int | None, message: str = "", call: str = "") -> str:
-    """Describe the unexpected end of a process, as the end of a sentence, such as ``crashed (SIGSEGV)``.
+    """Predicate for the unexpected end of a process, such as ``crashed (SIGSEGV)``.
 
-    `code`: as `subprocess` and `multiprocessing` give it; `message`: standard error of the process, whose last line is
-    quoted; `call`: the last call, such as `` in fmi2DoStep at 0.1 s``.
+    `code`: exit code of `subprocess` or `multiprocessing`; `message`: standard error of the process, whose last line
+    is quoted; `call`: the last call, such as `` in fmi2DoStep at 0.1 s``.
     """
     last_line = (message.strip().splitlines() or [""])[-1]
     details = f"{call}: {last_line}" if last_line else call

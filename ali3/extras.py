@@ -8,7 +8,7 @@ from traceback import walk_tb
 from types import TracebackType
 
 _DISTRIBUTIONS = {"pil": "pillow", "sdl2": "pysdl2"}
-"""Distributions by module in small letters, where the names differ."""
+"""Distributions by module in small letters, if the names differ."""
 
 _extra: str | None = None
 
@@ -25,7 +25,7 @@ def missing_package(package: str, extra: str = "") -> str:
 def missing_module(error: ModuleNotFoundError, extra: str = "") -> str:
     """The sentence for a module that was not found, also if a library imports it at run time.
 
-    `extra`: as of `missing_package`. Raises `error` again if neither an extra nor a package of an extra requires the
+    `extra`: see `missing_package`. Raises `error` again if neither an extra nor a package of an extra requires the
     module: an error of the program.
     """
     package = (error.name or "").partition(".")[0]
@@ -47,7 +47,7 @@ def command_needs(extra: str) -> None:
 
 
 def extras() -> dict[str, set[str]]:
-    """Distributions that each extra of the installation requires; those of no extra under ``""``."""
+    """Distributions that each extra of the installation requires; distributions of no extra under ``""``."""
     results: dict[str, set[str]] = {}
     for requirement in _requirements("ali3"):
         match = re.search(r"""extra == ['"]([\w.-]+)['"]""", requirement)

@@ -39,7 +39,7 @@ def write_frame(stream: IO[bytes], kind: int, value: Any) -> None:
 def read_frame(stream: IO[bytes], types: Mapping[int, Any]) -> tuple[int, Any]:
     """Kind and value of the next frame.
 
-    `types`: type of the value by kind; None: any plain value. Raises `EOFError`: there is no frame; `FrameError`.
+    `types`: type of the value by kind; None: any plain value. Raises `EOFError` if there is no frame; `FrameError`.
     """
     kind, text_size, block_size = _HEAD.unpack(_read_exactly(stream, _HEAD.size))
     if kind not in types or text_size > MAX_TEXT or block_size > MAX_BYTES:

@@ -224,8 +224,8 @@ class Isolated(Generic[T, R]):
 
         `tell`: called with each message of the work; `limit`: longest time between messages, see
         `ali3.processes.alive`, or with `in_all` longest time of the task, s, after which the process is ended;
-        `finish`: computes the result from that of the work, or None if the process has ended, and from the store of
-        the process, see `ali3.processes.store`. Raises `UserError`: the work has raised it, or another error that
+        `finish`: computes the result from the result of the work, or None if the process has ended, and from the store
+        of the process, see `ali3.processes.store`. Raises `UserError` if the work has raised it, or another error that
         `run_command` would show.
         """
         data, expired = pickle.dumps(task), threading.Event()

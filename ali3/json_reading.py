@@ -23,7 +23,7 @@ def read_json(file: str | os.PathLike[str], error: Error = FileError, name: str 
 def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
     """Content of the bytes of a JSON file: whole numbers have 64 bits, and keys of an object are unique.
 
-    `error`, `name`: as of `toml_of`; `finite`: whether NaN and Infinity, which Python writes, are refused.
+    `error`, `name`: see `toml_of`; `finite`: whether NaN and Infinity, which Python writes, are refused.
     """
     if (count := data.count(b",") + data.count(b"[") + data.count(b"{")) > raised(MAX_ENTRIES):
         raise error(f"{name} has {count} entries; it must have {at_most(count, MAX_ENTRIES)}.")

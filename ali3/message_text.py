@@ -61,7 +61,7 @@ def one_line(sentence: str, most: int = SENTENCE) -> str:
 
 
 def sentence_of(message: str) -> str:
-    """The end of a sentence as a whole one, with a capital and a full stop; empty stays empty."""
+    """Make a sentence of its words, with a capital and a full stop; empty stays empty."""
     return f"{message[0].upper()}{message[1:]}." if message else ""
 
 

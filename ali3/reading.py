@@ -38,8 +38,8 @@ _MAX_DOTS = 200  # of a key: the time of the parser is proportional to their squ
 def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
     """Check before a file is opened that it is regular and not too large.
 
-    `largest`: bytes, multiplied by the factor of `ali3.limits`; `error`: raised with one sentence; `name`: of the file
-    in the sentence, by default its path.
+    `largest`: bytes, multiplied by the factor of `ali3.limits`; `error`: raised with one sentence; `name`: name of the
+    file in the sentence, by default its path.
     """
     name = name or str(file)
     try:
@@ -128,7 +128,7 @@ def read_toml(
 def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     """Tables of the content of a TOML file: numbers are finite, whole numbers have 64 bits.
 
-    `data`: at most `LARGEST_TOML` bytes; `error`: raised with one sentence; `name`: of the file in the sentence.
+    `data`: bytes, at most `LARGEST_TOML`; `error`: raised with one sentence; `name`: name of the file in the sentence.
     """
     text = file_text(data, error, name)
     text_of_keys = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without strings and comments

@@ -70,7 +70,7 @@ class TextTable:
     names : list of str
         Names of the columns; empty without a heading.
     units : dict of str to str
-        Units by name, where the heading has them.
+        Units by name, if the heading has them.
     comments : list of (int, str)
         Number and text of the lines that begin with ``#``, as far as the table has been read.
     decimal : str
@@ -144,7 +144,7 @@ class TextTable:
         raise self.error(f"{self.name}, line {row.line}{label}: {brief(row.cells[k])} is not a {expected_text}.")
 
     def values(self, every: int = 1, finite: bool = True, least: int = 1) -> NDArray[np.float64]:
-        """Numbers of the lines, shape (n, columns). `every`, `finite`: as of `rows` and `numbers`; `least`: least n."""
+        """Numbers of the lines, shape (n, columns). `every`, `finite`: see `rows`, `numbers`; `least`: least n."""
         numbers = array("d")
         for row in self.rows(every):
             numbers.extend(self.numbers(row, finite))
@@ -171,7 +171,7 @@ class TextTable:
                     elif bare and (text.endswith("\n") or not whole):
                         yield line, text.rstrip("\r\n")
         except UnicodeDecodeError:
-            raise self.error(f"{self.name} is not text in UTF-8, from about line {line + 1} on.") from None
+            raise self.error(f"{self.name} is not text in UTF-8; its fault is at about line {line + 1}.") from None
         except OSError as fault:
             if isinstance(fault, self.error):
                 raise
@@ -244,7 +244,7 @@ class TextTable:
 
 
 def cells_of(line: str, separator: str) -> list[str]:
-    """Cells of a line, stripped of blanks. Raises `ValueError` with the end of a sentence that says what is wrong."""
+    """Cells of a line, stripped of blanks. Raises `ValueError`, whose message is a predicate of the line."""
     if '"' in line:
         try:
             cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True), [])
@@ -263,7 +263,7 @@ def plain_name(cell: str) -> str:
 
 
 def number_of(cell: str, decimal: str = "") -> float:
-    """A cell as a number; `decimal`: "," where decimal commas are allowed. Raises `ValueError`: it is not a number."""
+    """A cell as a number; `decimal`: "," if decimal commas are allowed. Raises `ValueError` if it is not a number."""
     if not cell.isascii() or "_" in cell:  # `float` would accept these
         raise ValueError
     return float(cell.replace(",", ".") if decimal else cell)

@@ -17,7 +17,7 @@ _BYTES_PER_CELL = 24
 
 
 def check_memory(needed: float, error: Error, name: str, most: int = MOST_MEMORY) -> None:
-    """Check the memory that reading would take. `needed`: estimated, bytes; `error`, `name`: as of `check_file`."""
+    """Check the memory that reading would take. `needed`: estimate, bytes; `error`, `name`: see `check_file`."""
     if needed > most and needed > raised(most):
         raise error(
             f"{name} would take about {needed:.3g} bytes of memory; it must take {at_most(needed, most, '.3g')}."
@@ -33,7 +33,7 @@ class Unpacked(io.RawIOBase):
     Parameters
     ----------
     file, largest, error, name
-        As of `check_file`; `largest`: size of the file itself, bytes.
+        See `check_file`; `largest`: size of the file itself, bytes.
     mark : bytes
         Separator of cells, each of which takes memory besides its text.
     zeros : bool

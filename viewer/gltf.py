@@ -54,12 +54,12 @@ def write_gltf(
     ----------
     path : path
         ``.glb``, or ``.gltf`` with the numbers in it; its folder is made. An older file stays until the new one is
-        whole.
+        complete.
     rate : float
-        Times a second of the file that are kept at most, 1 to 240 Hz; a part that turns far between two of them has
+        Largest number of times per second in the file, 1 to 240 Hz; a part that turns far between two of them has
         more.
     speed : float
-        Of the animation; 1 is real time, 0.01 slow motion.
+        Speed of the animation; 1 is real time, 0.01 slow motion.
     deformation : float
         Factor of the drawn deformation.
     road : bool
@@ -144,7 +144,7 @@ def _with_morph_targets(
 
 
 def _gltf_text(binary: bytes) -> bytes:
-    """Content of a ``.gltf`` file from that of a ``.glb`` file; not by Node, whose strings are limited to 512 MiB."""
+    """Convert a ``.glb`` file to the content of a ``.gltf`` file; not by Node, whose strings have at most 512 MiB."""
     length = int.from_bytes(binary[12:16], "little")
     description = json.loads(binary[20 : 20 + length])
     (buffer,) = description["buffers"]

@@ -27,7 +27,7 @@ class MorphTargets(NamedTuple):
 def morph_targets(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> MorphTargets:
     """The modes of a flexible part, or the eight combinations of modes with the largest motion.
 
-    `part`: of a scene; `columns`: with the amplitudes of the part, shape (n,), by name.
+    `part`: flexible part of a scene; `columns`: amplitudes of the part, shape (n,), by name.
     """
     modes = decoded(part["modes"], "f").reshape(3 * len(part["nodes"]), -1).astype(float)
     amplitudes = np.column_stack([np.nan_to_num(columns[name]) for name in part["amplitudes"]])

@@ -27,25 +27,25 @@ def write_page(
     Parameters
     ----------
     path : path
-        File to write, usually ``.html``; one that is there is replaced when the new one is whole.
+        File to write, usually ``.html``; an existing one is replaced only when the new one is complete.
     recordings : Recording or sequence of Recording
         The first is drawn solid, the others as ghosts.
     title : str, optional
-        Of the page; by default the names of the recordings.
+        Title of the page; by default the names of the recordings.
     options : mapping, optional
-        What the player starts with, see `viewer.player_options.OPTIONS`.
+        Options of the player, see `viewer.player_options.OPTIONS`.
     most : int
-        Times that a recording is thinned to.
+        Largest number of times of a recording, which is thinned to it.
 
     Returns
     -------
     WrittenPage
-        Where it is, how large, and what there is to say of it.
+        Path, size and notes.
 
     Raises
     ------
     ViewerError
-        A recording or an option is wrong, or the script of the page is not there.
+        A recording or an option is wrong, or the script of the page is missing.
     FileError
         The file cannot be written; an older one is then unchanged.
     """
@@ -78,7 +78,7 @@ def page_html(
 
 
 def thinned(recordings: Recording | Sequence[Recording], most: int = MAX_TIMES) -> list[Recording]:
-    """Recordings with at most so many times. Raises `ViewerError`: there are none, or an object is no recording."""
+    """Recordings with at most `most` times. Raises `ViewerError` for no recordings and for other objects."""
     return [recording.thinned(most) for recording in _listed(recordings)]
 
 

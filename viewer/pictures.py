@@ -25,13 +25,13 @@ def pictures(
     Parameters
     ----------
     recordings : Recording or sequence of Recording
-        As `viewer.page_file.write_page` takes them.
+        See `viewer.page_file.write_page`.
     times : iterable of float
         Times of the pictures, s.
     size : (int, int)
         Width and height, pixels.
     camera : str, optional
-        Name of a camera; by default that of the scene.
+        Name of a camera; by default the one that the page starts with.
     options : mapping, optional
         Options of the player; ``controls`` is false by default.
 

@@ -64,7 +64,7 @@ class Mistake:
     """A common mistake that a file may have."""
 
     words: str
-    """Such as "degrees in place of radians in front.alignment.toe_left"."""
+    """Such as "degrees instead of radians in front.alignment.toe_left"."""
     keys: frozenset[str]
     """Keys that it changes; it is tried if a value outside its range follows from one of them."""
     undo: Undo
@@ -99,7 +99,7 @@ class Plausibility:
     def text(self) -> str:
         """The table: a row for each quantity, with values, usual range, and a mark if a value is outside.
 
-        Quantities in `columns` are below those of the whole object.
+        Quantities in `columns` are below the quantities of the whole object.
         """
         n = max(len(self.columns), 1)
         rows, column_rows = [], []

@@ -16,8 +16,8 @@ def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) 
 
     Both sides of discontinuities are retained, unless they would be more than half of the times.
 
-    `t`: not decreasing, s, shape (n,), with a discontinuity where a time occurs twice; `most`: 2 or more; `epoch`:
-    shape (n,), with a discontinuity where it changes.
+    `t`: times, not decreasing, s, shape (n,), with a discontinuity where a time occurs twice; `most`: 2 or more;
+    `epoch`: shape (n,), with a discontinuity where it changes.
     """
     if len(t) <= most:
         return np.arange(len(t))
@@ -50,7 +50,7 @@ def largest_gap_of_motion(
     columns : mapping of str to array of shape (n,)
         Values at all times.
     indices : array of int
-        Of the retained times.
+        Indices of the retained times.
     epoch : array of shape (n,)
         The drawing does not move between two retained times of different epochs.
     """
@@ -58,7 +58,7 @@ def largest_gap_of_motion(
     intervals = np.clip(np.searchsorted(indices, samples, side="right") - 1, 0, len(indices) - 2)
     a, b = indices[intervals], indices[intervals + 1]
     durations = t[b] - t[a]
-    share = np.divide(
+    fraction = np.divide(
         t[samples] - t[a], durations, out=np.zeros(len(samples)), where=(durations > 0.0) & (epoch[a] == epoch[b])
     )
     largest_distance, largest_angle, distance_frame, angle_frame = 0.0, 0.0, "", ""
@@ -68,13 +68,13 @@ def largest_gap_of_motion(
             squared_distance = np.zeros(len(samples))
             for column in frame["position"]:
                 x = columns[column]
-                squared_distance += (x[samples] - (x[a] + share * (x[b] - x[a]))) ** 2
+                squared_distance += (x[samples] - (x[a] + fraction * (x[b] - x[a]))) ** 2
             distance = float(np.sqrt(_largest(squared_distance)))
             q = np.stack([columns[column] for column in frame["quaternion"]])
-            angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], share)
+            angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], fraction)
         elif "angle" in frame or "way" in frame:
             x = columns[frame.get("angle", frame.get("way"))]
-            error = _largest(np.abs(x[samples] - (x[a] + share * (x[b] - x[a]))))
+            error = _largest(np.abs(x[samples] - (x[a] + fraction * (x[b] - x[a]))))
             distance, angle = (error, 0.0) if "way" in frame else (0.0, error)
         if distance > largest_distance:
             largest_distance, distance_frame = distance, name
@@ -89,11 +89,11 @@ def largest_gap_of_motion(
 
 
 def _largest_angle_error(
-    a: NDArray[np.float64], b: NDArray[np.float64], q: NDArray[np.float64], share: NDArray[np.float64]
+    a: NDArray[np.float64], b: NDArray[np.float64], q: NDArray[np.float64], fraction: NDArray[np.float64]
 ) -> float:
     """Largest angle between orientations `q` and those interpolated from `a` to `b` by great arcs, rad.
 
-    `a`, `b`, `q`: quaternions, shape (4, n); `share`: position from `a` to `b`, 0 to 1, shape (n,).
+    `a`, `b`, `q`: quaternions, shape (4, n); `fraction`: position between `a` and `b`, 0 to 1, shape (n,).
     """
     with np.errstate(invalid="ignore", divide="ignore"):
         a, b, q = (x / np.linalg.norm(x, axis=0) for x in (a, b, q))
@@ -102,8 +102,8 @@ def _largest_angle_error(
         half_angle = np.arccos(np.clip(np.abs(dot), 0.0, 1.0))
         small = half_angle < 1e-6
         sine = np.where(small, 1.0, np.sin(half_angle))
-        weight_a = np.where(small, 1.0 - share, np.sin((1.0 - share) * half_angle) / sine)
-        weight_b = np.where(small, share, np.sin(share * half_angle) / sine)
+        weight_a = np.where(small, 1.0 - fraction, np.sin((1.0 - fraction) * half_angle) / sine)
+        weight_b = np.where(small, fraction, np.sin(fraction * half_angle) / sine)
         interpolated = weight_a * a + weight_b * b
         interpolated /= np.linalg.norm(interpolated, axis=0)
         # The chord is more accurate than the arc cosine of a number near 1.

@@ -46,14 +46,14 @@ def read_mesh(
 ) -> tuple[Positions, Triangles]:
     """Read the triangles of a mesh from a file.
 
-    Points of the same place are one point. The axes are those of the file: a glTF file has its y axis up. All parts of
+    Points of the same place are one point. The axes are the axes of the file: y is up in a glTF file. All parts of
     a file with several are read, each where the file places it; colours and textures are left out. A size below 1 mm or
     above 500 m is warned about.
 
     `path`: ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``; `scale`: metres per unit of the file: 0.001
     for millimetres, 0.0254 for inches; `most_triangles`: a finer mesh is thinned by merging points that are close to
-    each other; a warning says by how much they move. Raises `MeshError`: the file is of another kind, is damaged, has
-    no triangles, or has coordinates that are not finite. Raises `FileError`: the file cannot be read.
+    each other; a warning says by how much they move. Raises `MeshError` if the file is of another kind, is damaged, has
+    no triangles, or has coordinates that are not finite; `FileError` if the file cannot be read.
 
     Returns
     -------
@@ -78,9 +78,8 @@ def read_mesh(
 def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = "pictures") -> NDArray[np.float64]:
     """Corners of the triangles of a mesh in the order of the file.
 
-    `path`, `scale`: as of `read_mesh`; `extra`: of the installation, named if the package that reads is missing.
-    Returns coordinates of the corners of n triangles, m, shape (n, 3, 3). Raises `MeshError` or `FileError` as of
-    `read_mesh`.
+    `path`, `scale`: see `read_mesh`; `extra`: extra that is named if the package that reads is not installed. Returns
+    coordinates of the corners of n triangles, m, shape (n, 3, 3). Raises errors as `read_mesh`.
     """
     file = Path(path)
     factor = _checked_scale(path, scale)

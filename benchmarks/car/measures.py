@@ -19,7 +19,7 @@ from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics import kinematics as kinematics_by_linkages
 
 TURN_SPEED = 22.22  # m/s
-TURN_STEERING = 0.10  # share of full steering at the end
+TURN_STEERING = 0.10  # fraction of full steering at the end
 TURN_TIME = 40.0  # s
 TURN_RANGE = (0.05, 0.30)  # g, range of the linear fits over lateral acceleration
 INTERVAL = 0.02  # s between updates of the inputs
@@ -45,7 +45,7 @@ class Measure:
 
 MEASURES = (
     Measure("mass", "kg", (950.0, 1500.0), "with the payloads of the file"),
-    Measure("front_load", "%", (50.0, 65.0), "share of the front wheels in the weight"),
+    Measure("front_load", "%", (50.0, 65.0), "load of the front wheels relative to the weight"),
     Measure("bounce_frequency", "Hz", (1.0, 1.5), "slower natural motion of the body without roll, from `linearise`"),
     Measure("pitch_frequency", "Hz", (1.0, 1.7), "the faster one"),
     Measure("bounce_damping", "1", (0.2, 0.45), "its damping ratio"),
@@ -60,7 +60,10 @@ MEASURES = (
     Measure("roll_share_front", "%", (50.0, 75.0), "of the front axle in the suspension roll stiffness"),
     Measure("roll_gradient", "deg/g", (3.0, 6.0), "roll of the chassis over lateral acceleration, 0.05 to 0.3 g"),
     Measure(
-        "understeer_gradient", "deg/g", (1.0, 4.0), "steering-wheel angle over the steering ratio, less Ackermann's"
+        "understeer_gradient",
+        "deg/g",
+        (1.0, 4.0),
+        "steering-wheel angle divided by the steering ratio, minus Ackermann's",
     ),
     Measure("sideslip_gradient", "deg/g", None, "at the rear axle's centre, at the same speed"),
     Measure(

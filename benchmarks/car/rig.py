@@ -28,7 +28,7 @@ def kinematics(car: Car) -> dict[str, float]:
 
     Keys begin with ``front.`` or ``rear.``. Per wheel travel: ``wheel_rate`` (N/m), ``spring_ratio``, ``bump_steer``
     (rad/m, left wheel, toe-out positive), ``bump_camber`` (rad/m, left wheel, top outwards positive). Per suspension
-    roll angle, the roll angle of the chassis less that of the axle on its tyres: ``roll_centre_height`` (m),
+    roll angle, the roll angle of the chassis minus the roll angle of the axle on its tyres: ``roll_centre_height`` (m),
     ``roll_steer`` (mean steering angle, to the left positive as the left side rises), ``roll_camber`` (left wheel
     against the axle), ``roll_stiffness`` (N m/rad). Without an axle: ``steering_ratio`` straight ahead, ``lock_inner``
     and ``lock_outer`` (rad).

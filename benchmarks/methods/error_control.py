@@ -19,8 +19,8 @@ QUICK_TOLERANCES = (1e-3,)
 SCENES = tuple(name for name in CASES if name not in ("pendulum_1000s", "four_bar_200"))
 SLOW = 1e-3
 """Tolerance below which ALi3-P, of order two, is left out."""
-MAX_ERROR = 10.0  # largest error of an accurate run, over the tolerance
-MAX_TIME_RATIO = 2.0  # largest time of a good choice, over that of the best method
+MAX_ERROR = 10.0  # largest error of an accurate run, relative to the tolerance
+MAX_TIME_RATIO = 2.0  # largest time of a good choice, relative to the best method
 REPEATS = 5
 LONG = 0.5  # s: longer runs are made once
 
@@ -67,7 +67,7 @@ def methods_of(scene: str, tolerance: float) -> list[str]:
 
 
 def compare(rows: list[dict[str, Any]]) -> None:
-    """Set the ratio of each row: its time over the least time of an accurate run."""
+    """Set the ratio of each row: its time divided by the least time of an accurate run."""
     accurate_times = [r["cpu_ms"] for r in rows if r["cpu_ms"] and r["error_over_tolerance"] <= MAX_ERROR]
     for row in rows:
         if accurate_times and row["cpu_ms"]:
@@ -75,7 +75,7 @@ def compare(rows: list[dict[str, Any]]) -> None:
 
 
 def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Table of the time of the automatic choice at each tolerance, beside that of the best method."""
+    """Table of the times of the automatic choice and of the best method at each tolerance."""
     lines = []
     for r in rows:
         if not r["method"].startswith(CHOSEN):

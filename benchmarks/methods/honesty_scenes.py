@@ -59,7 +59,7 @@ class Scene:
     """Steps in descending order, s."""
 
     def error(self, trajectory: mbs.Trajectory) -> float:
-        """Largest error of a compared sensor over its size; forces are compared at `instants`."""
+        """Largest error of a compared sensor relative to its size; forces are compared at `instants`."""
         exact = self.truth()
         compared = {name: sensor for name, sensor in compared_sensors(self.system()).items() if name in exact}
         assert trajectory.report is not None

@@ -46,7 +46,7 @@ def intervals(scene: str, h: float) -> int | None:
 def judge(scene: str, positions: np.ndarray, energy: np.ndarray) -> tuple[str, dict[str, Any]]:
     """Outcome and errors of a run.
 
-    `positions`: of the output point at the start and at equal intervals, (n, k); `energy`: (n,), J.
+    `positions`: positions of the output point at the start and at equal intervals, (n, k); `energy`: (n,), J.
     """
     case = CASES[scene]
     exact = exact_of(scene)[:: SAMPLES // (len(positions) - 1)]

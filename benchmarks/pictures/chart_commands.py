@@ -66,7 +66,7 @@ def _fit(file: Path) -> None:
     with contextlib.chdir(folder):
         exec(code, {})
         if compare(shlex.split(command[1].replace("\\\n", ""))):
-            raise RuntimeError("The fit of docs/compare.md is no good.")
+            raise RuntimeError("The fit of docs/compare.md is not good.")
     (folder / "out" / "compare" / "drive.svg").rename(file)
 
 

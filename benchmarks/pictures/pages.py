@@ -1,4 +1,4 @@
-"""Pictures of pages at one instant, compared pixel by pixel with those of the script of another checkout."""
+"""Pictures of pages at one instant, compared pixel by pixel with pictures by the script of another checkout."""
 
 import io
 import json
@@ -162,7 +162,7 @@ def _car() -> Path:
 
 
 def _screenshot(chromium: Any, entry: Page, address: str, text: str, page_script: str) -> bytes:
-    """Screenshot of a page with a script in place of its own."""
+    """Screenshot of a page with a script instead of its own."""
     width, height = entry.size
     scheme = entry.options.get("theme", "light")
     page = chromium.new_page(

@@ -12,7 +12,7 @@ from benchmarks.references.newton_euler import INSTANTS, NoReferenceError, cross
 Array = NDArray[np.float64]
 LOOSE = 1e-8
 TIGHT = 1e-10
-AGREE = 1e-4  # largest difference of two runs, over the diagonal of the box
+AGREE = 1e-4  # largest difference of two runs, relative to the diagonal of the box
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Box:
 def motion(box: Box) -> dict[str, Array]:
     """Coordinates of the centre and of the first corner by name, (INSTANTS + 1,) each, m, confirmed by a second run.
 
-    Raises `NoReferenceError`: both runs differ.
+    Raises `NoReferenceError` if both runs differ.
     """
     loose, tight = (_run(box, tolerance, divisions) for tolerance, divisions in ((LOOSE, 300), (TIGHT, 500)))
     size = 2.0 * float(np.linalg.norm(box.half))

@@ -45,7 +45,7 @@ def machine(meta: Row) -> str:
 
 
 def replace(text: str, blocks: Mapping[str, str]) -> str:
-    """Text of a page with new blocks, by name; lines that are no rows of tables are wrapped at 120 characters."""
+    """Text of a page with new blocks, by name; lines other than rows of tables are wrapped at 120 characters."""
     for name, content in blocks.items():
         mark = re.compile(rf"(<!-- begin {re.escape(name)} -->\n).*?(<!-- end {re.escape(name)} -->)", re.DOTALL)
         text = mark.sub(lambda m, content=content: f"{m[1]}{_wrapped(content.strip())}\n{m[2]}", text)
@@ -53,7 +53,7 @@ def replace(text: str, blocks: Mapping[str, str]) -> str:
 
 
 def _wrapped(content: str) -> str:
-    """Wrap the lines that are no rows of a table; further lines of a list item are indented."""
+    """Wrap all lines but rows of tables; further lines of a list item are indented."""
     lines = []
     for line in content.splitlines():
         hang = "  " if line.startswith("- ") else ""

@@ -1,7 +1,7 @@
 """Bank of the road from the accelerometer, as a function of the position in the lap.
 
 An accelerometer measures specific force: on a road that falls to the left by an angle b its lateral signal is the
-acceleration less g sin b. Roll of the body adds a share of the acceleration to the signal.
+acceleration minus g sin b. Roll of the body adds a part of the acceleration to the signal.
 """
 
 import gzip
@@ -27,8 +27,8 @@ _NEARLY = 0.02  # largest difference from the best correlation
 def bank_of(drive: Drive, seconds: Spans = FITTED) -> Array:
     """Lateral acceleration by the weight on the banked road at each sample, m/s2, positive to the left, shape (n,).
 
-    The bank is a function of the position in the lap, from the samples in the spans `seconds`. Raises `ValueError`: the
-    log has no accelerometer, or the drive has no laps.
+    The bank is a function of the position in the lap, from the samples in the spans `seconds`. Raises `ValueError` if
+    the log has no accelerometer, or the drive has no laps.
     """
     if not drive.ay.size:
         raise ValueError("The log has no lateral acceleration, 'chassis.ay'.")
@@ -51,13 +51,13 @@ def bank_of(drive: Drive, seconds: Spans = FITTED) -> Array:
 
 
 def distance_and_lap(drive: Drive) -> tuple[Array, float]:
-    """Distance along the track at each sample, shape (n,), and the length of a lap, m. Raises `ValueError`: no laps."""
+    """Distance along the track at each sample, shape (n,), and lap length, m. Raises `ValueError` without laps."""
     distance = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
     return distance, _lap(distance, drive.yaw_rate / np.maximum(drive.vx, _MIN_SPEED))
 
 
 def pieces(distance: Array, lap: float) -> NDArray[np.intp]:
-    """Number of the lap piece of each sample, shape (n,). `distance`, `lap`: of `distance_and_lap`."""
+    """Number of the lap piece of each sample, shape (n,). `distance`, `lap`: see `distance_and_lap`."""
     count = round(lap / PIECE)
     return np.asarray(((distance % lap) / lap * count).astype(np.intp) % count)
 
@@ -79,8 +79,8 @@ def _lap(distance: Array, curvature: Array) -> float:
 def write_banked(folder: Path, log: Path, aliases: Path, bank: Array, mass: float) -> tuple[Path, Path]:
     """Write a log and its alias file with a further column: mass times bank, a lateral force at the reference point, N.
 
-    `bank`: of each row of the log, m/s2, positive to the left, shape (n,); `mass`: of the car, kg. Returns both files.
-    The force does not have the effect of the bank on the wheel loads.
+    `bank`: bank at each row of the log, m/s2, positive to the left, shape (n,); `mass`: mass of the car, kg. Returns
+    both files. The force does not have the effect of the bank on the wheel loads.
     """
     packed = log.suffix == ".gz"
     text = gzip.decompress(log.read_bytes()).decode() if packed else log.read_text(encoding="utf-8")
