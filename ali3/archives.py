@@ -75,7 +75,7 @@ class Archive:
     ) -> None:
         self._name, self._error = name or str(file), error
         self._resources = ExitStack()
-        self._archive = self._resources.enter_context(_opened(file, error, self._name, kind, largest))
+        self._archive = self._resources.enter_context(_open_archive(file, error, self._name, kind, largest))
         self._sizes = {info.filename: info.file_size for info in self._archive.infolist()}
         for fault in _faults(self._archive, unpacked):
             self.close()
@@ -132,12 +132,12 @@ def is_archive(file: str | os.PathLike[str]) -> bool:
 
 def faults_of(file: str | os.PathLike[str], error: Error = FileError, kind: str = "an archive") -> list[Fault]:
     """All faults that prevent an archive from being unpacked; `file`, `error`, `kind`: see `Archive`."""
-    with _opened(file, error, str(file), kind, LARGEST_ARCHIVE) as archive:
+    with _open_archive(file, error, str(file), kind, LARGEST_ARCHIVE) as archive:
         return list(_faults(archive, LARGEST_UNPACKED))
 
 
 @contextmanager
-def _opened(
+def _open_archive(
     file: str | os.PathLike[str], error: Error, name: str, kind: str, largest: int
 ) -> Iterator[zipfile.ZipFile]:
     with open_file(file, largest, error, name) as stream:

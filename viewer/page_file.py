@@ -63,7 +63,7 @@ def page_html(
     options: Mapping[str, Any] | None = None,
 ) -> str:
     """Text of the page that `write_page` writes, without thinning; see there."""
-    recording_list = _listed(recordings)
+    recording_list = _recording_list(recordings)
     checked_options = check_options(options or {})
     known_names = dict.fromkeys(name for recording in recording_list for name in recording.columns)
     for name in checked_options.get("plots", ()):
@@ -79,10 +79,10 @@ def page_html(
 
 def thinned(recordings: Recording | Sequence[Recording], most: int = MAX_TIMES) -> list[Recording]:
     """Recordings with at most `most` times. Raises `ViewerError` for no recordings and for other objects."""
-    return [recording.thinned(most) for recording in _listed(recordings)]
+    return [recording.thinned(most) for recording in _recording_list(recordings)]
 
 
-def _listed(recordings: Recording | Sequence[Recording]) -> list[Recording]:
+def _recording_list(recordings: Recording | Sequence[Recording]) -> list[Recording]:
     recording_list = [recordings] if isinstance(recordings, Recording) else list(recordings)
     if not recording_list:
         raise ViewerError("There is no recording to show.")

@@ -105,7 +105,7 @@ def write_mp4(
         page = Path(folder, "page.html")
         player_options = {**(options or {}), "controls": False, "play": False}
         write_page(page, thinned_recordings, options=player_options)
-        pictures = _decoded(screenshot(page, times, size, camera), len(times), progress)
+        pictures = _decode(screenshot(page, times, size, camera), len(times), progress)
         with closing(pictures), atomic_file(path) as temporary:
             encode(temporary, pictures)
             file_size = temporary.stat().st_size
@@ -159,7 +159,7 @@ def _check_size(target: Path, size: Any) -> None:
         raise ViewerError(f"The size of the film is {size!r}; both numbers must be even for an MP4 file.")
 
 
-def _decoded(
+def _decode(
     pictures: Generator[bytes, None, None], count: int, progress: bool | Progress | None
 ) -> Generator[Image, None, None]:
     """Decode PNG files to pictures one by one, with a progress bar."""

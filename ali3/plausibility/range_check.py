@@ -148,7 +148,7 @@ class Plausibility:
         sentence for each group with common keys.
         """
         outside, sentences = self.outside, []
-        corrections = _corrected(self.mistakes, outside)
+        corrections = _correct(self.mistakes, outside)
         while outside:
             names = {v.name for v in outside}
             corrected_names = [
@@ -215,7 +215,7 @@ def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     return np.zeros(values.shape, bool)
 
 
-def _corrected(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
+def _correct(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
     keys = {key for v in outside for key in v.keys}
     pairs = ((m, m.undo()) for m in mistakes if m.keys & keys)
     return [(m, corrected) for m, corrected in pairs if corrected is not None]

@@ -103,7 +103,7 @@ def compare(options: Namespace) -> list[dict[str, Any]]:
             entry = PAGES[name]
             files = {end: folder / f"{name}{end}.png" for end in scripts}
             for end, page_script in scripts.items():
-                with _served(name, folder) as (address, text):
+                with _serve(name, folder) as (address, text):
                     files[end].write_bytes(_screenshot(chromium, entry, address, text, page_script))
             row = {"page": name, "size": " x ".join(map(str, entry.size)), "shows": ", ".join(entry.runs)}
             if options.other:
@@ -123,7 +123,7 @@ def _chromium() -> Iterator[Any]:
 
 
 @contextmanager
-def _served(name: str, folder: Path) -> Iterator[tuple[str, str]]:
+def _serve(name: str, folder: Path) -> Iterator[tuple[str, str]]:
     """Context of a page: its address, and its text if it is not a page of the simulator."""
     entry = PAGES[name]
     if entry.runs == (SIMULATOR,):
