@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 _MAX_SAMPLES = 200_000  # times at which poses are compared
 _VISIBLE_DISTANCE = 1e-3  # of the size of the scene
-_VISIBLE_ANGLE = np.radians(1.0)
+_VISIBLE_ANGLE = np.radians(1.0)  # rad
 
 
 def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) -> NDArray[np.intp]:
@@ -63,19 +63,7 @@ def largest_gap_of_motion(
     )
     largest_distance, largest_angle, distance_frame, angle_frame = 0.0, 0.0, "", ""
     for name, frame in scene["frames"].items():
-        distance = angle = 0.0
-        if "position" in frame:
-            squared_distance = np.zeros(len(samples))
-            for column in frame["position"]:
-                x = columns[column]
-                squared_distance += (x[samples] - (x[a] + fraction * (x[b] - x[a]))) ** 2
-            distance = float(np.sqrt(_largest(squared_distance)))
-            q = np.stack([columns[column] for column in frame["quaternion"]])
-            angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], fraction)
-        elif "angle" in frame or "way" in frame:
-            x = columns[frame.get("angle", frame.get("way"))]
-            error = _largest(np.abs(x[samples] - (x[a] + fraction * (x[b] - x[a]))))
-            distance, angle = (error, 0.0) if "way" in frame else (0.0, error)
+        distance, angle = _pose_errors(frame, columns, a, b, samples, fraction)
         if distance > largest_distance:
             largest_distance, distance_frame = distance, name
         if angle > largest_angle:
@@ -88,10 +76,37 @@ def largest_gap_of_motion(
     return f" Between them the drawing differs from the record: {', '.join(notes)}." if notes else ""
 
 
+def _pose_errors(
+    frame: Mapping[str, Any],
+    columns: Mapping[str, NDArray[np.float64]],
+    a: NDArray[np.intp],
+    b: NDArray[np.intp],
+    samples: NDArray[np.intp],
+    fraction: NDArray[np.float64],
+) -> tuple[float, float]:
+    """Largest errors of the distance, m, and angle, rad, of a frame interpolated between the times `a` and `b`.
+
+    `a`, `b`, `samples`: indices of times, shape (n,); `fraction`: position between `a` and `b`, 0 to 1, shape (n,).
+    """
+    if "position" in frame:
+        squared_distance = np.zeros(len(samples))
+        for column in frame["position"]:
+            x = columns[column]
+            squared_distance += (x[samples] - (x[a] + fraction * (x[b] - x[a]))) ** 2
+        q = np.stack([columns[column] for column in frame["quaternion"]])
+        angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], fraction)
+        return float(np.sqrt(_largest(squared_distance))), angle
+    if "angle" not in frame and "way" not in frame:
+        return 0.0, 0.0
+    x = columns[frame.get("angle", frame.get("way"))]
+    error = _largest(np.abs(x[samples] - (x[a] + fraction * (x[b] - x[a]))))
+    return (error, 0.0) if "way" in frame else (0.0, error)
+
+
 def _largest_angle_error(
     a: NDArray[np.float64], b: NDArray[np.float64], q: NDArray[np.float64], fraction: NDArray[np.float64]
 ) -> float:
-    """Largest angle between orientations `q` and those interpolated from `a` to `b` by great arcs, rad.
+    """Largest angle between `q` and the orientations interpolated from `a` to `b` by great arcs, rad.
 
     `a`, `b`, `q`: quaternions, shape (4, n); `fraction`: position between `a` and `b`, 0 to 1, shape (n,).
     """
@@ -112,5 +127,6 @@ def _largest_angle_error(
 
 
 def _largest(values: NDArray[np.float64]) -> float:
+    """Largest finite value, 0 or more."""
     finite_values = values[np.isfinite(values)]
     return float(finite_values.max(initial=0.0))

@@ -34,7 +34,7 @@ def measure(fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instan
     """Rows of an FMU, with ``quantity``, ``kind``, ``host`` and ``value``.
 
     `kind`: ``native`` or ``python``; `folder`: folder for the unpacked FMU; `steps`: calls in a timed run; `repeats`:
-    timed runs; `instances`: number at the same time. There are no rows of the C program if it cannot run the FMU.
+    timed runs; `instances`: instances at the same time. There are no rows of the C program if it cannot run the FMU.
     """
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)

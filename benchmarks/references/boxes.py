@@ -10,8 +10,7 @@ from scipy.integrate import solve_ivp
 from benchmarks.references.newton_euler import INSTANTS, NoReferenceError, cross, quaternion_matrix
 
 Array = NDArray[np.float64]
-LOOSE = 1e-8
-TIGHT = 1e-10
+LOOSE, TIGHT = 1e-8, 1e-10  # relative tolerances of the two runs
 AGREE = 1e-4  # largest difference of two runs, relative to the diagonal of the box
 
 
@@ -20,6 +19,7 @@ class Box:
     """A box without friction on the plane z = 0, whose edges are along the earth axes at the start."""
 
     mass: float
+    """Mass, kg."""
     half: Array
     """Half lengths of its edges (3,), m."""
     height: float
@@ -63,6 +63,7 @@ def motion(box: Box) -> dict[str, Array]:
 
 
 def _run(box: Box, tolerance: float, divisions: int) -> dict[str, Array]:
+    """Simulate with a relative tolerance; the steps are at most the `divisions`-th part of the duration."""
     inertia, corners, K, w = np.diag(box.inertia), box.corners, box.stiffness, box.onset
 
     def rates(_: float, y: Array) -> Array:
