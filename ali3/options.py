@@ -102,7 +102,7 @@ SHARED: dict[str, Option] = {
     "--step": Option("H", "communication step, s", quantity("s")),
     "--interval": Option("T", "time between recorded rows, a whole multiple of the step, s", quantity("s")),
     "--stop-time": Option("T", "duration of a run, s", quantity("s")),
-    "--from": Option("T", "use the record from this time on, s", quantity("s")),
+    "--from": Option("T", "time from which the record is used, s", quantity("s")),
     "--to": Option("T", "use the record up to this time, s", quantity("s")),
     "--seed": Option("S", "a random driver moves the inputs; the same number gives the same drive", int),
     "--manoeuvre": Option(
@@ -120,7 +120,7 @@ SHARED: dict[str, Option] = {
     ),
     "--aliases": Option(
         "FILE",
-        "our names for the variables of an FMU with other names: a TOML file, or chrono, carmaker, carsim, osi or "
+        "ALi3's names for the variables of an FMU with other names: a TOML file, or chrono, carmaker, carsim, osi or "
         "vehicle_interfaces, which come with the package",
         Path,
     ),
