@@ -83,7 +83,7 @@ def _module(path: Path) -> ModuleType:
 
 
 def _platform_tag(target: str) -> str:
-    """Tag of the oldest system that the compiler's target runs on; that of this machine if that is not known."""
+    """Tag of the oldest system that the compiler's target runs on; the tag of this machine if it is not known."""
     known = [tag.platform for tag in sys_tags()]
     oldest = _OLDEST.get(target)
     if oldest in known:

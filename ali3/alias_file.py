@@ -1,4 +1,4 @@
-"""Reads alias files, which give the names of our variables in another program, and the files that they extend."""
+"""Reads alias files, which give the names of ALi3's variables in another program, and the files that they extend."""
 
 import math
 from collections.abc import Mapping
@@ -14,20 +14,21 @@ CONSTANTS = "constants"
 NEEDS = "needs"
 """Key of the table that describes the constants that depend on the car."""
 EXTENDS = "extends"
-"""Key of the base file, by path or by its name in the package; entries of this file replace those of the base."""
+"""Key of the base file, by path or by its name in the package; entries of this file replace entries of the base."""
 PARTIAL = "partial"
 """Key: whether entries whose variable the FMU lacks are left out; by default they are errors."""
 
 SHIPPED = Path(__file__).parent / "alias_files"
-_MOST_FILES = 10
+_MAX_FILES = 10
 _KEYS = ("name", "factor", "offset", "unit")
 
 
 @dataclass
 class Entry:
-    """An entry of an alias file: the variable of another program for one of our names."""
+    """An entry of an alias file: the variable of another program for a name of ALi3."""
 
     ours: str
+    """Name of ALi3."""
     value: dict[str, Any]
     """Content of the entry; a text alone is ``{"name": text}``."""
     file: str
@@ -47,7 +48,7 @@ class Content:
 
     file: str
     entries: dict[str, Entry] = field(default_factory=dict)
-    """Entries by our names."""
+    """Entries by names of ALi3."""
     constants: dict[str, float] = field(default_factory=dict)
     needs: dict[str, str] = field(default_factory=dict)
     """Descriptions of the constants that depend on the car, by name."""
@@ -61,8 +62,8 @@ def read_content(file: Path, depth: int = 0) -> Content:
     if base is not None:
         if not isinstance(base, str):
             raise UserError(f"{file}: {EXTENDS} is {base!r}; it must be the name of an alias file.")
-        if depth >= _MOST_FILES:
-            raise UserError(f"{file}: more than {_MOST_FILES} files extend one another; does one extend itself?")
+        if depth >= _MAX_FILES:
+            raise UserError(f"{file}: more than {_MAX_FILES} files extend one another; does one extend itself?")
         base_content = read_content(_base_file(base, file), depth + 1)
         content = Content(str(file), dict(base_content.entries), dict(base_content.constants), dict(base_content.needs))
     partial = table.pop(PARTIAL, False)
@@ -71,8 +72,8 @@ def read_content(file: Path, depth: int = 0) -> Content:
     content.constants |= _numbers(table.pop(CONSTANTS, {}), file)
     content.needs |= _texts(table.pop(NEEDS, {}), file)
     label = file.name if file.parent == SHIPPED else str(file)
-    for ours, value in table.items():
-        content.entries[ours] = Entry(ours, _entry(value, f"{file}: '{ours}'"), label, partial)
+    for name, value in table.items():
+        content.entries[name] = Entry(name, _entry(value, f"{file}: '{name}'"), label, partial)
     return content
 
 
@@ -82,7 +83,7 @@ def shipped_names() -> list[str]:
 
 
 def alias_file(name: str | Path) -> Path:
-    """Path of an alias file: a file, or else the one of this name in the package. Raises `UserError`: there is none."""
+    """Path of an alias file, or of the one of this name in the package. Raises `UserError` if there is none."""
     path = Path(name)
     if not is_file(path) and str(name) in shipped_names():
         path = SHIPPED / f"{name}.toml"
@@ -95,7 +96,7 @@ def alias_file(name: str | Path) -> Path:
 
 
 def number(value: Any, where: str) -> float:
-    """Check that a value is a finite number. Raises `UserError`: it is not."""
+    """Check that a value is a finite number. Raises `UserError` if it is not."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise UserError(f"{where} is {value!r}; it must be a finite number.")
     return float(value)

@@ -24,16 +24,16 @@ LARGEST_ARCHIVE = 2_000_000_000
 """Largest size of the file, bytes."""
 LARGEST_UNPACKED = 1_000_000_000
 """Largest size of all entries together, bytes."""
-MOST_ENTRIES = 50_000
-# Signatures of the end records, and their sizes; that of ZIP64 includes its locator.
+MAX_ENTRIES = 50_000
+# Signatures of the end records, and their sizes; the size for ZIP64 includes its locator.
 _END = b"PK\5\6"
 _END_64 = b"PK\6\6"
 _END_SIZE = 22  # bytes
 _END_64_SIZE = 56 + 20  # bytes
-_LARGEST_COMMENT = 65535  # bytes
+_MAX_COMMENT = 65535  # bytes
 _ENTRY_SIZE = 46 + 200
 """Size of an entry with a long name in the directory of an archive, bytes."""
-_LONGEST_NAME = 255  # bytes, on all usual file systems
+_MAX_NAME = 255  # bytes, on all usual file systems
 _COMPRESSION_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 # Errors of `zipfile` for damaged archives, unknown methods and passwords.
 _DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, KeyError, RuntimeError, NotImplementedError)
@@ -75,7 +75,7 @@ class Archive:
     ) -> None:
         self._name, self._error = name or str(file), error
         self._resources = ExitStack()
-        self._archive = self._resources.enter_context(_opened(file, error, self._name, kind, largest))
+        self._archive = self._resources.enter_context(_open_archive(file, error, self._name, kind, largest))
         self._sizes = {info.filename: info.file_size for info in self._archive.infolist()}
         for fault in _faults(self._archive, unpacked):
             self.close()
@@ -104,7 +104,7 @@ class Archive:
             raise self._error(f"{label} cannot be read: {reason(fault)}.") from None
 
     def unpack(self, folder: Path, is_needed: Callable[[str], bool] = lambda name: True) -> None:
-        """Write the files whose names `is_needed` accepts. Raises also `OSError`: the folder cannot be written."""
+        """Write the files whose names `is_needed` accepts. Raises also `OSError` if the folder cannot be written."""
         for entry in self.names:
             if is_needed(entry):
                 file = folder / entry
@@ -131,21 +131,21 @@ def is_archive(file: str | os.PathLike[str]) -> bool:
 
 
 def faults_of(file: str | os.PathLike[str], error: Error = FileError, kind: str = "an archive") -> list[Fault]:
-    """All faults that prevent an archive from being unpacked; `file`, `error`, `kind`: as of `Archive`."""
-    with _opened(file, error, str(file), kind, LARGEST_ARCHIVE) as archive:
+    """All faults that prevent an archive from being unpacked; `file`, `error`, `kind`: see `Archive`."""
+    with _open_archive(file, error, str(file), kind, LARGEST_ARCHIVE) as archive:
         return list(_faults(archive, LARGEST_UNPACKED))
 
 
 @contextmanager
-def _opened(
+def _open_archive(
     file: str | os.PathLike[str], error: Error, name: str, kind: str, largest: int
 ) -> Iterator[zipfile.ZipFile]:
     with open_file(file, largest, error, name) as stream:
         directory_size = _directory_size(stream)
         if directory_size is None:
             raise error(f"{name} is not {kind} (not a zip archive).")
-        if directory_size > raised(MOST_ENTRIES * _ENTRY_SIZE):  # `zipfile` reads all of it into memory
-            limit_text = at_most(directory_size, MOST_ENTRIES * _ENTRY_SIZE)
+        if directory_size > raised(MAX_ENTRIES * _ENTRY_SIZE):  # `zipfile` reads all of it into memory
+            limit_text = at_most(directory_size, MAX_ENTRIES * _ENTRY_SIZE)
             raise error(f"{name} has a directory of {directory_size} bytes; it must have {limit_text}.")
         try:
             archive = zipfile.ZipFile(stream)
@@ -158,7 +158,7 @@ def _opened(
 def _directory_size(stream: BinaryIO) -> int | None:
     """Size of the directory in bytes, as the end record of the archive gives it; None without an end record."""
     size = stream.seek(0, os.SEEK_END)
-    stream.seek(max(0, size - _END_SIZE - _LARGEST_COMMENT - _END_64_SIZE))
+    stream.seek(max(0, size - _END_SIZE - _MAX_COMMENT - _END_64_SIZE))
     tail = stream.read()
     last = len(tail) - _END_SIZE  # offset of the record in an archive without a comment
     offset = last if last >= 0 and tail[last:].startswith(_END) and tail.endswith(b"\0\0") else tail.rfind(_END)
@@ -179,8 +179,8 @@ def _faults(archive: zipfile.ZipFile, unpacked: int) -> list[Fault]:
     files = {info.filename.casefold() for info in entries if not info.filename.endswith("/")}
     if nested_name := next((name for name in counts for n in _folders(name) if n in files), None):
         results.append(Fault(f"has the entry {brief(nested_name)} in a folder that is a file too"))
-    if len(entries) > raised(MOST_ENTRIES):
-        results.append(Fault(f"has {len(entries)} entries; it must have {at_most(len(entries), MOST_ENTRIES)}"))
+    if len(entries) > raised(MAX_ENTRIES):
+        results.append(Fault(f"has {len(entries)} entries; it must have {at_most(len(entries), MAX_ENTRIES)}"))
     size = sum(info.file_size for info in entries)
     if size > raised(unpacked):
         results.append(Fault(f"has {size} bytes when it is unpacked; it must have {at_most(size, unpacked)}"))
@@ -202,7 +202,7 @@ def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
     parts = raw.removesuffix("/").split("/")
     if ".." in parts:
         return Fault(f"has {label}, which leads out of its folder")
-    if not raw.isprintable() or "" in parts or "." in parts or any(len(p.encode()) > _LONGEST_NAME for p in parts):
+    if not raw.isprintable() or "" in parts or "." in parts or any(len(p.encode()) > _MAX_NAME for p in parts):
         return Fault(f"has {label}, which is not a file name")
     if info.flag_bits & 1:
         return Fault(f"has {label}, which is encrypted", "ISO/IEC 21320-1")
@@ -210,5 +210,5 @@ def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
         return Fault(f"has {label}, packed by method {info.compress_type}; stored and deflate are", "ISO/IEC 21320-1")
     kind = stat.S_IFMT(info.external_attr >> 16)
     if kind not in (0, stat.S_IFREG, stat.S_IFDIR):
-        return Fault(f"has {label}, which is {'a link' if kind == stat.S_IFLNK else 'no file'}")
+        return Fault(f"has {label}, which is {'a link' if kind == stat.S_IFLNK else 'not a file'}")
     return None

@@ -10,7 +10,7 @@ from tqdm import tqdm
 
 DELAY = 2.0  # s before a bar appears
 _GROWTH = 1.5  # ratio of an interval between lines to the previous one
-_LONGEST_INTERVAL = 60.0  # s
+_MAX_INTERVAL = 60.0  # s
 
 
 class _Lines:
@@ -25,7 +25,7 @@ class _Lines:
             sys.stderr.write(f"{line}\n")
             self._due, self._interval = (
                 time.monotonic() + self._interval,
-                min(self._interval * _GROWTH, _LONGEST_INTERVAL),
+                min(self._interval * _GROWTH, _MAX_INTERVAL),
             )
 
     def flush(self) -> None:
@@ -33,10 +33,10 @@ class _Lines:
 
 
 def bar(*arguments: Any, **options: Any) -> tqdm[Any]:
-    """A bar on the standard error stream that appears after two seconds. `arguments`, `options`: of `tqdm.tqdm`."""
+    """A bar on the standard error stream that appears after two seconds. `arguments`, `options`: see `tqdm.tqdm`."""
     options = {"delay": DELAY} | options
     if sys.stderr.isatty():
         return tqdm(*arguments, **options)
     lines = _Lines()
-    lines.bar = tqdm(*arguments, file=lines, ascii=True, mininterval=DELAY, maxinterval=_LONGEST_INTERVAL, **options)
+    lines.bar = tqdm(*arguments, file=lines, ascii=True, mininterval=DELAY, maxinterval=_MAX_INTERVAL, **options)
     return lines.bar

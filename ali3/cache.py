@@ -19,7 +19,7 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
     """Path of a folder in the cache of the user; it is made if it does not exist.
 
     An environment variable names the cache; by default it is in the system's folder for caches. If that cannot be
-    written, the folder is temporary and is removed when this process ends. Raises `FileError`: the variable names a
+    written, the folder is temporary and is removed when this process ends. Raises `FileError` if the variable names a
     folder that cannot be written.
     """
     path = os.environ.get(variable)

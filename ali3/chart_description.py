@@ -15,12 +15,12 @@ _KEY = "Description"
 
 
 def png_metadata(figure: Figure) -> dict[str, str | None]:
-    """The metadata of a PNG for `Figure.savefig`; the same figure gives the same bytes."""
-    return {"Software": None, _KEY: described(figure)}
+    """Metadata of a PNG for `Figure.savefig`; without `Software` all versions of Matplotlib write the same bytes."""
+    return {"Software": None, _KEY: describe(figure)}
 
 
-def described(figure: Figure) -> str:
-    """Lines with the title of a figure, with axes and curves of each panel, and with each text in it.
+def describe(figure: Figure) -> str:
+    """Describe a figure: a line for its title, one for axes and curves of each panel, one for each text.
 
     Texts at the same height, such as a row of a table, are one line.
     """
@@ -31,8 +31,8 @@ def described(figure: Figure) -> str:
     return "\n".join(" ".join(line.split()) for line in lines if line)
 
 
-def description_of(file: Path) -> str:
-    """The description in a PNG or SVG file; empty without one."""
+def read_description(file: Path) -> str:
+    """Read the description in a PNG or SVG file; empty if there is none."""
     if file.suffix == ".svg":
         from lxml import etree
 
@@ -44,9 +44,11 @@ def description_of(file: Path) -> str:
 
 
 def _panel_lines(axes: Axes) -> list[str]:
+    """Describe a panel, then the texts in it."""
     title = " ".join(filter(None, map(axes.get_title, ("left", "center", "right"))))  # type: ignore[arg-type]
     curves = axes.get_legend_handles_labels()[1]
     parts = {"panel": title, "x": axes.get_xlabel(), "y": axes.get_ylabel(), "curves": ", ".join(curves)}
+    # Texts of a row follow each other in `axes.texts`.
     rows = groupby(axes.texts, lambda text: text.get_position()[1])
     row_texts = [": ".join(filter(None, (text.get_text() for text in row))) for _, row in rows]
-    return ["; ".join(f"{name} {message}" for name, message in parts.items() if message), *filter(None, row_texts)]
+    return ["; ".join(f"{name} {text}" for name, text in parts.items() if text), *filter(None, row_texts)]

@@ -16,7 +16,7 @@ from matplotlib import pyplot as plt
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from ali3.chart_description import described, png_metadata
+from ali3.chart_description import describe, png_metadata
 from ali3.files import atomic_file, write_bytes
 from ali3.message_text import clean
 
@@ -56,7 +56,7 @@ def drawing(figure: Figure, message: str) -> Drawing:
     `message`: alternative text, which is also the title in the file; empty: the title of the figure.
     """
     content = io.BytesIO()
-    figure_text = described(figure)
+    figure_text = describe(figure)
     title, description = (escape(clean(text)) for text in (message or figure_text.partition("\n")[0], figure_text))
     figure.set_dpi(_DOTS_PER_INCH)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _ignored_layout_warning():

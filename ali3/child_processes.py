@@ -9,7 +9,7 @@ from multiprocessing import resource_tracker
 from ali3.signals import STOPPING
 
 _CRASH_SIGNALS = ("SIGABRT", "SIGBUS", "SIGFPE", "SIGILL", "SIGSEGV", "SIGSYS", "SIGTRAP")
-_LEAST_WINDOWS_CRASH = 0xC0000000
+_MIN_WINDOWS_CRASH = 0xC0000000
 
 
 @contextmanager
@@ -37,10 +37,10 @@ def ignore_stopping() -> None:
 
 
 def how_ended(code: int | None, message: str = "", call: str = "") -> str:
-    """Describe the unexpected end of a process, as the end of a sentence, such as ``crashed (SIGSEGV)``.
+    """Predicate for the unexpected end of a process, such as ``crashed (SIGSEGV)``.
 
-    `code`: as `subprocess` and `multiprocessing` give it; `message`: standard error of the process, whose last line is
-    quoted; `call`: the last call, such as `` in fmi2DoStep at 0.1 s``.
+    `code`: exit code of `subprocess` or `multiprocessing`; `message`: standard error of the process, whose last line
+    is quoted; `call`: the last call, such as `` in fmi2DoStep at 0.1 s``.
     """
     last_line = (message.strip().splitlines() or [""])[-1]
     details = f"{call}: {last_line}" if last_line else call
@@ -50,6 +50,6 @@ def how_ended(code: int | None, message: str = "", call: str = "") -> str:
         if name == "SIGKILL":  # no program does that to itself
             return f"was killed (SIGKILL){call}, by a user or by the system because memory ran out"
         return f"crashed ({name}){details}" if name in _CRASH_SIGNALS else f"was ended by {name}{details}"
-    if sys.platform == "win32" and code is not None and code >= _LEAST_WINDOWS_CRASH:
+    if sys.platform == "win32" and code is not None and code >= _MIN_WINDOWS_CRASH:
         return f"crashed (0x{code:08X}){details}"
     return f"ended with exit code {code}{details}"

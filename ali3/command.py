@@ -1,4 +1,4 @@
-"""The console command ``ali3``: one table of subcommands, each a module with a function ``main``."""
+"""The console command ``ali3``, which runs one of its subcommands."""
 
 import argparse
 import importlib
@@ -11,19 +11,19 @@ from ali3.extras import command_needs
 from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.options import Parser
-from ali3.processes import typed_as
+from ali3.processes import store_typed_name
 from ali3.search_path import forget_current_folder
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     """Run the subcommand that the first argument names.
 
-    `arguments`: by default those of the command line; `prog`: how the user typed the command. Returns the exit code of
+    `arguments`: by default `sys.argv[1:]`; `prog`: how the user typed the command. Returns the exit code of
     `ali3.command_run`.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     forget_current_folder()
-    typed_as(prog)
+    store_typed_name(prog)
     if words and not words[0].startswith("-"):
         command = next((c for c in COMMANDS if c.name == words[0]), None)
         if command is None:
@@ -33,34 +33,36 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
 
 
 def _run_subcommand(command: Command, arguments: Sequence[str], prog: str) -> int:
+    """Import the module of a subcommand and run it."""
     command_needs(command.extra)
     module = importlib.import_module(command.module)
     return int(module.main(arguments, f"{prog} {command.name}"))
 
 
 def _print_help(arguments: Sequence[str], prog: str) -> int:
-    parser = _parser(prog)
-    parser.parse_args(arguments)
+    """Print the help after a call without a subcommand."""
+    parser = _make_parser(prog)
+    parser.parse_args(arguments)  # handles --help and --version, refuses other options
     parser.print_help(sys.stderr)
     return WRONG_USE
 
 
-def _parser(prog: str) -> argparse.ArgumentParser:
+def _make_parser(prog: str) -> argparse.ArgumentParser:
     width = max(len(c.name) for c in COMMANDS)
     parser = Parser(
         prog=prog,
         usage=f"{prog} COMMAND [...]",
         description="Real-time multibody dynamics: from a model to an FMU, and programs that run it.",
         epilog="commands:\n"
-        + "\n".join(f"  {c.name:<{width}}  {c.text}" for c in COMMANDS)
-        + f"\n\n{prog} COMMAND --help describes one.",
+        + "\n".join(f"  {c.name:<{width}}  {c.summary}" for c in COMMANDS)
+        + f"\n\n{prog} COMMAND --help describes a command.",
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and stop")
     return parser
 
 
 class _Version(argparse.Action):
-    """Prints the version, which is read only here because that takes longer than printing the help."""
+    """Prints the version; it is read only here because reading takes longer than printing the help."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from importlib.metadata import version
@@ -69,7 +71,8 @@ class _Version(argparse.Action):
 
 
 def _report_unknown(name: str, prog: str) -> int:
+    """Report an unknown subcommand."""
     names = [c.name for c in COMMANDS]
-    hint = did_you_mean(name, names, f"the commands are {', '.join(names)}", 1)
+    hint = did_you_mean(name, names, f"the commands are {', '.join(names)}", most=1)
     print(f"error: There is no command {brief(name)}{hint} {prog} --help describes them.", file=sys.stderr)
     return WRONG_USE

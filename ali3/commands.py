@@ -1,4 +1,4 @@
-"""The subcommands of ali3: name, module, and the extra that it needs."""
+"""The subcommands of ali3: name, module, the extra that each needs, and its line in the help."""
 
 from typing import NamedTuple
 
@@ -7,13 +7,13 @@ class Command(NamedTuple):
     """A subcommand of ali3."""
 
     name: str
-    """As the user types it."""
+    """Word that the user types."""
     module: str
     """Imported when the command runs; its ``main(arguments, prog)`` returns the exit code."""
     extra: str
-    """Extra of the installation with the packages of the command; empty if it needs none."""
-    text: str
-    """Line of the help."""
+    """Extra of the package ``ali3`` that the command needs; empty if none."""
+    summary: str
+    """Line in the help of ``ali3``."""
 
 
 COMMANDS = (

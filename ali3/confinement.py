@@ -29,7 +29,7 @@ _TIMEOUT = 20.0  # s
 
 
 def confine() -> None:
-    """Confine the processes of `ali3.isolated_processes` that are started from now on. Raises `UserError`."""
+    """Confine the processes of `ali3.isolated_processes` that start after this call. Raises `UserError`."""
     _bubblewrap()
     os.environ[_CONFINED_VARIABLE] = "1"
 
@@ -61,7 +61,7 @@ def environment(variables: dict[str, str], folder: Path) -> dict[str, str]:
 
 @cache
 def _bubblewrap() -> tuple[str, ...]:
-    """Common part of the command lines of confined processes. Raises `UserError`: bubblewrap is not usable here."""
+    """Common part of the command lines of confined processes. Raises `UserError` if bubblewrap is not usable here."""
     program = shutil.which("bwrap") if sys.platform == "linux" else None
     if program is None:
         remedy = "install bubblewrap (bwrap)" if sys.platform == "linux" else "it needs Linux"

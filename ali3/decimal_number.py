@@ -13,7 +13,7 @@ _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
 
 
 def parse_number(text: str) -> float:
-    """A finite number. Raises `ValueError` with the text and the reason, as the rest of a sentence after a colon."""
+    """A finite number. Raises `ValueError` with the text and the reason, to stand after a colon in a message."""
     word = text.strip()
     if _NOT_FINITE.fullmatch(word):
         raise ValueError(f"the value is {word}; only finite numbers can be used")

@@ -8,13 +8,13 @@ from traceback import walk_tb
 from types import TracebackType
 
 _DISTRIBUTIONS = {"pil": "pillow", "sdl2": "pysdl2"}
-"""Distributions by module in small letters, where the names differ."""
+"""Distributions by module in small letters, if the names differ."""
 
 _extra: str | None = None
 
 
 def missing_package(package: str, extra: str = "") -> str:
-    """The sentence for a package that is not installed, with the command that installs it.
+    """Message about a package that is not installed, with the command that installs it.
 
     `package`: its module, as in ``import``; `extra`: the extra to name if several contain the package and the running
     command needs none of them.
@@ -23,9 +23,9 @@ def missing_package(package: str, extra: str = "") -> str:
 
 
 def missing_module(error: ModuleNotFoundError, extra: str = "") -> str:
-    """The sentence for a module that was not found, also if a library imports it at run time.
+    """Message about a module that was not found, also if a library imports it at run time.
 
-    `extra`: as of `missing_package`. Raises `error` again if neither an extra nor a package of an extra requires the
+    `extra`: see `missing_package`. Raises `error` again if neither an extra nor a package of an extra requires the
     module: an error of the program.
     """
     package = (error.name or "").partition(".")[0]
@@ -47,7 +47,7 @@ def command_needs(extra: str) -> None:
 
 
 def extras() -> dict[str, set[str]]:
-    """Distributions that each extra of the installation requires; those of no extra under ``""``."""
+    """Distributions that each extra of the installation requires; distributions of no extra under ``""``."""
     results: dict[str, set[str]] = {}
     for requirement in _requirements("ali3"):
         match = re.search(r"""extra == ['"]([\w.-]+)['"]""", requirement)
@@ -56,7 +56,7 @@ def extras() -> dict[str, set[str]]:
 
 
 def _extra_with(package: str, preferred_extra: str = "") -> str | None:
-    """Extra of the running command, the preferred one, or the smallest with the package; None: there is none."""
+    """Extra of the running command, the preferred one, or the smallest with the package; None if there is none."""
     candidates = {extra: names for extra, names in extras().items() if _distribution(package) in names}
     preferred = next((extra for extra in (_extra, preferred_extra) if extra in candidates), None)
     return min(candidates, key=lambda extra: len(candidates[extra]), default=None) if preferred is None else preferred

@@ -19,8 +19,8 @@ _HEAD = struct.Struct("<BQQ")
 _ARRAY = "\0array"
 _BYTES = "\0bytes"
 _ARRAY_KINDS = "biufS"
-MOST_TEXT = 200_000_000  # bytes of text of a frame
-MOST_BYTES = 8_000_000_000  # bytes of arrays of a frame
+MAX_TEXT = 200_000_000  # bytes of text of a frame
+MAX_BYTES = 8_000_000_000  # bytes of arrays of a frame
 
 
 class FrameError(Exception):
@@ -30,7 +30,7 @@ class FrameError(Exception):
 def write_frame(stream: IO[bytes], kind: int, value: Any) -> None:
     """Write a value: numbers, text, bytes, lists, mappings, arrays, and dataclasses of these. `kind`: 0 to 255."""
     blocks: list[bytes] = []
-    text = json.dumps(_encoded(value, blocks)).encode()
+    text = json.dumps(_encode(value, blocks)).encode()
     stream.write(_HEAD.pack(kind, len(text), sum(map(len, blocks))))
     stream.writelines((text, *blocks))
     stream.flush()
@@ -39,14 +39,14 @@ def write_frame(stream: IO[bytes], kind: int, value: Any) -> None:
 def read_frame(stream: IO[bytes], types: Mapping[int, Any]) -> tuple[int, Any]:
     """Kind and value of the next frame.
 
-    `types`: type of the value by kind; None: any plain value. Raises `EOFError`: there is no frame; `FrameError`.
+    `types`: type of the value by kind; None: any plain value. Raises `EOFError` if there is no frame; `FrameError`.
     """
     kind, text_size, block_size = _HEAD.unpack(_read_exactly(stream, _HEAD.size))
-    if kind not in types or text_size > MOST_TEXT or block_size > MOST_BYTES:
+    if kind not in types or text_size > MAX_TEXT or block_size > MAX_BYTES:
         raise FrameError(f"a frame of kind {kind} with {text_size} and {block_size} bytes")
     text, block = _read_exactly(stream, text_size), _read_exactly(stream, block_size)
     try:
-        value = _decoded(json.loads(text), block)
+        value = _decode(json.loads(text), block)
         return kind, value if types[kind] is None else _adapter(types[kind]).validate_python([value])[0]
     except (ValueError, TypeError, KeyError, IndexError, RecursionError, UnicodeDecodeError) as error:
         raise FrameError(str(error)) from None
@@ -67,7 +67,7 @@ def _read_exactly(stream: IO[bytes], size: int) -> bytes:
     return data
 
 
-def _encoded(value: Any, blocks: list[bytes]) -> Any:
+def _encode(value: Any, blocks: list[bytes]) -> Any:
     if value is None or isinstance(value, (bool, str)) or type(value) in (int, float):
         return value
     if isinstance(value, np.ndarray):
@@ -85,17 +85,17 @@ def _encoded(value: Any, blocks: list[bytes]) -> Any:
     if isinstance(value, Path):
         return str(value)
     if dataclasses.is_dataclass(value):
-        return {f.name: _encoded(getattr(value, f.name), blocks) for f in dataclasses.fields(value)}
+        return {f.name: _encode(getattr(value, f.name), blocks) for f in dataclasses.fields(value)}
     if isinstance(value, Mapping):
-        return {str(key): _encoded(item, blocks) for key, item in value.items()}
+        return {str(key): _encode(item, blocks) for key, item in value.items()}
     if isinstance(value, (list, tuple, set, frozenset)):
-        return [_encoded(item, blocks) for item in value]
+        return [_encode(item, blocks) for item in value]
     raise TypeError(f"a value of type {type(value).__name__} does not pass between processes")
 
 
-def _decoded(value: Any, block: bytes) -> Any:
+def _decode(value: Any, block: bytes) -> Any:
     if isinstance(value, list):
-        return [_decoded(item, block) for item in value]
+        return [_decode(item, block) for item in value]
     if not isinstance(value, dict):
         return value
     if _ARRAY in value:
@@ -106,4 +106,4 @@ def _decoded(value: Any, block: bytes) -> Any:
     if _BYTES in value:
         offset, size = value[_BYTES]
         return block[offset : offset + size]
-    return {key: _decoded(item, block) for key, item in value.items()}
+    return {key: _decode(item, block) for key, item in value.items()}

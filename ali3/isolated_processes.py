@@ -33,10 +33,10 @@ DONE, MESSAGE, ERROR, READY, ALIVE = 0, 1, 2, 3, 4
 """Kinds of frames: the result of a task, a message before it, an error as sentence and exit code, the process is ready,
 the task is still running."""
 _START_TIMEOUT = 600.0  # s until Python and its packages are loaded, on a busy machine
-_LONGEST_TIMER = 1e7  # s that a timer can wait on all platforms
+_MAX_TIMER = 1e7  # s that a timer can wait on all platforms
 _END_TIMEOUT = 10.0  # s until a supervisor has ended all processes
-_MOST_ERROR_BYTES = 4000  # bytes at the end of the standard error that are stored
-_MOST_PRINTED = 200_000_000  # bytes
+_MAX_ERROR_BYTES = 4000  # bytes at the end of the standard error that are stored
+_MAX_PRINTED = 200_000_000  # bytes
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -146,7 +146,7 @@ class _Process:
         if self.answer_error:
             how = self.answer_error
         elif self.is_flooded:
-            how = f"was ended{call} because it printed more than {_MOST_PRINTED / 1e6:g} MB"
+            how = f"was ended{call} because it printed more than {_MAX_PRINTED / 1e6:g} MB"
         else:
             code = self.process.returncode
             code = 128 - code if self._confined and code > 128 else code  # as bubblewrap reports signals
@@ -179,9 +179,9 @@ class _Process:
         printed = 0
         with suppress(OSError, ValueError):
             while chunk := os.read(self.process.stderr.fileno(), 65536):
-                self._error_tail = (self._error_tail + chunk)[-_MOST_ERROR_BYTES:]
+                self._error_tail = (self._error_tail + chunk)[-_MAX_ERROR_BYTES:]
                 printed += len(chunk)
-                if printed > _MOST_PRINTED:
+                if printed > _MAX_PRINTED:
                     self.is_flooded = True
                     self.kill()
 
@@ -224,8 +224,8 @@ class Isolated(Generic[T, R]):
 
         `tell`: called with each message of the work; `limit`: longest time between messages, see
         `ali3.processes.alive`, or with `in_all` longest time of the task, s, after which the process is ended;
-        `finish`: computes the result from that of the work, or None if the process has ended, and from the store of
-        the process, see `ali3.processes.store`. Raises `UserError`: the work has raised it, or another error that
+        `finish`: computes the result from the result of the work, or None if the process has ended, and from the store
+        of the process, see `ali3.processes.store`. Raises `UserError` if the work has raised it, or another error that
         `run_command` would show.
         """
         data, expired = pickle.dumps(task), threading.Event()
@@ -290,7 +290,7 @@ class Isolated(Generic[T, R]):
         self._end()
 
     def _answer(self, process: _Process, limit: float | None, end: Callable[[], None]) -> tuple[int, Any] | None:
-        timer = threading.Timer(min(limit or 0.0, _LONGEST_TIMER), end)
+        timer = threading.Timer(min(limit or 0.0, _MAX_TIMER), end)
         timer.daemon = True  # nothing waits for it after Ctrl-C between any two lines
         try:
             if limit is not None:

@@ -12,7 +12,7 @@ from ali3.message_text import brief, one_line
 from ali3.reading import Error, check_content, file_text, read_bytes, too_deep
 
 LARGEST_JSON = 100_000_000
-MOST_ENTRIES = 3_000_000
+MAX_ENTRIES = 3_000_000
 
 
 def read_json(file: str | os.PathLike[str], error: Error = FileError, name: str = "", finite: bool = True) -> Any:
@@ -23,10 +23,10 @@ def read_json(file: str | os.PathLike[str], error: Error = FileError, name: str 
 def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
     """Content of the bytes of a JSON file: whole numbers have 64 bits, and keys of an object are unique.
 
-    `error`, `name`: as of `toml_of`; `finite`: whether NaN and Infinity, which Python writes, are refused.
+    `error`, `name`: see `toml_of`; `finite`: whether NaN and Infinity, which Python writes, are refused.
     """
-    if (count := data.count(b",") + data.count(b"[") + data.count(b"{")) > raised(MOST_ENTRIES):
-        raise error(f"{name} has {count} entries; it must have {at_most(count, MOST_ENTRIES)}.")
+    if (count := data.count(b",") + data.count(b"[") + data.count(b"{")) > raised(MAX_ENTRIES):
+        raise error(f"{name} has {count} entries; it must have {at_most(count, MAX_ENTRIES)}.")
     if not data.strip():
         raise error(f"{name} is empty; it must be a JSON file.")
     try:

@@ -11,7 +11,7 @@ def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, pol
     Parameters
     ----------
     values : array_like, shape (n,)
-        At equal time intervals.
+        Samples at equal time intervals.
     interval : float
         Sampling interval, s.
     frequency : float

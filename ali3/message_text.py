@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 
 VALUE = 60  # characters of a value in a sentence
 SENTENCE = 400  # characters of a sentence that quotes a file
-_LONGEST_WORD = 240  # longest word that is not shortened
-_LONGEST_MESSAGE = 2000  # longest message that is not shortened
+_MAX_WORD = 240  # longest word that is not shortened
+_MAX_MESSAGE = 2000  # longest message that is not shortened
 _FORBIDDEN_IN_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 
 
@@ -45,11 +45,11 @@ def value_text(value: object) -> str:
 def shortened(sentence: str) -> str:
     """A sentence with a limited length of each word and of the whole, without control characters for terminals."""
     sentence = "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in sentence)
-    sentence = re.sub(rf"\S{{{_LONGEST_WORD},}}", lambda match: f"{match[0][:100]}...{match[0][-60:]}", sentence)
+    sentence = re.sub(rf"\S{{{_MAX_WORD},}}", lambda match: f"{match[0][:100]}...{match[0][-60:]}", sentence)
     return (
         sentence
-        if len(sentence) <= _LONGEST_MESSAGE
-        else f"{sentence[: _LONGEST_MESSAGE // 2]} ... {sentence[-_LONGEST_MESSAGE // 2 :]}"
+        if len(sentence) <= _MAX_MESSAGE
+        else f"{sentence[: _MAX_MESSAGE // 2]} ... {sentence[-_MAX_MESSAGE // 2 :]}"
     )
 
 
@@ -61,7 +61,7 @@ def one_line(sentence: str, most: int = SENTENCE) -> str:
 
 
 def sentence_of(message: str) -> str:
-    """The end of a sentence as a whole one, with a capital and a full stop; empty stays empty."""
+    """Make a sentence of its words, with a capital and a full stop; empty stays empty."""
     return f"{message[0].upper()}{message[1:]}." if message else ""
 
 

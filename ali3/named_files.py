@@ -5,11 +5,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from ali3.limits import factor, raised
+from ali3.limits import limit_factor, raised
 from ali3.message_text import brief
 from ali3.reading import Error, check_file, is_file
 
-MOST_FILES = 1000
+MAX_FILES = 1000
 """Largest number of files that one file names directly or through others."""
 
 
@@ -35,12 +35,12 @@ class NamedFiles:
                 raise
             raise self._error(f"{location}{brief(name)} is not a file name.") from None
         self._count += 1
-        if self._count > raised(MOST_FILES):
+        if self._count > raised(MAX_FILES):
             raise self._error(
-                f"{location}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
+                f"{location}more than {raised(MAX_FILES)} files are named; {brief(name)} is the first too many."
             )
         check_file(path, self._remaining_bytes, self._error, f"{location}{brief(name)}")
-        self._remaining_bytes -= int(path.stat().st_size / factor())
+        self._remaining_bytes -= int(path.stat().st_size / limit_factor())
         return path
 
 

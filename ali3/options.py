@@ -71,7 +71,7 @@ def count(text: str) -> int:
 
 
 def name_and_text(text: str) -> tuple[str, str]:
-    """Name and value of ``NAME=VALUE``; the type of the variable of the FMU determines that of the value."""
+    """Name and value of ``NAME=VALUE``; the type of the variable of the FMU determines the type of the value."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
         raise argparse.ArgumentTypeError(f"{short(text)} is not of the form NAME=VALUE")
@@ -98,11 +98,11 @@ SHARED: dict[str, Option] = {
     "--no-open": Option("", "do not open a browser"),
     "--show-parameters": Option("", "print the parameters"),
     "--jobs": Option("N", "number of parallel processes", count),
-    "--fidelity": Option("N", "level of detail of the model, where there is a choice", number),
+    "--fidelity": Option("N", "level of detail of the model, if there is a choice", number),
     "--step": Option("H", "communication step, s", quantity("s")),
     "--interval": Option("T", "time between recorded rows, a whole multiple of the step, s", quantity("s")),
     "--stop-time": Option("T", "duration of a run, s", quantity("s")),
-    "--from": Option("T", "use the record from this time on, s", quantity("s")),
+    "--from": Option("T", "time from which the record is used, s", quantity("s")),
     "--to": Option("T", "use the record up to this time, s", quantity("s")),
     "--seed": Option("S", "a random driver moves the inputs; the same number gives the same drive", int),
     "--manoeuvre": Option(
@@ -120,7 +120,7 @@ SHARED: dict[str, Option] = {
     ),
     "--aliases": Option(
         "FILE",
-        "our names for the variables of an FMU with other names: a TOML file, or chrono, carmaker, carsim, osi or "
+        "ALi3's names for the variables of an FMU with other names: a TOML file, or chrono, carmaker, carsim, osi or "
         "vehicle_interfaces, which come with the package",
         Path,
     ),
@@ -155,7 +155,7 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
 
 
 def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:
-    """Arguments that differ from their defaults, as the user writes them. `names`: of attributes of `options`."""
+    """Arguments that differ from their defaults, as the user writes them. `names`: attributes of `options`."""
     differing = [name for name in names if getattr(options, name) != parser.get_default(name)]
     actions = {action.dest: action for action in parser._actions}
     return [next(iter(actions[name].option_strings), name.upper()) for name in differing]

@@ -26,8 +26,8 @@ def begin_supervisor(life_pipe: int, folder: Path) -> None:
 
     On systems other than Linux the process continues without a supervisor.
 
-    `life_pipe`: has a byte, or is closed, when the process shall end; `folder`: of the process, removed if its parent
-    has ended.
+    `life_pipe`: pipe that has a byte, or is closed, when the process shall end; `folder`: folder of the process,
+    removed if its parent has ended.
     """
     if sys.platform != "linux":
         return

@@ -77,7 +77,7 @@ def command_name(name: str) -> str:
     return "python build_fmu.py" if in_clone and name == "build" else f"python -m ali3 {name}"
 
 
-def typed_as(prefix: str) -> None:
+def store_typed_name(prefix: str) -> None:
     """Store how the user typed the command: ``ali3`` or ``python -m ali3``."""
     global _prefix
     _prefix = prefix

@@ -19,8 +19,8 @@ _SCHEMAS = {"1": "ssv", "2": "ssv2"}
 def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
     """Read an SSV file of SSP 1.0 or 2.0, checked against the standard's XML schema.
 
-    Entries are in the order of the file, with the types of SSP 1.0. Raises `ParameterSetError`: the file has another
-    format; a name occurs twice; a value is a list. Raises `FileError`: the file cannot be read.
+    Entries are in the order of the file, with the types of SSP 1.0. Raises `ParameterSetError` if the file has another
+    format, a name occurs twice, or a value is a list; `FileError` if the file cannot be read.
     """
     from pyssp_standard.ssv import SSVElem
 

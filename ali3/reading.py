@@ -26,20 +26,20 @@ LARGEST_STATE = 100_000_000
 """Largest saved state of an FMU, bytes."""
 LARGEST_IN_PARTS = 2**40
 """Largest size of a file that is read in parts, bytes."""
-LONGEST_LINE = 10_000_000
+MAX_LINE = 10_000_000
 """Bytes or characters."""
 DEEPEST = 100
 LARGEST_WHOLE = 2**63 - 1
 """As TOML has it."""
-_LONGEST_NAME = 1000  # characters of the name of a missing file in a sentence
-_MOST_DOTS = 200  # of a key: the time of the parser is proportional to their square
+_MAX_NAME = 1000  # characters of the name of a missing file in a sentence
+_MAX_DOTS = 200  # of a key: the time of the parser is proportional to their square
 
 
 def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
     """Check before a file is opened that it is regular and not too large.
 
-    `largest`: bytes, multiplied by the factor of `ali3.limits`; `error`: raised with one sentence; `name`: of the file
-    in the sentence, by default its path.
+    `largest`: bytes, multiplied by the factor of `ali3.limits`; `error`: raised with one sentence; `name`: name of the
+    file in the sentence, by default its path.
     """
     name = name or str(file)
     try:
@@ -62,7 +62,7 @@ def no_file(file: str | os.PathLike[str], hint: str = "") -> str:
     try:
         return _not_regular(str(file), Path(file).stat().st_mode)
     except (OSError, ValueError):
-        return f"There is no file {brief(str(file)) if len(str(file)) > _LONGEST_NAME else one_line(str(file))}.{hint}"
+        return f"There is no file {brief(str(file)) if len(str(file)) > _MAX_NAME else one_line(str(file))}.{hint}"
 
 
 def _not_regular(name: str, mode: int) -> str:
@@ -128,12 +128,12 @@ def read_toml(
 def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     """Tables of the content of a TOML file: numbers are finite, whole numbers have 64 bits.
 
-    `data`: at most `LARGEST_TOML` bytes; `error`: raised with one sentence; `name`: of the file in the sentence.
+    `data`: bytes, at most `LARGEST_TOML`; `error`: raised with one sentence; `name`: name of the file in the sentence.
     """
     text = file_text(data, error, name)
     text_of_keys = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without strings and comments
-    if any(part.count(".") > _MOST_DOTS for part in re.split(r"[,=\[\]{}\n]", text_of_keys)):
-        raise error(f"{name} is not a readable TOML file: a key has more than {_MOST_DOTS} parts.")
+    if any(part.count(".") > _MAX_DOTS for part in re.split(r"[,=\[\]{}\n]", text_of_keys)):
+        raise error(f"{name} is not a readable TOML file: a key has more than {_MAX_DOTS} parts.")
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as fault:

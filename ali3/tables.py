@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ali3.errors import FileError, reason
 from ali3.message_text import brief
-from ali3.reading import LONGEST_LINE, Error, open_file, other_encoding
+from ali3.reading import MAX_LINE, Error, open_file, other_encoding
 
 LARGEST = 4_000_000_000
 """Largest size of a table, which is read as a stream, bytes."""
@@ -23,7 +23,7 @@ HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 """A name with its unit, such as ``speed [m/s]``."""
 _WORD = re.compile(r"[^\W\d]\w*")
 _SEPARATORS = (";", "\t", ",")
-_LONGEST_CELL = 1000
+_MAX_CELL = 1000
 
 
 class Row(NamedTuple):
@@ -70,7 +70,7 @@ class TextTable:
     names : list of str
         Names of the columns; empty without a heading.
     units : dict of str to str
-        Units by name, where the heading has them.
+        Units by name, if the heading has them.
     comments : list of (int, str)
         Number and text of the lines that begin with ``#``, as far as the table has been read.
     decimal : str
@@ -144,7 +144,7 @@ class TextTable:
         raise self.error(f"{self.name}, line {row.line}{label}: {brief(row.cells[k])} is not a {expected_text}.")
 
     def values(self, every: int = 1, finite: bool = True, least: int = 1) -> NDArray[np.float64]:
-        """Numbers of the lines, shape (n, columns). `every`, `finite`: as of `rows` and `numbers`; `least`: least n."""
+        """Numbers of the lines, shape (n, columns). `every`, `finite`: see `rows`, `numbers`; `least`: least n."""
         numbers = array("d")
         for row in self.rows(every):
             numbers.extend(self.numbers(row, finite))
@@ -159,10 +159,10 @@ class TextTable:
                 if message := other_encoding(stream.buffer.read(200)):
                     raise self.error(f"{self.name} is {message}.")
                 stream.seek(0)
-                while text := stream.readline(LONGEST_LINE + 1):
+                while text := stream.readline(MAX_LINE + 1):
                     line += 1
-                    if len(text) > LONGEST_LINE:
-                        raise self.error(f"{self.name}, line {line} has more than {LONGEST_LINE} characters.")
+                    if len(text) > MAX_LINE:
+                        raise self.error(f"{self.name}, line {line} has more than {MAX_LINE} characters.")
                     if "\0" in text:
                         raise self.error(f"{self.name} is not text: there is a zero byte in line {line}.")
                     bare = text.strip()
@@ -171,7 +171,7 @@ class TextTable:
                     elif bare and (text.endswith("\n") or not whole):
                         yield line, text.rstrip("\r\n")
         except UnicodeDecodeError:
-            raise self.error(f"{self.name} is not text in UTF-8, from about line {line + 1} on.") from None
+            raise self.error(f"{self.name} is not text in UTF-8; its fault is at about line {line + 1}.") from None
         except OSError as fault:
             if isinstance(fault, self.error):
                 raise
@@ -244,7 +244,7 @@ class TextTable:
 
 
 def cells_of(line: str, separator: str) -> list[str]:
-    """Cells of a line, stripped of blanks. Raises `ValueError` with the end of a sentence that says what is wrong."""
+    """Cells of a line, stripped of blanks. Raises `ValueError`, whose message is a predicate of the line."""
     if '"' in line:
         try:
             cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True), [])
@@ -252,8 +252,8 @@ def cells_of(line: str, separator: str) -> list[str]:
             raise ValueError(f"this is not a line of a CSV file: {fault}") from None
     else:
         cells = line.split(separator)
-    if len(line) > _LONGEST_CELL and (longest := max(map(len, cells))) > _LONGEST_CELL:
-        raise ValueError(f"a cell has {longest} characters; a number or a name has at most {_LONGEST_CELL}")
+    if len(line) > _MAX_CELL and (longest := max(map(len, cells))) > _MAX_CELL:
+        raise ValueError(f"a cell has {longest} characters; a number or a name has at most {_MAX_CELL}")
     return [cell.strip() for cell in cells]
 
 
@@ -263,7 +263,7 @@ def plain_name(cell: str) -> str:
 
 
 def number_of(cell: str, decimal: str = "") -> float:
-    """A cell as a number; `decimal`: "," where decimal commas are allowed. Raises `ValueError`: it is not a number."""
+    """A cell as a number; `decimal`: "," if decimal commas are allowed. Raises `ValueError` if it is not a number."""
     if not cell.isascii() or "_" in cell:  # `float` would accept these
         raise ValueError
     return float(cell.replace(",", ".") if decimal else cell)

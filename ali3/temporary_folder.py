@@ -23,7 +23,7 @@ def temporary_folder(parent: str | os.PathLike[str] | None = None) -> Iterator[P
     The program locks the folder. If it is killed, the next program that makes a folder in the same parent removes it;
     not on Windows, nor on file systems without locks.
 
-    `parent`: by default the folder of the system for temporary files. Raises `OSError`: no folder can be made there.
+    `parent`: folder, by default the system's for temporary files. Raises `OSError` if no folder can be made there.
     """
     parent_folder = Path(tempfile.gettempdir() if parent is None else parent).absolute()
     if parent_folder not in _cleared:

@@ -105,7 +105,7 @@ def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
 
 
 def all_keys(table: Table, path: str = "") -> Iterator[str]:
-    """Key paths of a table and of the tables in it, for all templates. `path`: of the table."""
+    """Key paths of a table and of the tables in it, for all templates. `path`: keys to the table."""
     for key, field in keys_of(table).items():
         key_path = f"{path}.{key}" if path else key
         yield key_path

@@ -102,7 +102,7 @@ _CONFUSED = (
     ("J", "kJ"),
     ("1", "%", "deg"),
 )
-"""Units that are confused with each other: that of the SI, the most usual other one, others."""
+"""Units that are confused with each other: the SI unit, the most usual other one, others."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _EXPONENT = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
 
@@ -118,8 +118,8 @@ class Misread(NamedTuple):
 
     @property
     def words(self) -> str:
-        """Description, such as "km/h in place of m/s"."""
-        return f"{typeset(self.unit) or '1'} in place of {typeset(self.taken) or '1'}"
+        """Description, such as "km/h instead of m/s"."""
+        return f"{typeset(self.unit) or '1'} instead of {typeset(self.taken) or '1'}"
 
 
 def misread(unit: str) -> list[Misread]:
@@ -206,9 +206,9 @@ def plain_unit(text: str) -> str:
 def number_with_unit(text: str, unit: str) -> float:
     """A number of the command line, converted to a unit.
 
-    `text`: a number in that unit, or one followed by another unit of the same quantity, such as ``20kN/m`` where
-    the unit is N/m; `unit`: empty if it is not known. Raises `ValueError` with the text and what would be right, as the
-    rest of a sentence after a colon.
+    `text`: a number in that unit, or one followed by another unit of the same quantity, such as ``20kN/m`` if the unit
+    is N/m; `unit`: empty if it is not known. Raises `ValueError` with the text and what would be right, to stand after
+    a colon in a message.
     """
     word = text.strip()
     match = re.fullmatch(rf"(?P<number>[+-]?{DECIMAL})\s*(?P<unit>[A-Za-z%°].*)", word, re.ASCII)

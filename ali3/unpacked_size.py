@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ali3.errors import FileError, reason
 from ali3.limits import at_most, raised
-from ali3.reading import LONGEST_LINE, Error, open_file
+from ali3.reading import MAX_LINE, Error, open_file
 
 MOST_MEMORY = 4_000_000_000
 """Limit of the memory of a reader, bytes."""
@@ -17,7 +17,7 @@ _BYTES_PER_CELL = 24
 
 
 def check_memory(needed: float, error: Error, name: str, most: int = MOST_MEMORY) -> None:
-    """Check the memory that reading would take. `needed`: estimated, bytes; `error`, `name`: as of `check_file`."""
+    """Check the memory that reading would take. `needed`: estimate, bytes; `error`, `name`: see `check_file`."""
     if needed > most and needed > raised(most):
         raise error(
             f"{name} would take about {needed:.3g} bytes of memory; it must take {at_most(needed, most, '.3g')}."
@@ -28,12 +28,12 @@ class Unpacked(io.RawIOBase):
     """A limited stream of the bytes of a text file, which is unpacked if its name ends in ``.gz``.
 
     Reading raises `error` with one sentence if the file cannot be unpacked, has a zero byte, has a line of more than
-    `LONGEST_LINE`, or would take too much memory.
+    `MAX_LINE`, or would take too much memory.
 
     Parameters
     ----------
     file, largest, error, name
-        As of `check_file`; `largest`: size of the file itself, bytes.
+        See `check_file`; `largest`: size of the file itself, bytes.
     mark : bytes
         Separator of cells, each of which takes memory besides its text.
     zeros : bool
@@ -87,8 +87,8 @@ class Unpacked(io.RawIOBase):
         check_memory(self.taken + _BYTES_PER_CELL * self._cells, self._error, self._name, self._most)
         end = data.rfind(b"\n")
         self._line_length = self._line_length + len(data) if end < 0 else len(data) - end - 1
-        if self._line_length > LONGEST_LINE:
-            raise self._error(f"{self._name} has a line of more than {LONGEST_LINE} characters.")
+        if self._line_length > MAX_LINE:
+            raise self._error(f"{self._name} has a line of more than {MAX_LINE} characters.")
 
     def close(self) -> None:
         self._source.close()

@@ -19,7 +19,7 @@ def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], 
     file : path
         An older file is replaced when the new one is complete. The same content gives the same bytes.
     as_built : bool
-        Whether the values are those of the FMU; the file then has their hash as version, see `is_as_built`.
+        Whether the FMU has these values; the file then has their hash as version, see `is_as_built`.
 
     Raises
     ------

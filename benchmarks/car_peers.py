@@ -1,4 +1,4 @@
-"""A step of a car beside those of other programs: ``python -m benchmarks.car_peers [--json FILE]``.
+"""A step of a car beside cars in other programs: ``python -m benchmarks.car_peers [--json FILE]``.
 
 Compared are the prototype with links and by tables, alone and in lanes; a MuJoCo car of the same mass, wheelbase and
 track on four sprung wheels (`benchmarks.peers.mujoco_car`), by `mujoco.rollout` one after the other and on all cores;
@@ -50,7 +50,7 @@ def _rows(options: Namespace) -> list[dict[str, Any]]:
 def measure(
     scene: str, name: str, h: float, seconds: float = lanes.SECONDS, peers: Sequence[str] = tuple(MODULES)
 ) -> list[dict[str, Any]]:
-    """Rows of a scene. `name`: of its manoeuvre; `h`: step, s; `seconds`: length of the run, s."""
+    """Rows of a scene. `name`: its manoeuvre; `h`: step, s; `seconds`: length of the run, s."""
     runs = {car: _run(name, h, fidelity, seconds) for car, fidelity in FIDELITIES.items()}
     linked = runs["links"]
     angles = np.column_stack([linked[f"wheel_{w}.steer"][1:] for w in ("FL", "FR")])

@@ -70,7 +70,7 @@ PARTS = {
         names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
         options={
             "other": (Path, "folder of the other checkout: a working tree, made by git worktree add"),
-            "rounds": (7, "each times both; the ratio is the median of theirs"),
+            "rounds": (7, "each measures both; the ratio is the median of all rounds"),
             "repeats": (5, "runs of which a round takes the least"),
             "instructions": (False, "instructions beside the times"),
         },
@@ -80,7 +80,7 @@ PARTS = {
         _generated,
         names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
         options={
-            "rounds": (7, "each times both; the ratio is the median of theirs"),
+            "rounds": (7, "each measures both; the ratio is the median of all rounds"),
             "repeats": (5, "runs of which a round takes the least"),
         },
         pages=("speed.md",),
@@ -102,7 +102,7 @@ PARTS = {
             "seconds": (10.0, "simulated, of each drive, s; an hour each takes a day"),
             "fidelity": (real_time.FIDELITIES, "of the prototype"),
             "step": (real_time.STEPS, "ms"),
-            "limit": ((), "of the iterations, in place of none and the usual ones"),
+            "limit": ((), "of the iterations, instead of none and the usual ones"),
             "seed": (1, "of the driver"),
         },
         pages=("speed.md",),

@@ -179,14 +179,14 @@ def output_count() -> list[RemadeTable]:
 
 
 def trust_sentences() -> list[RemadeTable]:
-    """Sentences of the page on trust, from its tables and those of other pages."""
+    """Sentences of the page on trust, from its tables and tables of other pages."""
     page, column = "docs/trust.md", "10 ms"
     kerb, hard, period = (
         rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "acceleration", "frequency")
     )
     coarse_rows = [row for row in hard if row["h s"] == "0.01"]
     path, load, fastest = (max(float(r[c]) for r in coarse_rows) for c in ("path error", "load error", "largest m s2"))
-    share = next(float(row["frequency error"]) for row in period if row["steps in a period"] == "20")
+    frequency_error = next(float(row["frequency error"]) for row in period if row["steps in a period"] == "20")
     chosen = rows_of(between(read("docs/flexible_car.md"), "cheapest"))[1:]
     moments = [(r["error"], *r["cheapest fidelity, step"].split(", ")) for r in chosen]
     car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read(SPEED), "car"))}
@@ -199,7 +199,7 @@ def trust_sentences() -> list[RemadeTable]:
     sentences = (
         f"wheel loads to {max(float(row[column]) for row in kerb):.1%} at {column} up to {kerb[-1]['speed m s']} m/s",
         f"path to {path:.1e} of its length, loads to {load:.1%} at {column}, up to {fastest:.0f} m/s²",
-        f"20 steps in a period: {share:.1%} of the frequency",
+        f"20 steps in a period: {frequency_error:.1%} of the frequency",
         f"wheel loads to {fall} at {column}, a fall of 0.5 m",
         ", ".join(f"{error} at fidelity {fidelity} ({step})" for error, fidelity, step in moments),
         f"at {column} the path to {path_held}, loads to {load_held}",
@@ -292,7 +292,7 @@ WRITTEN_TABLES: dict[str, Callable[[bool], list[RemadeTable]]] = {
     "crg": open_crg_table,
     "start values": start_value_tables,
 }
-"""Charts, and tables that no other command writes: whole with ``--write``, else quick parts of them."""
+"""Charts, and tables that no other command writes: whole with ``--write``, otherwise quick parts of them."""
 COMPARED_TABLES: dict[str, Callable[[], list[RemadeTable]]] = {
     "bending": assembly_defect_table,
     "naive": naive_size_table,

@@ -55,10 +55,10 @@ def _plant_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 PARTS = {
     "calls": Part(
-        "calls of the native FMU and of that of PythonFMU, from C and through FMPy",
+        "calls of the native FMU and of the FMU of PythonFMU, from C and through FMPy",
         _calls,
         options={
-            "scene": ("prototype_car", "car or scene, as of ali3 build"),
+            "scene": ("prototype_car", "car or scene, as for ali3 build"),
             "steps": (1000, "calls of a timed run"),
             "repeats": (5, "timed runs of a figure, at most 64"),
             "instances": (1000, "at once"),

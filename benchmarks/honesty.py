@@ -2,7 +2,7 @@
 
 Compares the true error of a run with its estimate by `mbs.simulate`, for coarse and fine steps. A run is wrong when the
 error of a compared sensor is more than 5 % of its range at one of 51 instants, or with a tolerance more than ten times
-the tolerance. A warning is right for a wrong run, else a false alarm; runs with 4.5 to 5.5 % are not judged. References
+the tolerance. A warning without a wrong run is a false alarm; runs with 4.5 to 5.5 % are not judged. References
 are exact motions; for random cases Newton's and Euler's equations solved by DOP853; for cars and flexible bodies two
 methods with small steps.
 """

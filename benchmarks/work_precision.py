@@ -9,7 +9,7 @@ from typing import Any
 
 from benchmarks import peers
 from benchmarks.methods import dissipative, error_control, free_runs, unreduced_models, work_precision
-from benchmarks.methods.work_precision_chart import LARGEST_ERROR, draw
+from benchmarks.methods.work_precision_chart import MAX_ERROR, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import Part, report_missing, run, watched
@@ -30,7 +30,7 @@ def _charts(options: Namespace) -> list[dict[str, Any]]:
 def _draw(rows: Sequence[Row], folder: Path) -> None:
     for scene in dict.fromkeys(row["scene"] for row in rows):
         scene_rows = [row for row in rows if row["scene"] == scene]
-        draw(scene_rows, CASES[scene], LARGEST_ERROR * size_of(scene), folder / f"work_{scene}.png")
+        draw(scene_rows, CASES[scene], MAX_ERROR * size_of(scene), folder / f"work_{scene}.png")
 
 
 def _control(options: Namespace) -> list[dict[str, Any]]:

@@ -33,7 +33,7 @@ def stop(plant, controller, on, start):
 
 
 def main(picture: str = "anti_lock_brakes.png", car: str = "prototype") -> float:
-    """Way to stand with the controller over that with locked wheels, on a wet road."""
+    """Ratio of the stopping distances with the controller and with locked wheels, on a wet road."""
     figure, distances = Figure(figsize=(9.0, 3.6), layout="constrained"), {}
     panels = dict(zip(("wet", "split"), figure.subplots(1, 2), strict=True))
     inputs = ["steering", *(f"wheel_{w}.brake_torque_demand" for w in WHEELS)]

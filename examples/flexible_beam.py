@@ -35,7 +35,7 @@ def flexible_beam() -> mbs.Model:
 
 
 def main(picture: str = "flexible_beam.png") -> float:
-    """Largest difference of the deflection from that of a slowly turned cantilever, over the largest deflection."""
+    """Largest difference from the deflection of a slowly turned cantilever, divided by the largest deflection."""
     run = mbs.simulate(mbs.compile(flexible_beam()), t_end=TURN, h=0.02)
     angle, load = ANGLE(run.t), ALUMINIUM.rho * SECTION.area * GRAVITY
     deflection = np.sin(angle) * run["tip.x"] + np.cos(angle) * run["tip.z"]

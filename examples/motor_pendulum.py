@@ -26,7 +26,7 @@ def motor_pendulum() -> mbs.Model:
 
 
 def main(picture: str = "motor_pendulum.png") -> float:
-    """Build and run; the largest angle, rad: there the work of the motor is that of the weight."""
+    """Build and run; the largest angle, rad: there the work of the motor equals the work of the weight."""
     from matplotlib.figure import Figure  # the model needs none
 
     fmu = build_fmu(mbs.compile(motor_pendulum()), "motor_pendulum", Path("dist"), [fmpy.platform])

@@ -34,7 +34,7 @@ def closed_form(damping: float) -> np.ndarray:
 
 
 def main(picture: str = "quarter_car.png") -> float:
-    """Largest relative difference of the eigenvalues from those of the matrices."""
+    """Largest relative difference from the eigenvalues of the matrices."""
     system, dampings, results, runs = mbs.compile(quarter_car()), (200.0, 700.0, 1200.0, 1700.0), [], []
     for damping in dampings:
         model = mbs.linearise(mbs.Simulation(system, parameters={"damping": damping}))

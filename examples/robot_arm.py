@@ -40,7 +40,7 @@ def closed_form(t: np.ndarray) -> np.ndarray:
 
 
 def main(picture: str = "robot_arm.png") -> float:
-    """Largest difference of the torques from the closed form over the largest torque."""
+    """Largest difference of the torques from the closed form, divided by the largest torque."""
     run = mbs.simulate(mbs.compile(robot_arm()), t_end=TIMES[-1], h=0.002)
     results, expected = np.array([run["torque 0"], run["torque 1"]]), closed_form(run.t)
     difference = float(np.abs(results - expected).max() / np.abs(expected).max())

@@ -43,19 +43,19 @@ _ARGUMENTS = (
 
 
 class BrowserError(UserError, RuntimeError):
-    """There is no browser, or it fails; the message gives the remedy."""
+    """No browser is installed, or it fails; the message gives the remedy."""
 
 
 def find_chromium() -> Path:
     """A Chromium, Chrome or Edge of this machine.
 
-    The environment variable ``ALI3_BROWSER`` names one; else it is looked for on the search path and in the usual
-    places of Linux, macOS and Windows.
+    The environment variable ``ALI3_BROWSER`` names one; otherwise it is looked for on the search path and in the
+    usual places of Linux, macOS and Windows.
 
     Raises
     ------
     BrowserError
-        There is none, or the variable names no program.
+        There is none, or the variable does not name a program.
     """
     program = os.environ.get(VARIABLE)
     if program:
@@ -86,11 +86,11 @@ def screenshot(
     page : path
         The HTML file; with the option ``controls`` false there is the drawing only.
     times : iterable of float
-        s.
+        Times of the pictures, s.
     size : (int, int)
-        Pixels.
+        Width and height, pixels.
     camera : str, optional
-        Its name; by default the one that the page starts with.
+        Name of a camera; by default the one that the page starts with.
 
     Yields
     ------
@@ -100,7 +100,7 @@ def screenshot(
     Raises
     ------
     BrowserError
-        There is no browser, or no package playwright, or the page cannot be drawn.
+        A browser or the package playwright is not installed, or the page cannot be drawn.
     """
     file = Path(page)
     if not file.is_file():

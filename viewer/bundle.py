@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ali3.locks import locked
 from viewer.errors import REMEDY
-from viewer.page_build import build
+from viewer.page_build import build_page
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = "ali3-viewer.js"
@@ -37,7 +37,7 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
         try:
             with locked(out):
                 if not _is_current(page, out):  # another process may have built it meanwhile
-                    build(page, out, (SCRIPT, GLTF, LICENCES), STAMP, _hash(page))
+                    build_page(page, out, (SCRIPT, GLTF, LICENCES), STAMP, _hash(page))
         except OSError as error:
             reason = f" in {out}: {error.strerror}." if error.strerror else f": {error}"
             raise RuntimeError(f"The page that draws cannot be built{reason}") from None

@@ -20,7 +20,7 @@ __all__ = ["check_options", "html_of", "show", "write_gltf", "write_mp4", "write
 def show(recordings: Sequence[Recording], options: Mapping[str, Any]) -> Path:
     """Write a page to a temporary folder and open it in the browser of the user.
 
-    Raises `BrowserError`: there is no browser, or no screen; `ViewerError`: the script of the page is missing.
+    Raises `BrowserError` if there is no browser or screen; `ViewerError` if the script of the page is missing.
     """
     page = Path(tempfile.mkdtemp(prefix="ali3-animation-"), "animation.html")
     path = write_page(page, recordings, options=options).path

@@ -24,12 +24,12 @@ from ali3.scene.written_file import WrittenGltf
 from ali3.temporary_folder import temporary_folder
 from viewer.bundle import GLTF, bundle
 from viewer.morph_targets import morph_targets
-from viewer.page_build import node
+from viewer.page_build import node_and_npm
 
 SUFFIXES = (".glb", ".gltf")
-MOST_RATE = 240.0
+MAX_RATE = 240.0
 _ERROR_LINE = re.compile(r"\s*(Uncaught )?\w*Error\b")
-_MOST_SAMPLES = 20_000  # times at which errors are computed; at least two for each written time
+_MAX_SAMPLES = 20_000  # times at which errors are computed; at least two for each written time
 
 
 def write_gltf(
@@ -54,12 +54,12 @@ def write_gltf(
     ----------
     path : path
         ``.glb``, or ``.gltf`` with the numbers in it; its folder is made. An older file stays until the new one is
-        whole.
+        complete.
     rate : float
-        Times a second of the file that are kept at most, 1 to 240 Hz; a part that turns far between two of them has
+        Largest number of times per second in the file, 1 to 240 Hz; a part that turns far between two of them has
         more.
     speed : float
-        Of the animation; 1 is real time, 0.01 slow motion.
+        Speed of the animation; 1 is real time, 0.01 slow motion.
     deformation : float
         Factor of the drawn deformation.
     road : bool
@@ -81,7 +81,7 @@ def write_gltf(
     scene = _checked_scene(target, recording, rate, speed, deformation)
     check_writable(path)
     begin, span = float(recording.t[0]), float(recording.t[-1] - recording.t[0]) / speed
-    indices = chosen_times(recording.t, max(_MOST_SAMPLES, math.ceil(2.0 * rate * span)), recording.epoch)
+    indices = chosen_times(recording.t, max(_MAX_SAMPLES, math.ceil(2.0 * rate * span)), recording.epoch)
     columns = {name: recording.columns[name][indices] for name in pose_columns(scene)}
     scene["flexible"] = [
         _with_morph_targets(part, number, columns) for number, part in enumerate(scene.get("flexible") or [])
@@ -124,7 +124,7 @@ def _checked_scene(target: Path, recording: Recording, rate: float, speed: float
         raise ViewerError(f"A recording is needed; this is an object of type {type(recording).__name__}.")
     if recording.scene is None:
         raise ViewerError(f"{recording.name!r} has no scene: there are no shapes to write to {target}.")
-    limits = (("rate", rate, 1.0, MOST_RATE), ("speed", speed, 1e-6, 1e4), ("deformation", deformation, 0.0, 1e6))
+    limits = (("rate", rate, 1.0, MAX_RATE), ("speed", speed, 1e-6, 1e4), ("deformation", deformation, 0.0, 1e6))
     for name, value, low, high in limits:
         is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
         if not is_number or not low <= value <= high:
@@ -143,7 +143,7 @@ def _with_morph_targets(
 
 
 def _gltf_text(binary: bytes) -> bytes:
-    """Content of a ``.gltf`` file from that of a ``.glb`` file; not by Node, whose strings are limited to 512 MiB."""
+    """Convert a ``.glb`` file to the content of a ``.gltf`` file; not by Node, whose strings have at most 512 MiB."""
     length = int.from_bytes(binary[12:16], "little")
     description = json.loads(binary[20 : 20 + length])
     (buffer,) = description["buffers"]
@@ -155,7 +155,7 @@ def _gltf_text(binary: bytes) -> bytes:
 def _run_writer(request: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[dict[str, Any], bytes]:
     """Answer of the program of Node, and the content of its file; empty if nothing is drawn."""
     try:
-        command = [node()[0], str(bundle().with_name(GLTF))]
+        command = [node_and_npm()[0], str(bundle().with_name(GLTF))]
     except RuntimeError as error:
         raise ViewerError(f"A glTF file cannot be written. {error}") from None
     with temporary_folder() as folder:

@@ -21,7 +21,7 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
     Parameters
     ----------
     title : str
-        Of the page; any text.
+        Title of the page; any text.
     data : object
         Content for `json.dumps`, with any texts.
     function : str
@@ -35,7 +35,7 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
     ViewerError
         The script is missing and cannot be built.
     """
-    # The page shows the error where it cannot run.
+    # The page shows the error if it cannot run.
     start = (
         "(function(){var view=document.getElementById('view');"
         "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
@@ -53,7 +53,7 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
 def script() -> str:
     """The script of the viewer, which defines ``window.ALi3Viewer``.
 
-    Raises `ViewerError`: it is missing and cannot be built.
+    Raises `ViewerError` if it is missing and cannot be built.
     """
     try:
         return bundle().read_text(encoding="utf-8")
@@ -64,7 +64,7 @@ def script() -> str:
 def json_in_html(data: object) -> str:
     """JSON for a script element: no text in it can end the element or begin a comment.
 
-    `data`: as `json.dumps` takes it; numbers must be finite.
+    `data`: argument of `json.dumps`; numbers must be finite.
     """
     text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

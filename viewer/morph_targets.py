@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ali3.scene.base64_numbers import decoded
 
-MOST = 8
+MAX_TARGETS = 8
 """Largest number of morph targets that every reader of glTF animates."""
 _SAMPLES = 400  # times at which the error is computed
 
@@ -27,17 +27,17 @@ class MorphTargets(NamedTuple):
 def morph_targets(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> MorphTargets:
     """The modes of a flexible part, or the eight combinations of modes with the largest motion.
 
-    `part`: of a scene; `columns`: with the amplitudes of the part, shape (n,), by name.
+    `part`: flexible part of a scene; `columns`: amplitudes of the part, shape (n,), by name.
     """
     modes = decoded(part["modes"], "f").reshape(3 * len(part["nodes"]), -1).astype(float)
     amplitudes = np.column_stack([np.nan_to_num(columns[name]) for name in part["amplitudes"]])
     if part.get("computed"):
         amplitudes *= np.nan_to_num(columns[part["computed"]])[:, None] != 0.0
     shapes, weights = modes, amplitudes
-    if modes.shape[1] > MOST:
+    if modes.shape[1] > MAX_TARGETS:
         q, r = np.linalg.qr(modes)
         u, s, v = np.linalg.svd(amplitudes @ r.T, full_matrices=False)
-        shapes, weights = q @ v[:MOST].T, u[:, :MOST] * s[:MOST]
+        shapes, weights = q @ v[:MAX_TARGETS].T, u[:, :MAX_TARGETS] * s[:MAX_TARGETS]
     largest = np.abs(weights).max(axis=0)
     is_moving = largest > 0.0
     shapes, weights = shapes[:, is_moving] * largest[is_moving], weights[:, is_moving] / largest[is_moving]

@@ -19,9 +19,9 @@ def html_of(
     Parameters
     ----------
     recordings : Recording or sequence of Recording
-        As `viewer.page_file.write_page` takes them.
+        See `viewer.page_file.write_page`.
     height : int
-        Of the frame, pixels.
+        Height of the frame, pixels.
 
     Returns
     -------
@@ -31,7 +31,7 @@ def html_of(
     Raises
     ------
     ViewerError
-        As `viewer.page_file.write_page`; or the height is not a whole number of pixels from 200 to 4000.
+        See `viewer.page_file.write_page`; or the height is not a whole number of pixels from 200 to 4000.
     """
     if not isinstance(height, int) or isinstance(height, bool) or not 200 <= height <= 4000:
         raise ViewerError(f"The height of the frame is {height!r}; it must be a whole number of pixels, 200 to 4000.")

@@ -12,7 +12,7 @@ from ali3.scene.recording import Recording
 from ali3.scene.scene_columns import pose_columns
 
 FORMAT = "ALi3 page"
-_LARGEST_FLOAT32 = 3e38
+_MAX_FLOAT32 = 3e38
 
 
 def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> dict[str, Any]:
@@ -61,4 +61,4 @@ def _run(recording: Recording, scene: int | None) -> dict[str, Any]:
 def _exceeds_float32(values: NDArray[np.float64]) -> bool:
     """Whether numbers are too large for single precision."""
     with np.errstate(invalid="ignore"):
-        return bool((np.abs(values[np.isfinite(values)]) > _LARGEST_FLOAT32).any())
+        return bool((np.abs(values[np.isfinite(values)]) > _MAX_FLOAT32).any())

@@ -8,7 +8,7 @@ from typing import Any
 from ali3.files import atomic_file, check_writable
 from ali3.near_names import near_names
 from ali3.scene.errors import ViewerError
-from ali3.scene.recording import MOST_TIMES, Recording
+from ali3.scene.recording import MAX_TIMES, Recording
 from ali3.scene.written_file import WrittenPage
 from viewer.html_document import html_document
 from viewer.page_data import page_data
@@ -20,32 +20,32 @@ def write_page(
     recordings: Recording | Sequence[Recording],
     title: str | None = None,
     options: Mapping[str, Any] | None = None,
-    most: int = MOST_TIMES,
+    most: int = MAX_TIMES,
 ) -> WrittenPage:
     """Write a page of one recording, or of several that are shown over each other.
 
     Parameters
     ----------
     path : path
-        File to write, usually ``.html``; one that is there is replaced when the new one is whole.
+        File to write, usually ``.html``; an existing one is replaced only when the new one is complete.
     recordings : Recording or sequence of Recording
         The first is drawn solid, the others as ghosts.
     title : str, optional
-        Of the page; by default the names of the recordings.
+        Title of the page; by default the names of the recordings.
     options : mapping, optional
-        What the player starts with, see `viewer.player_options.OPTIONS`.
+        Options of the player, see `viewer.player_options.OPTIONS`.
     most : int
-        Times that a recording is thinned to.
+        Largest number of times of a recording, which is thinned to it.
 
     Returns
     -------
     WrittenPage
-        Where it is, how large, and what there is to say of it.
+        Path, size and notes.
 
     Raises
     ------
     ViewerError
-        A recording or an option is wrong, or the script of the page is not there.
+        A recording or an option is wrong, or the script of the page is missing.
     FileError
         The file cannot be written; an older one is then unchanged.
     """
@@ -63,7 +63,7 @@ def page_html(
     options: Mapping[str, Any] | None = None,
 ) -> str:
     """Text of the page that `write_page` writes, without thinning; see there."""
-    recording_list = _listed(recordings)
+    recording_list = _recording_list(recordings)
     checked_options = check_options(options or {})
     known_names = dict.fromkeys(name for recording in recording_list for name in recording.columns)
     for name in checked_options.get("plots", ()):
@@ -77,12 +77,12 @@ def page_html(
     return html_document(page_title, data, "ALi3Viewer.playPage")
 
 
-def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:
-    """Recordings with at most so many times. Raises `ViewerError`: there are none, or an object is no recording."""
-    return [recording.thinned(most) for recording in _listed(recordings)]
+def thinned(recordings: Recording | Sequence[Recording], most: int = MAX_TIMES) -> list[Recording]:
+    """Recordings with at most `most` times. Raises `ViewerError` for no recordings and for other objects."""
+    return [recording.thinned(most) for recording in _recording_list(recordings)]
 
 
-def _listed(recordings: Recording | Sequence[Recording]) -> list[Recording]:
+def _recording_list(recordings: Recording | Sequence[Recording]) -> list[Recording]:
     recording_list = [recordings] if isinstance(recordings, Recording) else list(recordings)
     if not recording_list:
         raise ViewerError("There is no recording to show.")

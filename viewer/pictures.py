@@ -20,18 +20,20 @@ def pictures(
     camera: str | None = None,
     options: Mapping[str, Any] | None = None,
 ) -> Iterator[bytes]:
-    """Pictures of recordings without anything but the drawing.
+    """Render recordings at single times, without controls.
 
     Parameters
     ----------
     recordings : Recording or sequence of Recording
-        As `viewer.page_file.write_page` takes them.
+        See `viewer.page_file.write_page`.
     times : iterable of float
-        s.
+        Times of the pictures, s.
     size : (int, int)
-        Pixels.
+        Width and height, pixels.
+    camera : str, optional
+        Name of a camera; by default the one that the page starts with.
     options : mapping, optional
-        Of the player; ``controls`` is false if they do not say otherwise.
+        Options of the player; ``controls`` is false by default.
 
     Yields
     ------
@@ -43,7 +45,7 @@ def pictures(
     ViewerError
         There is nothing to draw.
     BrowserError
-        There is no browser that draws.
+        No browser is installed that can render the page.
     """
     thinned_recordings = thinned(recordings)
     if all(recording.scene is None for recording in thinned_recordings):
@@ -61,38 +63,37 @@ def write_picture(
     camera: str | None = None,
     options: Mapping[str, Any] | None = None,
 ) -> list[str]:
-    """Write a picture of recordings at one time, a PNG file; see `pictures`.
+    """Write one picture as a PNG file; the other arguments as in `pictures`.
 
     Parameters
     ----------
     path : path
-        File to write; one that is there is replaced when the new one is whole.
+        File to write; an existing one is replaced only when the new one is complete.
     time : float
-        s; one outside the recordings is refused.
-    size : (int, int)
-        Pixels.
+        Time of the picture, s, within the recordings.
 
     Returns
     -------
     list of str
-        Sentences: what is not drawn, thinning.
+        Notes: what was not drawn, and how recordings were thinned.
 
     Raises
     ------
     ViewerError
-        The file does not end with .png, or there is nothing to draw, or nothing at that time.
+        The file name does not end in .png, there is nothing to draw, or the time is outside the recordings.
     BrowserError
-        There is no browser that draws.
+        No browser is installed that can render the page.
     FileError
         The file cannot be written.
     """
     if Path(path).suffix.lower() != ".png":
-        raise ViewerError(f"{path} would be a picture; it must end with .png.")
+        raise ViewerError(f"{path} must end in .png.")
     check_writable(path)
     thinned_recordings = thinned(recordings)
-    begin, end = min(r.t[0] for r in thinned_recordings), max(r.t[-1] for r in thinned_recordings)
-    if not begin <= time <= end:
-        raise ViewerError(f"There is no picture at {time:g} s; it was recorded from {begin:g} s to {end:g} s.")
+    start = min(recording.t[0] for recording in thinned_recordings)
+    end = max(recording.t[-1] for recording in thinned_recordings)
+    if not start <= time <= end:
+        raise ViewerError(f"There is no picture at {time:g} s; it was recorded from {start:g} s to {end:g} s.")
     (picture,) = pictures(thinned_recordings, [time], size, camera, options)
     write_bytes(path, picture)
     return notes_of(thinned_recordings)

@@ -45,7 +45,7 @@ OPTIONS: dict[str, Option] = {
     "arrow_scale": Option(_is_number_between(1e-3, 1e3), "a number from 0.001 to 1000", "length of the arrows"),
     "stress": Option(_is_bool, "True or False", "whether flexible parts have the colours of their stress"),
     "closed": Option(_is_bool, "True or False", "whether bodies hide the frame in them"),
-    "deformation": Option(_is_number_between(0.0, 1e6), "a number from 0 on", "factor of the drawn deformation"),
+    "deformation": Option(_is_number_between(0.0, 1e6), "a number of at least 0", "factor of the drawn deformation"),
     "theme": Option(lambda v: v in ("auto", "light", "dark"), "'auto', 'light' or 'dark'", "colours of the page"),
     "controls": Option(_is_bool, "True or False", "whether there is anything but the drawing"),
 }

@@ -8,7 +8,7 @@ _CONNECT = "'self'"
 def simulator_html(title: str) -> str:
     """Text of the page with the script of the viewer.
 
-    It opens a WebSocket to ``/drive`` of its host, with the token of its own address. Raises `ViewerError`: the script
-    is missing and cannot be built.
+    It opens a WebSocket to ``/drive`` of its host, with the token of its own address. Raises `ViewerError` if the
+    script is missing and cannot be built.
     """
     return html_document(title, {}, "ALi3Viewer.simulate", connect=_CONNECT)

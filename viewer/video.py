@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 SUFFIXES = (".mp4", ".webp", ".gif")
-MOST_FRAMES = 20_000
+MAX_FRAMES = 20_000
 Progress = Callable[[float], None]
 _QUALITY = "12"  # constant rate factor of x264; 0 is lossless
 _WEBP = {"quality": 50, "method": 4, "allow_mixed": True}
@@ -54,43 +54,43 @@ def write_mp4(
 ) -> WrittenFilm:
     """Write a film of a recording, or of several that are shown over each other.
 
-    A Chromium without a window draws the pictures, by the processor: those of 1280 x 720 take a second or less each.
+    A Chromium without a window draws the pictures, by the processor: one of 1280 x 720 takes a second or less.
     ffmpeg (in the package av) encodes them as H.264. Files ``.webp`` and ``.gif`` are animated pictures for
     documents, which play without end.
 
     Parameters
     ----------
     path : path
-        ``.mp4``, ``.webp`` or ``.gif``; an older file is replaced when the new one is whole.
+        ``.mp4``, ``.webp`` or ``.gif``; an existing file is replaced only when the new one is complete.
     recordings : Recording or sequence of Recording
         The first is drawn solid, the others as ghosts.
     fps : float
         Pictures a second, 1 to 120; the times between two of a GIF are multiples of 10 ms.
     size : (int, int)
-        Pixels, both even for ``.mp4``.
+        Width and height, pixels, both even for ``.mp4``.
     camera : str, optional
-        Its name; by default the one that the page starts with.
+        Name of a camera; by default the one that the page starts with.
     speed : float
-        Of the film; 1 is real time, 0.1 slow motion.
+        Speed of the film; 1 is real time, 0.1 slow motion.
     begin, end : float, optional
         Part of the recording, s; by default all of the first one.
     options : mapping, optional
-        What the page starts with, such as ``{"stress": True, "deformation": 20.0}``; see
+        Options of the page, such as ``{"stress": True, "deformation": 20.0}``; see
         `viewer.player_options.OPTIONS`.
     progress : bool or callable, optional
-        None: a bar after two seconds; True: at once; False: none. A function receives the share that is done, 0 to 1.
+        None: a bar after two seconds; True: at once; False: none. A function receives the completed fraction.
 
     Returns
     -------
     WrittenFilm
-        Where it is, how large and how long.
+        Path, size and duration.
 
     Raises
     ------
     ViewerError
         A recording or an argument is wrong.
     BrowserError
-        There is no browser, or it cannot draw.
+        No browser is installed, or it cannot draw.
     FilmError
         The package av is not installed, or it fails.
     FileError
@@ -105,7 +105,7 @@ def write_mp4(
         page = Path(folder, "page.html")
         player_options = {**(options or {}), "controls": False, "play": False}
         write_page(page, thinned_recordings, options=player_options)
-        pictures = _decoded(screenshot(page, times, size, camera), len(times), progress)
+        pictures = _decode(screenshot(page, times, size, camera), len(times), progress)
         with closing(pictures), atomic_file(path) as temporary:
             encode(temporary, pictures)
             file_size = temporary.stat().st_size
@@ -138,9 +138,9 @@ def _times(
     if first > last:
         raise ViewerError(f"The film must begin at {first:g} s and to end before that, at {last:g} s.")
     count = math.floor((last - first) / speed * fps * (1.0 + 1e-9)) + 1
-    if count > MOST_FRAMES:
+    if count > MAX_FRAMES:
         raise ViewerError(
-            f"The film would have {count} pictures, at most {MOST_FRAMES} are made; choose begin and end, a higher "
+            f"The film would have {count} pictures, at most {MAX_FRAMES} are made; choose begin and end, a higher "
             "speed or a lower fps."
         )
     return [min(first + k * speed / fps, last) for k in range(count)]
@@ -159,7 +159,7 @@ def _check_size(target: Path, size: Any) -> None:
         raise ViewerError(f"The size of the film is {size!r}; both numbers must be even for an MP4 file.")
 
 
-def _decoded(
+def _decode(
     pictures: Generator[bytes, None, None], count: int, progress: bool | Progress | None
 ) -> Generator[Image, None, None]:
     """Decode PNG files to pictures one by one, with a progress bar."""

@@ -32,7 +32,7 @@ class Quantity:
     source: str
     """Source of the ranges."""
     near: Range | None = None
-    """Range that the correction of a mistake must reach; None: that of `ranges`."""
+    """Range that the correction of a mistake must reach; None: the range in `ranges`."""
     shown_outside: bool = False
     """Whether tables of text show the quantity only if it is outside its range."""
 
@@ -50,10 +50,10 @@ class Quantity:
 
 
 @cache
-def quantities_of(thing: str) -> Mapping[str, Quantity]:
-    """Quantities of the objects `thing`, such as "car", by the keys of the table."""
+def quantities_of(subject: str) -> Mapping[str, Quantity]:
+    """Quantities of the objects `subject`, such as "car", by the keys of the table."""
     with TABLE.open(encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["thing"] == thing]
+        rows = [row for row in csv.DictReader(file) if row["thing"] == subject]
     return {row["key"]: _quantity(row) for row in rows}
 
 

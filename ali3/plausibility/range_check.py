@@ -15,13 +15,13 @@ from ali3.plausibility.quantity import WIDEST, Quantity, Range
 from ali3.units import typeset
 
 ROUNDING = 1e-9  # of the range
-FEWEST_OTHERS = 10  # values beside a far one
+MIN_OTHERS = 10  # values beside a far one
 # In a sentence:
-MOST_KEYS = 3
-MOST_CAUSES = 4
-MOST_OTHERS = 1
-LONGEST_LIST = 4
-MOST_SHOWN = 10  # values in a cell of the table
+MAX_KEYS = 3
+MAX_CAUSES = 4
+MAX_OTHERS = 1
+MAX_LIST = 4
+MAX_SHOWN = 10  # values in a cell of the table
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Mistake:
     """A common mistake that a file may have."""
 
     words: str
-    """Such as "degrees in place of radians in front.alignment.toe_left"."""
+    """Such as "degrees instead of radians in front.alignment.toe_left"."""
     keys: frozenset[str]
     """Keys that it changes; it is tried if a value outside its range follows from one of them."""
     undo: Undo
@@ -99,7 +99,7 @@ class Plausibility:
     def text(self) -> str:
         """The table: a row for each quantity, with values, usual range, and a mark if a value is outside.
 
-        Quantities in `columns` are below those of the whole object.
+        Quantities in `columns` are below the quantities of the whole object.
         """
         n = max(len(self.columns), 1)
         rows, column_rows = [], []
@@ -148,7 +148,7 @@ class Plausibility:
         sentence for each group with common keys.
         """
         outside, sentences = self.outside, []
-        corrections = _corrected(self.mistakes, outside)
+        corrections = _correct(self.mistakes, outside)
         while outside:
             names = {v.name for v in outside}
             corrected_names = [
@@ -159,7 +159,7 @@ class Plausibility:
                 break
             explanations = [(m, corrected) for m, corrected, names in corrected_names if names == best_names]
             candidates = [(m, corrected) for m, corrected in explanations if not m.guessed] or explanations
-            causes, corrected = [m.words for m, _ in candidates][:MOST_CAUSES], candidates[0][1]
+            causes, corrected = [m.words for m, _ in candidates][:MAX_CAUSES], candidates[0][1]
             first_value = next(v for v in outside if v.name in best_names)
             value = next(v for v in corrected if v.name == first_value.name)
             cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
@@ -193,14 +193,14 @@ class Plausibility:
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity
         keys = {key: value for v in group for key, value in v.keys.items()}
-        key_texts = [f"{key} = {_value_text(value)}" for key, value in list(keys.items())[:MOST_KEYS]]
-        more_keys = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
+        key_texts = [f"{key} = {_value_text(value)}" for key, value in list(keys.items())[:MAX_KEYS]]
+        more_keys = f" and {len(keys) - MAX_KEYS} more" if len(keys) > MAX_KEYS else ""
         sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range_text(q, self.kind)}"
         sentence += f"; {cause}" if cause else ""
         if len(group) > 1:
             others = (f"{v.name} {v.quantity.shown(v.value)} ({_range_text(v.quantity, self.kind)})" for v in group[1:])
-            and_others = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
-            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{and_others}"
+            and_others = f" and {len(group) - 1 - MAX_OTHERS} more" if len(group) - 1 > MAX_OTHERS else ""
+            sentence += f"; outside too: {', '.join(list(others)[:MAX_OTHERS])}{and_others}"
         sentence += "."
         sentence += f" It follows from {', '.join(key_texts)}{more_keys}." if key_texts else ""
         return (f"{self.what}: " if self.what else "") + sentence
@@ -210,12 +210,12 @@ def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Mark values, shape (n,), that equal one value farther from all others than ten times the range of these."""
     levels = np.unique(values)
     for level, remaining in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
-        if len(remaining) >= FEWEST_OTHERS and np.abs(level - remaining).min() > 10.0 * np.ptp(remaining) > 0.0:
+        if len(remaining) >= MIN_OTHERS and np.abs(level - remaining).min() > 10.0 * np.ptp(remaining) > 0.0:
             return np.asarray(values == level)
     return np.zeros(values.shape, bool)
 
 
-def _corrected(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
+def _correct(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
     keys = {key for v in outside for key in v.keys}
     pairs = ((m, m.undo()) for m in mistakes if m.keys & keys)
     return [(m, corrected) for m, corrected in pairs if corrected is not None]
@@ -240,7 +240,7 @@ def _cell(values: Sequence[Value], column: str = "") -> str:
     if not values:
         return ""
     unit = f" {typeset(values[0].quantity.unit)}".rstrip()
-    if len(values) > MOST_SHOWN:
+    if len(values) > MAX_SHOWN:
         ends = (choose(values, key=lambda v: v.value) for choose in (min, max))
         return f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(values)}"
     return ", ".join(f"{v.of.removeprefix(column).strip()} {v.value:.4g}".strip() for v in values) + unit
@@ -265,5 +265,5 @@ def _value_text(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.6g}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join([*map(_value_text, value[:LONGEST_LIST]), *["..."] * (len(value) > LONGEST_LIST)]) + "]"
+        return "[" + ", ".join([*map(_value_text, value[:MAX_LIST]), *["..."] * (len(value) > MAX_LIST)]) + "]"
     return str(value)

@@ -12,50 +12,50 @@ from ali3.plausibility.range_check import Plausibility
 
 
 @singledispatch
-def plausibility_of(thing: Any) -> Sequence[Plausibility]:
-    """Plausibility of an object that a reader returns; each package registers this for its types.
+def plausibility_of(subject: object) -> Sequence[Plausibility]:
+    """Plausibility of an object that a reader returned; each package registers its types.
 
-    Raises `TypeError`: the package that reads such files was not imported.
+    Raises `TypeError` if the package of its type is not imported.
     """
-    raise TypeError(f"There is no summary for a {type(thing).__name__}; import the package that reads such files.")
+    raise TypeError(f"There is no summary for a {type(subject).__name__}; import the package that reads such files.")
 
 
 class Summarised:
-    """An object that a reader returns, with a summary."""
+    """Base of objects that readers return, with a summary."""
 
     def summary(self) -> str:
-        """What was understood of it: quantities that are known of such things, and where they usually lie.
+        """Table of the quantities of the file and their usual ranges.
 
         Returns
         -------
         str
-            A table of text, or several; what lies outside is marked.
+            One or more tables; values outside their ranges are marked.
         """
         return summary_of(plausibility_of(self))
 
 
 def summary_of(plausibilities: Sequence[Plausibility]) -> str:
-    """Tables of text below their titles; tables of the same quantities are joined as columns."""
+    """Format tables under their titles; tables of the same quantities become columns of one."""
     groups: dict[frozenset[Quantity], list[Plausibility]] = {}
     for plausibility in plausibilities:
         if plausibility.values:
             groups.setdefault(frozenset(v.quantity for v in plausibility.values), []).append(plausibility)
-    return "\n\n".join(f"{group.title}\n{group.text()}".lstrip("\n") for group in map(_joined, groups.values()))
+    return "\n\n".join(f"{group.title}\n{group.text()}".lstrip("\n") for group in map(_join, groups.values()))
 
 
-def _joined(plausibilities: Sequence[Plausibility]) -> Plausibility:
-    """Values of several tables as columns of one."""
+def _join(plausibilities: Sequence[Plausibility]) -> Plausibility:
+    """Join tables as columns of one."""
     first, *others = plausibilities
     if not others:
         return first
     values = [
-        replace(v, of=f"{plausibility.title} {v.of}".strip())
+        replace(value, of=f"{plausibility.title} {value.of}".strip())
         for plausibility in plausibilities
-        for v in plausibility.values
+        for value in plausibility.values
     ]
     return Plausibility("", values, kind=first.kind, columns=[plausibility.title for plausibility in plausibilities])
 
 
 def tables_of(plausibilities: Sequence[Plausibility]) -> dict[str, list[dict[str, Any]]]:
-    """Records for JSON by title, whose blanks become underscores."""
+    """Convert to JSON: records by title, with underscores for blanks."""
     return {plausibility.title.replace(" ", "_"): plausibility.to_json() for plausibility in plausibilities}

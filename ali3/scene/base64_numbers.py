@@ -14,7 +14,7 @@ def encoded(values: ArrayLike, kind: str = "f") -> str:
 
 
 def decoded(text: str, kind: str) -> NDArray[Any]:
-    """Numbers of a text that `encoded` wrote. Raises `ValueError` with the end of a sentence: it is not such a text."""
+    """Numbers of a text that `encoded` wrote. Raises `ValueError`, whose message is a predicate, for other texts."""
     data = _bytes(text)
     if len(data) % 4:
         raise ValueError(f"has {len(data)} bytes, which is not a multiple of 4")
@@ -27,7 +27,7 @@ def encoded_octets(values: ArrayLike) -> str:
 
 
 def octets(text: str) -> NDArray[np.uint8]:
-    """Whole numbers from 0 to 255 of a text in base64. Raises `ValueError`: the text is not base64."""
+    """Whole numbers from 0 to 255 of a text in base64. Raises `ValueError` if the text is not base64."""
     return np.frombuffer(_bytes(text), np.uint8)
 
 

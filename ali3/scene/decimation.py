@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_MOST_SAMPLES = 200_000  # times at which poses are compared
+_MAX_SAMPLES = 200_000  # times at which poses are compared
 _VISIBLE_DISTANCE = 1e-3  # of the size of the scene
-_VISIBLE_ANGLE = np.radians(1.0)
+_VISIBLE_ANGLE = np.radians(1.0)  # rad
 
 
 def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) -> NDArray[np.intp]:
@@ -16,8 +16,8 @@ def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) 
 
     Both sides of discontinuities are retained, unless they would be more than half of the times.
 
-    `t`: not decreasing, s, shape (n,), with a discontinuity where a time occurs twice; `most`: 2 or more; `epoch`:
-    shape (n,), with a discontinuity where it changes.
+    `t`: times, not decreasing, s, shape (n,), with a discontinuity where a time occurs twice; `most`: 2 or more;
+    `epoch`: shape (n,), with a discontinuity where it changes.
     """
     if len(t) <= most:
         return np.arange(len(t))
@@ -50,32 +50,20 @@ def largest_gap_of_motion(
     columns : mapping of str to array of shape (n,)
         Values at all times.
     indices : array of int
-        Of the retained times.
+        Indices of the retained times.
     epoch : array of shape (n,)
         The drawing does not move between two retained times of different epochs.
     """
-    samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _MOST_SAMPLES)).astype(np.intp))
+    samples = np.unique(np.linspace(0, len(t) - 1, min(len(t), _MAX_SAMPLES)).astype(np.intp))
     intervals = np.clip(np.searchsorted(indices, samples, side="right") - 1, 0, len(indices) - 2)
     a, b = indices[intervals], indices[intervals + 1]
     durations = t[b] - t[a]
-    share = np.divide(
+    fraction = np.divide(
         t[samples] - t[a], durations, out=np.zeros(len(samples)), where=(durations > 0.0) & (epoch[a] == epoch[b])
     )
     largest_distance, largest_angle, distance_frame, angle_frame = 0.0, 0.0, "", ""
     for name, frame in scene["frames"].items():
-        distance = angle = 0.0
-        if "position" in frame:
-            squared_distance = np.zeros(len(samples))
-            for column in frame["position"]:
-                x = columns[column]
-                squared_distance += (x[samples] - (x[a] + share * (x[b] - x[a]))) ** 2
-            distance = float(np.sqrt(_largest(squared_distance)))
-            q = np.stack([columns[column] for column in frame["quaternion"]])
-            angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], share)
-        elif "angle" in frame or "way" in frame:
-            x = columns[frame.get("angle", frame.get("way"))]
-            error = _largest(np.abs(x[samples] - (x[a] + share * (x[b] - x[a]))))
-            distance, angle = (error, 0.0) if "way" in frame else (0.0, error)
+        distance, angle = _pose_errors(frame, columns, a, b, samples, fraction)
         if distance > largest_distance:
             largest_distance, distance_frame = distance, name
         if angle > largest_angle:
@@ -88,12 +76,39 @@ def largest_gap_of_motion(
     return f" Between them the drawing differs from the record: {', '.join(notes)}." if notes else ""
 
 
-def _largest_angle_error(
-    a: NDArray[np.float64], b: NDArray[np.float64], q: NDArray[np.float64], share: NDArray[np.float64]
-) -> float:
-    """Largest angle between orientations `q` and those interpolated from `a` to `b` by great arcs, rad.
+def _pose_errors(
+    frame: Mapping[str, Any],
+    columns: Mapping[str, NDArray[np.float64]],
+    a: NDArray[np.intp],
+    b: NDArray[np.intp],
+    samples: NDArray[np.intp],
+    fraction: NDArray[np.float64],
+) -> tuple[float, float]:
+    """Largest errors of the distance, m, and angle, rad, of a frame interpolated between the times `a` and `b`.
 
-    `a`, `b`, `q`: quaternions, shape (4, n); `share`: position from `a` to `b`, 0 to 1, shape (n,).
+    `a`, `b`, `samples`: indices of times, shape (n,); `fraction`: position between `a` and `b`, 0 to 1, shape (n,).
+    """
+    if "position" in frame:
+        squared_distance = np.zeros(len(samples))
+        for column in frame["position"]:
+            x = columns[column]
+            squared_distance += (x[samples] - (x[a] + fraction * (x[b] - x[a]))) ** 2
+        q = np.stack([columns[column] for column in frame["quaternion"]])
+        angle = _largest_angle_error(q[:, a], q[:, b], q[:, samples], fraction)
+        return float(np.sqrt(_largest(squared_distance))), angle
+    if "angle" not in frame and "way" not in frame:
+        return 0.0, 0.0
+    x = columns[frame.get("angle", frame.get("way"))]
+    error = _largest(np.abs(x[samples] - (x[a] + fraction * (x[b] - x[a]))))
+    return (error, 0.0) if "way" in frame else (0.0, error)
+
+
+def _largest_angle_error(
+    a: NDArray[np.float64], b: NDArray[np.float64], q: NDArray[np.float64], fraction: NDArray[np.float64]
+) -> float:
+    """Largest angle between `q` and the orientations interpolated from `a` to `b` by great arcs, rad.
+
+    `a`, `b`, `q`: quaternions, shape (4, n); `fraction`: position between `a` and `b`, 0 to 1, shape (n,).
     """
     with np.errstate(invalid="ignore", divide="ignore"):
         a, b, q = (x / np.linalg.norm(x, axis=0) for x in (a, b, q))
@@ -102,8 +117,8 @@ def _largest_angle_error(
         half_angle = np.arccos(np.clip(np.abs(dot), 0.0, 1.0))
         small = half_angle < 1e-6
         sine = np.where(small, 1.0, np.sin(half_angle))
-        weight_a = np.where(small, 1.0 - share, np.sin((1.0 - share) * half_angle) / sine)
-        weight_b = np.where(small, share, np.sin(share * half_angle) / sine)
+        weight_a = np.where(small, 1.0 - fraction, np.sin((1.0 - fraction) * half_angle) / sine)
+        weight_b = np.where(small, fraction, np.sin(fraction * half_angle) / sine)
         interpolated = weight_a * a + weight_b * b
         interpolated /= np.linalg.norm(interpolated, axis=0)
         # The chord is more accurate than the arc cosine of a number near 1.
@@ -112,5 +127,6 @@ def _largest_angle_error(
 
 
 def _largest(values: NDArray[np.float64]) -> float:
+    """Largest finite value, 0 or more."""
     finite_values = values[np.isfinite(values)]
     return float(finite_values.max(initial=0.0))

@@ -35,7 +35,7 @@ class Drawer(Protocol):
 
 
 def drawer() -> Drawer:
-    """The installed drawer. Raises `ViewerError`: there is none."""
+    """The installed drawer. Raises `ViewerError` if there is none."""
     for point in entry_points(group=GROUP):
         return cast(Drawer, point.load())
     raise ViewerError('No viewer is installed; pip install "ali3[viewer]" in the folder of its source.')

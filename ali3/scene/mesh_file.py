@@ -28,13 +28,13 @@ Positions = NDArray[np.float32]
 Triangles = NDArray[np.uint32]
 
 SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
-_LARGEST = 1_000_000_000  # bytes of a file, and of all files that it names
-MOST_TRIANGLES = 100_000
+_MAX_FILE_SIZE = 1_000_000_000  # bytes of a file, and of all files that it names
+MAX_TRIANGLES = 100_000
 """Of a drawn mesh, which takes 1.8 MB of a page."""
 _BYTES_PER_ELEMENT = 64  # bytes of memory for a point, an attribute or an index
 # sizes beyond which the unit of a mesh is doubtful, m
-_LEAST_SIZE = 1e-3
-_MOST_SIZE = 500.0
+_MIN_SIZE = 1e-3
+_MAX_SIZE = 500.0
 
 
 class MeshError(ViewerError):
@@ -42,18 +42,18 @@ class MeshError(ViewerError):
 
 
 def read_mesh(
-    path: str | os.PathLike[str], scale: float = 1.0, *, most_triangles: int = MOST_TRIANGLES
+    path: str | os.PathLike[str], scale: float = 1.0, *, most_triangles: int = MAX_TRIANGLES
 ) -> tuple[Positions, Triangles]:
     """Read the triangles of a mesh from a file.
 
-    Points of the same place are one point. The axes are those of the file: a glTF file has its y axis up. All parts of
+    Points of the same place are one point. The axes are the axes of the file: y is up in a glTF file. All parts of
     a file with several are read, each where the file places it; colours and textures are left out. A size below 1 mm or
     above 500 m is warned about.
 
     `path`: ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``; `scale`: metres per unit of the file: 0.001
     for millimetres, 0.0254 for inches; `most_triangles`: a finer mesh is thinned by merging points that are close to
-    each other; a warning says by how much they move. Raises `MeshError`: the file is of another kind, is damaged, has
-    no triangles, or has coordinates that are not finite. Raises `FileError`: the file cannot be read.
+    each other; a warning says by how much they move. Raises `MeshError` if the file is of another kind, is damaged, has
+    no triangles, or has coordinates that are not finite; `FileError` if the file cannot be read.
 
     Returns
     -------
@@ -68,9 +68,9 @@ def read_mesh(
     if len(triangles) > most_triangles:
         points, triangles = _merge_by_grid(path, points, triangles, most_triangles)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    if not _LEAST_SIZE <= size <= _MOST_SIZE:
+    if not _MIN_SIZE <= size <= _MAX_SIZE:
         scale_hint = "in a file in millimetres, scale=0.001 is needed"
-        advice = scale_hint if size > _MOST_SIZE else "scale is given in metres per unit"
+        advice = scale_hint if size > _MAX_SIZE else "scale is given in metres per unit"
         warnings.warn(f"The mesh {path} is {size:.3g} m across; {advice}.", UserWarning, stacklevel=2)
     return points.astype(np.float32), triangles.astype(np.uint32)
 
@@ -78,9 +78,8 @@ def read_mesh(
 def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = "pictures") -> NDArray[np.float64]:
     """Corners of the triangles of a mesh in the order of the file.
 
-    `path`, `scale`: as of `read_mesh`; `extra`: of the installation, named if the package that reads is missing.
-    Returns coordinates of the corners of n triangles, m, shape (n, 3, 3). Raises `MeshError` or `FileError` as of
-    `read_mesh`.
+    `path`, `scale`: see `read_mesh`; `extra`: extra that is named if the package that reads is not installed. Returns
+    coordinates of the corners of n triangles, m, shape (n, 3, 3). Raises errors as `read_mesh`.
     """
     file = Path(path)
     factor = _checked_scale(path, scale)
@@ -114,7 +113,7 @@ def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
 def _load(file: Path, extra: str) -> trimesh.Trimesh:
     suffix = file.suffix.lower()
     options = {"skip_materials": True} if suffix == ".obj" else {}
-    content = read_bytes(file, _LARGEST)
+    content = read_bytes(file, _MAX_FILE_SIZE)
     with read_by_library(str(file), MeshError, "be read as a mesh", extra):
         import trimesh
 
@@ -131,11 +130,11 @@ class _NamedBytes(dict[str, bytes]):
 
     def __init__(self, file: Path) -> None:
         super().__init__()
-        self._file, self._named_files = file, NamedFiles(file.parent, _LARGEST, MeshError)
+        self._file, self._named_files = file, NamedFiles(file.parent, _MAX_FILE_SIZE, MeshError)
 
     def __missing__(self, name: str) -> bytes:
         return read_bytes(
-            self._named_files.file(unquote(name), self._file.parent, str(self._file)), _LARGEST, MeshError
+            self._named_files.file(unquote(name), self._file.parent, str(self._file)), _MAX_FILE_SIZE, MeshError
         )
 
     def get(self, name: str, default: object = None) -> bytes:

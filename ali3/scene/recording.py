@@ -13,10 +13,10 @@ from ali3.scene.errors import ViewerError
 from ali3.scene.scene import check_scene, plain_scene
 from ali3.scene.scene_columns import drawable, pose_columns
 
-MOST_TIMES = 5001  # 10 s in steps of 2 ms
+MAX_TIMES = 5001  # 10 s in steps of 2 ms
 _FULL_TURN = 2.0 * np.pi
-_MOST_NAMED = 4  # columns with the same gaps that a note names
-_LARGEST_POSE = 1e30  # coordinate; pictures and glTF have floats of 32 bits
+_MAX_NAMED = 4  # columns with the same gaps that a note names
+_MAX_POSE = 1e30  # coordinate; pictures and glTF have floats of 32 bits
 
 
 class Recording:
@@ -25,15 +25,15 @@ class Recording:
     Parameters
     ----------
     scene : mapping, optional
-        In the format of `viewer/scene.schema.json`. Without one there are plots only.
+        Scene in the format of `viewer/scene.schema.json`. Without one there are plots only.
     t : array of shape (n,)
         Times, s, not decreasing; a time that stands twice is a step.
     columns : mapping of str to array of shape (n,)
         Numbers over time, by name.
     units : mapping of str to str, optional
-        Of the columns.
+        Units of the columns.
     name : str
-        Of the run; by default that of the scene.
+        Name of the run; by default the name of the scene.
     epoch : array of shape (n,), optional
         Whole numbers, another one where the motion begins anew, as at a reset: nothing is drawn from one to the next.
         By default it is one motion.
@@ -41,8 +41,8 @@ class Recording:
     Attributes
     ----------
     scene : dict or None
-        None where the columns have none of its poses, which is told in `notes`. Else with what can be drawn: a part
-        whose columns are missing or hold no number is taken out and stands in `missing`.
+        None if the columns have none of its poses, which `notes` tell. Otherwise with what can be drawn: a part whose
+        columns are missing or hold no number is taken out and stands in `missing`.
     missing : list of dict
         ``name`` and ``why`` of what is not drawn.
     notes : list of str
@@ -80,27 +80,27 @@ class Recording:
         else:
             self._set_scene(plain_scene(scene))
 
-    def thinned(self, most: int = MOST_TIMES) -> Recording:
-        """This recording with at most so many times, uniform in time.
+    def thinned(self, most: int = MAX_TIMES) -> Recording:
+        """This recording with at most `most` times, uniform in time.
 
         Parameters
         ----------
         most : int
-            2 or more.
+            Largest number of times, 2 or more.
 
         Returns
         -------
         Recording
             This one, if it has no more. Its `notes` say how many of how many times there are and, where that matters,
-            by how much a pose between them differs from the one that was recorded.
+            by how much a pose between them differs from the recorded one.
 
         Raises
         ------
         ViewerError
-            `most` is not a whole number from 2 on.
+            `most` is not a whole number of 2 or more.
         """
         if not isinstance(most, (int, np.integer)) or isinstance(most, bool) or most < 2:
-            raise ViewerError(f"A recording was to be thinned to {most} times; it must be a whole number from 2 on.")
+            raise ViewerError(f"A recording was to be thinned to {most} times; it must be a whole number of 2 or more.")
         count = len(self.t)
         if count <= most:
             return self
@@ -122,7 +122,7 @@ class Recording:
         Parameters
         ----------
         begin, end : float
-            s.
+            First and last time, s.
 
         Raises
         ------
@@ -180,7 +180,7 @@ class Recording:
                 self._unwrap(frame["angle"])
 
     def _with_start(self, frame: dict[str, Any]) -> dict[str, Any]:
-        """A frame with a pose as drawn: that of the scene, or else the first recorded one."""
+        """A frame with a pose as drawn: the pose in the scene, otherwise the first recorded one."""
         if "start" in frame or "position" not in frame:
             return frame
         names = [*frame["position"], *frame["quaternion"]]
@@ -197,8 +197,8 @@ class Recording:
                 gaps.setdefault(is_gap.tobytes(), []).append(name)
         for mask, column_names in gaps.items():
             is_gap = np.frombuffer(mask, bool)
-            more = f" and {len(column_names) - _MOST_NAMED} more" if len(column_names) > _MOST_NAMED else ""
-            names_text = ", ".join(f"'{name}'" for name in column_names[:_MOST_NAMED]) + more
+            more = f" and {len(column_names) - _MAX_NAMED} more" if len(column_names) > _MAX_NAMED else ""
+            names_text = ", ".join(f"'{name}'" for name in column_names[:_MAX_NAMED]) + more
             self.notes.append(
                 f"The column{'s' * (len(column_names) > 1)} {names_text} "
                 f"{'have each' if len(column_names) > 1 else 'has'} {is_gap.sum()} of {len(self.t)} values that are "
@@ -208,11 +208,11 @@ class Recording:
     def _remove_large_values(self, name: str) -> None:
         """Replace numbers that are too large for a pose by NaN, and note how many."""
         values = self.columns.get(name)
-        if values is None or not (is_too_large := np.abs(values) > _LARGEST_POSE).any():
+        if values is None or not (is_too_large := np.abs(values) > _MAX_POSE).any():
             return
         self.columns[name] = np.where(is_too_large, np.nan, values)
         self.notes.append(
-            f"The column '{name}' has {int(is_too_large.sum())} of {len(is_too_large)} values beyond {_LARGEST_POSE:g}."
+            f"The column '{name}' has {int(is_too_large.sum())} of {len(is_too_large)} values beyond {_MAX_POSE:g}."
         )
 
     def _unwrap(self, name: str) -> None:

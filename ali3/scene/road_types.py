@@ -17,7 +17,7 @@ class Road(Part):
     variables: dict[Literal["file", "kerb_x", "kerb_height", "friction", "friction_factor"], Name] | None = None
     """Parameters of the FMU by what they set; a host applies them before it draws."""
     number: Whole | None = None
-    """Of the road in its model, where it is not the place in this list."""
+    """Number of the road in its model, if it is not its place in this list."""
     note: Text | None = None
     """A sentence to be shown."""
     friction: Number | None = None

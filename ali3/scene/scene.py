@@ -18,7 +18,7 @@ from ali3.scene.scene_types import Scene
 def scene_errors(scene: Any) -> list[str]:
     """Sentences on the faults of a scene, each with location, value and what would be right.
 
-    `scene`: as `json.loads` gives it.
+    `scene`: result of `json.loads`.
     """
     if not isinstance(scene, Mapping):
         return ["A scene is a table with the keys format, version, name, extent, frames and shapes."]
@@ -40,14 +40,14 @@ def check_scene(scene: Any, source: str = "The scene") -> None:
     Parameters
     ----------
     scene : object
-        As `json.loads` gives it.
+        Result of `json.loads`.
     source : str
-        How the message calls it.
+        Name of the scene in messages.
 
     Raises
     ------
     SceneError
-        With the first fault, and how many more there are.
+        The scene has faults; the message has the first fault and the number of others.
     """
     errors = scene_errors(scene)
     if errors:

@@ -32,7 +32,7 @@ def all_columns(scene: Mapping[str, Any]) -> list[str]:
 def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tuple[dict[str, Any], dict[str, str]]:
     """A scene without parts whose columns are faulty, and without parts attached to these.
 
-    `fault`: why a column cannot be used, as the end of a sentence; None if it can.
+    `fault`: why a column cannot be used, as a predicate; None if it can be used.
 
     Returns
     -------

@@ -24,7 +24,7 @@ _MODELS: dict[str, type[BaseModel]] = {
     for name, model in vars(module).items()
     if isinstance(model, type) and issubclass(model, Part)
 }
-# Types that the key `kind` chooses, such as those of shapes and roads.
+# Types that the key `kind` chooses, such as types of shapes and roads.
 _KINDS: dict[str, type[BaseModel]] = {
     model.model_fields["kind"].annotation.__args__[0]: model  # type: ignore[union-attr]
     for model in _MODELS.values()
@@ -97,7 +97,7 @@ def place(path: Sequence[str | int]) -> str:
 def _sentence(
     scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...], lengths: Mapping[tuple[str | int, ...], int]
 ) -> str:
-    """Sentence for one fault. `item`: as pydantic reports it; `lengths`: least lengths of lists that are too short."""
+    """Sentence for one fault. `item`: error of pydantic; `lengths`: least lengths of lists that are too short."""
     kind, value = item["type"], item["input"]
     if kind == MISSING and isinstance(path[-1], str):
         description = _description(item["loc"])

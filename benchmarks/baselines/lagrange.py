@@ -17,7 +17,7 @@ class Lagrange:
     """``[M Phi_q'; Phi_q 0] [qdd; lam] = [Q; -gamma - 2 b Phi' - b^2 Phi]``.
 
     `penalty`: b of both Baumgarte terms, 1/s; `minimum_norm`: add to the unconstrained acceleration the smallest one
-    (in the metric of M) that satisfies the constraints, which may be redundant; where a coordinate has no mass,
+    (in the metric of M) that satisfies the constraints, which may be redundant; if a coordinate has no mass,
     minimise accelerations and multipliers. LU otherwise.
     """
 

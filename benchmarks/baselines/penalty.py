@@ -40,7 +40,7 @@ class Penalty:
         right_side = J.T @ (self.a * (gamma + 2.0 * DAMPING * FREQUENCY * (J @ qd) + FREQUENCY**2 * phi))
         qdd = scipy.linalg.cho_solve(factor, Q - right_side)
         for _ in range(ITERATIONS if self.augmented else 0):
-            # converged, M qdd_new = M qdd - Phi_q' a Phi'': multipliers in place of the penalty's remaining violation
+            # converged, M qdd_new = M qdd - Phi_q' a Phi'': multipliers instead of the penalty's remaining violation
             next_qdd = scipy.linalg.cho_solve(factor, m.M @ qdd - right_side)
             change = np.abs(next_qdd - qdd).max()
             qdd = next_qdd

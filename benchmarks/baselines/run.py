@@ -14,7 +14,7 @@ from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 from benchmarks.baselines.penalty import Penalty
 from benchmarks.baselines.velocity_transformation import VelocityTransformation
 
-DIVERGED = 1e6  # m, m/s: from here on the motion counts as diverged
+DIVERGED = 1e6  # m, m/s: above this the motion counts as diverged
 Method = Callable[..., Any]
 METHODS: dict[str, Method] = {
     "index-1 augmented Lagrangian, projected": lambda m, **k: Penalty(m, augmented=True, **k),
@@ -68,7 +68,7 @@ def run(
     sensors : sequence of str
         Position sensors to record.
     penalty : float, optional
-        By default that of the method.
+        By default the penalty of the method.
     every : int
         Number of steps from one recorded instant to the next.
     solver : str

@@ -12,7 +12,7 @@ RANK = 1e-9
 SINGULAR = 1e-12  # reciprocal condition number
 ITERATIONS = 20  # largest number of Newton iterations
 CLOSED = 1e-12  # converged mass-normalised Phi
-OPEN = 1e-8  # mass-normalised Phi from which there is no solution
+OPEN = 1e-8  # mass-normalised Phi above which there is no solution
 
 
 class VelocityTransformation:

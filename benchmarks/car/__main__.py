@@ -1,8 +1,9 @@
 """Cars: ``python -m benchmarks.car PART``: accuracy and cost of manoeuvres, models and fidelities; measures of cars.
 
 Errors of a manoeuvre are against a stored reference, which ``references`` writes. Path error: largest distance of the
-car's reference point from its position in the reference at the same time, m, or over the length of the path. Error of
-the wheel loads: largest error over the largest load of the manoeuvre. Times are the least processor time of the kernel.
+car's reference point from its position in the reference at the same time, m, or divided by the path length. Error of
+the wheel loads: largest error divided by the largest load of the manoeuvre. Times are the least processor time of the
+kernel.
 """
 
 import sys

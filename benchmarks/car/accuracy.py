@@ -179,6 +179,6 @@ def error_table(rows: Sequence[Row]) -> str:
 
 
 def page_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Tables of the prototype, or that of another car."""
+    """Tables of the prototype, or the table of another car."""
     car = str(rows[0]["car"])
     return car_blocks(rows) if car == manoeuvres.PROTOTYPE else {car: error_table(rows)}

@@ -1,4 +1,4 @@
-"""Steps of scenes by the kernel of this checkout and by that of another one, in turn on the same machine."""
+"""Steps of scenes by the kernels of this checkout and of another one, in turn on the same machine."""
 
 import json
 import os
@@ -42,11 +42,11 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     checkout : Path
         Folder of a working tree.
     scenes : sequence of Scene
-        Of `scene_instructions.SCENES`; those that the other packages cannot make are an error.
+        Scenes of `scene_instructions.SCENES`; one that the other packages cannot make is an error.
     folder : Path
-        Empty; program and files are written there.
+        Empty folder for program and files.
     steps : int
-        Of each scene; 0: its own number.
+        Number of steps of each scene; 0: its own number.
 
     Raises
     ------
@@ -90,15 +90,15 @@ def measure(
     other : Path
         Folder of the other checkout.
     scenes : sequence of Scene
-        Of `scene_instructions.SCENES`.
+        Scenes of `scene_instructions.SCENES`.
     rounds : int
-        Each times both, one after the other; the ratio is the median of theirs.
+        Each measures both, one after the other; the ratio is the median of the ratios of all rounds.
     repeats : int
-        Runs of which a round takes the least.
+        Runs of which a round takes the least time.
     counted : bool
-        Instructions and operations too, where valgrind and objdump are there.
+        Instructions and operations too, if valgrind and objdump are installed.
     steps : int
-        Of each scene; 0: its own number.
+        Number of steps of each scene; 0: its own number.
     """
     with tempfile.TemporaryDirectory() as folder:
         commands = {}
@@ -120,7 +120,7 @@ class Side(NamedTuple):
 
 
 def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats: int, counted: bool) -> dict[str, Any]:
-    """A row of two ways that make steps in turn; the arguments are those of `measure`."""
+    """A row of two ways that make steps in turn; other arguments as in `measure`."""
     times: list[list[float]] = [[], []]
     counts: list[list[int]] = [[], []]
     for k in range(2 * rounds):

@@ -1,10 +1,10 @@
 """One table of all cars against their references.
 
-For each car, over the manoeuvres that have references, with steps of 5 ms: the largest path error over the path length
-and the largest wheel-load error over the largest load, each with its manoeuvre; the wheel-load error against loads of a
-run of 0.2 ms up to half a step before and after; the manoeuvres with errors above 1 % and 3 %, and the step that keeps
-them below; simulated time over processor time of the slowest manoeuvre; instructions of a step of the slalom, where
-valgrind is installed.
+For each car, over the manoeuvres that have references, with steps of 5 ms: the largest path error divided by the path
+length and the largest wheel-load error divided by the largest load, each with its manoeuvre; the wheel-load error
+against loads of a run of 0.2 ms up to half a step before and after; the manoeuvres with errors above 1 % and 3 %, and
+the step that keeps them below; simulated time divided by processor time of the slowest manoeuvre; instructions of a
+step of the slalom, if valgrind is installed.
 """
 
 import json

@@ -68,7 +68,7 @@ def deck(frame: Frame, steps: str) -> str:
 
 
 def run(text: str, suffix: str = ".dat") -> str:
-    """Run a deck and return the text of a result file. Raises `FileNotFoundError`: ccx is not installed."""
+    """Run a deck and return the text of a result file. Raises `FileNotFoundError` if ccx is not installed."""
     program = shutil.which("ccx")
     if program is None:
         raise FileNotFoundError("CalculiX (ccx) is not installed; on Debian: apt-get install calculix-ccx.")

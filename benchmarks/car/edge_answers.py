@@ -30,9 +30,9 @@ COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
 def contact_plane(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x: float) -> tuple[float, ...]:
     """Point and normal of the contact plane for a wheel near an edge.
 
-    `kind`: `HEIGHT`: level, at the height of the road below the contact; `DEEPER`: of the edge, with the normal towards
-    the wheel centre, or of the level ground, whichever has the larger penetration; `SUM`: the plane whose penetration
-    vector is the sum of both; `edge`: its height, m; `centre`: of the wheel in earth axes, m; `radius`, `contact_x`: m.
+    `kind`: `HEIGHT`: level, at the height of the road below the contact; `DEEPER`: plane of the edge, with the normal
+    towards the wheel centre, or level ground, whichever has the larger penetration; `SUM`: the plane whose penetration
+    vector is the sum of both; `edge`: its height, m; `centre`: wheel centre in earth axes, m; `radius`, `contact_x`: m.
     """
     if kind == HEIGHT:
         return (contact_x, float(centre[1]), edge if contact_x >= EDGE else 0.0, *UP)

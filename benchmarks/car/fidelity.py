@@ -53,7 +53,7 @@ def size_of(name: str, fidelity: Fidelity) -> dict[str, int]:
 
 
 def errors_of(trajectory: Trajectory, name: str, fidelity: Fidelity, h: float) -> dict[str, float | None]:
-    """Errors by `OUTPUTS`; those of moments are None for a rigid frame."""
+    """Errors by `OUTPUTS`; errors of moments are None for a rigid frame."""
     values = fidelity_runs.sampled(trajectory, h, stresses=not fidelity.rigid)
     return dict.fromkeys(STRESSES) | fidelity_runs.errors(values, fidelity_runs.read_reference(name))
 
@@ -82,8 +82,8 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
 def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> LevelChoice:
     """The fidelity and step with the least time per simulated second that meet a tolerance in all measured manoeuvres.
 
-    `rows`: of `measure`; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: of its error, over the largest change,
-    for "motion" m.
+    `rows`: result of `measure`; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: largest error of the output,
+    relative to its largest change, for "motion" m.
     """
     if output not in OUTPUTS:
         raise ValueError(f"There is no output {output!r}; there are: {', '.join(OUTPUTS)}.")

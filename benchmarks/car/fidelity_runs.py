@@ -81,7 +81,7 @@ def read_peaks(name: str) -> dict[str, float]:
 
 
 def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[np.float64]]) -> dict[str, float]:
-    """Errors by `OUTPUTS`; those of moments only if there are values."""
+    """Errors by `OUTPUTS`; errors of moments only if there are values."""
 
     results = {"motion": path_error(values, reference), "wheel_load": error_of_change(values, reference, LOADS)}
     if MOMENTS[0] not in values:

@@ -33,8 +33,8 @@ SOURCE = Path(__file__).parent / "c" / "time_fmu.c"
 def measure(fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instances: int) -> list[dict[str, Any]]:
     """Rows of an FMU, with ``quantity``, ``kind``, ``host`` and ``value``.
 
-    `kind`: ``native`` or ``python``; `folder`: for the unpacked FMU; `steps`: calls in a timed run; `repeats`: timed
-    runs; `instances`: at the same time. There are no rows of the C program where it cannot run the FMU.
+    `kind`: ``native`` or ``python``; `folder`: folder for the unpacked FMU; `steps`: calls in a timed run; `repeats`:
+    timed runs; `instances`: instances at the same time. There are no rows of the C program if it cannot run the FMU.
     """
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)

@@ -22,7 +22,7 @@ class Stiffness:
     joints: tuple[str, str]
     """Left joints that take the couples, front and rear: the highest of each axle."""
     torsion: float
-    """Couple over the twist angle between the axles, N m/deg."""
+    """Couple divided by the twist angle between the axles, N m/deg."""
     frequencies: NDArray[np.float64]
     """Elastic natural frequencies of the free frame with all masses on it, Hz."""
 
@@ -30,7 +30,7 @@ class Stiffness:
 def stiffness(car: Car) -> Stiffness:
     """Torsional stiffness of the free frame by opposite couples at the axles, and its lowest natural frequencies.
 
-    `car`: with a flexible frame.
+    `car`: car with a flexible frame.
     """
     flexible = car.flexible_frame
     model = flexible.model

@@ -14,16 +14,16 @@ from mbs.compiler.generated.library import library_of
 
 
 def measure(scenes: Sequence[Scene], rounds: int, repeats: int) -> Iterator[dict[str, Any]]:
-    """A row for each scene, as those of `against_checkout`, and the size of the code.
+    """A row for each scene, as in `against_checkout`, and the size of the code.
 
     Parameters
     ----------
     scenes : sequence of Scene
-        Of `scene_instructions.SCENES`.
+        Scenes of `scene_instructions.SCENES`.
     rounds : int
-        Each times both, one after the other; the ratio is the median of theirs.
+        Each measures both, one after the other; the ratio is the median of the ratios of all rounds.
     repeats : int
-        Runs of which a round takes the least.
+        Runs of which a round takes the least time.
 
     Raises
     ------

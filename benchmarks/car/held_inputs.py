@@ -22,8 +22,8 @@ INTERPOLATIONS = {
 
 
 def error(fmu: Path, name: str, step: float, follow: bool) -> float:
-    """Largest position error of the car at communication points over the length of its path. `step`: of communication,
-    s.
+    """Largest position error of the car at communication points divided by the path length. `step`: communication
+    step, s.
     """
     _, values, length = trajectories.read(name)
     result = run_of_fmu(fmu, name, step, follow, inner=INNER)
@@ -32,7 +32,7 @@ def error(fmu: Path, name: str, step: float, follow: bool) -> float:
 
 
 def measure(fmus: dict[str, Path], names: Sequence[str] = MANOEUVRES) -> list[dict[str, Any]]:
-    """A row for each manoeuvre and communication step, with the errors of the three interpolations; `fmus`: by kind."""
+    """Rows by manoeuvre and communication step, with the errors of the three interpolations; `fmus`: FMUs by kind."""
     return [
         {"manoeuvre": TITLES[name], "H, ms": 1000.0 * step}
         | {title: error(fmus[kind], name, step, follow) for kind, follow, title in INTERPOLATIONS.values()}

@@ -19,13 +19,13 @@ from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics import kinematics as kinematics_by_linkages
 
 TURN_SPEED = 22.22  # m/s
-TURN_STEERING = 0.10  # share of full steering at the end
+TURN_STEERING = 0.10  # fraction of full steering at the end
 TURN_TIME = 40.0  # s
 TURN_RANGE = (0.05, 0.30)  # g, range of the linear fits over lateral acceleration
 INTERVAL = 0.02  # s between updates of the inputs
-STEP = 0.01  # step, s
+STEP = 0.01  # s
 HUNDRED = 100.0 / 3.6  # m/s, 100 km/h
-PEDALS = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+PEDALS = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)  # positions of the brake pedal that are tried
 APPLY = 0.4  # s until the pedal is applied
 BODY_MODES = 5.0  # Hz: between the modes of the body and of the wheels
 HOP_MODES = 25.0  # Hz: between the modes of the wheels and of the tyre carcasses
@@ -45,7 +45,7 @@ class Measure:
 
 MEASURES = (
     Measure("mass", "kg", (950.0, 1500.0), "with the payloads of the file"),
-    Measure("front_load", "%", (50.0, 65.0), "share of the front wheels in the weight"),
+    Measure("front_load", "%", (50.0, 65.0), "load of the front wheels relative to the weight"),
     Measure("bounce_frequency", "Hz", (1.0, 1.5), "slower natural motion of the body without roll, from `linearise`"),
     Measure("pitch_frequency", "Hz", (1.0, 1.7), "the faster one"),
     Measure("bounce_damping", "1", (0.2, 0.45), "its damping ratio"),
@@ -60,7 +60,10 @@ MEASURES = (
     Measure("roll_share_front", "%", (50.0, 75.0), "of the front axle in the suspension roll stiffness"),
     Measure("roll_gradient", "deg/g", (3.0, 6.0), "roll of the chassis over lateral acceleration, 0.05 to 0.3 g"),
     Measure(
-        "understeer_gradient", "deg/g", (1.0, 4.0), "steering-wheel angle over the steering ratio, less Ackermann's"
+        "understeer_gradient",
+        "deg/g",
+        (1.0, 4.0),
+        "steering-wheel angle divided by the steering ratio, minus Ackermann's",
     ),
     Measure("sideslip_gradient", "deg/g", None, "at the rear axle's centre, at the same speed"),
     Measure(
@@ -84,6 +87,7 @@ def measure(car: Car) -> dict[str, float]:
 
 
 def _neutral(system: System) -> dict[str, float]:
+    """Parameters of `NEUTRAL` that the System has."""
     return {name: v for name, v in NEUTRAL.items() if name in {p["name"] for p in system.meta["parameters"]}}
 
 
@@ -96,10 +100,10 @@ def _weight(system: System) -> dict[str, float]:
 def _modes(car: Car) -> dict[str, float]:
     """Natural modes on ice, where standing tyres do not constrain the car sideways."""
     system = compile(car.model(PlaneRoad(friction=0.0)))
-    # the drag torque of the engine acts in one direction
+    # One-sided differences: the drag torque of the engine acts in one direction.
     model = linearise(Simulation(system, parameters=_neutral(system)), side=1)
     roll = model.coordinates.index("chassis.bz")
-    # by their roll: with a lateral offset of the mass every mode has some
+    # Sorted by roll: if the centre of mass has a lateral offset, every mode has some.
     modes = sorted(model.oscillating_modes(), key=lambda m: abs(m.shape[roll]))
     *level, rolling = [m for m in modes if m.frequency_hz < BODY_MODES]
     bounce, pitch = sorted(level, key=lambda m: m.frequency_hz)
@@ -114,13 +118,13 @@ def _modes(car: Car) -> dict[str, float]:
 
 
 def _front_share(model: LinearModel, mode: Mode) -> float:
-    """Share of the front axle in a mode shape."""
-    size = {"F": 0.0, "R": 0.0}
+    """Fraction of the front axle in the squares of a mode shape."""
+    squares = {"F": 0.0, "R": 0.0}
     for name, value in zip(model.coordinates, mode.shape, strict=True):
         name_parts = name.partition(".")[0].split()
         if name_parts[-1] in ("FL", "FR", "RL", "RR") and name_parts[0] != "wheel":
-            size[name_parts[-1][0]] += abs(value) ** 2
-    return size["F"] / (size["F"] + size["R"])
+            squares[name_parts[-1][0]] += abs(value) ** 2
+    return squares["F"] / (squares["F"] + squares["R"])
 
 
 def _axles(car: Car) -> dict[str, float]:
@@ -160,6 +164,7 @@ def steady_turn(car: Car, system: System) -> dict[str, float]:
 
 
 def _speed_controller(target: float) -> Callable[[float], float]:
+    """PI controller of the throttle as a function of the speed; both speeds in m/s."""
     integral = 0.0
 
     def pedal(speed: float) -> float:
@@ -226,5 +231,5 @@ def measure_table(rows: Sequence[Row]) -> str:
 
 
 def usual_text(m: Measure) -> str:
-    """Usual range of small cars."""
+    """Text of the usual range; "-" without one."""
     return "-" if m.usual is None else f"{m.usual[0]:g} to {m.usual[1]:g}"

@@ -17,7 +17,7 @@ _ARITHMETIC = re.compile(
 
 @cache
 def disassembler() -> str | None:
-    """The program objdump; None where it is not installed."""
+    """The program objdump; None if it is not installed."""
     return shutil.which("objdump")
 
 
@@ -25,7 +25,7 @@ def executed(command: Sequence[str]) -> tuple[int | None, int | None]:
     """Instructions of a program and floating-point operations; None without valgrind.
 
     Operations are sums, differences, products, quotients, square roots and extrema of doubles, one for each number of a
-    vector, those of the C library too. They are None without objdump and 0 on other processors than x86-64.
+    vector, including operations of the C library. They are None without objdump and 0 on other processors than x86-64.
     """
     if disassembler() is None:
         return instructions(command), None

@@ -33,8 +33,8 @@ Way: TypeAlias = tuple[Callable[[], object], Callable[[int], object]]
 def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -> list[dict[str, Any]]:
     """Rows of an environment made with `options`.
 
-    `several`: environments at the same time; `repeats`: runs; `steps`: of a run. Raises `RuntimeError`: observations of
-    several environments differ between the ways to step them.
+    `several`: environments at the same time; `repeats`: runs; `steps`: number in a run. Raises `RuntimeError` if
+    observations of several environments differ between the ways to step them.
     """
     single = gymnasium.make(f"ali3/{name}-v0", disable_env_checker=True, **options)
     plain = single.unwrapped

@@ -28,7 +28,7 @@ def kinematics(car: Car) -> dict[str, float]:
 
     Keys begin with ``front.`` or ``rear.``. Per wheel travel: ``wheel_rate`` (N/m), ``spring_ratio``, ``bump_steer``
     (rad/m, left wheel, toe-out positive), ``bump_camber`` (rad/m, left wheel, top outwards positive). Per suspension
-    roll angle, the roll angle of the chassis less that of the axle on its tyres: ``roll_centre_height`` (m),
+    roll angle, the roll angle of the chassis minus the roll angle of the axle on its tyres: ``roll_centre_height`` (m),
     ``roll_steer`` (mean steering angle, to the left positive as the left side rises), ``roll_camber`` (left wheel
     against the axle), ``roll_stiffness`` (N m/rad). Without an axle: ``steering_ratio`` straight ahead, ``lock_inner``
     and ``lock_outer`` (rad).
@@ -46,7 +46,7 @@ def kinematics(car: Car) -> dict[str, float]:
         ):
             results[f"{axle}.{name}"] = slope(z, values, FIT_RANGES["travel"])
         phi = (roll[f"wheel_{right}.travel"] - roll[f"wheel_{left}.travel"]) / track
-        tilt = roll["chassis.roll"] - phi  # of the axle on its tyres
+        tilt = roll["chassis.roll"] - phi  # roll angle of the axle on its tyres
         shift = 0.5 * (contact_y(roll, left) + contact_y(roll, right))
         moment = 0.5 * track * (roll[f"wheel_{right}.Fz"] - roll[f"wheel_{left}.Fz"])
         for name, values in (
@@ -93,8 +93,8 @@ def contact_y(run: Trajectory, wheel: str) -> NDArray[np.float64]:
 
 
 def _drive_chassis(m: Model, car: Car, heave: float, roll: float) -> None:
-    """Prescribe all six degrees of freedom of the chassis. `heave`: amplitude, m; `roll`: amplitude of the angle's
-    sine.
+    """Prescribe all degrees of freedom of the chassis on the rig. `heave`: amplitude, m; `roll`: sine of the largest
+    roll angle.
     """
     chassis = next(body for body in m.bodies if body.name == "chassis")
     t = np.linspace(0.0, DURATION, 81)

@@ -33,7 +33,7 @@ def peak(car: str, road: GridRoad | KerbRoad) -> float:
 
 
 def measure(car: str, height: float) -> Row:
-    """Row of the table. `height`: of the step, m."""
+    """Row of the table. `height`: height of the step, m."""
     kerb = peak(car, KerbRoad(FACE, height, upper="after"))
     faces = {f"{s:g} m": peak(car, face(height, s)) / 1e3 for s in SPACINGS}
     return {"height, m": height, "kerb, kN": kerb / 1e3, **faces}

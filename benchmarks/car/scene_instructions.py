@@ -20,22 +20,22 @@ from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_c
 _COLLECTED = re.compile(r"Collected : (\d+)")
 SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
 STORED = Path(__file__).parents[1] / "data" / "instructions.json"
-MOST = 1.03
-"""Ratio to the stored table from which on a step is dearer."""
+MAX_RATIO = 1.03
+"""Ratio to the stored table above which a step is dearer."""
 
 
 @cache
 def counter() -> str | None:
-    """The program valgrind; None where it is not installed."""
+    """The program valgrind; None if it is not installed."""
     return shutil.which("valgrind")
 
 
 def instructions(command: Sequence[str], profile: Path = Path("/dev/null"), options: Sequence[str] = ()) -> int | None:
     """Instructions of a program, the same on a busy machine and on an idle one; None without valgrind.
 
-    `profile`: file that callgrind writes; `options`: of callgrind.
+    `profile`: file that callgrind writes; `options`: options of callgrind.
 
-    Raises `RuntimeError`: valgrind did not say how many.
+    Raises `RuntimeError` if valgrind did not say how many.
     """
     valgrind = counter()
     if valgrind is None:
@@ -158,7 +158,7 @@ def compared(rows: Sequence[Row], stored: Sequence[Row]) -> list[str]:
             continue
         quantity = "instructions" if row["instructions"] and stored_row["instructions"] else "factorizations"
         ratio = row[quantity] / stored_row[quantity]
-        if ratio > MOST:
+        if ratio > MAX_RATIO:
             lines.append(
                 f"{row['scene']}, {row['step_ms']:g} ms: {quantity} {100.0 * (ratio - 1.0):.1f} % more a step."
             )

@@ -57,7 +57,7 @@ class _Corner:
         self.load += self._wrench(body, force, point)
 
     def solve(self) -> dict[str, np.ndarray]:
-        """Joint forces by name, N: the solution of minimum norm, so that hinges share an axial force equally."""
+        """Joint forces by name, N: the solution of minimum norm, so that hinges carry equal parts of an axial force."""
         G = np.array(self.columns).T
         x, *_ = np.linalg.lstsq(G, -self.load, rcond=1e-10)
         if not np.allclose(G @ x, -self.load, atol=1e-8 * np.abs(self.load).max()):

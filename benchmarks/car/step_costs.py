@@ -28,9 +28,11 @@ class Costs:
     us: NDArray[np.float64]
     """Processor time of the thread, microseconds."""
     iterations: NDArray[np.int64]
+    """Iterations in the step."""
     halvings: NDArray[np.int64]
+    """Halvings of the step."""
     capped: NDArray[np.int64]
-    """`iterations`, `halvings`, `capped`: counts in the step."""
+    """Parts of the step whose iterations were limited."""
     residual: NDArray[np.float64]
     """Remaining residual of a capped step, m."""
     refused: list[str]
@@ -56,7 +58,7 @@ def drive(
     step : float
         Communication and inner step, s.
     progress : callable
-        Called with the completed share of the drive.
+        Called with the completed fraction of the drive.
     """
     with Fmu(fmu) as car:
         return _Drive(car, dict(start) | {"step_size": step}, step, seed, targets).go(round(seconds / step), progress)

@@ -47,11 +47,11 @@ def read(
     Returns
     -------
     t : ndarray of shape (n,)
-        s.
+        Times, s.
     values : dict of str to ndarray of shape (n,)
-        By sensor.
+        Values by sensor.
     length : float
-        Of the path of the reference point, m.
+        Length of the path of the reference point, m.
     """
     head, values = read_csv(folder_of(car) / f"{name}.csv")
     length = float(next(line for line in head if line.startswith("# path_length_m:")).partition(":")[2])
@@ -59,8 +59,8 @@ def read(
 
 
 def load_error_in_time(trajectory: Trajectory, fine: Trajectory, late: float) -> float:
-    """Largest wheel-load error over the largest load, each load against those of a fine run up to `late` s before
-    and after.
+    """Largest wheel-load error divided by the largest load, each load against all loads of a fine run up to `late` s
+    before and after.
     """
     peak, times = max(float(fine[s].max()) for s in LOADS), np.linspace(-late, late, 11)
     return (

@@ -35,7 +35,7 @@ class MergedVariable:
 
 
 def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]:
-    """Tables of variables by car. `cars`: by default all of the package, the prototype first."""
+    """Tables of variables by car. `cars`: names, by default all of the package, the prototype first."""
     names = sorted(car_names(), key=lambda n: (n != "prototype", n)) if cars is None else cars
     return {name: _table(name) for name in names}
 
@@ -118,7 +118,7 @@ def _common_name(v: Variable, present: set[str]) -> str:
 
 
 def _similar_name(v: Variable) -> str:
-    """Common name of parameters with the same description in the same table, such as those of all payloads."""
+    """Common name of parameters with the same description in the same table, such as the parameters of all payloads."""
     first, _, rest = v.name.partition(".")
     return f"{first}.*.{rest.rpartition('.')[2]}: {v.description.rpartition(': ')[2]}" if "." in rest else v.name
 

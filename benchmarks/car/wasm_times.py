@@ -33,8 +33,8 @@ _CLOCK = "async (job) => (await import('/clock.js')).clock((await import('/fmu.j
 def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Measure], dict[str, str]]:
     """The installed hosts by name, and their versions; others are named on the error stream.
 
-    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes the browser. A host is a function with the
-    argument and result of `clock.js`.
+    `fmu`: FMU with the libraries of this machine and of wasm32; `stack`: closes the browser. A host is a function with
+    the argument and result of `clock.js`.
     """
     fmpy.extract(str(fmu), unzipdir=str(folder))
     versions = {"native": "zig cc -O3, baseline of the processor family (x86-64: SSE2)"}
@@ -169,7 +169,7 @@ def _wasmtime(fmu: Path) -> Measure:
 
 
 def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
-    """Rows of every host, fidelity and kind of call. Raises `RuntimeError`: their results differ at the end."""
+    """Rows of every host, fidelity and kind of call. Raises `RuntimeError` if their results differ at the end."""
     name, systems, _ = load_fidelities("prototype_car")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, ExitStack() as stack:
         fmu = build_fmu(systems, name, folder, [fmpy.platform, "wasm32"], kind="native")

@@ -19,7 +19,7 @@ STEP = 0.01  # s
 END = 0.6  # s: before the first singular position
 CHASSIS_STEP = 0.005  # s
 CHASSIS_STEPS = 100
-FITTED_FROM = 10  # N: smaller systems have a share of fixed cost
+FITTED_FROM = 10  # N: the fixed cost of smaller systems counts
 WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 REPEATS = 9
 MODES = (5, 10, 20, 50, 100, 200)  # dynamic ones of the chassis, beside 60 static and 6 inertia modes
@@ -86,7 +86,7 @@ def exponents(rows: Sequence[Row], size: str) -> dict[str, float]:
 
 
 def growth_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Tables of cost over size and of its exponents, those of four-bars from `FITTED_FROM` windows on."""
+    """Tables of cost over size and of its exponents, for four-bars from `FITTED_FROM` windows."""
     four_bars, frames = ([r for r in rows if r["table"] == name] for name in ("windows", "chassis"))
     exponent_rows = []
     for method in METHODS:

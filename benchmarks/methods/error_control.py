@@ -19,8 +19,8 @@ QUICK_TOLERANCES = (1e-3,)
 SCENES = tuple(name for name in CASES if name not in ("pendulum_1000s", "four_bar_200"))
 SLOW = 1e-3
 """Tolerance below which ALi3-P, of order two, is left out."""
-MOST_ERROR = 10.0  # largest error of an accurate run, over the tolerance
-MOST_TIME = 2.0  # largest time of a good choice, over that of the best method
+MAX_ERROR = 10.0  # largest error of an accurate run, relative to the tolerance
+MAX_TIME_RATIO = 2.0  # largest time of a good choice, relative to the best method
 REPEATS = 5
 LONG = 0.5  # s: longer runs are made once
 
@@ -67,15 +67,15 @@ def methods_of(scene: str, tolerance: float) -> list[str]:
 
 
 def compare(rows: list[dict[str, Any]]) -> None:
-    """Set the ratio of each row: its time over the least time of an accurate run."""
-    accurate_times = [r["cpu_ms"] for r in rows if r["cpu_ms"] and r["error_over_tolerance"] <= MOST_ERROR]
+    """Set the ratio of each row: its time divided by the least time of an accurate run."""
+    accurate_times = [r["cpu_ms"] for r in rows if r["cpu_ms"] and r["error_over_tolerance"] <= MAX_ERROR]
     for row in rows:
         if accurate_times and row["cpu_ms"]:
             row["ratio"] = row["cpu_ms"] / min(accurate_times)
 
 
 def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Table of the time of the automatic choice at each tolerance, beside that of the best method."""
+    """Table of the times of the automatic choice and of the best method at each tolerance."""
     lines = []
     for r in rows:
         if not r["method"].startswith(CHOSEN):
@@ -86,15 +86,15 @@ def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
             if (x["scene"], x["tolerance"]) == (r["scene"], r["tolerance"])
             and not x["method"].startswith(CHOSEN)
             and x["cpu_ms"]
-            and x["error_over_tolerance"] <= MOST_ERROR
+            and x["error_over_tolerance"] <= MAX_ERROR
         ]
         best = min(accurate_rows, key=lambda x: x["cpu_ms"], default=None)
         miss = [
             label
-            for label, applies in (("slow", (r["ratio"] or 0.0) > MOST_TIME), ("refused", not r["cpu_ms"]))
+            for label, applies in (("slow", (r["ratio"] or 0.0) > MAX_TIME_RATIO), ("refused", not r["cpu_ms"]))
             if applies
         ]
-        if (r["error_over_tolerance"] or 0.0) > MOST_ERROR:
+        if (r["error_over_tolerance"] or 0.0) > MAX_ERROR:
             miss.append("wrong" + (", warned" if r["warned"] else ""))
         lines.append(
             {**r, "chosen": r["method"].removeprefix(f"{CHOSEN}: "), "best": best and best["method"]}

@@ -44,7 +44,7 @@ class CaseRun:
     estimate: float | None
     """Estimate of the error, relative to the range or the length."""
     cost: float | None = None
-    """Steps of the run and of its check, over those of the run."""
+    """Number of steps of the run and of its check, divided by the number of steps of the run."""
     method: str = ""
 
 
@@ -242,7 +242,7 @@ def gears(rng: np.random.Generator) -> Case:
     )
     ratio = float(rng.choice([-1.0, 1.0]) * rng.uniform(1.0, 4.0))
     rate, span = float(rng.normal(0.0, 10.0)), float(rng.uniform(1.0, 3.0))
-    gain = np.array([1.0, 1.0 / ratio])  # rate of each wheel over that of the first
+    gain = np.array([1.0, 1.0 / ratio])  # rate of each wheel relative to the first
     reduced_inertia = float((inertias + masses * arms**2) @ gain**2)
 
     def rates(_: float, y: Array) -> Array:

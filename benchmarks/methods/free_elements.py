@@ -38,7 +38,7 @@ Joining = Callable[[mbs.Model, Body], object]
 
 
 def body_on_joint(join: Joining, spin: tuple[float, ...], slide: tuple[float, ...] = O) -> Callable[[float], FreeModel]:
-    """A body without symmetry on a joint at the origin; `spin`, `slide`: angular and linear velocity over the rate."""
+    """A body without symmetry on a joint at the origin; `spin`, `slide`: angular and linear velocity per rate."""
 
     def build(rate: float) -> FreeModel:
         free = FreeModel(3)
@@ -52,7 +52,7 @@ def body_on_joint(join: Joining, spin: tuple[float, ...], slide: tuple[float, ..
 
 
 def planar_body_on_joint(join: Joining, linear: tuple[float, float]) -> Callable[[float], FreeModel]:
-    """A planar body on a joint at the origin, rotating at the rate; `linear`: linear velocity over the rate, m."""
+    """A planar body on a joint at the origin, rotating at the rate; `linear`: linear velocity per rate, m."""
 
     def build(rate: float) -> FreeModel:
         free = FreeModel()

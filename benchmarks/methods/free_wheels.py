@@ -22,7 +22,7 @@ class FreeModel:
         self.angles: dict[str, tuple[mbs.Coordinate, float]] = {}
         """Coordinate and rate, rad/s, by name."""
         self.couplings: list[tuple[str, str, float]] = []
-        """Two sensors and the ratio of the first over the second."""
+        """Two sensors and the ratio of the first to the second."""
         self.inputs: dict[str, Callable[[float], float]] = {}
         """Functions of time, s, by the name of the input."""
 
@@ -96,7 +96,7 @@ def train(*ratios: float) -> Callable[[float], FreeModel]:
 
 
 def rack(rate: float, slides: bool = False) -> FreeModel:
-    """A pinion and its rack; `slides`: with a second slide coupled to the rack."""
+    """A pinion and its rack; `slides`: whether a second slide is coupled to the rack."""
     w = FreeModel()
     pinion = w.angle("pinion", w.model.ground, w.wheel("pinion body", 0.005), rate)
     body = w.add_rack("rack", pinion, 0.05)
@@ -155,7 +155,7 @@ def rotor(rate: float) -> FreeModel:
 
 
 def bevel(rate: float, geared: bool = True) -> FreeModel:
-    """A planet with its axis perpendicular to that of its carrier, and two shafts that it drives."""
+    """A planet with its axis perpendicular to the axis of its carrier, and two shafts that it drives."""
     w, ground = FreeModel(3), (0.0, 0.0, 0.0)
     m, along, across = w.model, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 

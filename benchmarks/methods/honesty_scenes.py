@@ -59,7 +59,7 @@ class Scene:
     """Steps in descending order, s."""
 
     def error(self, trajectory: mbs.Trajectory) -> float:
-        """Largest error of a compared sensor over its size; forces are compared at `instants`."""
+        """Largest error of a compared sensor relative to its size; forces are compared at `instants`."""
         exact = self.truth()
         compared = {name: sensor for name, sensor in compared_sensors(self.system()).items() if name in exact}
         assert trajectory.report is not None
@@ -69,14 +69,14 @@ class Scene:
         return max((gaps[name] / size for name, size in comparison.sizes().items()), default=0.0)
 
 
-def _recorded(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
+def _record(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
     """Simulate a System, recorded at `SAMPLES` equal instants."""
     every = max(1, round(end / SAMPLES / h))
     return mbs.simulate(system, end, h, method=method, every=every, progress=False, **more)
 
 
 def _case_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
-    return _recorded(system_of(name), CASES[name].end, method, h, **more)
+    return _record(system_of(name), CASES[name].end, method, h, **more)
 
 
 @cache
@@ -114,7 +114,7 @@ def printed_model() -> mbs.System:
 
 
 def _crank_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
-    return _recorded(printed_model(), 2.0, method, h, inputs={"torque": 4.0}, **more)
+    return _record(printed_model(), 2.0, method, h, inputs={"torque": 4.0}, **more)
 
 
 @cache
@@ -137,7 +137,7 @@ def tumbling_body() -> mbs.System:
 
 
 def _tumbling_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
-    return _recorded(tumbling_body(), TUMBLING_TIME, method, h, **more)
+    return _record(tumbling_body(), TUMBLING_TIME, method, h, **more)
 
 
 @cache

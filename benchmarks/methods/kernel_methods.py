@@ -6,8 +6,8 @@ from mbs.settings.settings import METHODS as KERNEL
 
 TITLES = {name: method.title for name, method in METHOD_TABLE.items()}
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13, "eps_rel": 1e-9}
-"""Near a singular position the residual of a constraint decreases in an iteration by about eps_rel over the square of
-its lever: with the default eps_rel the 200-four-bar does not reach 1e-13 m there within 30 iterations.
+"""Near a singular position the residual of a constraint decreases in an iteration by about eps_rel divided by the
+square of its lever: with the default eps_rel the 200-four-bar does not reach 1e-13 m there within 30 iterations.
 """
 CONSERVATIVE_ONLY = tuple(name for name, method in METHOD_TABLE.items() if method.conservative_only)
 TREE_ONLY = tuple(name for name, method in METHOD_TABLE.items() if method.tree_only)

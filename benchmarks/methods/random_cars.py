@@ -21,15 +21,15 @@ STEPS = (0.02, 0.01, 0.005, 0.002)  # s
 INTERVAL = 0.02  # s between recorded instants
 REFERENCE = 2.5e-4  # step of energy-momentum, s
 CHECK = 1e-4  # step of ALi3-P, s
-AGREE = 0.01  # largest difference of both, over the range
+AGREE = 0.01  # largest difference of both, relative to the range
 
 
 @dataclass(frozen=True)
 class Drive:
     """A drive; the kerb is 3 m ahead of the front axle, `step` m up (positive) or down; 0: no kerb.
 
-    `z`: initial height, m; `yaw`: rad; `speed`: m/s; `steering`: at the start and from 0.3 s; `pedals`: throttle and
-    brake; `span`: duration, s.
+    `z`: initial height, m; `yaw`: rad; `speed`: m/s; `steering`: values at the start and from 0.3 s; `pedals`: throttle
+    and brake; `span`: duration, s.
     """
 
     car: str
@@ -86,7 +86,7 @@ def random_drive(rng: np.random.Generator) -> Drive:
 def reference_by_two_methods(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory]) -> dict[str, Array]:
     """Compared sensors at the recorded instants, confirmed by a second method.
 
-    `simulate`: simulates with a method and a step, s. Raises `NoReferenceError`: both runs differ, or one is refused.
+    `simulate`: simulates with a method and a step, s. Raises `NoReferenceError` if both runs differ, or one is refused.
     """
     try:
         fine, other = simulate("ali3p", CHECK), simulate("energy_momentum", REFERENCE)

@@ -17,10 +17,10 @@ from mbs.results.comparison import compared_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 Array = NDArray[np.float64]
-NEGLIGIBLE = 1e-3  # error over the range or the length below which estimates are not compared
+NEGLIGIBLE = 1e-3  # error relative to the range or the length below which estimates are not compared
 FACTOR = 10.0  # largest ratio between an error and its estimate
 WRONG_TOLERANCES = 10.0  # tolerances from which an error is wrong
-NEAR = (0.9, 1.1)  # range of the error over the limit in which runs are not judged
+NEAR = (0.9, 1.1)  # range of the error relative to the limit in which runs are not judged
 VERDICTS = ("right", "false alarm", "refused", "wrong, warned", "silently wrong", "near")
 ERRORS = (mbs.AccuracyWarning, mbs.BranchWarning)
 """Warnings of errors; others are about models, such as bending beyond the range of the modes."""

@@ -12,7 +12,7 @@ from benchmarks.references.newton_euler import GROUND, Joint, Link, Mechanism, S
 
 Array = NDArray[np.float64]
 PLANE_NORMAL = np.array([0.0, 0.0, 1.0])
-NEARLY_EQUAL = 0.3  # share of loops that pass close to a dead centre
+NEARLY_EQUAL = 0.3  # fraction of loops that pass close to a dead centre
 NEAR = (1e-3, 0.05)  # relative difference of their arms at the dead centre
 
 

@@ -21,7 +21,7 @@ STEPS = tuple(float(f"{digit}e{power}") for power in range(-6, 0) for digit in (
 EPS = 10.0 ** -np.arange(3.0, 12.0, 2.0)  # the kernel's penalty is alpha = 1/(eps h^2)
 PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
 BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
-MOST_CLASSICAL = 1000  # largest number of steps of a method in Python
+MAX_CLASSICAL = 1000  # largest number of steps of a method in Python
 CLASSICAL_WORK = 1.3e4  # largest product of steps and coordinates of a method in Python
 WRONG = 0.05  # of the extent of the motion
 ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
@@ -46,7 +46,7 @@ def intervals(scene: str, h: float) -> int | None:
 def judge(scene: str, positions: np.ndarray, energy: np.ndarray) -> tuple[str, dict[str, Any]]:
     """Outcome and errors of a run.
 
-    `positions`: of the output point at the start and at equal intervals, (n, k); `energy`: (n,), J.
+    `positions`: positions of the output point at the start and at equal intervals, (n, k); `energy`: (n,), J.
     """
     case = CASES[scene]
     exact = exact_of(scene)[:: SAMPLES // (len(positions) - 1)]
@@ -132,7 +132,7 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
     """Rows of all points of a scene; if `quick` of few."""
     case, system = CASES[scene], system_of(scene)
     steps = steps_of(scene, case.map_work / system.nq)
-    classical = steps_of(scene, min(MOST_CLASSICAL, CLASSICAL_WORK / system.nq))
+    classical = steps_of(scene, min(MAX_CLASSICAL, CLASSICAL_WORK / system.nq))
     eps, penalties, factors = EPS, PENALTIES, BAUMGARTE
     if quick:
         steps, classical, eps = steps[-6:-1:2], classical[1:3], EPS[1::2]

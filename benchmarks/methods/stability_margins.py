@@ -46,7 +46,7 @@ def margins(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def _decades(rows: Sequence[Row], h: float) -> tuple[float, float]:
-    """Decades of eps below and above the default up to the first run that is not fine, else to one after the last."""
+    """Decades of eps below and above the default up to the first run that is not fine, or to one after the last."""
     centre = np.log10(mbs.Settings().eps_rel)
     values = sorted((np.log10(r["value"]), r["outcome"]) for r in rows if r["h_s"] == h and r["value"] is not None)
     lower = [v for v, o in values if o != "fine" and v < centre - 1e-9]

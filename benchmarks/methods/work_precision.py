@@ -36,7 +36,7 @@ Action = Callable[[], tuple[float, dict[str, Any]]]
 
 
 def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
-    """A run of the kernel with steps of `h`, s; the wall time is that of its steps."""
+    """A run of the kernel with steps of `h`, s; only the steps count in the wall time."""
     case, system = CASES[scene], system_of(scene)
     every = round(case.end / SAMPLES / h)
 
@@ -191,7 +191,7 @@ def time_at_error(rows: Sequence[Row], method: str, level: float) -> float | Non
 
 
 def compare(rows: Sequence[Row], scene: str) -> list[dict[str, Any]]:
-    """Rows of the best time of the kernel over that of the best peer, by level of error."""
+    """Rows of the best time of the kernel relative to the best peer, by level of error."""
     part = [r for r in rows if r["scene"] == scene]
     lines = []
     for level in LEVELS:

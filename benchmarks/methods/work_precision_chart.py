@@ -32,7 +32,7 @@ OTHERS = {
 """Colour, line style, and markers of the methods of each family."""
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
 """Colour and marker of runs with a tolerance."""
-LARGEST_ERROR = 0.5  # of a drawn run, over the extent of the motion
+MAX_ERROR = 0.5  # of a drawn run, relative to the extent of the motion
 PANELS = {"wall_s": ("kernel", "drake", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
 """Families in each panel: compiled programs by time, methods that count factorizations."""
 
@@ -41,7 +41,7 @@ def draw(rows: Sequence[Row], case: Case, largest_error: float, file: Path) -> N
     """Draw errors over wall time of the kernel and other engines, and over factorizations of the kernel and Python
     methods.
 
-    `largest_error`: of a drawn run, in the unit of the case; `file`: PNG.
+    `largest_error`: bound for a drawn run, in the unit of the case; `file`: PNG.
     """
     plt = pyplot()
     figure, axes = plt.subplots(1, 2, figsize=(11.0, 4.6), sharey=True, layout="constrained")

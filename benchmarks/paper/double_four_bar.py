@@ -17,7 +17,7 @@ from mbs.scenes import double_four_bar
 WINDOWS = (2, 40)
 END = 10.0  # s
 REPEATS = 15
-LARGEST_ERROR = 1.0  # m, of a drawn run
+MAX_ERROR = 1.0  # m, of a drawn run
 PAPER = {0.01: (-0.21, 0.86), 0.03: (-0.83, 0.37), 0.05: (-9.03, 0.26)}  # s: (J, s), Table 1
 SHORT = 3e-3  # s: shorter runs are seldom interrupted, and their time is in the table
 METHODS = {
@@ -108,7 +108,7 @@ def draw(rows: Sequence[Row], file: Path) -> None:
     for ax, n in zip(axes[0], windows, strict=True):
         for method, (colour, marker) in styles.items():
             method_rows = [r for r in rows if r["N"] == n and r["method"] == method]
-            method_rows = [r for r in method_rows if r["wall_s"] and r["position_error_m"] < LARGEST_ERROR]
+            method_rows = [r for r in method_rows if r["wall_s"] and r["position_error_m"] < MAX_ERROR]
             x, y = ([r[key] for r in method_rows] for key in ("wall_s", "position_error_m"))
             ax.loglog(x, y, marker=marker, color=colour, label=method, linewidth=1.6, markersize=6, fillstyle="none")
             for r in method_rows if method == "ALi3-P" else ():

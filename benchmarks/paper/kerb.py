@@ -23,7 +23,7 @@ def peak_changes(t: Trajectory, h: float) -> dict[str, float]:
 
 
 def residual_moments(model: Fidelity, h: float) -> tuple[float, float]:
-    """Largest residual change of a moment over its peak, of the standing car with and without friction of its tyres."""
+    """Largest residual change of a moment relative to its peak, of the standing car with and without tyre friction."""
     car = Simulation(fidelity_runs.system_of("kerb_test", model))
     names = [f"bending_moment.{g}" for g in GAUGES]
     t = car.run(RELEASE, h, progress=False)

@@ -84,7 +84,7 @@ def accelerometer_signals(
     """Accelerometer signals of a run.
 
     `noise`, `offset`, `drift`: standard deviations of the samples, m/s2, of the zero, m/s2, and of its rate, m/s3;
-    `seed`: of NumPy's generator.
+    `seed`: seed of NumPy's generator.
     """
     every = round(RATE / (run.t[1] - run.t[0]))
     axes = "xyz"
@@ -109,7 +109,8 @@ def motion(signals: Signals, distance: float) -> Motion:
     squares of angular velocities are neglected. Each is integrated; means over a second at rest are the drift of the
     rate, interpolated by a monotone cubic. The speed is then scaled to the known distance.
 
-    `distance`: from rest to rest, m. The scaling corrects for the weight in the signal by the pitch of the braked car.
+    `distance`: distance from rest to rest, m. The scaling corrects for the weight in the signal by the pitch of the
+    braked car.
     """
     t = signals.time
     arms = np.vstack([np.hstack([np.eye(3), -_cross(arm)]) for arm in _ARMS])
@@ -173,7 +174,7 @@ _SMOOTH = "#0b62c4"
 _MEASURED = "#d55e00"
 _SIGNAL = "#b0b0b0"
 PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
-_LARGEST_SHIFT = 0.5  # s
+_MAX_SHIFT = 0.5  # s
 _EDGE = 0.1  # s at the end that are not compared
 
 
@@ -188,8 +189,8 @@ def moments(run: Trajectory) -> Array:
 
 
 def best_shift(reference: Array, replayed: Array) -> tuple[int, float]:
-    """Delay of moments in steps, and their error after this shift, rms over the rms of the reference."""
-    limit = round(_LARGEST_SHIFT / kerb_test.STEP)
+    """Delay of moments in steps, and their error after this shift, rms relative to the rms of the reference."""
+    limit = round(_MAX_SHIFT / kerb_test.STEP)
 
     def error_of(k: int) -> float:
         one, other = (replayed[k:], reference[: len(reference) - k]) if k >= 0 else (replayed[:k], reference[-k:])
@@ -214,7 +215,7 @@ def cost(run: Trajectory) -> dict[str, float]:
 def row_of(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) -> dict[str, Any]:
     """Row of a case: means over the seeds, and the largest number of iterations.
 
-    `name`: of `CASES`; `true`: the run with the signals; `plain`: the test with its own guide and step.
+    `name`: key of `CASES`; `true`: the run with the signals; `plain`: the test with its own guide and step.
     """
     options = dict(CASES[name])
     frequency = options.pop("filter", 0.0)

@@ -13,7 +13,7 @@ NAMES = {
     "mujoco": "benchmarks.peers.mujoco_peer",
     "pinocchio": "benchmarks.peers.pinocchio_peer",
 }
-PACKAGES = {"drake": "pydrake"}  # where the module has another name
+PACKAGES = {"drake": "pydrake"}  # modules of another name
 
 sys.exudynFast = True  # type: ignore[attr-defined] # Exudyn's faster module, asked for before it is imported
 

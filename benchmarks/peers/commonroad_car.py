@@ -1,6 +1,6 @@
 """CommonRoad's multi-body car of 29 states (BMW 320i), its own functions compiled by numba and integrated by RK4.
 
-The functions are those of PyPI's `commonroad-vehicle-models`: compiled as they are, with parameters as named tuples.
+The functions of PyPI's `commonroad-vehicle-models` are compiled as they are, with parameters as named tuples.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def drive(cars: int, speed: float, h: float, angles: Array) -> tuple[Array, floa
     Returns
     -------
     states : ndarray, shape (steps, 29)
-        Of the last car.
+        States of the last car.
     seconds : float
         Processor time without the compilation.
     """

@@ -23,7 +23,7 @@ DIVERGED = 1e3  # rad/s
 
 
 def run(scene: str, h: float, end: float, samples: int, integrator: str) -> PeerRun:
-    """Run a scene; the wall time is that of the steps alone."""
+    """Run a scene; only the steps count in the wall time."""
     if integrator not in integrators(scene):
         raise ValueError(f"{integrator!r} is not for {scene}")
     tree = tree_of(scene)

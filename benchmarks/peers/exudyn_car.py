@@ -2,7 +2,7 @@
 
 Each wheel slides vertically on a spring and rolls by Exudyn's `ObjectConnectorRollingDiscPenalty`: a normal penalty
 force with the tyre's stiffness, and a friction force proportional to the slip speed up to a maximum. The slip speed at
-the maximum gives the initial cornering stiffness of our tyre. There are no suspension links, no drive and no air. A
+the maximum gives the initial cornering stiffness of ALi3's tyre. There are no suspension links, no drive and no air. A
 Python function sets the angles of the front wheels before each step, as is usual in Exudyn.
 """
 
@@ -35,13 +35,13 @@ class ExudynCar:
     Parameters
     ----------
     mass : float
-        Of the whole car, kg; the body has what the wheels do not have.
+        Mass of the whole car, kg; the body has what the wheels do not have.
     speed : float
-        At the start, m/s.
+        Initial speed, m/s.
     h : float
         Step, s.
     angles : ndarray, shape (steps, 2)
-        Of the front wheels, left and right, at the end of each step, rad.
+        Angles of the front wheels, left and right, at the end of each step, rad.
     rates : dict of str to float
         Result of `benchmarks.car.rig.kinematics`.
     """
@@ -142,7 +142,7 @@ def drive(
 ) -> tuple[Array, float]:
     """Simulate several cars one after the other, whose springs differ by 1 % from one to the next.
 
-    `mass`, `speed`, `h`, `angles`, `rates`: of `ExudynCar`.
+    `mass`, `speed`, `h`, `angles`, `rates`: see `ExudynCar`.
 
     Returns
     -------

@@ -28,7 +28,7 @@ def integrators(scene: str) -> tuple[str, ...]:
 
 
 def run(scene: str, h: float, end: float, samples: int, integrator: str) -> PeerRun:
-    """Run a scene; the wall time is that of the solver's call."""
+    """Run a scene; only the solver's call counts in the wall time."""
     explicit = integrator.startswith("RK44")
     if integrator not in integrators(scene):
         raise ValueError(f"{integrator!r} is not for {scene}")
@@ -174,7 +174,7 @@ def _frame(axis: Vector) -> Vector:
 
 
 def _add_closed_tree(mbs: Any, scene: str, tree: Tree) -> int:
-    """Add a tree with closed loops: in Bricard's mechanism by a hinge, else by points in the plane of the links."""
+    """Add a tree with loops closed by a hinge in Bricard's mechanism, otherwise by points in the plane of the links."""
     tree_object, sensor = _add_tree(mbs, tree)
     if scene == "bricard":
         loop, hinge = tree.closures[0], _frame(np.array(bricard.AXES[5], float))

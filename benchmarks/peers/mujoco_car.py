@@ -29,8 +29,8 @@ STEERING = 2e4, 200.0  # N m/rad, N m s/rad: stiffness and damping of the angle 
 def model(car: Car, mass: float, h: float, spring_factor: float = 1.0) -> Any:
     """The compiled model.
 
-    `mass`: of the whole car, kg; the body has what the wheels do not have; `h`: step, s; `spring_factor`: factor of the
-    spring stiffnesses.
+    `mass`: mass of the whole car, kg; the body has what the wheels do not have; `h`: step, s; `spring_factor`: factor
+    of the spring stiffnesses.
     """
     body, axles = car.chassis, (car.front, car.rear)
     unsprung = 2.0 * sum(axle.wheel.mass for axle in axles)
@@ -75,8 +75,8 @@ def start(m: Any, speed: float) -> Array:
 def drive(models: Sequence[Any], speed: float, angles: Array, threads: int) -> tuple[Array, float]:
     """Simulate several cars by `mujoco.rollout`.
 
-    `angles`: of the front wheels, left and right, rad, shape (steps, 2); `threads`: 0: one car after the other in the
-    calling thread.
+    `angles`: angles of the front wheels, left and right, rad, shape (steps, 2); `threads`: number of threads; 0: one
+    car after the other in the calling thread.
 
     Returns
     -------

@@ -19,7 +19,7 @@ mujoco.set_mju_user_warning(lambda message: None)  # it would write a log file; 
 
 
 def run(scene: str, h: float, end: float, samples: int, integrator: str) -> PeerRun:
-    """Run a scene; the wall time is that of the steps alone."""
+    """Run a scene; only the steps count in the wall time."""
     tree = tree_of(scene)
     model = mujoco.MjModel.from_xml_string(_text(tree, h, integrator))
     data = mujoco.MjData(model)

@@ -33,8 +33,8 @@ def sample_times(end: float, samples: int) -> Vector:
 class Link:
     """A body and its revolute joint at `position` on the parent (0: the ground); all axes are parallel at the start.
 
-    `centre`: centre of mass from the joint, m; `inertia`: about it, kg m^2; `mass`: kg; `rate`: of the joint at the
-    start, rad/s.
+    `centre`: centre of mass from the joint, m; `inertia`: about it, kg m^2; `mass`: kg; `rate`: initial rate of
+    the joint, rad/s.
     """
 
     parent: int
@@ -58,7 +58,7 @@ class Closure:
 
 @dataclass
 class Tree:
-    """A scene: bodies are numbered from 1 on; `body`, `point`, `components`: of the output point."""
+    """A scene: bodies are numbered from 1; `body`, `point`, `components` define the output point."""
 
     gravity: Vector
     body: int

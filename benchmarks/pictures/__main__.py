@@ -37,7 +37,7 @@ PARTS = {
         rows=False,
     ),
     "simulator": Part(
-        "the simulator as the prototype is driven, with its instruments, whose rates are those of this machine",
+        "the simulator as the prototype is driven, with its instruments, whose rates are measured on this machine",
         lambda options: simulator.take_all(options.only, Path(options.out)),
         names=tuple(simulator.SHOTS),
         options=OUT,

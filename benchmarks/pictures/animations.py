@@ -42,10 +42,11 @@ class Animation:
     record: Callable[[], Recording]
     """Simulates the scene."""
     begin: float
+    """Start of the film in time of the run, s."""
     end: float
-    """`begin`, `end`: of the film, in time of the run, s."""
+    """End of the film in time of the run, s."""
     speed: float = 1.0
-    """Speed of the film over real time."""
+    """Speed of the film relative to real time."""
     camera: str | None = None
     """Name of the camera; by default the first."""
     options: Mapping[str, Any] = field(default_factory=dict)
@@ -54,7 +55,7 @@ class Animation:
 def film(name: str, path: Path) -> WrittenFilm:
     """Simulate a scene and write its film.
 
-    `name`: of `ANIMATIONS`; `path`: ``.webp``, ``.gif`` or ``.mp4``.
+    `name`: key of `ANIMATIONS`; `path`: ``.webp``, ``.gif`` or ``.mp4``.
     """
     a = ANIMATIONS[name]
     return write_mp4(

@@ -11,7 +11,7 @@ from functools import partial
 from io import StringIO
 from pathlib import Path
 
-from ali3.chart_description import description_of
+from ali3.chart_description import read_description
 from ali3.charts import save_picture
 from benchmarks.car.frame_pictures import draw_gauges
 from benchmarks.shared.figures import RemadeTable
@@ -33,7 +33,7 @@ def charts(_: bool) -> list[RemadeTable]:
             file = Path(folder, name)
             with redirect_stdout(StringIO()):
                 draw(file)
-            results.append(RemadeTable(f"docs/images/{name}", description_of(file), picture=file.read_bytes()))
+            results.append(RemadeTable(f"docs/images/{name}", read_description(file), picture=file.read_bytes()))
     return results
 
 
@@ -66,7 +66,7 @@ def _fit(file: Path) -> None:
     with contextlib.chdir(folder):
         exec(code, {})
         if compare(shlex.split(command[1].replace("\\\n", ""))):
-            raise RuntimeError("The fit of docs/compare.md is no good.")
+            raise RuntimeError("The fit of docs/compare.md is not good.")
     (folder / "out" / "compare" / "drive.svg").rename(file)
 
 

@@ -59,7 +59,7 @@ DRIVES = {
 
 
 def drive(name: str) -> Recording:
-    """Simulate a drive; its recording with the drawn world. Raises `UserError`: the world cannot be made."""
+    """Simulate a drive; its recording with the drawn world. Raises `UserError` if the world cannot be made."""
     d = DRIVES[name]
     with TemporaryDirectory() as folder:
         with redirect_stdout(StringIO()):
@@ -71,7 +71,7 @@ def drive(name: str) -> Recording:
         run = mbs.simulate(car, d.stop_time, STEP, d.inputs, parameters=road, pose=d.start, every=EVERY, progress=False)
         drawing = json.loads(Path(folder, f"{d.world}.json").read_text(encoding="utf-8"))
         assert run.drawing is not None
-        # without the roads of the run, which have no scenery; those of the world's file are added below
+        # without the roads of the run, which have no scenery; roads of the world's file are added below
         result = run.recording({**run.drawing.scene, "roads": []})
     scene = {**(result.scene or {}), "roads": drawing["roads"], "scenery": drawing["scenery"]}
     return Recording(scene, result.t, result.columns, result.units, result.name)

@@ -1,4 +1,4 @@
-"""Pictures of pages at one instant, compared pixel by pixel with those of the script of another checkout."""
+"""Pictures of pages at one instant, compared pixel by pixel with pictures by the script of another checkout."""
 
 import io
 import json
@@ -103,7 +103,7 @@ def compare(options: Namespace) -> list[dict[str, Any]]:
             entry = PAGES[name]
             files = {end: folder / f"{name}{end}.png" for end in scripts}
             for end, page_script in scripts.items():
-                with _served(name, folder) as (address, text):
+                with _serve(name, folder) as (address, text):
                     files[end].write_bytes(_screenshot(chromium, entry, address, text, page_script))
             row = {"page": name, "size": " x ".join(map(str, entry.size)), "shows": ", ".join(entry.runs)}
             if options.other:
@@ -123,7 +123,7 @@ def _chromium() -> Iterator[Any]:
 
 
 @contextmanager
-def _served(name: str, folder: Path) -> Iterator[tuple[str, str]]:
+def _serve(name: str, folder: Path) -> Iterator[tuple[str, str]]:
     """Context of a page: its address, and its text if it is not a page of the simulator."""
     entry = PAGES[name]
     if entry.runs == (SIMULATOR,):
@@ -162,7 +162,7 @@ def _car() -> Path:
 
 
 def _screenshot(chromium: Any, entry: Page, address: str, text: str, page_script: str) -> bytes:
-    """Screenshot of a page with a script in place of its own."""
+    """Screenshot of a page with a script instead of its own."""
     width, height = entry.size
     scheme = entry.options.get("theme", "light")
     page = chromium.new_page(

@@ -1,4 +1,4 @@
-"""Linear stability of the bicycle in straight running: published eigenvalues, and those of the System.
+"""Linear stability of the bicycle in straight running: published eigenvalues, and eigenvalues of the System.
 
 Published: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A. L. Schwab, "Linearized dynamics equations for the balance
 and steer of a bicycle: a benchmark and review", Proceedings of the Royal Society A 463, 2007, 1955-1982.

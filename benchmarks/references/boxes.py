@@ -10,9 +10,8 @@ from scipy.integrate import solve_ivp
 from benchmarks.references.newton_euler import INSTANTS, NoReferenceError, cross, quaternion_matrix
 
 Array = NDArray[np.float64]
-LOOSE = 1e-8
-TIGHT = 1e-10
-AGREE = 1e-4  # largest difference of two runs, over the diagonal of the box
+LOOSE, TIGHT = 1e-8, 1e-10  # relative tolerances of the two runs
+AGREE = 1e-4  # largest difference of two runs, relative to the diagonal of the box
 
 
 @dataclass(frozen=True)
@@ -20,6 +19,7 @@ class Box:
     """A box without friction on the plane z = 0, whose edges are along the earth axes at the start."""
 
     mass: float
+    """Mass, kg."""
     half: Array
     """Half lengths of its edges (3,), m."""
     height: float
@@ -52,7 +52,7 @@ class Box:
 def motion(box: Box) -> dict[str, Array]:
     """Coordinates of the centre and of the first corner by name, (INSTANTS + 1,) each, m, confirmed by a second run.
 
-    Raises `NoReferenceError`: both runs differ.
+    Raises `NoReferenceError` if both runs differ.
     """
     loose, tight = (_run(box, tolerance, divisions) for tolerance, divisions in ((LOOSE, 300), (TIGHT, 500)))
     size = 2.0 * float(np.linalg.norm(box.half))
@@ -63,6 +63,7 @@ def motion(box: Box) -> dict[str, Array]:
 
 
 def _run(box: Box, tolerance: float, divisions: int) -> dict[str, Array]:
+    """Simulate with a relative tolerance; the steps are at most the `divisions`-th part of the duration."""
     inertia, corners, K, w = np.diag(box.inertia), box.corners, box.stiffness, box.onset
 
     def rates(_: float, y: Array) -> Array:

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 LOOSE = 1e-8
 TIGHT = 1e-10
 REST = 1e-100  # squares of smaller rates underflow in SciPy's estimate of an error
-AGREE = 1e-4  # largest difference of two runs, over the largest range of a mass
+AGREE = 1e-4  # largest difference of two runs, relative to the largest range of a mass
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def motion(machine: Machine) -> Array:
     """Positions (INSTANTS + 1, n), m, confirmed by a run with a hundred times the tolerance.
 
     Forces are continuous in the state, so that the step control detects each kink; steps are limited, so that none
-    skips a short contact. Raises `NoReferenceError`: both runs differ.
+    skips a short contact. Raises `NoReferenceError` if both runs differ.
     """
     loose, tight = (_run(machine, tolerance, divisions) for tolerance, divisions in ((LOOSE, 300), (TIGHT, 500)))
     apart = float(np.abs(loose - tight).max()) / float(np.ptp(tight, axis=0).max())

@@ -1,4 +1,4 @@
-"""Exact motions: by reduction to one or two variables, else by minimum-norm accelerations at tolerance 1e-12.
+"""Exact motions: by reduction to one or two variables, or by minimum-norm accelerations at tolerance 1e-12.
 
 No augmented Lagrangian is involved.
 """

@@ -1,6 +1,6 @@
 """Mechanisms of rigid bodies by Newton's and Euler's equations with multipliers, solved by SciPy's DOP853.
 
-Coordinates, equations and integrator are not those of the engine. Source: Haug, "Computer Aided Kinematics and
+Coordinates, equations and integrator differ from the engine. Source: Haug, "Computer Aided Kinematics and
 Dynamics", 6.3 and 11.3.
 """
 
@@ -19,8 +19,8 @@ INSTANTS = 50  # intervals between recorded instants
 COARSE = 1e-8
 FINE = 1e-10
 FINEST = 1e-12
-AGREE = 1e-5  # largest difference of two runs of a reference, over the size of the mechanism
-MOST_CALLS = 100000  # largest number of evaluations of the equations of motion in a run
+AGREE = 1e-5  # largest difference of two runs of a reference, relative to the size of the mechanism
+MAX_CALLS = 100000  # largest number of evaluations of the equations of motion in a run
 
 
 class NoReferenceError(Exception):
@@ -187,7 +187,7 @@ class Dynamics:
     def rates(self, t: float, x: Array) -> Array:
         """Time derivative of the state."""
         self.calls += 1
-        if self.calls > MOST_CALLS:
+        if self.calls > MAX_CALLS:
             raise NoReferenceError("the reference does not end")
         n, d = self.n, self.d
         mass, force, rows, gamma = self._equations(t, x)
@@ -320,7 +320,7 @@ def motion(mechanism: Mechanism, rates: bool = False) -> Array:
     """Positions of the tips (INSTANTS + 1, n, d), m, confirmed by a run with a hundred times the tolerance; if `rates`,
     the values of `Dynamics.rates_and_drive` (INSTANTS + 1, k), before each event.
 
-    Raises `NoReferenceError`: the two runs differ by more than `AGREE`, or one of them does not end.
+    Raises `NoReferenceError` if the two runs differ by more than `AGREE`, or one of them does not end.
     """
     (coarse, _), (results, omegas) = (_run(mechanism, tolerance) for tolerance in (COARSE, FINE))
     apart = float(np.abs(coarse - results).max()) / mechanism.size

@@ -117,9 +117,7 @@ class RollingBicycle:
         return values
 
     def growth(self, speed: float, oscillating: bool) -> float:
-        """Largest real part, 1/s, of the complex eigenvalues (weave) if `oscillating`, else of the real ones
-        (capsize).
-        """
+        """Largest real part, 1/s, of the complex eigenvalues (weave) if `oscillating`, otherwise of the real ones."""
         values = np.linalg.eigvals(self.matrix(speed))
         return float(max(v.real for v in values if (abs(v.imag) > 1e-6) == oscillating))
 

@@ -29,7 +29,7 @@ class Part:
     about: str
     """One line for the help."""
     measure: Callable[[Namespace], Sequence[Row] | None]
-    """Returns the rows; None where it has written files itself and printed their paths."""
+    """Returns the rows; None if it has written files itself and printed their paths."""
     names: Sequence[str] = ()
     """What ``--only`` chooses from, by default all."""
     options: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
@@ -41,7 +41,7 @@ class Part:
     blocks: Callable[[Sequence[Row]], Mapping[str, str]] | None = None
     """Tables of the pages by the names of their marks."""
     words: Callable[[Sequence[Row]], str] | None = None
-    """Text that is printed, by default the tables of `blocks`, else all columns."""
+    """Text that is printed, by default the tables of `blocks`, or all columns without `blocks`."""
     chart: Callable[[Sequence[Row], Path], None] | None = None
     """Draws the rows into a PNG file, or several charts into a folder."""
     check: Callable[[Sequence[Row], Namespace], Sequence[str]] | None = None
@@ -175,7 +175,7 @@ def watched(items: Sequence[T]) -> Iterator[T]:
 
 
 def pyplot() -> Any:
-    """Matplotlib's pyplot without a display, imported only where a chart is drawn."""
+    """Matplotlib's pyplot without a display, imported only if a chart is drawn."""
     import matplotlib
 
     matplotlib.use("Agg")

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
-from ali3.chart_description import description_of
+from ali3.chart_description import read_description
 from benchmarks.shared.pages import DOCS, replace
 
 _TABLE = re.compile(r"(?:^\|.*\n?)+", re.MULTILINE)
@@ -34,7 +34,7 @@ class RemadeTable:
 def read(page: str) -> str:
     """Text of a page, or the description in a chart file."""
     file = DOCS.parent / page
-    return description_of(file) if file.suffix in (".png", ".svg") else file.read_text(encoding="utf-8")
+    return read_description(file) if file.suffix in (".png", ".svg") else file.read_text(encoding="utf-8")
 
 
 def rows_of(text: str) -> list[dict[str, str]]:

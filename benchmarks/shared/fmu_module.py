@@ -83,7 +83,7 @@ class FmuModule:
         return bytes(self._memory.read(self._store, address, address + size))
 
     def block(self, data: bytes) -> int:
-        """Allocate a copy of these bytes, which is not freed; its address, 0 if there is no memory."""
+        """Allocate a copy of these bytes, which is not freed; its address, 0 without memory."""
         address = int(self._call("malloc", max(len(data), 1)))
         if address != 0:
             self._memory.write(self._store, data, address)

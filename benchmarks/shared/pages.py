@@ -45,15 +45,15 @@ def machine(meta: Row) -> str:
 
 
 def replace(text: str, blocks: Mapping[str, str]) -> str:
-    """Text of a page with new blocks, by name; lines that are no rows of tables are wrapped at 120 characters."""
+    """Text of a page with new blocks, by name; lines other than rows of tables are wrapped at 120 characters."""
     for name, content in blocks.items():
         mark = re.compile(rf"(<!-- begin {re.escape(name)} -->\n).*?(<!-- end {re.escape(name)} -->)", re.DOTALL)
-        text = mark.sub(lambda m, content=content: f"{m[1]}{_wrapped(content.strip())}\n{m[2]}", text)
+        text = mark.sub(lambda m, content=content: f"{m[1]}{_wrap(content.strip())}\n{m[2]}", text)
     return text
 
 
-def _wrapped(content: str) -> str:
-    """Wrap the lines that are no rows of a table; further lines of a list item are indented."""
+def _wrap(content: str) -> str:
+    """Wrap all lines but rows of tables; further lines of a list item are indented."""
     lines = []
     for line in content.splitlines():
         hang = "  " if line.startswith("- ") else ""

@@ -1,7 +1,7 @@
 """A car against a measured drive, and published tests: ``python -m benchmarks.validation PART``.
 
 The drive is the log of a Ferrari 250 LM on a race track (source: `docs/validation.md`), or another log with its alias
-file and car. Simple models and the car are fitted to the same seconds and compared over the other seconds.
+file and car. Simple models and the car are fitted to the same seconds and compared in the other seconds.
 """
 
 import sys
@@ -176,9 +176,7 @@ def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[s
 
 
 def _folds(first: Fitted, second: Fitted) -> list[dict[str, Any]]:
-    """Rows of the parameters of a model fitted to either part of the drive, and of its yaw-rate error over the
-    other.
-    """
+    """Rows of the parameters of a model fitted to either part of the drive, and of its yaw-rate error in the other."""
     rows = [
         {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
         for (u, a), (_, b) in zip(_unknowns_with_values(first), _unknowns_with_values(second), strict=True)
@@ -237,10 +235,10 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
 LOGGED: dict[str, tuple[Any, str]] = {
     "log": (Path, "CSV, perhaps packed (.csv.gz)"),
     "car": ("ferrari_250_lm", "FMU or car"),
-    "aliases": (Path, "of the log, for the car; by default those of the Ferrari's"),
+    "aliases": (Path, "aliases of the log, for the car; by default the Ferrari's"),
 }
 FITTED_PARAMETERS: dict[str, tuple[Any, str]] = {
-    "bounds": (Path, "what is sought, and between which bounds; by default that of the Ferrari"),
+    "bounds": (Path, "sought parameters and their bounds; by default the Ferrari's"),
 }
 PARTS = {
     "drive": Part(

@@ -66,7 +66,7 @@ DRIVES = (
 def reached(time: Array, speed: Array, target: float) -> float:
     """Time at which a speed is first reached, s.
 
-    `time`, `speed`: in s and m/s, shape (n,); `target`: in km/h.
+    `time`: s, shape (n,); `speed`: m/s, shape (n,); `target`: km/h.
     """
     after = int(np.argmax(speed >= target / KMH))
     if not speed[after] >= target / KMH:
@@ -75,7 +75,7 @@ def reached(time: Array, speed: Array, target: float) -> float:
 
 
 def compared() -> list[tuple[Published, float]]:
-    """Published times and top speeds, each with that of a car of the package."""
+    """Published times and top speeds, each with the figure of a car of the package."""
     results = []
     for drive in DRIVES:
         time, speed = full_throttle(drive.car, drive.settings)

@@ -23,7 +23,7 @@ FASTEST = Published(
 
 
 def compared(car: str = CAR) -> list[tuple[Published, float]]:
-    """Published fastest entry speed, and that of the hatchback by the catalogue, km/h."""
+    """Fastest entry speed, published and of the hatchback by the catalogue, km/h."""
     test = standard_test("double_lane_change")
     record = test.perform(
         TestedCar(car, FmuSource(fmu_file(Path(car)))), settings_of_test(test, SETTINGS), lambda done: None

@@ -19,11 +19,13 @@ class Body:
     """Known data of the car."""
 
     mass: float
+    """Mass, kg."""
     yaw_inertia: float
-    """`mass`, kg; `yaw_inertia`, kg m2."""
+    """Moment of inertia about the vertical axis, kg m2."""
     front: float
+    """Distance of the front axle from the centre of mass, m."""
     rear: float
-    """`front`, `rear`: distances of the axles from the centre of mass, m."""
+    """Distance of the rear axle from the centre of mass, m."""
     drag_area: float = 0.0
     """Drag coefficient times frontal area, m2."""
 
@@ -40,8 +42,9 @@ class Unknown:
     name: str
     unit: str
     low: float
+    """Lower bound of the parameter and of its start values."""
     high: float
-    """`low`, `high`: bounds of the parameter and range of its start values."""
+    """Upper bound of the parameter and of its start values."""
 
 
 @dataclass(frozen=True)

@@ -37,12 +37,13 @@ class Compared:
     """A manoeuvre of both models, at the times of the reference."""
 
     reference: Mapping[str, Array]
+    """Values by column of the reference, each of shape (n,)."""
     simulated: Mapping[str, Array]
-    """`reference`, `simulated`: values by column of the reference, each of shape (n,)."""
+    """Values of the car here by column of the reference, each of shape (n,)."""
 
 
 def compared(name: str, manoeuvre: str) -> Compared:
-    """Simulate a car in the manoeuvre of its reference. `manoeuvre`: of `MANOEUVRES`."""
+    """Simulate a car in the manoeuvre of its reference. `manoeuvre`: one of `MANOEUVRES`."""
     table = np.genfromtxt(FOLDER / f"{name}_{manoeuvre}.csv", delimiter=",", names=True)
     table = table[table["time"] > BEGIN - 0.1]
     reference = {column: np.asarray(table[column]) for column in table.dtype.names}
@@ -54,7 +55,7 @@ def compared(name: str, manoeuvre: str) -> Compared:
     )
     names = {"vx": "chassis.vx", "yaw_rate": "chassis.wz", "roll": "chassis.roll", "pitch": "chassis.pitch"}
     names |= {"x": "chassis.x", "y": "chassis.y"} | {f"Fz_{wheel}": f"wheel_{wheel}.Fz" for wheel in WHEELS}
-    results = {ours: np.interp(reference["time"], run.t, run[theirs]) for ours, theirs in names.items()}
+    results = {column: np.interp(reference["time"], run.t, run[sensor]) for column, sensor in names.items()}
     for axis in ("x", "y"):
         reference[axis], results[axis] = reference[axis] - reference[axis][0], results[axis] - results[axis][0]
     return Compared(reference, results)

@@ -26,10 +26,11 @@ class Curve:
     seconds: float
     """Time of the drive in the bin, s; time in two windows counts once."""
     measured: float
+    """Mean of the measured values, deg."""
     spread: float
-    """`measured`, `spread`: mean and standard deviation of the measured values, deg."""
+    """Standard deviation of the measured values, deg."""
     difference: float
-    """Mean difference of simulated less measured values, deg."""
+    """Mean difference of simulated minus measured values, deg."""
 
 
 def low_passed(values: Array, cut_off: float, interval: float) -> Array:
@@ -50,7 +51,7 @@ def window_rows(drive: Drive) -> Array:
 def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
     """Root mean square error of the lateral acceleration in the windows that were not fitted, m/s2.
 
-    `vy`, `rate`: of a model in these windows, shape (w, m).
+    `vy`, `rate`: results of a model in these windows, shape (w, m).
 
     Notes
     -----
@@ -65,12 +66,12 @@ def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
 def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve]:
     """Understeer angle and sideslip over the measured lateral acceleration below 1 Hz.
 
-    `wheelbase`: in m; `vy`, `rate`: of a model in the windows that were not fitted, shape (w, m).
+    `wheelbase`: m; `vy`, `rate`: results of a model in the windows that were not fitted, shape (w, m).
 
     Notes
     -----
-    The understeer angle is the mean angle of the front wheels less wheelbase times yaw rate over speed, times the sign
-    of the lateral acceleration: positive where the car understeers.
+    The understeer angle is the mean angle of the front wheels minus wheelbase times yaw rate divided by speed, times
+    the sign of the lateral acceleration: positive if the car understeers.
     """
     rows = window_rows(drive)[:, round(STEADY / drive.interval) :]
     vy, rate = (values[:, round(STEADY / drive.interval) :] for values in (vy, rate))

@@ -33,10 +33,11 @@ class Drive:
     steer: Array
     """Mean steering angle of the front wheels, positive to the left, rad, shape (n,)."""
     vx: Array
+    """Longitudinal velocity of the centre of mass in vehicle axes, m/s, shape (n,)."""
     vy: Array
-    """`vx`, `vy`: velocity of the centre of mass in vehicle axes, y to the left, m/s, shape (n,)."""
+    """Lateral velocity of the centre of mass in vehicle axes, positive to the left, m/s, shape (n,)."""
     yaw_rate: Array
-    """rad/s, shape (n,)."""
+    """Yaw rate, rad/s, shape (n,)."""
     ay: Array = field(default_factory=lambda: np.zeros(0))
     """Signal of the lateral accelerometer, m/s2, shape (n,); empty if the log has none."""
     bank: Array = field(default_factory=lambda: np.zeros(0))
@@ -68,7 +69,7 @@ def read_drive(file: Path, aliases: Path) -> Drive:
     """Read a log; single outliers are replaced by linear interpolation.
 
     `file`: CSV, or packed (.csv.gz); `aliases`: its alias file, with the angles of both front wheels, the speeds and
-    the yaw rate. Raises `HostError`: a column is missing, or its samples are not equally spaced.
+    the yaw rate. Raises `HostError` if a column is missing, or its samples are not equally spaced.
     """
     log_aliases = read_log_aliases(aliases)
     raw = read_log(file, log_aliases.dialect)

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 STARTS = 2
 SEED = 1
 SCALES = 0.02, 0.3  # rad/s and m/s: weights of errors of yaw rate and lateral velocity
-STEP = 1e-4  # step of the difference quotients over the range of a parameter
+STEP = 1e-4  # step of the difference quotients relative to the range of a parameter
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def begins(drive: Drive, seconds: Spans, every: float = EVERY) -> NDArray[np.int
 
 
 def simulate_model(model: Model, *arguments: Any) -> tuple[Array, Array]:
-    """Lateral velocity (m/s) and yaw rate (rad/s) of a model, by its own `simulate` or that of a bicycle."""
+    """Lateral velocity (m/s) and yaw rate (rad/s) of a model, by its own `simulate` or `bicycle.simulate`."""
     return (model.simulate or simulate)(model, *arguments)
 
 
@@ -90,7 +90,7 @@ class Windows:
         return np.asarray(np.hstack([turning, across / SCALES[1]]) if self._arguments[0].moves_across else turning)
 
     def residuals(self, p: Array) -> Array:
-        """`errors` of one set of parameters, shape (n,); 1000 where the model diverges."""
+        """`errors` of one set of parameters, shape (n,); 1000 if the model diverges."""
         return np.nan_to_num(self.errors(p[None])[0], nan=1e3)
 
     def jacobian(self, p: Array) -> Array:

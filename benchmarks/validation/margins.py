@@ -65,8 +65,8 @@ def margins(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> l
 def with_offset(segment: Segment, along: float, across: float, rate: float, point: tuple[float, float]) -> Segment:
     """A segment with offsets of its initial velocities.
 
-    `along`, `across`, `rate`: of the reference point, m/s and rad/s; `point`: position of the reference point from the
-    origin of the car, to which the start values refer, m.
+    `along`, `across`, `rate`: offsets at the reference point, m/s and rad/s; `point`: position of the reference point
+    from the origin of the car, to which the start values refer, m.
     """
     offsets = {
         "initial.speed": along + rate * point[1],

@@ -77,7 +77,7 @@ def compare_drive(
 
 
 def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seconds: Spans) -> Task:
-    """Task of ``ali3 compare`` for adjacent windows in some seconds. `car`, `settings`: of `compare_drive`."""
+    """Task of ``ali3 compare`` for adjacent windows in some seconds. `car`, `settings`: see `compare_drive`."""
     windows = ["--windows", f"{LENGTH:g}", "--seconds", text_of(seconds)]
     options = parser_of().parse_args([*arguments_of(car, log, aliases, settings), *windows])
     options.fmu = fmu_file(options.fmu)
@@ -85,7 +85,7 @@ def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seco
 
 
 def arguments_of(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> list[str]:
-    """Arguments of ``ali3 compare`` for the compared signals. `car`, `settings`: of `compare_drive`."""
+    """Arguments of ``ali3 compare`` for the compared signals. `car`, `settings`: see `compare_drive`."""
     options = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
     signals = ["--signals", f"{YAW},{LATERAL}"]
     return [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *signals, *options]

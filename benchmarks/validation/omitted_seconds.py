@@ -36,7 +36,7 @@ COLUMNS = {
     **{f"{family}, {what}": ".4f" for family in ("corners", "speed", "acceleration") for what in ("mean", "worst")},
     "worst kind": "",
 }
-_DIFFERENCE = 5e-3  # step of the one-sided difference quotients over the range of a parameter
+_DIFFERENCE = 5e-3  # step of the one-sided difference quotients relative to the range of a parameter
 
 
 @dataclass(frozen=True)
@@ -45,11 +45,11 @@ class Family:
 
     names: list[str]
     number: Kinds
-    """Index of the kind of each sample, shape (n,); the index after the last name is no kind."""
+    """Index of the kind of each sample, shape (n,); the index after the last name is not a kind."""
 
 
 def families(drive: Drive) -> dict[str, Family]:
-    """Corners by place, ranges of speed, ranges of longitudinal acceleration. Raises `ValueError`: no laps."""
+    """Corners by place, ranges of speed, ranges of longitudinal acceleration. Raises `ValueError` without laps."""
     distance, lap = distance_and_lap(drive)
     piece, count = pieces(distance, lap), round(lap / PIECE)
     curvature = np.bincount(piece, drive.yaw_rate / drive.vx, count) / np.maximum(
@@ -78,7 +78,7 @@ def _ranges(values: Array, edges: Sequence[float] | Array, unit: str) -> Family:
 def without_kinds(jacobian: Array, residual: Array, rows: Kinds, families: Mapping[str, Family]) -> dict[str, Any]:
     """Mean and largest yaw-rate error over the omitted kinds, rad/s, by the columns of `COLUMNS`.
 
-    `jacobian`, `residual`: of yaw rate and then lateral velocity in `SCALES`, shapes (2 m, p) and (2 m,); `rows`:
+    `jacobian`, `residual`: rows of yaw rate, then of lateral velocity in `SCALES`, shapes (2 m, p) and (2 m,); `rows`:
     indices of the samples of either, shape (m,).
     """
     row: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""Published figures of tests, beside those of the cars of the package."""
+"""Published figures of tests, beside figures of the cars of the package."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -22,7 +22,7 @@ _QUANTITIES = (
 
 
 def by_commonroad(cars: Sequence[str] = CARS) -> list[tuple[Published, float]]:
-    """Final values of CommonRoad's model, from its stored runs, each with that of the car here."""
+    """Final values of CommonRoad's model, from its stored runs, each with the value of the car here."""
     results = []
     for car in cars:
         for manoeuvre, quantity, unit, text in _QUANTITIES:

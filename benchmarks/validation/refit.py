@@ -13,7 +13,7 @@ from benchmarks.validation.multibody import arguments_of
 from hosts.compare.command import main as compare
 
 BOUNDS = Path(__file__).with_name("ferrari_250_lm_fit.toml")
-NEAR = 0.02  # distance from a bound, over the range, up to which a parameter is marked
+NEAR = 0.02  # distance from a bound, relative to the range, up to which a parameter is marked
 COLUMNS = {
     "number": "",
     "low": ".4g",
@@ -38,7 +38,7 @@ def read_ranges(file: Path) -> dict[str, str]:
 def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, Any]]:
     """Rows of `COLUMNS`, one for each fitted parameter.
 
-    `car`: argument of ``ali3 compare``; `bounds`: file for `read_ranges`. Raises `UserError`: the command failed.
+    `car`: argument of ``ali3 compare``; `bounds`: file for `read_ranges`. Raises `UserError` if the command failed.
     """
     ranges = read_ranges(bounds)
     with tempfile.TemporaryDirectory() as folder:

@@ -8,8 +8,8 @@ from benchmarks.validation.drive import Drive
 
 Array = NDArray[np.float64]
 TRACK = 1.345  # m, mean of both axles
-BALANCE = 0.70  # front share of the brake force, as in the car file
-_LEAST = 50.0  # N, load of a wheel that would lift off
+BALANCE = 0.70  # front fraction of the brake force, as in the car file
+_MIN_LOAD = 50.0  # N, load of a wheel that would lift off
 
 
 def simulate(
@@ -40,18 +40,18 @@ def simulate(
         for axle, x, sign in (("front", body.front, -1.0), ("rear", -body.rear, 1.0)):
             at_rest = static_loads[0 if sign < 0.0 else 1]
             loads = [
-                np.maximum(at_rest + sign * longitudinal_transfer - side * lateral_transfer, _LEAST)
+                np.maximum(at_rest + sign * longitudinal_transfer - side * lateral_transfer, _MIN_LOAD)
                 for side in (1.0, -1.0)
             ]
             angle = steer[:, k] if axle == "front" else np.zeros_like(v)
-            share = BALANCE if axle == "front" else 1.0 - BALANCE
+            fraction = BALANCE if axle == "front" else 1.0 - BALANCE
             for side, load in zip((1.0, -1.0), loads, strict=True):
                 y = 0.5 * side * TRACK
                 slip = np.arctan2(vy + x * r, v - r * y) - angle
                 max_force = p[f"{axle} grip"] * load
                 stiffness = 0.5 * p[f"{axle} stiffness"] * (load / at_rest) ** p["exponent of stiffness"]
                 fy = -max_force * root(stiffness * slip / max_force)
-                fx = 0.5 * share * brake * (1.0 + side * p["brake side"])
+                fx = 0.5 * fraction * brake * (1.0 + side * p["brake side"])
                 if axle == "rear":
                     fx = fx + 0.5 * pull * (1.0 + locked * (2.0 * load / (loads[0] + loads[1]) - 1.0))
                 to_left, forward = fy * np.cos(angle) + fx * np.sin(angle), fx * np.cos(angle) - fy * np.sin(angle)

@@ -122,7 +122,7 @@ def rig_forces(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: fl
 
 
 def compared() -> list[tuple[Published, float]]:
-    """Published forces, each with that of the rig, for both tyre models of the engine."""
+    """Published forces, each with the force of the rig, for both tyre models of the engine."""
     own = magic()
     results = []
     for name, tyre in (("Magic Formula", own), ("TMeasy, fitted at 4 and 8 kN", tmeasy_of_magic(own)[0])):

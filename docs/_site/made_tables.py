@@ -1,4 +1,4 @@
-"""Tables of the pages that are made from the sources when the site is built, in place of a mark."""
+"""Tables of the pages that are made from the sources when the site is built, instead of a mark."""
 
 import re
 from collections.abc import Callable
@@ -36,7 +36,7 @@ MAKERS: dict[str, Callable[[], str]] = {
 
 
 def with_tables(app: Sphinx, page: str, source: list[str]) -> None:
-    """Put what is made in the place of its mark. Raises `ExtensionError`: nothing makes it."""
+    """Replace each mark by what is made for it. Raises `ExtensionError` if nothing makes it."""
 
     def made(mark: re.Match[str]) -> str:
         if mark[1] not in MAKERS:

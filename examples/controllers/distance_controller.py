@@ -2,7 +2,7 @@
 
 from pythonfmu import Fmi2Causality, Fmi2Slave, Real
 
-TIME_GAP, STANDSTILL, LENGTH = 1.2, 5.0, 3.0  # s, m, m of the car ahead
+TIME_GAP, STANDSTILL, LENGTH = 1.2, 5.0, 3.0  # s, m, length of the car ahead in m
 INPUTS, OUTPUTS = ["x", "speed", "x_ahead", "speed_ahead"], ["throttle", "brake", "gap"]
 
 

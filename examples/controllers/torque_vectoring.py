@@ -3,7 +3,7 @@
 from pythonfmu import Fmi2Causality, Fmi2Slave, Real
 
 WHEELBASE, STEERED, UNDERSTEER = 1.68, 0.5, 0.0015  # m, rad of the front wheels at full lock, rad s2/m
-GAIN, MOST = 1500.0, 250.0  # N m per rad/s and of each motor
+GAIN, MAX_TORQUE = 1500.0, 250.0  # N m per rad/s and of each motor
 INPUTS, OUTPUTS = ["speed", "yaw_rate", "steering", "demand", "on"], ["torque_RL", "torque_RR"]
 
 
@@ -23,5 +23,5 @@ class TorqueVectoring(Fmi2Slave):
         reference_yaw_rate = self.speed * STEERED * self.steering / (WHEELBASE + UNDERSTEER * self.speed**2)
         yaw_torque = self.on * GAIN * (reference_yaw_rate - self.yaw_rate)
         for name, sign in (("torque_RL", -1.0), ("torque_RR", 1.0)):
-            setattr(self, name, min(max(0.5 * self.demand + sign * yaw_torque, -MOST), MOST))
+            setattr(self, name, min(max(0.5 * self.demand + sign * yaw_torque, -MAX_TORQUE), MAX_TORQUE))
         return True

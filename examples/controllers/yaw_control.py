@@ -4,7 +4,7 @@ from pythonfmu import Fmi2Causality, Fmi2Slave, Real
 
 WHEELBASE, STEERED, UNDERSTEER = 1.68, 0.5, 0.0015  # m, rad of the front wheels at full lock, rad s2/m
 GRIP, FREE = 8.0, 0.05  # m/s2 that the road holds, rad/s of yaw that are left alone
-GAIN, MOST = 4000.0, 650.0  # N m per rad/s, N m of a brake
+GAIN, MAX_TORQUE = 4000.0, 650.0  # N m per rad/s, N m of a brake
 INPUTS, OUTPUTS = ["speed", "yaw_rate", "steering", "on"], ["torque_FL", "torque_FR"]
 
 
@@ -23,6 +23,6 @@ class YawControl(Fmi2Slave):
         error = self.yaw_rate - min(
             max(reference_yaw_rate, -yaw_rate_limit), yaw_rate_limit
         )  # positive: turned too far to the left
-        torque = self.on * min(GAIN * max(abs(error) - FREE, 0.0), MOST)
+        torque = self.on * min(GAIN * max(abs(error) - FREE, 0.0), MAX_TORQUE)
         self.torque_FL, self.torque_FR = (torque, 0.0) if error < 0.0 else (0.0, torque)
         return True

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import work_precision
-from benchmarks.methods.error_control import MOST_ERROR, compare, control_blocks
+from benchmarks.methods.error_control import MAX_ERROR, compare, control_blocks
 from benchmarks.shared.figures import rows_of
 
 
@@ -20,7 +20,7 @@ def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
     assert methods[3] == "auto: runge_kutta_8"
     for row in rows:
         assert row["ended"] == "finished"
-        assert row["error_over_tolerance"] < MOST_ERROR
+        assert row["error_over_tolerance"] < MAX_ERROR
         assert 0.0 < row["estimate_over_tolerance"] < 1.5
     assert rows[0]["steps"] > 20 * rows[2]["steps"]
 

@@ -5,7 +5,7 @@ import re
 import pytest
 from matplotlib.figure import Figure
 
-from ali3.chart_description import description_of
+from ali3.chart_description import read_description
 from ali3.charts import save_picture
 from benchmarks import figures
 from benchmarks.pictures import chart_commands
@@ -65,7 +65,7 @@ def test_a_chart_carries_its_description_and_changed_panels_are_reported(tmp_pat
             one.set(xlabel="time, s", ylabel=unit)
         draw_table(axes[-1], [("largest wheel load", load), ("distance driven", "15 m")])
         save_picture(figure, tmp_path / name)
-        return description_of(tmp_path / name)
+        return read_description(tmp_path / name)
 
     old = drawn("old.png", {"Speed": ("m/s²", ()), "Loads": ("kN", ("FL",)), "Iterations": ("", ())}, "2357 N")
     new = drawn("new.png", {"Speed": ("m/s²", ()), "Loads": ("kN", ("FL", "FR"))}, "2355 N")

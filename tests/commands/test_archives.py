@@ -103,10 +103,10 @@ def test_sizes_are_held_to_bounds_before_anything_is_unpacked(tmp_path: Path, mo
     with pytest.raises(FileError, match="bytes when it is unpacked; it must have at most 1000000"):
         Archive(bomb, unpacked=1_000_000)
     many = archive(tmp_path / "b.zip", *((f"{k}", "") for k in range(1000)))
-    monkeypatch.setattr("ali3.archives.MOST_ENTRIES", 1000)
+    monkeypatch.setattr("ali3.archives.MAX_ENTRIES", 1000)
     message = "has 1001 entries; it must have at most 1000 (or ALI3_LIMITS=2 set)"
     assert [fault.words for fault in faults_of(many)] == [message]
-    monkeypatch.setattr("ali3.archives.MOST_ENTRIES", 100)
+    monkeypatch.setattr("ali3.archives.MAX_ENTRIES", 100)
     with pytest.raises(FileError, match="has a directory of 48956 bytes"):
         faults_of(many)
 

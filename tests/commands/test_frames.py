@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ali3.frames import MOST_TEXT, FrameError, read_frame, write_frame
+from ali3.frames import MAX_TEXT, FrameError, read_frame, write_frame
 from ali3.isolated_processes import Isolated, Lost
 
 
@@ -78,7 +78,7 @@ ARRAY = json.dumps({"\0array": ["|O", [1], 0, 8]}).encode()
         head(3, b"[" * 100_000),
         head(3, ARRAY, b"12345678"),
         head(3, json.dumps({"\0array": ["<f8", [10**9], 0, 8]}).encode(), b"12345678"),
-        head(3, b"1", size=MOST_TEXT + 1),
+        head(3, b"1", size=MAX_TEXT + 1),
         pickle.dumps(os.getcwd) * 3,
     ],
 )

@@ -8,7 +8,7 @@ from lxml import etree
 from matplotlib.figure import Figure
 
 from ali3 import html_elements
-from ali3.chart_description import description_of
+from ali3.chart_description import read_description
 from ali3.charts import Drawing, drawing
 from ali3.html_elements import element, picture, table
 
@@ -56,7 +56,7 @@ def test_a_drawing_has_a_description(tmp_path: Path) -> None:
         file = drawing(figure, message).write(tmp_path / "a.svg")
         tree = etree.parse(file)
         assert (tree.getroot().get("role"), tree.findtext("{*}title")) == ("img", title)
-        assert description_of(file) == "A drive & more\npanel speed; x time, s; curves measured"
+        assert read_description(file) == "A drive & more\npanel speed; x time, s; curves measured"
 
 
 def test_no_other_room_has_a_frame_or_style_sheet_of_its_own() -> None:

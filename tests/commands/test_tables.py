@@ -101,7 +101,7 @@ def test_a_table_without_names(tmp_path: Path) -> None:
         ('a,b\n1,"2\n', "t.csv, line 2: this is not a line of a CSV file: unexpected end of data."),
         (f"a\n{1001 * '1'}\n", "t.csv, line 2: a cell has 1001 characters; a number or a name has at most 1000."),
         (b"a\n1\0\n", "t.csv is not text: there is a zero byte in line 2."),
-        (b"a\n\xff\n", "t.csv is not text in UTF-8, from about line 1 on."),
+        (b"a\n\xff\n", "t.csv is not text in UTF-8; its fault is at about line 1."),
     ],
 )
 def test_an_invalid_table_is_refused(tmp_path: Path, text: str | bytes, message: str) -> None:

@@ -19,7 +19,7 @@ from scipy.io import mmwrite
 
 from ali3.archives import Archive
 from ali3.errors import FileError, UserError
-from ali3.named_files import MOST_FILES, NamedFiles
+from ali3.named_files import MAX_FILES, NamedFiles
 from ali3.reading import check_file, read_bytes
 from ali3.scene.mesh_file import MeshError, read_mesh
 from ali3.unpacked_size import Unpacked, check_memory
@@ -200,7 +200,7 @@ def test_named_files_lie_below_the_folder_and_are_counted(tmp_path: Path) -> Non
     with pytest.raises(HostError, match="'a' has 10 bytes; it must have at most 5"):
         named.file("a", below)
     many = NamedFiles(below, 10**6, HostError)
-    for _ in range(MOST_FILES):
+    for _ in range(MAX_FILES):
         many.file("a", below)
     with pytest.raises(HostError, match="more than 1000 files are named"):
         many.file("a", below)

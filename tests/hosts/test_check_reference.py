@@ -142,7 +142,7 @@ def test_a_jump_inside_a_step_is_reported(fmu: Path, tmp_path: Path) -> None:
         (
             {"bob.x": lambda x: 1000.0 * x, "bob.y": lambda y: -y},
             (
-                "bob.x: in agreement where the table has it 1000 times as large: mm in place of m?",
+                "bob.x: in agreement where the table has it 1000 times as large: mm instead of m?",
                 "bob.y: in agreement where the table has it with the other sign",
             ),
         ),

@@ -309,7 +309,7 @@ UNMET = [
     (["--paused"], "--paused needs --live."),
     (["--plot", "rod.angel"], "There is no signal 'rod.angel' to be plotted; the result has rod.angle"),
     (["--from", "7", "--to", "8"], "There is no time from 7 s to 8 s in 'motor_pendulum'"),
-    (["--most", "1"], "must be a whole number from 2 on"),
+    (["--most", "1"], "must be a whole number of 2 or more"),
     (["--manoeuvre", "slalom"], "results are shown as they are"),
     (["--png", "p.png", "--at", "9"], "There is no picture at 9 s; it was recorded from 0 s to 1 s."),
     (["--gltf", "a.txt"], "a.txt must end with .glb or .gltf."),

@@ -133,9 +133,9 @@ def build_and_test(root: Path, batches: Sequence[Batch], changed: Path | None, m
 
 def _run_in_node(root: Path, test: str, notes: _Notes) -> int:
     page = root / "viewer" / "page"
-    page_build.packages(page)
+    page_build.install_packages(page)
     notes.write("at", test)
-    code = subprocess.run([page_build.node()[0], "--test", str(root / test)], cwd=page, check=False).returncode
+    code = subprocess.run([page_build.node_and_npm()[0], "--test", str(root / test)], cwd=page, check=False).returncode
     if code:
         notes.write("failed", test)
     return code

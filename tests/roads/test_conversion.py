@@ -97,6 +97,7 @@ def test_bad_arrays_are_refused(tmp_path):
     np.savez(tmp_path / "a.npz", height=HEIGHTS)
     np.savez(tmp_path / "b.npz", frictions=HEIGHTS)
     (tmp_path / "text.npy").write_text("no array")
+    (tmp_path / "text.npz").write_text("no archive")
     np.save(tmp_path / "good.npy", HEIGHTS)
     for name, sentence in (
         ("o.npy", "contains Python objects"),
@@ -106,6 +107,7 @@ def test_bad_arrays_are_refused(tmp_path):
         ("a.npz", "array 'height'; known are frictions, heights, origin, spacing"),
         ("b.npz", "no array 'heights'"),
         ("text.npy", "cannot be read as an array"),
+        ("text.npz", "is not an archive of NumPy arrays"),
         ("nothing.npy", "there is no such file"),
         ("a.xlsx", "is not read as a road"),
     ):

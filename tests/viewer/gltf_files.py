@@ -21,8 +21,8 @@ TO_EARTH = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # from glTF's axes, y
 
 def run_node(script, *arguments):
     try:
-        page_build.packages(PAGE)
-        node = page_build.node()[0]
+        page_build.install_packages(PAGE)
+        node = page_build.node_and_npm()[0]
     except RuntimeError as error:
         pytest.skip(str(error))
     command = [node, str(PAGE / "test" / script), *map(str, arguments)]

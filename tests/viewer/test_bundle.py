@@ -24,7 +24,7 @@ WAIT = "if (!process.env.GO) await new Promise((done) => setTimeout(done, 60000)
 def modules():
     """The packages of npm, fetched once."""
     try:
-        page_build.packages(PAGE)
+        page_build.install_packages(PAGE)
     except RuntimeError as error:
         pytest.skip(str(error))
     return PAGE / "node_modules"

@@ -13,11 +13,11 @@ PAGE = Path(page_build.__file__).parent / "page"
 def test_units_of_the_page():
     """In one process: each file of its own would start Node again."""
     try:
-        page_build.packages(PAGE)
+        page_build.install_packages(PAGE)
     except RuntimeError as error:
         pytest.skip(str(error))
     result = subprocess.run(
-        [page_build.node()[0], "--test", "--test-isolation=none", *map(str, (PAGE / "test").glob("*.test.js"))],
+        [page_build.node_and_npm()[0], "--test", "--test-isolation=none", *map(str, (PAGE / "test").glob("*.test.js"))],
         cwd=PAGE,
         capture_output=True,
         text=True,

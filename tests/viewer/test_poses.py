@@ -49,7 +49,7 @@ def test_the_page_has_the_same_poses(recording):
     found = FramePoses(recording.scene, recording.columns, len(T))
     rows = [{name: values[k] for name, values in recording.columns.items()} for k in range(len(T))]
     try:
-        node = page_build.node()[0]
+        node = page_build.node_and_npm()[0]
     except RuntimeError as error:
         pytest.skip(str(error))
     result = subprocess.run(

@@ -202,7 +202,7 @@ def test_a_program_that_fails_is_one_sentence(monkeypatch: pytest.MonkeyPatch, t
 
 
 def test_a_program_that_does_not_start_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(gltf, "node", lambda: (str(tmp_path / "node"), ""))
+    monkeypatch.setattr(gltf, "node_and_npm", lambda: (str(tmp_path / "node"), ""))
     monkeypatch.setattr(gltf, "bundle", lambda: Path("viewer.js"))
     with pytest.raises(ViewerError, match=r"^A glTF file cannot be written: .*node does not start: no such file"):
         write_gltf(tmp_path / "a.glb", Recording(scene(), T, moving()))

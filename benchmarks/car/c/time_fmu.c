@@ -5,7 +5,7 @@
 
 #include "fmi2_library.h"
 
-enum { MOST_REPEATS = 64, MOST_VALUES = 4096 };
+enum { MAX_REPEATS = 64, MAX_VALUES = 4096 };
 
 static size_t allocated; /* bytes of all live blocks, each with its size in front */
 
@@ -52,16 +52,16 @@ static fmi2Component started(void) {
 }
 
 int main(int count, char **arguments) {
-  static fmi2ValueReference reference[MOST_VALUES];
-  static double value[MOST_VALUES];
-  double wall[6][MOST_REPEATS];
+  static fmi2ValueReference reference[MAX_VALUES];
+  static double value[MAX_VALUES];
+  double wall[6][MAX_REPEATS];
   if (count < 10) return 1;
   argument = arguments;
   fmu = load_library(arguments[1]);
   const double h = strtod(argument[4], NULL);
   const int steps = atoi(argument[5]), repeats = atoi(argument[6]), n = atoi(argument[7]), first = atoi(argument[8]);
   const int instances = atoi(argument[9]);
-  if (repeats < 1 || repeats > MOST_REPEATS || n < 1 || n > MOST_VALUES || steps < 1) return 1;
+  if (repeats < 1 || repeats > MAX_REPEATS || n < 1 || n > MAX_VALUES || steps < 1) return 1;
   for (int i = 0; i < n; i++) reference[i] = (fmi2ValueReference)(first + i);
   const fmi2ValueReference input = 0;
   const double u = 0.1;

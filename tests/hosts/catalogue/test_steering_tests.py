@@ -233,7 +233,7 @@ def test_an_fmu_that_refuses_a_step_before_the_steering_is_reported() -> None:
     [
         ("sine_steer", {"chassis.ay": -1.0}, r"the other sign of 'chassis\.ay'"),
         ("sine_with_dwell", {"chassis.wz": -1.0}, r"the other sign of 'chassis\.wz'"),
-        ("sine_steer", {"chassis.wz": math.degrees(1.0)}, r"deg/s in place of rad/s of 'chassis\.wz'"),
+        ("sine_steer", {"chassis.wz": math.degrees(1.0)}, r"deg/s instead of rad/s of 'chassis\.wz'"),
         ("sine_steer", {"chassis.wz": -1.0, "chassis.ay": -1.0}, r"the other sign of 'steering_wheel_angle'"),
     ],
 )

@@ -149,7 +149,7 @@ def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_i
     file.write_text(named, encoding="utf-8")
     status, record = compared(car, log, signals="speed,chassis.wz")
     assert status == 1
-    assert "'v' (speed) looks like km/h in place of m/s" in "".join(record["problems"])
+    assert "'v' (speed) looks like km/h instead of m/s" in "".join(record["problems"])
 
 
 @pytest.mark.proof

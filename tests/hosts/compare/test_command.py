@@ -147,7 +147,7 @@ class TestCommand:
     @pytest.mark.parametrize(
         ("factor", "messages"),
         [
-            (1000.0, ['it looks like mm in place of m: unit = "mm"']),
+            (1000.0, ['it looks like mm instead of m: unit = "mm"']),
             (-1.0, ["has the opposite sign", "Or the input 'pull' (pull) has the opposite sign"]),
             (1.0 / 9.81, ["in the simulation: is it in another unit"]),
         ],

@@ -84,12 +84,12 @@ def joined(d: Drive) -> Drive:
 
 
 PLANTED = {
-    "km/h": (scaled("speed", 3.6), "km/h in place of m/s of 'speed'"),
-    "deg/s": (scaled("chassis.wz", 57.3), "deg/s in place of rad/s of 'wz'"),
-    "g of ay": (scaled("chassis.ay", 1.0 / 9.81), "g in place of m/s² of 'ay'"),
-    "heading in degrees": (scaled("chassis.yaw", 57.3), "deg in place of rad of 'yaw'"),
-    "path in mm": (lambda d: scaled("chassis.x", 1e3)(scaled("chassis.y", 1e3)(d)), "mm in place of m of the path"),
-    "rpm": (scaled("wheel_FL.omega", 9.549), "rpm in place of rad/s of 'omega' (wheel_FL.omega)"),
+    "km/h": (scaled("speed", 3.6), "km/h instead of m/s of 'speed'"),
+    "deg/s": (scaled("chassis.wz", 57.3), "deg/s instead of rad/s of 'wz'"),
+    "g of ay": (scaled("chassis.ay", 1.0 / 9.81), "g instead of m/s² of 'ay'"),
+    "heading in degrees": (scaled("chassis.yaw", 57.3), "deg instead of rad of 'yaw'"),
+    "path in mm": (lambda d: scaled("chassis.x", 1e3)(scaled("chassis.y", 1e3)(d)), "mm instead of m of the path"),
+    "rpm": (scaled("wheel_FL.omega", 9.549), "rpm instead of rad/s of 'omega' (wheel_FL.omega)"),
     "sign of ay": (scaled("chassis.ay", -1.0), "the other sign of 'ay'"),
     "sign of the heading": (scaled("chassis.yaw", -1.0), "the other sign of 'yaw'"),
     "time twice as fast": (timed(0.5), "time twice as fast"),
