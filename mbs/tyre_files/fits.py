@@ -12,6 +12,7 @@ from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.tyre_files.pure_curves import (
     at_load,
     cornering_stiffness,
+    formula_slip,
     magic_lateral,
     magic_longitudinal,
     magic_trail,
@@ -45,7 +46,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
         longitudinal slips from -0.5 to 1 and tan(alpha) up to 0.6; "moment": trail times force, over the largest moment
         at each load.
     """
-    nominal, alpha = tyre.nominal_load, np.arctan(TANGENT)
+    nominal, alpha = tyre.nominal_load, formula_slip("MF52", TANGENT)
     longitudinal_forces = {q: _tmeasy_curve(tyre.longitudinal, q, KAPPA / (1.0 + KAPPA)) for q in LOADS}
     lateral_forces = {q: _tmeasy_curve(tyre.lateral, q, TANGENT) for q in LOADS}
     largest_forces = {
@@ -97,7 +98,11 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
         """Errors of the moment at all loads and slips over the largest moment."""
         return np.concatenate(
             [
-                (magic_trail(trail_coefficients, nominal, tyre.radius, q * nominal, alpha) * lateral_forces[q] - m)
+                (
+                    magic_trail(trail_coefficients, nominal, tyre.radius, q * nominal, TANGENT, "MF52")
+                    * lateral_forces[q]
+                    - m
+                )
                 / np.abs(m).max()
                 for q, m in moments.items()
             ]
@@ -150,7 +155,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     nominal = min(nominal_of_file, 0.5 * tyre.largest_load)
     c["LMUX"], c["LMUY"] = c.get("LMUX", 1.0) * tyre.lmux, c.get("LMUY", 1.0) * tyre.lmuy
     c["LKX"], c["LKY"] = c.get("LKX", 1.0) * tyre.lkx, c.get("LKY", 1.0) * tyre.lky
-    alpha = TANGENT if tyre.version in ("MF61", "MF62") else np.arctan(TANGENT)
+    alpha = formula_slip(tyre.version, TANGENT)
     longitudinal_forces = {q: magic_longitudinal(c, nominal_of_file, q * nominal, KAPPA) for q in LOADS}
     lateral_forces = {q: magic_lateral(c, nominal_of_file, q * nominal, alpha) for q in LOADS}
     curves = {
@@ -159,7 +164,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     }
     # at the nominal load
     stiffness = 0.5 * (tyre.stiffness + sqrt(tyre.stiffness**2 + 4.0 * tyre.progression * nominal))
-    trails = {q: magic_trail(c, nominal_of_file, tyre.radius, q * nominal, alpha) for q in LOADS}
+    trails = {q: magic_trail(c, nominal_of_file, tyre.radius, q * nominal, TANGENT, tyre.version) for q in LOADS}
     shares = {q: trails[q] / (2.0 * sqrt(tyre.radius * q * nominal / stiffness)) for q in LOADS}
     weights = {q: lateral_forces[q] / lateral_forces[q].max() for q in LOADS}
     nominal_trail = _fit_trail(shares[1.0], weights[1.0])

@@ -73,10 +73,18 @@ def cornering_stiffness(coefficients: Mapping[str, float], nominal: float, load:
     return float(abs(c["PKY1"]) * nominal * np.sin(turn) * c["LKY"])
 
 
+def formula_slip(version: str, tangent: ArrayLike) -> Array:
+    """Lateral slip of the Magic Formula (4.E3): the slip angle, rad, up to 5.2, its tangent from 6.1.
+
+    `version`: key of `VERSIONS`; `tangent`: tangent of the slip angle.
+    """
+    return np.asarray(tangent, float) if version in ("MF61", "MF62") else np.asarray(np.arctan(tangent))
+
+
 def magic_lateral(coefficients: Mapping[str, float], nominal: float, load: float, alpha: ArrayLike) -> Array:
     """Lateral force, opposite to the slip, at pure slip (4.E19 to 4.E30), N.
 
-    `alpha`: the slip angle, rad, up to 5.2; its tangent from 6.1 on.
+    `alpha`: lateral slip as `formula_slip` gives it.
     """
     c = {**MAGIC_COEFFICIENTS, **coefficients}
     dfz = load / (nominal * c["LFZO"]) - 1.0
@@ -86,14 +94,18 @@ def magic_lateral(coefficients: Mapping[str, float], nominal: float, load: float
 
 
 def magic_trail(
-    coefficients: Mapping[str, float], nominal: float, radius: float, load: float, alpha: ArrayLike
+    coefficients: Mapping[str, float], nominal: float, radius: float, load: float, tangent: ArrayLike, version: str
 ) -> Array:
-    """Pneumatic trail (4.E71 to 4.E75) without camber and shifts, m."""
+    """Pneumatic trail (4.E71 to 4.E75) without camber and shifts, m.
+
+    `tangent`: tangent of the slip angle; `version`: key of `VERSIONS`.
+    """
     c = {**MAGIC_COEFFICIENTS, **coefficients}
-    a = np.asarray(alpha, float)
+    alpha = np.arctan(tangent)
+    a = formula_slip(version, tangent)
     dfz = load / (nominal * c["LFZO"]) - 1.0
     B = (c["QBZ1"] + c["QBZ2"] * dfz + c["QBZ3"] * dfz**2) * c["LKY"] / c["LMUY"]
     D = load * radius / (nominal * c["LFZO"]) * (c["QDZ1"] + c["QDZ2"] * dfz) * c["LTR"]
     E = min(c["QEZ1"] + c["QEZ2"] * dfz + c["QEZ3"] * dfz**2, 1.0)
     scaled = B * a
-    return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(scaled - E * (scaled - np.arctan(scaled)))) * np.cos(a))
+    return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(scaled - E * (scaled - np.arctan(scaled)))) * np.cos(alpha))
