@@ -13,9 +13,15 @@ from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, qua
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
-from mbs.tyre_files.fits import carcass_stiffness_of
 from mbs.tyre_files.magic_file import TyreFile
-from mbs.tyre_files.pure_curves import at_load, cornering_stiffness, magic_lateral, magic_longitudinal, tmeasy_force
+from mbs.tyre_files.pure_curves import (
+    at_load,
+    carcass_stiffness,
+    cornering_stiffness,
+    magic_lateral,
+    magic_longitudinal,
+    tmeasy_force,
+)
 
 Array = NDArray[np.float64]
 AnyTyre: TypeAlias = "MagicTyre | Tyre"
@@ -207,7 +213,7 @@ def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) ->
     slip_stiffnesses = tyre.along[0], cornering_stiffness_at(tyre, nominal)
     sources_of_lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
     for of, slip_stiffness, stiffness, sources in zip(
-        ("longitudinal", "lateral"), slip_stiffnesses, carcass_stiffness_of(tyre, c), sources_of_lengths, strict=True
+        ("longitudinal", "lateral"), slip_stiffnesses, carcass_stiffness(tyre, c), sources_of_lengths, strict=True
     ):
         if any(c[k] for k in sources):
             nonzero = {prefix + k: c[k] for k in sources if c[k]}

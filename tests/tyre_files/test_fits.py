@@ -81,6 +81,11 @@ def test_tmeasy_of_a_file_has_its_forces_within_the_reported_errors(file: Path) 
     result, errors = tmeasy_of_magic(bare)
     c = {"QSY1": 0.0, "LMY": 1.0, "Q_RE0": 1.0} | bare.coefficients
     assert (result.radius, result.rolling_resistance) == (bare.radius * c["Q_RE0"], c["QSY1"] * c["LMY"])
+    c |= {"LONGITUDINAL_STIFFNESS": 0.0, "LATERAL_STIFFNESS": 0.0} | bare.coefficients
+    for stiffness, of_file in zip(
+        result.carcass_stiffness, ("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS"), strict=True
+    ):
+        assert (stiffness == c[of_file]) == (c[of_file] > 0.0)
     assert errors["lateral"] < 0.12
     if file.stem == "HMMWV_Pac02Tire":  # its longitudinal slip stiffness fades to nothing by PKX2: no curve of TMeasy
         assert errors["longitudinal"] > 0.3
