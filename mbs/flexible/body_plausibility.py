@@ -35,14 +35,14 @@ class Units(NamedTuple):
 
 
 UNIT_MISTAKES = (
-    ("t, mm and N in place of kg, m and N", Units(1e-3, 1e3, 1e3)),
-    ("g in place of kg in the mass", Units(mass=1e-3)),
-    ("t in place of kg in the mass", Units(mass=1e3)),
-    ("mm in place of m in the places of the nodes", Units(length=1e-3)),
-    ("kg, mm and N in place of kg, m and N", Units(1e-3, 1.0, 1e3)),
-    ("kg, mm and ms in place of kg, m and s", Units(1e-3, 1.0, 1e6)),
-    ("g, mm and ms in place of kg, m and s", Units(1e-3, 1e-3, 1e3)),
-    ("pounds in place of kg in the mass", Units(mass=0.45359237)),
+    ("t, mm and N instead of kg, m and N", Units(1e-3, 1e3, 1e3)),
+    ("g instead of kg in the mass", Units(mass=1e-3)),
+    ("t instead of kg in the mass", Units(mass=1e3)),
+    ("mm instead of m in the places of the nodes", Units(length=1e-3)),
+    ("kg, mm and N instead of kg, m and N", Units(1e-3, 1.0, 1e3)),
+    ("kg, mm and ms instead of kg, m and s", Units(1e-3, 1.0, 1e6)),
+    ("g, mm and ms instead of kg, m and s", Units(1e-3, 1e-3, 1e3)),
+    ("pounds instead of kg in the mass", Units(mass=0.45359237)),
 )
 """Mistakes in units, the most common first. Consistent units change no frequency."""
 

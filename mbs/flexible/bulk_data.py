@@ -50,7 +50,7 @@ class _Card:
         return int(self._read(k, int, "whole number"))
 
     def numbers(self, first: int, count: int) -> Array:
-        """`count` fields from `first` on as numbers; 0 for empty ones."""
+        """`count` fields, the first at `first`, as numbers; 0 for empty ones."""
         numbers = np.array([self._read(k, _number, "number") for k in range(first, first + count)])
         if not (np.abs(numbers) <= LARGEST_NUMBER).all():
             raise self.line.error(f"a number of this {self.name} is not finite or beyond {LARGEST_NUMBER:g}.")
@@ -150,7 +150,7 @@ def _number(field: str) -> float:
 
 
 def _lines(path: Path, included: NamedFiles, depth: int = 0) -> Iterator[_Line]:
-    """Lines without comments, with those of included files at their position."""
+    """Lines without comments, with the lines of included files at their position."""
     text = read_bytes(path, LARGEST, ModelError, path.name).decode("latin-1")
     for number, raw in enumerate(text.splitlines(), 1):
         line = _Line(f"{path.name}, line {number}", raw.partition("$")[0].rstrip())
@@ -188,7 +188,7 @@ def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
 
 
 def _replicate(rule: Sequence[str], previous_data: Sequence[str], line: _Line) -> list[str]:
-    """Data of a replicated card: ``=`` copies a field of the card before, ``==`` all from there on, ``*(n)`` adds n."""
+    """Data of a replicated card: ``=`` copies a field of the card before, ``==`` all that follow, ``*(n)`` adds n."""
     fields = list[str]()
     for k, field in enumerate(rule):
         previous = previous_data[k] if k < len(previous_data) else ""

@@ -47,7 +47,7 @@ def read_calculix(deck: str | Path, *, total_mass: float | None = None) -> Finit
 def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.ndarray, list[int]]:
     """Read stiffness and mass (3 n, 3 n), with x, y, z of one node after the other, positions (n, 3) and node numbers.
 
-    Raises `ModelError`: as `read_calculix`.
+    Raises `ModelError` as `read_calculix` does.
     """
     try:
         import meshio

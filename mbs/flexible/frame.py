@@ -43,7 +43,7 @@ class Frame(BeamFrame):
         Warns
         -----
         FlexibleWarning
-            Mass or size are those of no body in SI units.
+            Mass or size are impossible in SI units.
         """
         rotary = flag(rotary, "The rotary inertia")
         n = len(self.positions)

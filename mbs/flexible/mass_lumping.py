@@ -12,7 +12,7 @@ ISOTROPY = 1e-3  # largest difference between the masses of a model along x, y a
 def lumped_masses(M: Sparse, positions: np.ndarray, dof: np.ndarray) -> MassPoints:
     """Lump a mass matrix at the nodes, isotropic in translation; the total mass is kept.
 
-    Row sums are used where none is negative (bars, beams, linear solids); otherwise the diagonal is scaled to the
+    Row sums are used if none is negative (bars, beams, linear solids); otherwise the diagonal is scaled to the
     total (Hinton, Rock and Zienkiewicz 1976), which quadratic elements need. Rotary inertia is omitted.
 
     `M`: shape (n_dof, n_dof); `positions`: shape (n, 3); `dof`: as in `FiniteElementModel`, shape (n, 6).

@@ -45,7 +45,7 @@ def read_matrix_market(path: Path) -> sp.csc_array:
         width = 1 if form == "array" else 2 if field == "pattern" else 3
         table = np.loadtxt(stream, ndmin=2, comments="%", max_rows=count + 1) if count else np.zeros((0, width))
     if table.shape != (count, width):
-        raise ValueError(f"it has {table.shape[0]} lines of {table.shape[1]} numbers in place of {count} of {width}")
+        raise ValueError(f"it has {table.shape[0]} lines of {table.shape[1]} numbers instead of {count} of {width}")
     values = np.ones(count) if field == "pattern" else table[:, -1]
     if form == "coordinate":
         i, j = (_indices(table[:, k], n) for k, n in ((0, rows), (1, columns)))

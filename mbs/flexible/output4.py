@@ -19,7 +19,8 @@ from mbs.flexible.foreign_file import LARGEST
 
 Array = NDArray[np.float64]
 _BIGMAT_ROWS = 65536
-"""Rows from which on, as with a negative number of rows, a string has its row in a separate word (format BIGMAT)."""
+"""Rows at and above which, as with a negative number of rows, a string has its row in a separate word (format
+BIGMAT)."""
 
 _LONGEST_LINE = 1000
 
@@ -28,7 +29,7 @@ def read_output4(path: Path) -> dict[str, sp.csc_array]:
     """Read all matrices of a file, by their names in capital letters; complex matrices stay complex.
 
     `path`: text, or binary with integers of 4 or 8 bytes in either order. Raises `ValueError`, `IndexError` or
-    `TypeError`: the file is damaged.
+    `TypeError` if the file is damaged.
     """
     with open_file(path, LARGEST, ModelError, path.name) as file:
         head = file.read(4)
@@ -146,7 +147,7 @@ class _Text:
     def integers(self, count: int) -> list[int]:
         integers = [int(n) for n in self._line().split()]
         if len(integers) != count:
-            raise ValueError(f"a line has {len(integers)} numbers in place of {count}")
+            raise ValueError(f"a line has {len(integers)} numbers instead of {count}")
         return integers
 
     def numbers(self, words: int, dense: bool) -> Array:

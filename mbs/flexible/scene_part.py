@@ -46,13 +46,13 @@ def flexible_parts(
     amplitudes : sequence of str
         One column of the recording per mode.
     axes : array_like, shape (3, 3), optional
-        Columns are the axes of the finite-element model in those of the scene's frame; by default they are the same.
+        Columns are the axes of the finite-element model in the axes of the scene's frame; by default they are the same.
     origin : array_like, shape (3,)
-        Origin of the floating frame in those of the scene's frame, m.
+        Origin of the floating frame in the axes of the scene's frame, m.
     start : array_like, shape (n_modes,), optional
         Amplitudes of a picture without a run, by default 0.
     computed : str
-        Column that is 0 where the amplitudes are not computed; by default they always are.
+        Column that is 0 if the amplitudes are not computed; by default they always are.
     full_scale : float, optional
         Stress at the end of the colour scale, Pa; by default the drawing program chooses it.
     gauges : sequence of mapping

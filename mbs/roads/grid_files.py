@@ -44,7 +44,7 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     """Read a grid from a file.
 
     `path`: ``.csv`` or ``.txt``, ``.npy``, ``.npz`` or ``.png``; `picture_range`: values of black and white in a
-    picture; `quantity`: "heights" or "frictions". Raises `RoadFileError`: the file cannot be read as a grid.
+    picture; `quantity`: "heights" or "frictions". Raises `RoadFileError` if the file cannot be read as a grid.
     """
     file = Path(path)
     kind = file.suffix.lower()
@@ -168,14 +168,14 @@ def _read_arrays(file: Path, quantity: str) -> Grid:
 
 
 def _as_floats(values: NDArray[np.generic], file: Path) -> NDArray[np.float64]:
-    """Convert real numbers to floats. Raises `RoadFileError`: they are of another type."""
+    """Convert real numbers to floats. Raises `RoadFileError` if they are of another type."""
     if values.dtype.kind not in "fiu":
         raise RoadFileError(f"{file} has values of type {values.dtype}; real numbers are needed.")
     return values.astype(float)
 
 
 def _as_pair(values: NDArray[np.float64], subject: str) -> tuple[float, float]:
-    """Numbers for x and y from an array of one or two. Raises `RoadFileError`: it has another shape."""
+    """Numbers for x and y from an array of one or two. Raises `RoadFileError` if it has another shape."""
     if values.shape not in ((2,), (1,), ()):
         raise RoadFileError(f"{subject} has shape {values.shape}; it is one number or two, of x and y.")
     first, *rest = np.atleast_1d(values).tolist()

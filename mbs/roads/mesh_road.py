@@ -136,7 +136,7 @@ def _check_projected_area(corners: Values, areas: Values, source: str, name: str
 
 
 def _fill_gaps(heights: Values, road: GridRoad, source: str) -> Values:
-    """Fill missing heights with those of the nearest grid points on the mesh.
+    """Fill missing heights from the nearest grid points on the mesh.
 
     Raises `RoadFileError` for a small gap inside the mesh, warns of a large one and of separate pieces.
     """

@@ -39,13 +39,13 @@ HEADING_TOLERANCE = 1e-9  # rad: a straight reference line with a smaller headin
 def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) -> SampledRoad:
     """Sample the heights of an OpenCRG road on a grid.
 
-    The modifiers of the file are applied, by default those of the standard: missing heights are taken from the
+    The modifiers of the file are applied, by default as in the standard: missing heights are taken from the
     neighbours in the same cross section, and the reference line begins at the origin along x. Beyond the border the
     heights at the border continue.
 
-    `path`: ``.crg``, in any form of the standard; `spacing`: of the grid, m; by default that of the file if the road is
-    straight along x, else the smaller of its two. Raises `RoadFileError`: the file is not OpenCRG, is damaged, has
-    holes, or needs too many points. Warns `RoadWarning`: a warning of the reader of the format.
+    `path`: ``.crg``, in any form of the standard; `spacing`: spacing of the grid, m; by default the file's if the road
+    is straight along x, otherwise the smaller of its two. Raises `RoadFileError` if the file is not OpenCRG, is
+    damaged, has holes, or needs too many points. Warns `RoadWarning`: a warning of the reader of the format.
     """
     source = os.fspath(path)
     check_file(Path(path), MOST_BYTES, RoadFileError)
@@ -143,7 +143,7 @@ def _surface(crg: pyopencrg.CrgRoad, uv: Values) -> tuple[Values, Values]:
 
 
 def _read(source: str) -> pyopencrg.CrgRoad:
-    """Read an OpenCRG file with its modifiers. Raises `RoadFileError`: it cannot be read."""
+    """Read an OpenCRG file with its modifiers. Raises `RoadFileError` if it cannot be read."""
     try:
         import pyopencrg
 

@@ -37,7 +37,7 @@ class RoadFile(RoadOfFile):
     path: str | os.PathLike[str]
     """The file; `Model.road` takes it relative to the current folder."""
     road: PlaneRoad | KerbRoad | GridRoad = field(default_factory=PlaneRoad)
-    """The road in the file's place while the equilibrium of a model is sought, and where the file is taken away. Its
+    """The road in the file's place while the equilibrium of a model is sought, and if the file is taken away. Its
     friction factor multiplies the frictions of the file."""
 
     def __post_init__(self) -> None:
@@ -51,7 +51,7 @@ class RoadFile(RoadOfFile):
         Raises
         ------
         RoadFileError
-            The file is not there, no road file, or damaged.
+            The file is missing, not a road file, or damaged.
         """
         with _open(self.path) as file:
             return read_header(file, self.path)
@@ -95,7 +95,7 @@ def _open(path: str | os.PathLike[str]) -> BinaryIO:
 
 
 def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Heights and frictions of a grid (nx, ny) from the tiles of a file; `name`: of the file, for messages."""
+    """Heights and frictions of a grid (nx, ny) from the tiles of a file; `name`: name of the file, for messages."""
     tiles_x, tiles_y = head.tiles
     values = np.empty((head.maps, tiles_x * ROAD_TILE, tiles_y * ROAD_TILE))
     checksums = []

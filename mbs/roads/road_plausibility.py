@@ -84,13 +84,13 @@ def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: S
             ("coordinates and heights", KEYS | HEIGHTS, scaled, factor),
         ):
             if not (usual and keys is HEIGHTS):  # a single steep spot has another cause
-                text = f"{unit} in place of m in {subject}"
+                text = f"{unit} instead of m in {subject}"
                 mistakes.append(Mistake(text, keys, partial(road_values, road, position, z, start, height_factor)))
     if (missing := far_values(z)).any():
         filled = partial(road_values, road, place, filled_up(z, missing), start)
         mistakes.append(Mistake(f"{z[missing][0]:g} in the place of no value in heights", HEIGHTS, filled))
     as_ratios = partial(road_values, road, place, z, start, friction_factor=0.01)
-    mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), as_ratios))
+    mistakes.append(Mistake("percent instead of a ratio in frictions", frozenset({"frictions"}), as_ratios))
     if start is not None:
         mistakes += start_mistakes(place, start)
     return Plausibility(what, values, mistakes, title=TITLE)
@@ -100,7 +100,7 @@ def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
     """Plausibility of the position of a grid alone. `start`: x and y where a drive begins, m."""
     mistakes, small = start_mistakes(place, start), place.scaled(1e-3)
     if min(small.extent) > 1.0:
-        mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_position_values, small, start)))
+        mistakes.insert(0, Mistake("mm instead of m in coordinates", KEYS, partial(_position_values, small, start)))
     return Plausibility(what, _position_values(place, start), mistakes, title=TITLE)
 
 
@@ -187,7 +187,7 @@ def height_step(z: np.ndarray) -> float:
         return 0.0
     gaps = np.diff(levels)
     steps = gaps / gaps.min()
-    # the few levels of a designed road have any distances; those of a coarse number type are mostly one step apart
+    # the few levels of a designed road have any distances; levels of a coarse number type are mostly one step apart
     integer_multiples = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
     step = float(gaps.min())
     mantissa = np.round(step / 10.0 ** np.floor(np.log10(step * (1.0 + 1e-6))), 3)
@@ -195,7 +195,7 @@ def height_step(z: np.ndarray) -> float:
 
 
 def filled_up(z: np.ndarray, missing: np.ndarray) -> np.ndarray:
-    """Heights with those of the nearest point where `missing` is true."""
+    """Heights with the height of the nearest point where `missing` is true."""
     nearest = distance_transform_edt(missing, return_distances=False, return_indices=True)
     return np.asarray(z[tuple(nearest)])
 

@@ -27,7 +27,8 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     are not. The coherence of two tracks at a distance b is (x K1(x))^2 with x = 2 pi n b and the modified Bessel
     function K1.
 
-    `spacing`: in m; `density`: Gd(n0), m3; `seed`: of the phases. Raises `RoadFileError`: there are too many points.
+    `spacing`: m; `density`: Gd(n0), m3; `seed`: seed of the phases. Raises `RoadFileError` if there are too many
+    points.
     """
     longest_wave = round(1.0 / (LOWEST_FREQUENCY * spacing))
     sides = [max(n, longest_wave) for n in (nx, ny)]

@@ -57,7 +57,7 @@ def points_of_box(
     """Coordinates x (nx,) and y (ny,), m, of a grid over a box, at most `spacing` apart.
 
     `low`, `high`: x and y of the corners of the box, m; `source`: name of the surface, for messages; `more`: end of the
-    message. Raises `RoadFileError`: the grid has too many points.
+    message. Raises `RoadFileError` if the grid has too many points.
     """
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
@@ -111,7 +111,7 @@ def warn_of_deviation(road: SampledRoad) -> None:
 def grid_heights(road: GridRoad, heights: Values, positions: Values) -> Values:
     """Heights (n,) of the surface of a grid, m, as the kernel computes them.
 
-    `heights`: those of the road, contiguous, (nx, ny), m; `positions`: x and y, (n, 2), m.
+    `heights`: heights of the road, contiguous, (nx, ny), m; `positions`: x and y, (n, 2), m.
     """
     interpolated_heights = np.empty(len(positions))
     grid = np.array((*road.origin, *road.spacing), np.float64)

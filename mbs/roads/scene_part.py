@@ -58,9 +58,9 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
 
 
 def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Roads of a scene, with the content of files in place of their paths, which are paths of this machine.
+    """Roads of a scene, with the content of files instead of their paths, which are paths of this machine.
 
-    Raises `RoadFileError`: a file cannot be read.
+    Raises `RoadFileError` if a file cannot be read.
     """
     return [
         scene_part(read_road(road["path"])) if road["kind"] == "file" and road.get("path") else dict(road)

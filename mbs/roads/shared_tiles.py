@@ -134,8 +134,8 @@ def polynomial_values(c: Float) -> Float:
 def polynomials_of(blocks: Float, coordinates: Float, tolerance: float) -> list[Float | None]:
     """Coefficients of the smallest polynomial of each tile within the tolerance; None if there is none.
 
-    `blocks`: heights, m, shape (tiles, n, n); `coordinates`: of their points in a tile, -1 to 1, shape (n,);
-    `tolerance`: m; 0: only level tiles have polynomials.
+    `blocks`: heights, m, shape (tiles, n, n); `coordinates`: coordinates of their points in a tile, -1 to 1, shape
+    (n,); `tolerance`: m; 0: only level tiles have polynomials.
     """
     forms: list[Float | None] = [None] * len(blocks)
     first_heights = blocks[:, :1, :1]
@@ -185,7 +185,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Yield the number and the values (maps, 32, 32) of each tile: heights, m, then frictions if there are two maps.
 
-    `file`: open; `name`: for messages. Raises `RoadFileError`: a tile is damaged.
+    `file`: the open file; `name`: its name, for messages. Raises `RoadFileError` if a tile is damaged.
     """
     file.seek(HEADER.size)
     count = head.tiles[0] * head.tiles[1]
@@ -206,7 +206,7 @@ def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[in
 
 
 def _tile_values(record: bytes, maps: int, name: str) -> Float:
-    """Heights and frictions of a tile from its record. Raises `RoadFileError`: the record is damaged."""
+    """Heights and frictions of a tile from its record. Raises `RoadFileError` if the record is damaged."""
     try:
         rows, columns, friction_count, zero = RECORD.unpack(record[: RECORD.size])
         reals = np.frombuffer(record, "<f8", rows * columns + friction_count, RECORD.size)

@@ -7,7 +7,7 @@ import numpy as np
 from mbs.elements.road import GridRoad
 
 WHEEL_RADIUS = 0.3
-"""Radius of a car's wheel where no car is known, m."""
+"""Radius of a car's wheel if no car is known, m."""
 LARGEST_SLOPE = 2.0
 """Rise over run of a face that a wheel climbs, 63 degrees."""
 BLOCK_ROWS = 4096  # grid rows that are evaluated at once
@@ -24,7 +24,7 @@ def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> st
     surface. At a face that rises by more than the radius over half the radius, or from one point to the next, the
     centre can get below the surface.
 
-    `name`: of the road in the sentence; `radius`: of the wheel, m.
+    `name`: name of the road in the sentence; `radius`: radius of the wheel, m.
     """
     heights = np.asarray(road.heights, float)
     highest, index, run = radius, None, 0.0

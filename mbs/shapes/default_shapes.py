@@ -22,9 +22,9 @@ COLORS = ("#c8553d", "#3d7ea6", "#6a994e", "#e09f3e", "#7d5ba6", "#2a9d8f", "#b5
 GROUND, RAIL, SPRING, ROD = "#4a4e57", "#8b9099", "#d9a441", "#aeb4bd"
 TUBE_RADIUS, LARGEST_RADIUS = 0.014, 0.09
 """Radius of a tube relative to the extent of the drawing, and its largest value relative to the length of its body."""
-LEAST_TRIANGLE_HEIGHT = 0.2  # over its longest side, below which it is drawn as tubes
-LEAST_SLIDER_LENGTH = 1.1  # distance of the joints of a slider over the edge of its box, below which the box is drawn
-LARGEST_OVERHANG = 0.1  # of a centre of mass beyond the ends of a tube, over the length of the tube
+LEAST_TRIANGLE_HEIGHT = 0.2  # relative to its longest side, below which it is drawn as tubes
+LEAST_SLIDER_LENGTH = 1.1  # distance of the joints of a slider / edge of its box, below which the box is drawn
+LARGEST_OVERHANG = 0.1  # of a centre of mass beyond the ends of a tube, relative to the length of the tube
 
 Shape = dict[str, Any]
 

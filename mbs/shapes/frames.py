@@ -182,12 +182,13 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
 def anchors_of_difference(
     model: Model, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
 ) -> tuple[Anchor, Anchor] | None:
-    """Anchors of p1 and p2 for a difference ``p2 - p1`` of points of two bodies; None if `gap` is no such difference.
+    """Anchors of p1 and p2 for a difference ``p2 - p1`` of points of two bodies; None if `gap` is not such a
+    difference.
 
-    The coefficient of a body's position is 1 for p2 and -1 for p1; those of its axes are the coordinates of the point.
-    Coordinates of a node or a port are replaced by their values as drawn.
+    The coefficient of a body's position is 1 for p2 and -1 for p1; the coefficients of its axes are the coordinates of
+    the point. Coordinates of a node or a port are replaced by their values as drawn.
 
-    `bodies`: by their first coordinate; `drawn`: full coordinates as drawn; `gap`: components of the difference.
+    `bodies`: bodies by their first coordinate; `drawn`: full coordinates as drawn; `gap`: components of the difference.
     """
     d = model.dimension
     anchors: dict[float, Anchor] = {}

@@ -32,7 +32,7 @@ Scene = dict[str, Any]
 def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
     """Scene of a model, with its rows for the poses of frames.
 
-    `places`: rows of its frames over the coordinates; `q`: coordinates at the start, shape (nq,).
+    `places`: rows of its frames by coordinates; `q`: coordinates at the start, shape (nq,).
     """
     geometry = joint_geometry(model, names)
     meshes: dict[str, Any] = {}
@@ -144,7 +144,7 @@ def _up_direction(model: Model) -> list[float]:
 
 
 def _focus_frame(model: Model, names: FrameNames) -> str:
-    """Frame of the heaviest body of a model that is not joined to the ground; else empty."""
+    """Frame of the heaviest body of a model that is not joined to the ground; otherwise empty."""
     if model.grounded and not model.floating:
         return ""
     return names.of_body(max(model.bodies, key=lambda body: body.mass))
@@ -202,7 +202,7 @@ def _initial_poses(frames: Mapping[str, Any]) -> dict[str, tuple[Vector, Vector]
 def _initial_position(
     frames: Mapping[str, Any], starts: Mapping[str, tuple[Vector, Vector]], name: str, point: Vector
 ) -> Vector:
-    """Position at the start of a point of the frame `name`, earth axes, m; `point`: in the frame, m."""
+    """Position at the start of a point of the frame `name`, earth axes, m; `point`: position in the frame, m."""
     if name == "ground":
         return point
     if name not in starts:  # the angle at the start is neglected: it does not change the extent

@@ -35,7 +35,8 @@ _COEFFICIENTS = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
 
 
 def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
-    """Raise `TyreFileError` if a number is outside its bounds; 0 counts as missing. `numbers`: by key, SI units."""
+    """Raise `TyreFileError` if a number is outside its bounds; 0 counts as missing. `numbers`: numbers by key, SI
+    units."""
     for key, value in numbers.items():
         if key not in _BOUNDS and key not in _COEFFICIENTS:
             continue

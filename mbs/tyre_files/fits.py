@@ -40,8 +40,8 @@ _MAX_SLIP_RATIO = 1.9
 def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     """Fit MF-Tyre 5.2 to a TMeasy tyre by the curves at pure slip.
 
-    Combined slip follows the friction ellipse, which differs from that of TMeasy; camber thrust and bore torque are
-    neglected.
+    Combined slip follows the friction ellipse, which differs from the ellipse of TMeasy; camber thrust and bore torque
+    are neglected.
 
     `tyre`: its curves must be those at the reference friction.
 
@@ -85,8 +85,8 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
 def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     """Fit TMeasy to a Magic Formula tyre by the curves at pure slip, at one and two nominal loads.
 
-    The nominal load is that of the tyre, or half of the largest load for which the coefficients are valid, if that is
-    less. Shifts, camber, moments other than that of the trail and the influence of the speed are neglected.
+    The nominal load is the tyre's, or half of the largest load for which the coefficients are valid, if that is
+    less. Shifts, camber, moments other than of the trail and the influence of the speed are neglected.
 
     `tyre`: a tyre at its nominal pressure, otherwise `ValueError` is raised.
 

@@ -79,11 +79,11 @@ _NUMBERS = {  # keys whose values must be numbers
 }
 _STIFFNESS_TOLERANCE = 0.05  # relative difference of VERTICAL_STIFFNESS and Q_FZ1
 _BOTTOMED_RUBBER = 0.010  # m between rim and road of a bottomed tyre
-_BOTTOMING_STIFFNESS = 5.0  # default, over the stiffness of the tyre
+_BOTTOMING_STIFFNESS = 5.0  # default, relative to the stiffness of the tyre
 _LEAST_SHARE = 0.05  # of friction and slip stiffness at the nominal load, below which a fit is out of its range
 _LOADS = 400  # number of loads at which these are checked
 _LEAST_RANGE = 0.01  # of slips and angles, rad
-_DEFAULT_LARGEST_LOAD = 5.0  # over the nominal load
+_DEFAULT_LARGEST_LOAD = 5.0  # relative to the nominal load
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class TyreFile(Summarised):
         signs : {"iso", "sae", "adapted_sae"}
             Sign convention of the coefficients.
         pressure : float, optional
-            Inflation pressure, Pa; by default that of the file.
+            Inflation pressure, Pa; by default as in the file.
         more
             Other fields of `MagicTyre`, such as `friction_factor`.
 
@@ -133,9 +133,9 @@ class TyreFile(Summarised):
         if slope * slip * force > 0.0:
             expected = "negative" if signs != "adapted_sae" else "positive"
             raise TyreFileError(
-                f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {expected}, else the lateral "
-                "force has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most "
-                "files."
+                f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {expected}, otherwise the "
+                "lateral force has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of "
+                "most files."
             )
         inflation = self.pressure if pressure is None else pressure
         if pressure is not None and not self.nominal_pressure > 0.0:
@@ -154,7 +154,7 @@ class TyreFile(Summarised):
 def read_tyre(file: str | Path) -> TyreFile:
     """Read a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2. `file`: usually with the extension .tir.
 
-    Raises `TyreFileError`: it cannot be read, is of another format, or lacks a number or has one out of bounds.
+    Raises `TyreFileError` if it cannot be read, is of another format, or lacks a number or has one out of bounds.
     """
     text = read_properties(file)
     notes: list[str] = []
@@ -174,8 +174,8 @@ def read_tyre(file: str | Path) -> TyreFile:
     check_bounds(text, numbers)
     if numbers["PKX1"] < 0.0:
         raise text.fault(
-            f"PKX1 is {numbers['PKX1']:g}; it must be positive, else the longitudinal force has the direction of the "
-            "slip."
+            f"PKX1 is {numbers['PKX1']:g}; it must be positive, otherwise the longitudinal force has the direction of "
+            "the slip."
         )
     coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
     if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):
@@ -227,12 +227,12 @@ def asymmetric_coefficients(version: str) -> tuple[str, ...]:
 
 
 def _version(text: PropertyText, notes: list[str]) -> str:
-    """Version of the formula. Raises `TyreFileError`: the format is not known."""
+    """Version of the formula. Raises `TyreFileError` if the format is not known."""
     format_name = text.word("PROPERTY_FILE_FORMAT", "MODEL")
     fittyp = text.sections["MODEL"].get("FITTYP")
     if format_name == "PAC2002":
         if isinstance(fittyp, float) and VERSION_BY_FITTYP.get(int(fittyp), "MF52") != "MF52":
-            notes.append(f"FITTYP is {fittyp:g} and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002.")
+            notes.append(f"FITTYP is {fittyp:g} and PROPERTY_FILE_FORMAT PAC2002; the equations of PAC2002 are used.")
         return format_name
     if isinstance(fittyp, float) and (format_name in _FORMATS_WITH_FITTYP or format_name.startswith("MF")):
         if fittyp in VERSION_BY_FITTYP:

@@ -44,8 +44,8 @@ class PropertyText:
     def numbers(self, expected: Container[str] = ()) -> dict[str, float]:
         """All numbers by key.
 
-        `expected`: keys whose values must be numbers. Raises `TyreFileError`: a key has different values in two
-        sections, or a text where a number is expected.
+        `expected`: keys whose values must be numbers. Raises `TyreFileError` if a key has different values in two
+        sections, or a text instead of a number.
         """
         numbers: dict[str, float] = {}
         for section, entries in self.sections.items():
@@ -65,7 +65,7 @@ class PropertyText:
 def read_properties(file: str | Path) -> PropertyText:
     """Read the sections of a tyre property file. `file`: text in UTF-8 or Latin-1; keys and values are ASCII.
 
-    Raises `TyreFileError`: it is not such a text.
+    Raises `TyreFileError` if it is not such a text.
     """
     data = read_bytes(file, MOST_BYTES, TyreFileError)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:
@@ -80,7 +80,7 @@ def read_properties(file: str | Path) -> PropertyText:
 
 
 def _parse(text: str, name: str) -> PropertyText:
-    """Sections of a text. `name`: of the file, for messages."""
+    """Sections of a text. `name`: name of the file, for messages."""
     sections: dict[str, dict[str, str | float]] = {}
     tables: set[str] = set()
     section = ""

@@ -29,7 +29,7 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
     file : path
         Usually with the extension .tir.
     tyre : MagicTyre
-        In ISO axes, not mirrored, at its nominal pressure; its friction factor over its reference friction is
+        In ISO axes, not mirrored, at its nominal pressure; its friction factor / its reference friction is
         multiplied into LMUX and LMUY.
     side : {"LEFT", "RIGHT", "SYMMETRIC"}
         Side of the measured tyre; a reader takes the asymmetric coefficients of a symmetric one as 0.

@@ -64,7 +64,7 @@ def _magic_sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
 def magic_longitudinal(coefficients: Mapping[str, float], nominal: float, load: float, kappa: ArrayLike) -> Array:
     """Longitudinal force of the Magic Formula at pure slip (4.E9 to 4.E18), N.
 
-    `coefficients`: by name, the missing ones at their defaults; `nominal`, `load`: in N.
+    `coefficients`: coefficients by name, the missing ones at their defaults; `nominal`, `load`: N.
     """
     c = {**MAGIC_COEFFICIENTS, **coefficients}
     nominal *= c["LFZO"]

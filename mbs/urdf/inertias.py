@@ -32,7 +32,7 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
 
     A link may have an inertia without a mass, as a rotor; if the sum of the masses is 0, the centre is the origin.
 
-    `parts`: links with their frames, (4, 4), in earth axes. Raises `ModelError`: a link with a mass has no inertia.
+    `parts`: links with their frames, (4, 4), in earth axes. Raises `ModelError` if a link with a mass has no inertia.
     """
     masses = []
     for link, pose in parts:
@@ -54,11 +54,11 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
 
 
 def corrected_inertia(inertia: Array, subject: str) -> tuple[Array, str]:
-    """Correct an inertia (3, 3), kg m2, that no mass distribution has; return it with a sentence, else empty.
+    """Correct an inertia (3, 3), kg m2, that no mass distribution has; return it with a sentence, otherwise empty.
 
     The correction makes the second moments of mass, tr(I)/2 - I, positive.
 
-    `subject`: file and link, for messages. Raises `ModelError`: the correction is larger than `LARGEST_CORRECTION`.
+    `subject`: file and link, for messages. Raises `ModelError` if the correction is larger than `LARGEST_CORRECTION`.
     """
     try:
         return inertia_matrix(inertia, 3, subject), ""

@@ -80,7 +80,7 @@ def read_urdf(
     guides : mapping of str to PPoly, optional
         Motions of turning joints over time, rad, of degree five or less; their torques are then sensors, not inputs.
     floating : bool
-        Whether the root is free; else it is fixed to the ground.
+        Whether the root is free; otherwise it is fixed to the ground.
 
     Returns
     -------
@@ -92,7 +92,7 @@ def read_urdf(
     ------
     ModelError
         The file cannot be read, the package is missing, a joint is planar or floating, follows one that is not there or
-        has a motion of its own besides, a moving link has no mass, a name is not that of a joint.
+        has a motion of its own besides, a moving link has no mass, a name is not the name of a joint.
 
     Warns
     -----
@@ -188,7 +188,7 @@ def _joint_tree(urdf: Any, file_name: str) -> dict[str, Any]:
         above[joint.child] = joint
     roots = [name for name in links if above[name] is None]
     if len(roots) != 1:
-        raise ModelError(f"{file_name}: {len(roots)} links are no child of a joint; a robot has one root.")
+        raise ModelError(f"{file_name}: {len(roots)} links are not the child of a joint; a robot has one root.")
     ordered: dict[str, Any] = {roots[0]: None}
     while len(ordered) < len(links):
         following = {n: j for n, j in above.items() if n not in ordered and j is not None and j.parent in ordered}
@@ -283,7 +283,7 @@ def _add_crossed_hinges(
     followers: Mapping[str, MimicJoint],
     file_name: str,
 ) -> None:
-    """Add a universal or ball joint in place of hinges with massless links between them."""
+    """Add a universal or ball joint instead of hinges with massless links between them."""
     names = {joint.name for joint in crossed.hinges}
     if prescribed := names & (set(guides) | {f.leader for f in followers.values()}):
         raise ModelError(
@@ -299,7 +299,8 @@ def _add_crossed_hinges(
 
 
 def _add_joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, driven: bool) -> None:
-    """Add a joint with its drive and its sensors. `value`: rad or m, as drawn; `driven`: by a torque or force."""
+    """Add a joint with its drive and its sensors. `value`: rad or m, as drawn; `driven`: whether a torque or force
+    drives it."""
     m, name, frame = robot.model, joint.name, robot.poses[joint.child]
     first, second = robot.bodies[joint.parent], robot.bodies[joint.child]
     point, axis = frame[:3, 3], frame[:3, :3] @ _axis_in_link(joint)

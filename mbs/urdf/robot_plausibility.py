@@ -33,20 +33,20 @@ Pose: TypeAlias = NDArray[np.float64]
 
 
 MISTAKES = (  # words, first words of keys, factors that undo the mistake
-    ("degrees in place of radians in the limits", ("limit",), Factors(limits=DEG)),
-    ("degrees in place of radians in rpy", ("rpy",), Factors(angles=DEG)),
-    ("degrees per second in place of rad/s in velocities", ("velocity",), Factors(speeds=DEG)),
-    ("1/min in place of rad/s in velocities", ("velocity",), Factors(speeds=math.pi / 30.0)),
-    ("N mm in place of N m in efforts", ("effort",), Factors(efforts=1e-3)),
-    ("kN m in place of N m in efforts", ("effort",), Factors(efforts=1e3)),
-    *((f"{unit} in place of kilograms in masses", ("mass",), Factors(masses=size)) for unit, size in MASSES.items()),
-    *((f"{unit} in place of m in all lengths", ("xyz",), Factors(lengths=size)) for unit, size in LENGTHS.items()),
+    ("degrees instead of radians in the limits", ("limit",), Factors(limits=DEG)),
+    ("degrees instead of radians in rpy", ("rpy",), Factors(angles=DEG)),
+    ("degrees per second instead of rad/s in velocities", ("velocity",), Factors(speeds=DEG)),
+    ("1/min instead of rad/s in velocities", ("velocity",), Factors(speeds=math.pi / 30.0)),
+    ("N mm instead of N m in efforts", ("effort",), Factors(efforts=1e-3)),
+    ("kN m instead of N m in efforts", ("effort",), Factors(efforts=1e3)),
+    *((f"{unit} instead of kilograms in masses", ("mass",), Factors(masses=size)) for unit, size in MASSES.items()),
+    *((f"{unit} instead of m in all lengths", ("xyz",), Factors(lengths=size)) for unit, size in LENGTHS.items()),
     *(
-        (f"{unit} in place of m in centres of mass", ("centre",), Factors(centres=size))
+        (f"{unit} instead of m in centres of mass", ("centre",), Factors(centres=size))
         for unit, size in LENGTHS.items()
     ),
-    ("moments of 1, 0.1, ... kg m2 in place of those of the parts", ("inertia",), Factors(solid=True)),
-    *((f"inertias in {unit} in place of kg m2", ("inertia",), Factors(inertias=of)) for unit, of in MOMENTS.items()),
+    ("moments of 1, 0.1, ... kg m2 instead of those of the parts", ("inertia",), Factors(solid=True)),
+    *((f"inertias in {unit} instead of kg m2", ("inertia",), Factors(inertias=of)) for unit, of in MOMENTS.items()),
     ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Factors(masses=1e-3, inertias=1e-9)),
     ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Factors(lengths=1e-3, inertias=1e-6)),
 )

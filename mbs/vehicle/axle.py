@@ -62,7 +62,7 @@ class Axle(Section):
     def open(self, folder: Path) -> None:
         """Read the files of the tyres and the suspension.
 
-        Raises `CarFileError`: a file is missing or not valid.
+        Raises `CarFileError` if a file is missing or not valid.
         """
         self.tyre.open(folder)
         self.suspension.open(folder, self.wheel.centre)

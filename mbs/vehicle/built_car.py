@@ -108,7 +108,7 @@ class BuiltCar(Summarised, CarContent):
         fidelity: Fidelity = Fidelity.RIGID,
         drive: Callable[[Affine], object] | None = None,
     ) -> CarBuilder:
-        """Add the car to a model from `empty`; `road` and `fidelity` are those of `Car.model`.
+        """Add the car to a model from `empty`; `road`, `fidelity`: as in `Car.model`.
 
         `outputs`: adds the outputs of the car; `drive`: prescribes the x coordinate of the chassis' reference point, m;
         the selector is then in neutral.
@@ -198,7 +198,7 @@ class BuiltCar(Summarised, CarContent):
     def plausibility(self, what: str = "") -> list[Plausibility]:
         """Plausibility of the car, then of the tyres of each axle, then of its flexible frame.
 
-        `what`: name of the file. Raises `ModelError`: the car has no equilibrium.
+        `what`: name of the file. Raises `ModelError` if the car has no equilibrium.
         """
         plausibilities = car_plausibility(what or str(self.folder), self, self.rest, self._data, self._changed_car)
         titles = ["car", *(f"{name} tyres" for name in self.axles)]
@@ -241,7 +241,7 @@ class BuiltCar(Summarised, CarContent):
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
     def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
-        """Add the steering, and both axles with tables in place of links."""
+        """Add the steering, and both axles with tables instead of links."""
         steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:
             raise ModelError(
@@ -283,9 +283,9 @@ def checked_car(
 ) -> C:
     """Make a car from the content of a file and check it.
 
-    `kind`: class of the car; `folder`: of its tables; `what`: name of the file; `at_rest`: whether the equilibrium is
-    checked; `warn`: whether to warn of unusual properties; `stacklevel`: of the warnings, by default for the caller of
-    `mbs.vehicle.load`. Raises `CarFileError`: the content does not describe a car.
+    `kind`: class of the car; `folder`: folder of its tables; `what`: name of the file; `at_rest`: whether the
+    equilibrium is checked; `warn`: whether to warn of unusual properties; `stacklevel`: stack level of the warnings, by
+    default for the caller of `mbs.vehicle.load`. Raises `CarFileError` if the content does not describe a car.
     """
     check_version(data, what)
     try:

@@ -10,7 +10,7 @@ from mbs.vehicle.errors import CarFileError
 def beside(folder: Path, name: str, key: str) -> Path:
     """Path of a file in the car's folder.
 
-    `name`: value in the car file; `key`: its key path. Raises `CarFileError`: the file is not in the folder or not
+    `name`: value in the car file; `key`: its key path. Raises `CarFileError` if the file is not in the folder or not
     a regular file.
     """
     if not name or "\0" in name or "\\" in name or Path(name).is_absolute() or ".." in Path(name).parts:

@@ -80,7 +80,7 @@ def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
 def arm(points: Section, part: str, what: str) -> Iterator[str]:
     """Faults of an arm with two pivots and a ball joint: no axis, no length, or ends not where their names say.
 
-    `points`: table of the points, with those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
+    `points`: table of the points, those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
     ``{part}_ball_joint``; `part`: "lower" or "upper"; `what`: kind of the arm, such as "wishbone".
     """
     pivots, ball = (f"{part}_pivot_front", f"{part}_pivot_rear"), f"{part}_ball_joint"
@@ -97,7 +97,7 @@ def steering_rod(points: Section, rod: str, axis: tuple[str, str], line: str) ->
     Parameters
     ----------
     points : Section
-        Table of the points, with those of the rod as its name with underscores, `_inner` and `_outer`.
+        Table of the points, those of the rod as its name with underscores, `_inner` and `_outer`.
     rod : str
         Name of the rod, such as "tie rod".
     axis : (str, str)

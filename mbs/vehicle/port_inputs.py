@@ -1,4 +1,4 @@
-"""Inputs at the ports of a car: demands that other programs set in place of the driver or of parts of the car."""
+"""Inputs at the ports of a car: demands that other programs set instead of the driver or of parts of the car."""
 
 from mbs.model.inputs import new_input
 from mbs.model.records import Input, Role

@@ -30,7 +30,7 @@ class Quantity:
     """Whether the FMU has it as a parameter: one that may change while driving, or before the start only."""
 
     def check(self, value: float) -> float:
-        """The value, if it is in the range. `value`: in `unit`."""
+        """The value, if it is in the range. `value`: number in `unit`."""
         if math.isfinite(value) and (self.low <= value <= self.high or (self.zero and value == 0.0)):
             return value
         raise PydanticCustomError("quantity", "must be {range}", {"range": self.range})

@@ -38,7 +38,7 @@ def read_car(kind: type[C], car: str | Path) -> C:
 
 
 def file_of(car: str | Path) -> Path:
-    """Path of the file of a car from its folder or file. Raises `CarFileError`: there is none."""
+    """Path of the file of a car from its folder or file. Raises `CarFileError` if there is none."""
     path = Path(car)
     try:
         if path.is_dir():

@@ -28,7 +28,7 @@ class Row:
     def number(self, column: str, low: float, high: float, unit: str) -> float:
         """A cell as a number. `low`, `high`: least and largest value.
 
-        Raises `CarFileError`: it is not a number or not in the range.
+        Raises `CarFileError` if it is not a number or not in the range.
         """
         try:
             value = number_of(self[column], self.decimal)
@@ -52,7 +52,7 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
     """Lines of a table.
 
     `key`: key path of the name in the car's file, for messages; `columns`: titles that it must have; others may be
-    there too. Raises `CarFileError`: there is no such file, it is not text, or a column or a cell is missing.
+    there too. Raises `CarFileError` if there is no such file, it is not text, or a column or a cell is missing.
     """
     what = f"{key} ({name})"
     table = TextTable(beside(folder, name, key), CarFileError, what, known=columns)

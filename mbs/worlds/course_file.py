@@ -51,7 +51,10 @@ GAP_RATIO = 25.0
 def course_layer(
     course: Course, folder: Path, bounds: tuple[float, float, float, float], ground: HeightOf
 ) -> CourseLayer:
-    """Make the layer of a course on the ground. `bounds`: of the world, m. Raises `RoadFileError`: it is not valid."""
+    """Make the layer of a course on the ground.
+
+    `bounds`: bounds of the world, m. Raises `RoadFileError` if the course is not valid.
+    """
     sources = [name for name in ("segments", "points") if getattr(course, name) is not None]
     if len(sources) != 1:
         raise RoadFileError(f"The course '{course.name}' must have segments or points, one of them.")
@@ -151,7 +154,7 @@ def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
 
 
 def _grade_warning(layer: CourseLayer) -> str:
-    """Sentence on the steepest point of a course that is steeper than `LARGEST_GRADE`, else empty."""
+    """Sentence on the steepest point of a course that is steeper than `LARGEST_GRADE`, otherwise empty."""
     s = np.linspace(0.0, layer.line.length, len(layer.line.points))
     height = layer.height(s)
     grades = np.abs(np.diff(height)) / np.diff(s)
@@ -170,7 +173,7 @@ def read_course(file: Path) -> dict[str, Float]:
     """Read the columns of a course file by name.
 
     `file`: CSV; its first line or a comment above it may name the columns by `COLUMNS`, by default they are the first
-    of `DEFAULT_COLUMNS`. Raises `RoadFileError`: it is not such a file.
+    of `DEFAULT_COLUMNS`. Raises `RoadFileError` if it is not such a file.
     """
     headings = {f"{name}{unit}" for name in COLUMNS for unit in ("", "_m")}
     table = TextTable(file, RoadFileError, headed=None, known=headings)
@@ -210,7 +213,7 @@ def _check_bounds(line: CentreLine, course: Course, bounds: tuple[float, float, 
 
 
 def _check_crossings(line: CentreLine, course: Course, width: Float) -> None:
-    """Raise `RoadFileError` if a course crosses itself. `width`: at each point of the line, m."""
+    """Raise `RoadFileError` if a course crosses itself. `width`: width at each point of the line, m."""
     s = line.stations[:-1] if line.closed else line.stations
     points = line.points[: len(s)]
     pairs = cKDTree(points).query_pairs(0.9 * width.max(), output_type="ndarray")

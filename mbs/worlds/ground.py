@@ -69,7 +69,7 @@ class Surface:
 def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     """Make the ground of a world; return it with the spacing of its height map, m, or infinity without one.
 
-    Raises `RoadFileError`: the height map cannot be read, or does not cover the world.
+    Raises `RoadFileError` if the height map cannot be read, or does not cover the world.
     """
     ground, (x0, y0, x1, y1) = world.ground, world.bounds
     if ground.heights is not None and ground.variation is not None:

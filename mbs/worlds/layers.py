@@ -57,8 +57,8 @@ def weight(layer: Layer, excess: Float) -> Float:
 class CourseLayer:
     """A course on the ground.
 
-    `ground`: heights of the ground, which a course without heights follows; `heights`, `widths`, `banks`: of a course
-    from a file at the points of the line, shape (n,).
+    `ground`: heights of the ground, which a course without heights follows; `heights`, `widths`, `banks`: profiles of a
+    course from a file at the points of the line, shape (n,).
     """
 
     def __init__(

@@ -33,7 +33,7 @@ LARGEST_AREA = 1e8
 
 
 def read_world(file: Path) -> WorldDescription:
-    """Read and check the description of a world. Raises `RoadFileError`: the description is not valid."""
+    """Read and check the description of a world. Raises `RoadFileError` if the description is not valid."""
     table = read_toml(file, RoadFileError)
     try:
         world = WorldDescription.model_validate(table)
@@ -64,7 +64,7 @@ def make_world(
 
     `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with the name of a stage and its completed
     share, 0 to 1; `thin`: whether points and digits are reduced for a page; the key ``thin`` of the record has the
-    deviation. Raises `RoadFileError`: the world cannot be made.
+    deviation. Raises `RoadFileError` if the world cannot be made.
     """
     if (world := description_of(file)) is not None:
         if thin:
@@ -100,7 +100,7 @@ def _check_size(world: WorldDescription, file: Path) -> None:
 
 
 def checksum_of(road: Path) -> int:
-    """CRC-32 of the header of a road file, which contains that of its tiles; a record belongs to one checksum."""
+    """CRC-32 of the header of a road file, which contains the CRC-32 of its tiles; a record belongs to one checksum."""
     with open_file(road, LARGEST_IN_PARTS) as file:
         return zlib.crc32(file.read(HEADER.size)[CHECKED_FROM:])
 

@@ -37,7 +37,7 @@ class DrawnPatch:
 
 
 def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
-    """Patches that cover a world; the edges of fine patches lie on those of their coarser neighbours.
+    """Patches that cover a world; the edges of fine patches lie on the edges of their coarser neighbours.
 
     `tell`: called with the completed share, 0 to 1.
     """

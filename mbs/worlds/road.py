@@ -77,7 +77,7 @@ def _write_table(file: Path | None, plausibility: Plausibility) -> None:
 
 
 def _start_positions(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
-    """Start positions by name, x and y in m: of the options, else of the road's world, else (0, 0)."""
+    """Start positions by name, x and y in m: of the options, otherwise of the road's world, otherwise (0, 0)."""
     if options.start is not None:
         return {"start": tuple(options.start)}
     record = record_of_road(options.input) or {}
@@ -85,7 +85,7 @@ def _start_positions(options: argparse.Namespace) -> dict[str, tuple[float, floa
 
 
 def _grid_arguments(options: argparse.Namespace) -> dict[str, Any]:
-    """Arguments of `read_road` for a grid. Raises `UserError`: the input defines its whole road."""
+    """Arguments of `read_road` for a grid. Raises `UserError` if the input defines its whole road."""
     arguments: dict[str, Any] = {
         "origin": options.origin,
         "spacing": options.spacing,

@@ -20,16 +20,16 @@ MOST_NODES = 1_500_000
 LARGEST_SLOPE = 3.0
 """Slope of a layer times its weight above which it has a step."""
 TRANSITION = 1.0
-"""Width of the transition from the heights of a layer with its shoulder to those of the lattice, m."""
+"""Width of the transition from the heights of a layer with its shoulder to the lattice's, m."""
 
 
 class Terrain:
     """The ground of a world with its layers and obstacles.
 
-    Heights on courses, areas and their shoulders are computed at each point; elsewhere they are those of a C2 spline
+    Heights on courses, areas and their shoulders are computed at each point; elsewhere they are taken from a C2 spline
     through the points of a lattice with a spacing of about 1 m.
 
-    `folder`: of the files that the description names.
+    `folder`: folder of the files that the description names.
     """
 
     def __init__(self, world: WorldDescription, folder: Path) -> None:
@@ -186,7 +186,7 @@ def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
 
 
 def _checked(area: Area) -> Area:
-    """The area itself. Raises `RoadFileError`: it has no radius and no size, or both."""
+    """The area itself. Raises `RoadFileError` if it has no radius and no size, or both."""
     if (area.radius is None) == (area.size is None):
         raise RoadFileError(f"The area '{area.name}' must have a radius or a size.")
     return area

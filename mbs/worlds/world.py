@@ -30,7 +30,7 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     """Write the files of a world into a folder and return the exit code.
 
     `name_or_file`: world of the package, or a file; `picture`: image file of its map; `thin`: whether points and digits
-    are reduced for a page; `table`: JSON file of its plausibility. Raises `UserError`: it is not a world.
+    are reduced for a page; `table`: JSON file of its plausibility. Raises `UserError` if it is not a world.
     """
     begin = time.perf_counter()
     file = _world_file(name_or_file)
@@ -67,7 +67,7 @@ def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
 
 
 def _world_file(name_or_file: str) -> Path:
-    """Path of a world by its name in the package or its file. Raises `UserError`: there is none."""
+    """Path of a world by its name in the package or its file. Raises `UserError` if there is none."""
     path = Path(name_or_file)
     if is_file(path):
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
@@ -100,7 +100,7 @@ def _draw_record(record: Path, target: Path) -> None:
 
 
 class _ProgressLine:
-    """Progress on standard error: on a terminal one line that is overwritten, else a line per stage."""
+    """Progress on standard error: on a terminal one line that is overwritten, otherwise a line per stage."""
 
     def __init__(self, name: str) -> None:
         self.name, self.printed, self.stage = name, 0.0, ""

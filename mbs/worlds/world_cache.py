@@ -45,7 +45,7 @@ def _source_files(entry: Path) -> list[Path]:
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
     """Copy the files of a world into a folder, from the cache or newly made.
 
-    `key`: from `key_of`; `make`: writes the files into an empty folder.
+    `key`: result of `key_of`; `make`: writes the files into an empty folder.
 
     Returns
     -------

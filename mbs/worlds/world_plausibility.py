@@ -27,7 +27,7 @@ Feature: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 QUANTITIES = quantities_of("world")
 POSITION_MISTAKES: dict[str, Callable[[float, float], tuple[float, float]]] = {
     "x and y exchanged": lambda x, y: (y, x),
-    "mm in place of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > LEAST_MM else (x, y),
+    "mm instead of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > LEAST_MM else (x, y),
     "the sign of x": lambda x, y: (-x, y),
     "the sign of y": lambda x, y: (x, -y),
 }
@@ -52,7 +52,7 @@ def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
             elsewhere = _outside_value(world, key, [moved(x, y) for x, y in places])
             mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
     finer = world.model_copy(update={"spacing": (0.01 * world.spacing[0], 0.01 * world.spacing[1])})
-    mistakes.append(Mistake("cm in place of m in spacing", frozenset({"spacing"}), partial(_world_values, finer)))
+    mistakes.append(Mistake("cm instead of m in spacing", frozenset({"spacing"}), partial(_world_values, finer)))
     return Plausibility(what, values, mistakes, title="world")
 
 
@@ -233,7 +233,7 @@ def _corrected_features(feature: Feature) -> Iterator[tuple[str, Feature]]:
             for name in ("length", "width", "left", "right")
             if hasattr(feature, name)
         }
-        yield "km in place of m", feature.model_copy(update=smaller)
+        yield "km instead of m", feature.model_copy(update=smaller)
 
 
 def _scenery_points(world: WorldDescription) -> Iterator[tuple[str, Places]]:

@@ -23,7 +23,7 @@ def world_record(
 ) -> dict[str, Any]:
     """Content of the JSON file of a world.
 
-    `tell`: called with the completed share, 0 to 1; `step`: of which drawn heights are integer multiples, m; 0: they
+    `tell`: function of the completed fraction, 0 to 1; `step`: step of the drawn heights, m; 0: they
     are not rounded.
     """
     world = terrain.world

@@ -73,9 +73,9 @@ class Bank(_Table):
     """Superelevation of a course in its curves."""
 
     grades: Annotated[list[tuple[Distance, Annotated[float, Field(ge=-1.0, le=1.0)]]], Field(min_length=1)]
-    """Station, m, and slope across, positive where the right side is higher; smooth between."""
+    """Station, m, and slope across, positive if the right side is higher; smooth between."""
     pivot: Literal["left", "centre", "right"] = "centre"
-    """The line whose heights are those of the course."""
+    """The line that gives the heights of the course."""
 
 
 class Course(_Table):
@@ -202,7 +202,7 @@ class Cones(_Table):
     """Start of the lane change or slalom, in the middle of the first lane."""
     vehicle_width: Annotated[float, Field(ge=0.5, le=4.0)] = 1.8
     slalom: Annotated[int, Field(ge=1, le=200)] | None = None
-    """Number of cones in a row from `start` on."""
+    """Number of cones in a row, which begins at `start`."""
     distance: Length = 18.0
 
 

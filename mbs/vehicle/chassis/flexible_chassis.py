@@ -26,7 +26,7 @@ COMPUTED_OUTPUT = "stress.computed"
 def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
     """Make the frame of a car with the joints of its parts. `b`: an empty model; `parts`: as in `attachments`.
 
-    Raises `ModelError`: the car has no flexible frame, or its files do not describe one that fits the car.
+    Raises `ModelError` if the car has no flexible frame, or its files do not describe one that fits the car.
     """
     frame, chassis = car.frame_section, car.chassis
     structure = frame.structure(car.folder)
@@ -115,7 +115,7 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
     """Add the amplitudes of the modes of fidelity 3, by which `stress_scene` draws the chassis at any fidelity.
 
     For a flexible chassis with other modes they are the nearest ones in the energy norm, for a quasi-static chassis
-    those of the static deformation, for a rigid chassis 0.
+    as of the static deformation, for a rigid chassis 0.
     """
     drawn, body = flexible.drawn, mount.body
     rows = flexible.drawn_amplitudes(body.reduced) if isinstance(body, FlexibleBody) else None

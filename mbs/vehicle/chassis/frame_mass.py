@@ -1,4 +1,4 @@
-"""Check of the mass of a frame against that of the chassis in the file."""
+"""Check of the mass of a frame against the mass of the chassis in the file."""
 
 import numpy as np
 
@@ -13,9 +13,9 @@ _REMEDY = "Change the masses of the frame too; what a parameter of a run changes
 
 
 def check_mass(structure: Structure, chassis: Chassis) -> None:
-    """Compare the mass properties of a frame, with all masses on it, with those of the rigid chassis.
+    """Compare the mass properties of a frame, with all masses on it, with the rigid chassis.
 
-    Raises `ModelError`: mass, centre of mass or inertia differ.
+    Raises `ModelError` if mass, centre of mass or inertia differ.
     """
     points, riding = structure.model.mass, structure.riding
     masses = np.concatenate([points.masses, list(riding.values())])

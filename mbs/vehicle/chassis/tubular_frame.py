@@ -66,7 +66,7 @@ class TubularFrame:
         each tube to the second.
 
         `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: factor on the number of elements of every tube;
-        `carried_masses`: whether the masses of joints are included, except those of `riding`. Raises `ModelError`: a
+        `carried_masses`: whether the masses of joints are included, except for `riding`. Raises `ModelError` if a
         table is missing or does not describe a frame.
         """
         material, sections = self.material, self.tube_sections
@@ -91,8 +91,8 @@ class TubularFrame:
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
         """Make the gauges on the elements of a frame of any refinement.
 
-        `tubes`: from `frame`. Raises `ModelError`: a gauge is on no tube, or its fibre is named by a direction in which
-        the tube runs.
+        `tubes`: result of `frame`. Raises `ModelError` if a gauge is on no tube, or its fibre is named by a direction
+        in which the tube runs.
         """
         joints, gauges = self.joint_places(), []
         for name, gauge in self.section.gauges.items():
@@ -134,7 +134,7 @@ class TubularFrame:
         return tubes
 
     def riding(self) -> dict[str, float]:
-        """Read the masses without an image by joint, kg. Raises `ModelError`: their table is missing or not valid."""
+        """Read the masses without an image by joint, kg. Raises `ModelError` if their table is missing or not valid."""
         return self._masses(self.joint_places(), "no")
 
     def _masses(self, joints: dict[str, np.ndarray], image: str) -> dict[str, float]:
@@ -165,7 +165,7 @@ def _loaded_joints(row: Row, image_filter: str) -> tuple[str, ...]:
 
 
 def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
-    """Tube of a gauge. Raises `ModelError`: there is none between its joints."""
+    """Tube of a gauge. Raises `ModelError` if there is none between its joints."""
     tubes_by_ends = {(t.start, t.end): t for t in tubes}
     if gauge.tube in tubes_by_ends:
         return tubes_by_ends[gauge.tube]

@@ -51,7 +51,7 @@ class Rest:
                 yield (
                     f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
                     f"{self.load[name]:.0f} N compresses the tyre by {deflection:.3g} m, but {axle.tyre.key('radius')} "
-                    f"less the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
+                    f"minus the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
                 )
         if abs(self.lean) > LARGEST_LEAN:
             yield (
@@ -132,14 +132,14 @@ def _fitted_lengths(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[s
 
 
 def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
-    """Mean of a sensor over both wheels of an axle. `name`: of the sensor, with {} for the wheel."""
+    """Mean of a sensor over both wheels of an axle. `name`: name of the sensor, with {} for the wheel."""
     return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
 
 def settled(model: Model, car: CarContent) -> Rest:
-    """Compile the car and find its equilibrium. `model`: with the sensors of `rest_outputs`.
+    """Compile the car and find its equilibrium. `model`: model with the sensors of `rest_outputs`.
 
-    Raises `ModelError`: a number is not valid, or there is no equilibrium.
+    Raises `ModelError` if a number is not valid, or there is no equilibrium.
     """
     system = compiled(model)
     at_rest = StandingSystem(system).sensors

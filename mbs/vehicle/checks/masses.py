@@ -11,8 +11,8 @@ from mbs.vehicle.checks.places import parts_of
 MASS_TOLERANCE = 0.005  # of the car's mass
 REFERENCE_TOLERANCE = 0.1  # m, between reference point and centre of mass
 LEAST_WEIGHT_SHARE = 0.15  # of an axle
-LEAST_HEIGHT = 0.1  # of the centre of mass, over the track
-LARGEST_LATERAL_OFFSET = 0.1  # of the centre of mass, over the track
+LEAST_HEIGHT = 0.1  # of the centre of mass, relative to the track
+LARGEST_LATERAL_OFFSET = 0.1  # of the centre of mass, relative to the track
 
 
 def mass_faults(car: CarContent) -> Iterator[str]:

@@ -14,7 +14,7 @@ from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import Damper, Spring
 
-DEFLECTIONS = 1.0 / 150.0, 0.25  # of a tyre under the load as drawn, over its free radius
+DEFLECTIONS = 1.0 / 150.0, 0.25  # of a tyre under the load as drawn, relative to its free radius
 LARGEST_TRAVEL = 0.3  # m, of the springs from the drawing
 LARGEST_FREQUENCY = 40.0  # rad/s, natural, of the body on a wheel's spring
 DAMPING_RATIOS = 0.02, 5.0  # of the body on a wheel's spring
@@ -66,7 +66,7 @@ def working_ranges(car: CarContent) -> Ranges:
 
 
 def _add_mass_centre(ranges: Ranges, car: CarContent) -> None:
-    """Add the ranges of the chassis' centre of mass for which that of the car is within `centre_ranges`."""
+    """Add the ranges of the chassis' centre of mass for which the car's is within `centre_ranges`."""
     lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
     centre, spans = centre_of(car, payloads=False), centre_ranges(car)
     for (path, value), position, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
@@ -174,7 +174,7 @@ def _add_air(ranges: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float,
 
 
 def _damping_coefficient(damper: Damper) -> float:
-    """Damping coefficient with a factor of 1, N s/m: of a table the mean over both directions at `DAMPER_SPEED`."""
+    """Damping coefficient with a factor of 1, N s/m: of a table the mean of both directions at `DAMPER_SPEED`."""
     if damper.damping is not None:
         return damper.damping
     rows = [(v, force) for v, force in damper.table or () if v != 0.0]

@@ -6,8 +6,8 @@ chassis (J. C. Dixon, "Suspension Geometry and Computation", Wiley; W. Matschins
 
 Anti-dive, anti-lift, anti-squat: with the share s of the axle in the longitudinal force, the wheelbase l and the height
 h of the centre of mass, s |dx/dz| l/h is the share of the load transfer in the links (W. F. and D. L. Milliken, "Race
-Car Vehicle Dynamics", chapter 17). Under braking dx/dz is that of the carrier's point at the contact centre, as the
-brake holds the wheel on its carrier; under drive it is that of the wheel centre, as the chassis carries the torque.
+Car Vehicle Dynamics", chapter 17). Under braking dx/dz is taken of the carrier's point at the contact centre, as the
+brake holds the wheel on its carrier; under drive it is taken of the wheel centre, as the chassis carries the torque.
 """
 
 import numpy as np

@@ -33,7 +33,7 @@ class Kinematics:
     curves: dict[tuple[str, str], Curve]
     """By axle, of those with links, and motion; "steer" of the front axle alone."""
     notes: tuple[str, ...]
-    """Sentences: where curves end early, where the range goes into the stops, which axle has no links."""
+    """Sentences on curves that end early, ranges that go into the stops, and axles without links."""
 
     def drawn(self, axle: str) -> dict[str, float]:
         """Values and gradients at the drawing, SI units.
@@ -42,8 +42,9 @@ class Kinematics:
         -------
         dict of str to float
             Of the left wheel and the axle, by the quantities' names; toe and camber of a right wheel that is set
-            otherwise, as ``right_toe_angle``; those of roll from opposite travel, those of steering from the steer
-            curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock. Empty: it has no links.
+            otherwise, as ``right_toe_angle``; columns of roll are from opposite travel, columns of steering from the
+            steer curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock. Empty: it has no
+            links.
         """
         if (axle, "parallel") not in self.curves:
             return {}
@@ -78,7 +79,7 @@ def kinematics(
     travel : (float, float)
         Least and largest wheel travel, m, from the drawing, positive in bump; 0 is between them.
     points : int
-        Of each curve; one at the drawing is added where there is none.
+        Of each curve; one at the drawing is added if there is none.
     progress : callable, optional
         Receives the share that is done.
 
@@ -124,7 +125,7 @@ def wheel_by_rack(car: Car) -> WheelByRack:
 
 
 def checked_travel(travel: object) -> tuple[float, float]:
-    """Check a range of wheel travel, m. Raises `ModelError`: it is not two numbers around 0."""
+    """Check a range of wheel travel, m. Raises `ModelError` if it is not two numbers around 0."""
     if not isinstance(travel, (tuple, list)) or len(travel) != 2 or not all(is_finite(v) for v in travel):
         raise ModelError(f"The range of wheel travel is {shown(travel)}; it must be two numbers, m.")
     low, high = (float(v) for v in travel)

@@ -20,7 +20,7 @@ from mbs.vehicle.linkages.curve_grid import write_curve_table
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.suspensions.curve_table import RACK
 
-LEAST_RANGE = 1e-3  # m: a smaller range was given in m in place of mm
+LEAST_RANGE = 1e-3  # m: a smaller range was given in m instead of mm
 TRAVEL = (-80.0, 80.0)  # mm
 
 

@@ -61,7 +61,7 @@ def rows(kinematics: Kinematics) -> list[tuple[str, str, str, str, str]]:
 
 
 def text(lines: Sequence[tuple[str, str, str, str, str]]) -> str:
-    """Text of rows. `lines`: from `rows`."""
+    """Text of rows. `lines`: result of `rows`."""
     lines = [("", "front", "rear", "", ""), *lines]
     headings = [bool(line[0]) and not any(line[1:]) for line in lines]
     return "\n".join("\n" * heading + line for heading, line in zip(headings, in_columns(lines, (1, 2)), strict=True))

@@ -75,8 +75,8 @@ def default_drives(system: System) -> list[Drive]:
 def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
     """Read a drive from a table of inputs over time.
 
-    `file`: CSV with the column ``time``, s, and columns of inputs, linear between rows; `speed`: at the start, m/s;
-    `inputs`: of the car. Raises `FileError`: the file is not such a table.
+    `file`: CSV with the column ``time``, s, and columns of inputs, linear between rows; `speed`: speed at the start,
+    m/s; `inputs`: inputs of the car. Raises `FileError` if the file is not such a table.
     """
     table = TextTable(file, known=("time",))
     if "time" not in table.names or len(table.names) < 2:

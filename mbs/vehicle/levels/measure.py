@@ -29,7 +29,7 @@ CUTOFF_FREQUENCY = 10.0  # Hz, of the low-pass filter of moments
 def systems_of(car: Car) -> dict[Fidelity, System]:
     """Compile the car at each of its fidelities, from the cheapest to the most detailed.
 
-    Raises `ModelError`: the tyres of the car are at ports.
+    Raises `ModelError` if the tyres of the car are at ports.
     """
     if car.ports.tyre is not None:
         raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it cannot drive.")
@@ -67,10 +67,11 @@ def measure(
     Returns
     -------
     list of dict
-        Of each drive, fidelity and step: "path", the largest distance from the reference over the length of the way or
-        1 m, whichever is longer; "load", the largest error of a wheel load over the largest load; "moment", the largest
-        error of a moment of the gauges over the largest change, after a low-pass of 10 Hz, None where there are none;
-        "us_per_step", processor time; "failed", why a run ended early, with None for all else; empty where none did.
+        Of each drive, fidelity and step: "path", the largest distance from the reference, relative to the length of
+        the way or 1 m, whichever is longer; "load", the largest error of a wheel load, relative to the largest load;
+        "moment", the largest error of a moment of the gauges, relative to the largest change, after a low-pass of 10
+        Hz, None if there are no gauges; "us_per_step", processor time; "failed", why a run ended early, with None for
+        all else; empty if none did.
     """
     finest = list(systems)[-1]
     grid = max(steps)

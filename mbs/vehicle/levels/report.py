@@ -82,7 +82,7 @@ def _print_rows(title: str, drives: Sequence[str], rows: Sequence[Mapping[str, A
 def parse_options(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path | None, float]:
     """Tolerances (ratios by error), file of a drive and its initial speed (m/s) from the NAME=VALUE of the option.
 
-    Raises `UserError`: a name is not known, or a value cannot be used.
+    Raises `UserError` if a name is not known, or a value cannot be used.
     """
     options = dict(words)
     numbers = {name: text for name, text in options.items() if name != "drive"}

@@ -14,10 +14,10 @@ LARGEST_DEVIATION = 0.2  # from the tangent, relative to the step: a farther pos
 def positions_along(
     linkage: Linkage, direction: Array, values: Array, start: Position | None = None
 ) -> tuple[list[Position], float | None]:
-    """Find positions along a motion at values from zero on.
+    """Find positions along a motion at values that start from zero.
 
-    `direction`: travels of the left and the right wheel and of the rack per value, shape (3,); `values`: of one sign
-    and increasing magnitude, m, shape (n,); `start`: position at the value zero, by default that of the drawing.
+    `direction`: travels of the left and the right wheel and of the rack per value, shape (3,); `values`: values of one
+    sign and increasing magnitude, m, shape (n,); `start`: position at the value zero, by default as drawn.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def positions_along(
 def _next_position(
     linkage: Linkage, start: Position, position: Position, direction: Array, current: float, target: float
 ) -> Position:
-    """Position at the next value. Raises `NotReachedError`: there is none near the tangent."""
+    """Position at the next value. Raises `NotReachedError` if there is none near the tangent."""
     change = position.tangent @ direction * (target - current)
     travel, rack = start.travel + target * direction[:2], start.rack + target * float(direction[2])
     next_position = linkage.solve(position.q + change, travel, rack)

@@ -16,8 +16,8 @@ from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER_TRAVEL, RACK, WHE
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
     """Compute the columns of the table of the left wheel between its stops by name, SI units, shape (n,) each.
 
-    `rack_travel`: to each side, m; 0: the axle is not steered. Raises `NotReachedError`: the links cannot reach the
-    stops.
+    `rack_travel`: travel to each side, m; 0: the axle is not steered. Raises `NotReachedError` if the links cannot
+    reach the stops.
     """
     coupled = is_coupled(linkage)
     travel = _wheel_travels(linkage, coupled)

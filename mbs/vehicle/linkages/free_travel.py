@@ -16,7 +16,7 @@ LARGEST_TRAVEL = 0.5  # m, of wheels and rack, that is examined
 def notes_without_stops(car: CarContent) -> Iterator[str]:
     """Yield a sentence for each axle without stops, and one for a steered knuckle without a stop.
 
-    `car`: at rest near the drawing.
+    `car`: a car at rest near the drawing.
     """
     yield from _stop_notes(car)
     yield from _steering_stop_notes(car)

@@ -137,8 +137,8 @@ class Linkage(StandingModel):
     def solve(self, start: Array, travel: Array, rack: float) -> Position:
         """Find a position by Newton's method.
 
-        `start`: initial coordinates, shape (nq,); `travel`: of the left and the right wheel, m, shape (2,); `rack`:
-        travel of the rack, m. Raises `NotReachedError`: the iteration does not converge.
+        `start`: initial coordinates, shape (nq,); `travel`: travel of the left and the right wheel, m, shape (2,);
+        `rack`: travel of the rack, m. Raises `NotReachedError` if the iteration does not converge.
         """
         q, zero_rates, heights = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
         offset = np.array([centre[1][2] for centre in self._centres])
@@ -197,7 +197,7 @@ class Linkage(StandingModel):
 
 
 def _fixed_chassis(m: Model, car: CarContent) -> Mount:
-    """Mount on the ground in place of the chassis."""
+    """Mount on the ground instead of the chassis."""
     ground = m.ground
     axes = [ground.vector(e) for e in np.eye(3)]
     origin = np.array(car.chassis.reference)

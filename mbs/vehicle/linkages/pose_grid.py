@@ -43,7 +43,7 @@ class PoseGrid:
     """Coordinates of the linkage, shape (n, k, nq), or (n, n, nq) if coupled."""
 
     def full(self, start: int, size: int) -> Array:
-        """Full coordinates from `start` on over the grid, shape (n, k, size)."""
+        """Full coordinates over the grid, computed from `start`, shape (n, k, size)."""
         rows = [self.linkage.full(start + i) for i in range(size)]
         return np.stack([self.q @ row + constant for row, constant in rows], axis=-1)
 
@@ -51,8 +51,8 @@ class PoseGrid:
 def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     """Compute the positions of an axle over the range of its springs and its rack.
 
-    `rack_travel`: to each side, m; 0 if the axle is not steered. Raises `NotReachedError`: the links cannot reach the
-    stops.
+    `rack_travel`: travel to each side, m; 0 if the axle is not steered. Raises `NotReachedError` if the links cannot
+    reach the stops.
     """
     low, high = compression_range(linkage)
     compression = even_points(-low, high, SPACING[0])
@@ -108,8 +108,8 @@ def _follow(
 def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float], rack: float) -> Array:
     """Coordinates (nq,) at compressions of both springs and a travel of the rack, by Newton's method from `start`.
 
-    `compression`: of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`: the
-    iteration does not converge.
+    `compression`: compression of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`
+    if the iteration does not converge.
     """
     q, zero_rates = start.copy(), np.zeros(len(start))
     lines = [linkage.linear(spring) for spring in linkage.springs]

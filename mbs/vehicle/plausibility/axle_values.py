@@ -32,7 +32,7 @@ class AxleRates:
     wheel_rate: float
     """Wheel rate of one wheel, N/m."""
     damper_ratio: float
-    """Travel of the damper over travel of the wheel."""
+    """Travel of the damper per travel of the wheel."""
     roll_stiffness: float
     """Roll stiffness of the axle, N m/rad."""
     steering_axis: dict[str, float]
@@ -65,7 +65,7 @@ def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
 
 
 def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None) -> Iterator[Value]:
-    """Values of an axle. `name`: "front" or "rear"; `rates`: from `axle_rates`."""
+    """Values of an axle. `name`: "front" or "rear"; `rates`: result of `axle_rates`."""
     axle, centre = car.axles[name], car.axles[name].wheel.centre
     centre_key = {axle.wheel.key("centre"): list(centre)}
     yield Value(CAR["track"], axle.track, centre_key, name)
@@ -155,7 +155,7 @@ def _spring_values(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Itera
 
 
 def damping_at(damper: Damper, speed: float) -> float:
-    """Force over speed of a damper, N s/m. `speed`: m/s, positive in rebound."""
+    """Force per speed of a damper, N s/m. `speed`: m/s, positive in rebound."""
     if damper.damping is not None:
         return damper.damping * damper.factor
     v, force = np.array(damper.table, dtype=float).T

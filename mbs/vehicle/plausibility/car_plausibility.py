@@ -25,10 +25,10 @@ Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
 """Makes a car of altered content of its file, and the same car at rest; None if it is not a car."""
 FINAL_DRIVE = 4.0
 LARGEST_HEIGHT = 4.0  # m, of a truck
-KILOGRAMS = ("kilograms in place of newtons", GRAVITY)
+KILOGRAMS = ("kilograms instead of newtons", GRAVITY)
 POUNDS = (
-    ("pounds and inches in place of N and m", 175.127),
-    ("pounds and feet in place of N and m", 14.5939),
+    ("pounds and inches instead of N and m", 175.127),
+    ("pounds and feet instead of N and m", 14.5939),
 )
 
 
@@ -223,11 +223,11 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
     for name, axle in car.axles.items():
         centre, alignment = axle.wheel.key("centre"), axle.alignment
         yield f"half the track less half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 2.0)
-        yield f"the track in place of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
+        yield f"the track instead of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
         for angle in ("toe", "camber"):
             keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
             present = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
-            yield f"degrees in place of radians in {' and '.join(present)}", set(keys), _scale(present, 1.0 / DEG)
+            yield f"degrees instead of radians in {' and '.join(present)}", set(keys), _scale(present, 1.0 / DEG)
             for key in present if angle == "camber" else ():
                 yield f"the sign of {key}", {key}, _scale(key, -1.0)
             yield f"the signs of {' and '.join(present)}", set(keys), _scale(present, -1.0)
@@ -236,30 +236,30 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
             key = damper.key("table")
             yield f"bump and rebound exchanged in {key}", {key}, partial(_mirror, key)
         for key, parts in zip((*spring.given, *damper.given), ("springs", "dampers"), strict=True):
-            yield from _scales(key, (f"both {parts} of the axle in place of one", 0.5))
+            yield from _scales(key, (f"both {parts} of the axle instead of one", 0.5))
             yield from _scales(key, (f"half of one of the {parts}", 2.0), *POUNDS, KILOGRAMS)
         key = axle.wheel.key("spin_inertia")
-        yield from _scales(key, ("both wheels in place of one", 0.5), ("half of the wheel", 2.0))
+        yield from _scales(key, ("both wheels instead of one", 0.5), ("half of the wheel", 2.0))
         other_key = axle.wheel.key("diametral_inertia")
         yield f"{key} and {other_key} exchanged", {key, other_key}, partial(_exchange, key, other_key)
     chassis, drive, steering = car.chassis, car.drive, car.steering
     gears, limit = drive.key("ratios" if isinstance(drive, Automatic) else "ratio"), drive.key("limit_speed")
     yield from _scales(gears, (f"ratios without a final drive, of about {FINAL_DRIVE:g},", FINAL_DRIVE))
     yield from _scales(gears, (f"the final drive, of about {FINAL_DRIVE:g}, twice", 1.0 / FINAL_DRIVE))
-    yield from _scales(limit, ("rounds per minute in place of rad/s", math.pi / 30.0))
-    yield from _scales(limit, ("rounds per second in place of rad/s", 2.0 * math.pi))
+    yield from _scales(limit, ("rounds per minute instead of rad/s", math.pi / 30.0))
+    yield from _scales(limit, ("rounds per second instead of rad/s", 2.0 * math.pi))
     yield from _scales(drive.key("max_torque"), KILOGRAMS, ("the torque of the wheels", 0.5 / FINAL_DRIVE))
-    yield from _scales(drive.key("max_power"), ("horsepower in place of W", 735.5), ("kW in place of W", 1000.0))
+    yield from _scales(drive.key("max_power"), ("horsepower instead of W", 735.5), ("kW instead of W", 1000.0))
     inertia, balance = chassis.key("inertia"), car.brakes.key("balance")
     for a, b in ((0, 2), (0, 1)):
         words = f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}"
         yield words, {inertia}, partial(_swap, inertia, a, b)
-    yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet in place of kg and m", 0.04214))
+    yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet instead of kg and m", 0.04214))
     yield f"the share of the rear wheels in {balance}", {balance}, partial(_complement, balance)
-    sides = (("the torque of one wheel in place of a side", 2.0), ("the torque of all wheels in place of a side", 0.5))
+    sides = (("the torque of one wheel instead of a side", 2.0), ("the torque of all wheels instead of a side", 0.5))
     yield from _scales(car.brakes.key("torque"), KILOGRAMS, *sides)
     angle = steering.key("front_wheel_angle_max")
-    yield from _scales(angle, ("the angle from lock to lock in place of one side", 0.5))
+    yield from _scales(angle, ("the angle from lock to lock instead of one side", 0.5))
 
 
 def _scales(key: str, *mistakes: tuple[str, float]) -> Iterator[tuple[str, set[str], Undo]]:

@@ -1,7 +1,7 @@
 """Drawn body of a car without a tubular frame: a surface lofted over its wheels, from length, width, height and axles.
 
-Its outline is that of a hatchback, of a van if the car is high for its length, or a mean of both. The
-proportions are those of no particular car; nothing here enters the simulation.
+Its outline is a hatchback, a van if the car is high for its length, or a mean of both. The
+proportions belong to no particular car; nothing here enters the simulation.
 """
 
 from collections.abc import Sequence
@@ -82,10 +82,10 @@ DASHBOARD = 0.13, 0.42  # m: distance ahead of the middle of the steering wheel,
 CABIN_INDEX = 6  # index of the first point of a cross-section of the lower body above the cabin
 FRONT_OVERHANG = 0.53  # share of both overhangs
 HEIGHT_OVER_LENGTH = 0.36  # assumed, if HEIGHT_OVER_TYRE gives a higher car
-HEIGHT_OVER_TYRE = 4.4  # assumed height over the radius of a front tyre
-MASS_HEIGHT = 0.39  # height of the centre of mass over that of the car, if this gives a higher car
-HATCHBACK_RATIO = 0.385  # height over length up to which the body is that of a hatchback
-VAN_RATIO = 0.42  # height over length from which the body is that of a van
+HEIGHT_OVER_TYRE = 4.4  # assumed height, relative to the radius of a front tyre
+MASS_HEIGHT = 0.39  # height of the centre of mass, relative to the height of the car, if this gives a higher car
+HATCHBACK_RATIO = 0.385  # height / length up to which the body is a hatchback
+VAN_RATIO = 0.42  # height / length from which the body is a van
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class BodyShell:
 
     @property
     def height(self) -> float:
-        """Height of the roof, m: of the highest ground contact point if it is on the roof, else estimated."""
+        """Height of the roof, m: of the highest ground contact point if it is on the roof, otherwise estimated."""
         contact = self.car.chassis.ground_contact
         points = [] if contact is None else [p for p in contact.points if not isinstance(p, str)]
         highest = max((p[2] + contact.radius for p in points), default=0.0) if contact is not None else 0.0
@@ -106,7 +106,7 @@ class BodyShell:
 
     @cached_property
     def outline(self) -> Outline:
-        """Outline between those of a hatchback and a van, by the ratio of height to length."""
+        """Outline between hatchback and van, by the ratio of height to length."""
         ratio = self.height / self.car.vehicle.length
         share = min(max((ratio - HATCHBACK_RATIO) / (VAN_RATIO - HATCHBACK_RATIO), 0.0), 1.0)
         return Outline(
@@ -204,7 +204,7 @@ class BodyShell:
             ],
             ends=True,
         )
-        ring = 17  # points of a cross-section, both sides; those of the caps come last
+        ring = 17  # points of a cross-section, both sides; the points of the caps come last
         rear, front = self.cabin
         point, x_of_corner = triangles % ring, points[triangles, 0]
         in_cabin = (

@@ -25,7 +25,7 @@ LEAST_PERSON_MASS = 30.0  # kg: a lighter payload is drawn as luggage
 
 
 def driver_place(car: CarContent) -> Point:
-    """Centre of mass of the driver: that of its payload, else opposite to the passenger, else estimated."""
+    """Centre of mass of the driver: of its payload, otherwise opposite to the passenger, otherwise estimated."""
     if "driver" in car.payload:
         return car.payload["driver"].point
     if "passenger" in car.payload:
@@ -56,7 +56,7 @@ def occupant_shapes(looks: Looks) -> None:
 
 
 def _draw_person(looks: Looks, centre_of_mass: Point, driver: bool) -> None:
-    """Draw a sitting person with the seat. `centre_of_mass`: that of the person."""
+    """Draw a sitting person with the seat. `centre_of_mass`: centre of mass of the person, m."""
     chassis, (x, y, z), floor = looks.chassis, centre_of_mass, SILL_HEIGHT * looks.car.front.tyre.radius
 
     def draw_limb(radius: float, paint: Paint, *offsets: tuple[float, float, float]) -> None:

@@ -56,7 +56,7 @@ class Column(RackSection, of=TorsionBar):
     rack_mass: PartMass
     """Mass of the rack."""
     rack_friction: RackFriction = 0.0
-    """Friction of the rack in its housing, with that of the gear."""
+    """Friction of the rack in its housing and in the gear."""
     wheel_inertia: SteeringWheelInertia
     """Moment of inertia of the steering wheel about its axis."""
     friction: SteeringFriction = 0.0

@@ -5,7 +5,7 @@ from mbs.model.records import Input
 
 
 def angle_demand(m: Model, largest: float) -> Input:
-    """Add the input of the demanded angle of the steering wheel, rad. `largest`: at full lock, rad."""
+    """Add the input of the demanded angle of the steering wheel, rad. `largest`: angle at full lock, rad."""
     return m.input(
         "steering_wheel_angle_demand",
         min=-largest,

@@ -44,7 +44,7 @@ class PitmanArm(SteeringSection):
     """Steering box whose Pitman arm moves a centre link, which an idler arm guides and the tie rods hang on.
 
     Both arms turn about parallel axes. The inner ends of the tie rods are fixed in the link, each in its place as
-    drawn. Arms and link have no mass of their own: it belongs to the chassis, as that of a rack that follows the
+    drawn. Arms and link have no mass of their own: it belongs to the chassis, as with a rack that follows the
     steering wheel.
     """
 
@@ -58,12 +58,12 @@ class PitmanArm(SteeringSection):
     arm_joint: Point
     """Joint of the Pitman arm and the centre link."""
     idler_pivot: Point | None = None
-    """Point of the axis of the idler arm; by default the mirror image of that of the Pitman arm."""
+    """Point of the axis of the idler arm; by default the mirror image of arm_pivot."""
     idler_joint: Point | None = None
-    """Joint of the idler arm and the centre link; by default the mirror image of that of the Pitman arm."""
+    """Joint of the idler arm and the centre link; by default the mirror image of arm_joint."""
     arm_axis_top: Point | None = None
-    """Another point of the axis of the Pitman arm, above arm_pivot, where the axis is not upright; that of the idler
-    arm is parallel to it."""
+    """Another point of the axis of the Pitman arm, above arm_pivot, if the axis is not upright; the axis of the
+    idler arm is parallel to it."""
     ratio: SteeringBox
     """Angle of the steering wheel per angle of the Pitman arm."""
     arm_angle_max: ArmAngle
@@ -139,7 +139,8 @@ class PitmanArm(SteeringSection):
         return self.idler_pivot or (x, -y, z), self.idler_joint or (u, -v, w)
 
     def in_plane(self, point: Coordinates) -> complex:
-        """Projection of a point on the plane of the linkage, m; the real part is ahead. `point`: as drawn, m."""
+        """Projection of a point on the plane of the linkage, m; the real part is ahead. `point`: position as drawn,
+        m."""
         ahead, left = self.plane
         return complex(ahead @ np.array(point), left @ np.array(point))
 
@@ -172,7 +173,7 @@ class PitmanArm(SteeringSection):
         return way * math.copysign(1.0, (self.four_bar.joint - self.four_bar.pivot).real)
 
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
-        """Points of the link, moved in its plane by tables over the angle of the arm."""
+        """Points of the link, moved in its plane by tables against the angle of the arm."""
 
         angles, turn = self._angles, self.turn(way)
 
@@ -216,7 +217,7 @@ class PitmanArm(SteeringSection):
         sense_guide = m.sense_guide
 
         def outputs() -> None:
-            text = "angle of the Pitman arm, positive where it steers to the left"
+            text = "angle of the Pitman arm, positive if it steers to the left"
             sense_guide("steering_arm_angle", arm, description=text)
             text = "angle of the steering wheel, positive to the left"
             sense_guide("steering_wheel_angle", arm, scale=self.ratio, description=text)
@@ -226,7 +227,7 @@ class PitmanArm(SteeringSection):
             per_arm = 1.0 / self.ratio
             sense_guide("steering_wheel_torque", arm, "force", scale=per_arm, unit="N.m", description=WHEEL_TORQUE)
             sense_guide("steering_wheel_speed", arm, order=1, scale=self.ratio, unit="rad/s", description=WHEEL_SPEED)
-            text = "torque of the tie rods on the Pitman arm, positive where it would steer to the left"
+            text = "torque of the tie rods on the Pitman arm, positive if it would steer to the left"
             sense_guide("steering_arm_torque", arm, "force", joints=_rods(m), scale=-1.0, description=text)
             demand_outputs(m, demand, arm, self.ratio)
             if self.friction == 0.0:  # with friction the ratio is in an equation, which has no parameters

@@ -1,6 +1,7 @@
 """Anti-roll bar of an axle: a torsion spring between two levers on the chassis, drop links to the suspension.
 
-Levers and links have no mass of their own; that of the bar is in the chassis, that of the links in what they hang on.
+Levers and links have no mass of their own: the chassis includes the bar, and the parts that hold the links include
+them.
 """
 
 import math

@@ -1,7 +1,7 @@
 """Arms and rods of an axle given by curves: bodies that rotate so that their outer ends follow points of the carrier.
 
 With half of the mass m of a uniform rod in the carrier the weight would be right, but the kinetic energy would be that
-of m/2 at the end of the rod in place of m/3.
+of m/2 at the end of the rod instead of m/3.
 """
 
 from collections.abc import Iterator, Sequence

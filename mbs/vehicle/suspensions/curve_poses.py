@@ -60,9 +60,9 @@ def pitch_rotation(pitch: Array) -> Array:
 
 
 def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
-    """Curves of a wheel; those of the right wheel are mirrored if the table has no columns for it.
+    """Curves of a wheel; for the right wheel they are mirrored if the table has no columns for it.
 
-    Angles and positions are relative to those of the table at the drawing.
+    Angles and positions are relative to the table's at the drawing.
 
     `hub`: the left wheel as drawn.
     """

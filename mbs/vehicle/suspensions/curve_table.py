@@ -61,7 +61,7 @@ LARGEST_SPACINGS = {WHEEL_TRAVEL: 0.0125, RACK: 0.0065, OTHER_TRAVEL: 0.0125}  #
 
 @dataclass(frozen=True)
 class CurveTable:
-    """Curves of the left wheel, or of both wheels, over one or two variables."""
+    """Curves of the left wheel, or of both wheels, against one or two variables."""
 
     travel: Array
     """Travel of the left wheel centre, m, positive in bump, shape (n,); equidistant, with 0 among the points."""
@@ -94,9 +94,9 @@ class CurveTable:
 def read_curves(folder: Path, name: str, key: str, size: float) -> CurveTable:
     """Read the table of an axle.
 
-    `key`: key path of the name, for messages; `size`: of the axle, m, the largest change of positions and lengths.
+    `key`: key path of the name, for messages; `size`: size of the axle, m, the largest change of positions and lengths.
 
-    Raises `CarFileError`: there is no such file, or it is not such a table.
+    Raises `CarFileError` if there is no such file, or it is not such a table.
     """
     what = f"{key} ({name})"
     table = TextTable(
@@ -134,7 +134,7 @@ def _travel(what: str, file_columns: Iterable[str], columns: dict[str, Array]) -
             k = int(np.argmax(different))
             raise CarFileError(
                 f"{what}, row {k + 1} has a {names[0]} of {travel[k]:g} m and a {name} of {values[k]:g} m; both wheels "
-                f"must travel alike, or give {OTHER_TRAVEL} in place of {name}."
+                f"must travel alike, or give {OTHER_TRAVEL} instead of {name}."
             )
     return travel
 
@@ -160,7 +160,7 @@ def _check_sides(what: str, file_columns: Iterable[str], columns: Mapping[str, A
 
 
 def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array:
-    """Convert a column to SI units. Raises `CarFileError`: its unit or its values are not valid."""
+    """Convert a column to SI units. Raises `CarFileError` if its unit or its values are not valid."""
     base = _base(name)
     available = [u for u, (si, _) in UNITS.items() if si == COLUMNS[base]]
     if unit not in available:
@@ -169,7 +169,7 @@ def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array
             f"{' or '.join(available)}."
         )
     si_values = values * UNITS[unit][1]
-    if COLUMNS[base] == "m":  # the origin may be that of a test rig
+    if COLUMNS[base] == "m":  # the origin may belong to a test rig
         if not (change := float(np.ptp(si_values))) <= size:
             raise CarFileError(
                 f"{what}, column {name} changes by {change:g} m from its least to its largest value; it must be less "
@@ -181,7 +181,7 @@ def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array
 
 
 def _grid(what: str, travel: Array, second: Array | None, second_name: str, columns: Mapping[str, Array]) -> CurveTable:
-    """Make the table over equidistant points from the rows of a file."""
+    """Make the table at equidistant points from the rows of a file."""
     if second is None:
         if len(_distinct_points(travel)) < len(travel):
             raise CarFileError(

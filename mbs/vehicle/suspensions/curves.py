@@ -52,7 +52,7 @@ class CurveBar(RollStiffness):
 
 
 class Curves(SuspensionSection):
-    """Suspension by a table of where its wheels stand, in place of links.
+    """Suspension by a table of where its wheels stand, instead of links.
 
     Columns, with units (m, mm, rad or deg) in the headings: `wheel_travel`, positive in bump; of an axle that steers
     `rack_travel`, positive to the left, of one whose wheels move each other `other_wheel_travel`; `wheel_centre_x` and
@@ -72,7 +72,7 @@ class Curves(SuspensionSection):
     file: str
     """Name of the table (CSV)."""
     spring_length: Length = 0.4
-    """Length of spring and damper as drawn where the table has none; they then change as the wheel travels."""
+    """Length of spring and damper as drawn if the table has none; they then change as the wheel travels."""
     bodies: CurvesBodies
     """Masses and inertias."""
     bar: CurveBar | None = None
@@ -283,5 +283,5 @@ def _axes(curves: WheelCurves, over: Sequence[Coordinate]) -> list[Array]:
 
 
 def _flat(values: Array, over: Sequence[Coordinate]) -> Array:
-    """Values of the table over one or two variables."""
+    """Values of the table against one or two variables."""
     return values if len(over) == 2 else values[:, 0]

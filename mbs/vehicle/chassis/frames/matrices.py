@@ -39,7 +39,7 @@ class MatricesFrame(MatrixFrame):
         return external_model(*matrices, positions, [row["name"] for row in rows])
 
     def _matrix(self, field: str, path: Path) -> Sparse:
-        """Read the matrix of a field. Raises `ModelError`: it cannot be read."""
+        """Read the matrix of a field. Raises `ModelError` if it cannot be read."""
         try:
             return read_matrix(path)
         except ModelError:

@@ -18,7 +18,7 @@ class TubesFrame(TubeTables):
     """
 
     def tubular(self, folder: Path) -> TubularFrame:
-        """Tables of the frame. `folder`: of the car file."""
+        """Tables of the frame. `folder`: folder of the car file."""
         return TubularFrame(self, folder)
 
     def structure(self, folder: Path) -> Structure:

@@ -35,7 +35,7 @@ class RecoveryRows(Section):
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
         """Readings of the gauge.
 
-        Raises `ModelError`: the table is missing or does not fit the nodes, or a rigid motion would be read as a
+        Raises `ModelError` if the table is missing or does not fit the nodes, or a rigid motion would be read as a
         stress.
         """
         columns = ("gauge", "quantity", "node", "axis", "factor")
@@ -63,7 +63,7 @@ class RecoveryRows(Section):
 
 
 def _freedom(line: Row, model: FiniteElementModel) -> int:
-    """Number of the freedom of a line. Raises `ModelError`: the node or the freedom does not exist."""
+    """Number of the freedom of a line. Raises `ModelError` if the node or the freedom does not exist."""
     node, axis = line["node"], line["axis"]
     if node not in model.names:
         raise ModelError(f"{line.where}: the frame has no node {node!r}.")

@@ -58,7 +58,7 @@ class TubeGauge(Section):
         """Make the gauge on the elements of its tube.
 
         `ends`: first and last joint of the tube, m, shape (3,); `radius`: outer radius of the tube, m; `elements`: of
-        the tube from the first joint on. Raises `ModelError`: the direction of the fibre is that of the tube.
+        the tube from the first joint. Raises `ModelError` if the fibre and the tube have the same direction.
         """
         position = self.place * len(elements)
         number = min(int(position), len(elements) - 1)
@@ -68,7 +68,7 @@ class TubeGauge(Section):
     def readings(self, gauge: StrainGauge, frame: Frame) -> Iterator[Reading]:
         """Readings of the gauge.
 
-        `gauge`: from `strain_gauge`; `frame`: with its tube.
+        `gauge`: result of `strain_gauge`; `frame`: frame with its tube.
         """
         name = gauge.name
         fibre = self.fibre if isinstance(self.fibre, str) else f"{self.fibre:g} deg"
