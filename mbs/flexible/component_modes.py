@@ -18,7 +18,7 @@ from mbs.flexible.reduced_body import ReducedBody
 
 DEPENDENT = 1e-10  # squared mass norm below which an inertia mode depends linearly on others
 ROUND_OFF = 2e-16  # share of the squared mass norm
-MOST_MODES = 10**6
+MAX_MODES = 10**6
 FIRST_BATCH = 20  # modes that are computed first if they are chosen by frequency
 
 
@@ -143,7 +143,7 @@ def _mode_indices(dynamic_modes: int | Sequence[int]) -> np.ndarray:
     """Indices of the dynamic modes, from their number or a sequence of indices."""
     if isinstance(dynamic_modes, Sequence) and not isinstance(dynamic_modes, (str, bytes)):
         return np.array([whole(k, "An entry of dynamic_modes") for k in dynamic_modes], dtype=int)
-    return np.arange(whole(dynamic_modes, "The number of dynamic_modes", 0, MOST_MODES))
+    return np.arange(whole(dynamic_modes, "The number of dynamic_modes", 0, MAX_MODES))
 
 
 def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

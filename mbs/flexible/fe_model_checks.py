@@ -19,7 +19,7 @@ GROUNDED = 1e-5  # force of a rigid motion / (stiffness size): above round-off, 
 MECHANISM = 1e-13  # eigenvalue of the scaled stiffness, whose largest one is of order 1
 AXES = ("x", "y", "z")
 AXIS_WORDS = ("along x", "along y", "along z", "about x", "about y", "about z")
-MOST_NAMES = 5  # largest number of nodes in a message
+MAX_NAMES = 5  # largest number of nodes in a message
 
 
 def check_symmetric(matrix: Sparse, label: str) -> None:
@@ -203,4 +203,4 @@ def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
 
 
 def _node_list(model: FiniteElementModel, nodes: np.ndarray) -> str:
-    return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), MOST_NAMES)}"
+    return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), MAX_NAMES)}"

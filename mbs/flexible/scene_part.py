@@ -15,7 +15,7 @@ from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import Section
 
 Array = NDArray[np.float64]
-MOST_POINTS = 4000
+MAX_POINTS = 4000
 """Largest number of nodes of a model without beams in a scene; of more nodes every second, third ... is taken."""
 
 
@@ -105,7 +105,7 @@ def is_round(section: Section) -> bool:
 
 def _node_selection(count: int) -> tuple[NDArray[np.int64], dict[str, Any]]:
     """Nodes that are drawn of a model without beams, and a note about it."""
-    every = -(-count // MOST_POINTS)
+    every = -(-count // MAX_POINTS)
     note = f"one of {every} of the {count} nodes is drawn" if every > 1 else "nodes are drawn"
     return np.arange(0, count, every), {"note": f"a finite-element model without beams: {note}, stresses are not known"}
 

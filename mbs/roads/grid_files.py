@@ -24,7 +24,7 @@ UNIT = re.compile(r"[\[(]\s*(?P<unit>[^\[\]()]*?)\s*[\])]$|(?:^|[\s_,;/\\])(?P<b
 """Unit in the first cell of a table: in brackets or parentheses, or alone at the end."""
 SPACING_TOLERANCE = 1e-6
 """Largest deviation of coordinates from a regular grid, relative to its spacing."""
-MOST_BYTES = 2**31
+MAX_BYTES = 2**31
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
             f"{path} is not read as {quantity} of a road; its suffix must be one of {', '.join(GRIDS)}."
         )
     try:
-        check_file(file, MOST_BYTES, RoadFileError)
+        check_file(file, MAX_BYTES, RoadFileError)
         if kind in TABLES:
             grid = _read_table(file)
         elif kind == PICTURE:
@@ -79,7 +79,7 @@ def _read_table(file: Path) -> Grid:
 
     A second table with coordinates has the frictions. `mbs/kernel/src/roads/road_table.c` reads the same format.
     """
-    table = TextTable(file, RoadFileError, headed=False, largest=MOST_BYTES)
+    table = TextTable(file, RoadFileError, headed=False, largest=MAX_BYTES)
     rows = list(table.rows())
     if len(rows) < 2:
         raise RoadFileError(f"{file} has {len(rows)} rows; a grid needs at least two.")
@@ -150,7 +150,7 @@ def _origin_and_spacing(values: NDArray[np.float64], name: str, path: object) ->
 
 def _read_arrays(file: Path, quantity: str) -> Grid:
     """Read a grid from a file of NumPy arrays."""
-    arrays = read_arrays(file, MOST_BYTES, RoadFileError)
+    arrays = read_arrays(file, MAX_BYTES, RoadFileError)
     if file.suffix.lower() == ".npy":
         return Grid(_as_floats(arrays[""], file))
     keys = {"heights", "frictions", "origin", "spacing"}
@@ -192,7 +192,7 @@ def _read_picture(file: Path, picture_range: tuple[float, float] | None, quantit
         raise RoadFileError(f"{file} is a picture: say which {quantity} black and white mean, as in --range 0 0.25.")
     try:
         # from memory: Pillow then allocates nothing for a damaged length beyond the end
-        stream = io.BytesIO(read_bytes(file, MOST_BYTES, RoadFileError))
+        stream = io.BytesIO(read_bytes(file, MAX_BYTES, RoadFileError))
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)  # at 90 million pixels, 3 GB of memory
             image = Image.open(stream)

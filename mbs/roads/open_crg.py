@@ -26,11 +26,11 @@ from mbs.roads.steep_faces import RoadWarning
 if TYPE_CHECKING:
     import pyopencrg
 
-MOST_BYTES = 2**31
+MAX_BYTES = 2**31
 BATCH_SIZE = 2**18  # points that are evaluated at once
 COARSE_STEP = 16  # grid points between which heights beside the road are interpolated
-SAMPLES_PER_SPACING, MOST_SUBDIVISIONS = 3.0, 12  # of a comparison: on the least grid spacing, between two points
-MOST_SAMPLES = 2**24
+SAMPLES_PER_SPACING, MAX_SUBDIVISIONS = 3.0, 12  # of a comparison: on the least grid spacing, between two points
+MAX_SAMPLES = 2**24
 CANDIDATES = 64  # points of each batch with the largest differences, around which the maximum is sought
 REFINEMENTS = 4  # each with a fourth of the steps before
 HEADING_TOLERANCE = 1e-9  # rad: a straight reference line with a smaller heading lies along x
@@ -48,7 +48,7 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     damaged, has holes, or needs too many points. Warns `RoadWarning`: a warning of the reader of the format.
     """
     source = os.fspath(path)
-    check_file(Path(path), MOST_BYTES, RoadFileError)
+    check_file(Path(path), MAX_BYTES, RoadFileError)
     crg = _read(source)
     _check_surface(crg, source)
     edges = np.concatenate([np.stack(crg.uv_to_xy(crg.u, np.full(crg.nu, v)), -1) for v in (crg.v[0], crg.v[-1])])
@@ -102,9 +102,9 @@ def _surface_samples(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]
     """
     intervals = [float(crg.u_inc), float(np.diff(crg.v).max())]
     subdivisions = [
-        min(max(math.ceil(SAMPLES_PER_SPACING * d / min(road.spacing)), 3), MOST_SUBDIVISIONS) for d in intervals
+        min(max(math.ceil(SAMPLES_PER_SPACING * d / min(road.spacing)), 3), MAX_SUBDIVISIONS) for d in intervals
     ]
-    while math.prod(subdivisions) > 1 and crg.nu * crg.nv * math.prod(subdivisions) > MOST_SAMPLES:
+    while math.prod(subdivisions) > 1 and crg.nu * crg.nv * math.prod(subdivisions) > MAX_SAMPLES:
         subdivisions[subdivisions.index(max(subdivisions))] -= 1
     u, v = (
         np.interp((np.arange((len(a) - 1) * n) + 0.5) / n, np.arange(len(a)), a)

@@ -23,7 +23,7 @@ from mbs.roads.shared_tiles import read_shared
 
 TABLE_SUFFIXES = (".csv", ".txt")
 """Of tables that the kernel reads."""
-MOST_POINTS = 10**8
+MAX_POINTS = 10**8
 """Largest number of points of a grid that is read as a whole."""
 
 
@@ -84,7 +84,7 @@ class RoadFile(RoadOfFile):
             if head.kind == RoadType.KERB:
                 position, lower, step, side, friction = head.real[:5]
                 return KerbRoad(position, step, lower, "before" if side > 0.0 else "after", friction)
-            if head.nx * head.ny > MOST_POINTS:
+            if head.nx * head.ny > MAX_POINTS:
                 raise RoadFileError(f"{self.path} has {head.nx} x {head.ny} points, too many to be read as a whole.")
             heights, frictions = _read_grid(file, head, self.path)
         return GridRoad(head.real[0:2], head.real[2:4], heights, head.real[4] if frictions is None else frictions)

@@ -15,15 +15,15 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import TABLE_SUFFIXES, RoadFile
 
-LEAST_LEVELS = 5
+MIN_LEVELS = 5
 """Least number of different heights from which the step of a number type is inferred."""
-MOST_LEVELS = 4096
+MAX_LEVELS = 4096
 """Largest number of different heights for which it is inferred."""
 SLOPE_QUANTILE = 0.9
 """Quantile of the slopes that is compared: it excludes kerbs and steps."""
 STEP_MANTISSAS = (1.0, 2.0, 2.5, 5.0)
 """Of steps of number types."""
-MOST_POINTS = 4e6
+MAX_POINTS = 4e6
 """Most points of a file that is read as a whole; of a larger one only the position is compared."""
 UNITS = {1e-3: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
 """Units that are mistaken for metres, by their length in m."""
@@ -183,7 +183,7 @@ def _friction_values(least: float, largest: float, factor: float) -> list[Value]
 def height_step(z: np.ndarray) -> float:
     """Step of which all heights are multiples, m; 0 if there is none, or if too few different heights show it."""
     levels = np.unique(z)
-    if not LEAST_LEVELS <= len(levels) <= MOST_LEVELS:
+    if not MIN_LEVELS <= len(levels) <= MAX_LEVELS:
         return 0.0
     gaps = np.diff(levels)
     steps = gaps / gaps.min()
@@ -208,7 +208,7 @@ def _plausibility_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Plausib
 
 
 @plausibility_of.register
-def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POINTS) -> list[Plausibility]:
+def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MAX_POINTS) -> list[Plausibility]:
     """Plausibility of a road file, and of a start of a drive on it.
 
     `start`: x and y, m; `most`: number of points above which only the position is compared.

@@ -16,7 +16,7 @@ from mbs.roads.road_header import RoadFileError
 from mbs.roads.steep_faces import RoadWarning
 
 Values = NDArray[np.float64]
-MOST_POINTS = 2**24
+MAX_POINTS = 2**24
 """Largest number of points of a grid: 134 MB of heights."""
 WARNING_DEVIATION = 0.01
 """Deviation above which a warning is given, m."""
@@ -61,11 +61,11 @@ def points_of_box(
     """
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
-    if not counts.prod() <= MOST_POINTS:
-        coarser = max(spacing) * float(np.sqrt(counts.prod() / MOST_POINTS)) * 1.05
+    if not counts.prod() <= MAX_POINTS:
+        coarser = max(spacing) * float(np.sqrt(counts.prod() / MAX_POINTS)) * 1.05
         raise RoadFileError(
             f"{source} is {sides[0]:.4g} by {sides[1]:.4g} m, which at a spacing of {spacing[0]:g} by {spacing[1]:g} m "
-            f"is a grid of {counts.prod():.3g} points; {MOST_POINTS} are read at most. A spacing of {coarser:.2g} m by "
+            f"is a grid of {counts.prod():.3g} points; {MAX_POINTS} are read at most. A spacing of {coarser:.2g} m by "
             f"{coarser:.2g} m fits.{more}"
         )
     x, y = (low[k] + sides[k] / (counts[k] - 1.0) * np.arange(int(counts[k])) for k in range(2))

@@ -15,10 +15,10 @@ from mbs.roads.road_header import HEADER, Header, RoadFileError, check_grid
 
 ENTRY = struct.Struct("<qiIII")
 RECORD = struct.Struct("<iiii")
-MOST_COEFFICIENTS = 8
+MAX_COEFFICIENTS = 8
 ORDERS = (2, 3, 4, 6, 8)
 """Numbers of polynomial coefficients in x and y that are tried."""
-MOST_FRICTIONS = 255
+MAX_FRICTIONS = 255
 TOLERANCE = 5e-6
 """Largest deviation of the polynomial of a tile from its heights, m: 1 N for a tyre of 200 N/mm."""
 
@@ -177,7 +177,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
     if (frictions == first).all():
         return 1, struct.pack("<d", first)
     values, indices = np.unique(frictions, return_inverse=True)
-    if len(values) > MOST_FRICTIONS:
+    if len(values) > MAX_FRICTIONS:
         return _POINTS, frictions.astype("<f8").tobytes()
     return len(values), values.astype("<f8").tobytes() + indices.astype(np.uint8).tobytes()
 
@@ -212,8 +212,8 @@ def _tile_values(record: bytes, maps: int, name: str) -> Float:
         reals = np.frombuffer(record, "<f8", rows * columns + friction_count, RECORD.size)
         heights = reals[: rows * columns].reshape(rows, columns)
         tail = record[RECORD.size + reals.nbytes :]
-        is_polynomial = min(rows, columns) >= 1 and max(rows, columns) <= MOST_COEFFICIENTS
-        if friction_count > MOST_FRICTIONS and friction_count != _POINTS:
+        is_polynomial = min(rows, columns) >= 1 and max(rows, columns) <= MAX_COEFFICIENTS
+        if friction_count > MAX_FRICTIONS and friction_count != _POINTS:
             raise ValueError
         if (
             zero
@@ -226,7 +226,7 @@ def _tile_values(record: bytes, maps: int, name: str) -> Float:
             mu = reals[rows * columns :]
             indices = (
                 np.frombuffer(tail, np.uint8, _POINTS)
-                if 1 < friction_count <= MOST_FRICTIONS
+                if 1 < friction_count <= MAX_FRICTIONS
                 else np.zeros(_POINTS, np.uint8)
             )
             values.append((mu if friction_count == _POINTS else mu[indices]).reshape(ROAD_TILE, ROAD_TILE))

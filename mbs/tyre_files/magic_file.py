@@ -80,9 +80,9 @@ _NUMBERS = {  # keys whose values must be numbers
 _STIFFNESS_TOLERANCE = 0.05  # relative difference of VERTICAL_STIFFNESS and Q_FZ1
 _BOTTOMED_RUBBER = 0.010  # m between rim and road of a bottomed tyre
 _BOTTOMING_STIFFNESS = 5.0  # default, relative to the stiffness of the tyre
-_LEAST_SHARE = 0.05  # of friction and slip stiffness at the nominal load, below which a fit is out of its range
+_MIN_FRACTION = 0.05  # of friction and slip stiffness at the nominal load, below which a fit is out of its range
 _LOADS = 400  # number of loads at which these are checked
-_LEAST_RANGE = 0.01  # of slips and angles, rad
+_MIN_RANGE = 0.01  # of slips and angles, rad
 _DEFAULT_LARGEST_LOAD = 5.0  # relative to the nominal load
 
 
@@ -145,7 +145,7 @@ class TyreFile(Summarised):
             raise TyreFileError(f"{self.name}: the pressure is {pressure:g} Pa; {_pressure_text(least, most)}.")
         relative = inflation / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and inflation > 0.0 else 0.0
         factor = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
-        if not factor >= _LEAST_SHARE:
+        if not factor >= _MIN_FRACTION:
             raise TyreFileError(f"{self.name}: at {inflation:g} Pa PFZ1 leaves {factor:.2g} of the vertical stiffness.")
         mirrored = mounted in SIDES and self.side in SIDES and mounted != self.side
         return MagicTyre(**{**self.values, **more}, signs=signs, pressure=relative, mirrored=mirrored)
@@ -321,10 +321,8 @@ def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> 
         ("camber_range", "CAMMIN", "CAMMAX", 0.5),
     ):
         low, high = numbers.get(first, -default), numbers.get(last, default)
-        if not low <= 0.0 <= high or high - low < _LEAST_RANGE:
-            raise text.fault(
-                f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_LEAST_RANGE:g} apart."
-            )
+        if not low <= 0.0 <= high or high - low < _MIN_RANGE:
+            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_MIN_RANGE:g} apart.")
         if low * high == 0.0:
             notes.append(f"{first} is {low:g} and {last} {high:g}: the other side is taken as wide.")
             low, high = -max(-low, high), max(-low, high)
@@ -360,7 +358,7 @@ def _largest_load(
     for k in range(1, _LOADS + 1):
         load = largest * k / _LOADS
         for quantity, share in shares_at(load).items():
-            if share >= _LEAST_SHARE:
+            if share >= _MIN_FRACTION:
                 continue
             if load < nominal:
                 raise text.fault(

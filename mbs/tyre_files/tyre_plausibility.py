@@ -26,13 +26,13 @@ from mbs.tyre_files.pure_curves import (
 Array = NDArray[np.float64]
 AnyTyre: TypeAlias = "MagicTyre | Tyre"
 DEG = math.pi / 180.0
-LARGEST_SLIP = 0.6
+MAX_SLIP = 0.6
 """Slip, and slip angle, rad, up to which the peak is sought."""
 COMPARED_SLIP = 0.5
 """Slip at which the force is compared with its peak."""
-PEAK_SHARE = 0.95
+PEAK_FRACTION = 0.95
 """Share of the largest force that counts as the peak: some curves rise without end."""
-SLIPS = np.linspace(0.0, LARGEST_SLIP, 1201)
+SLIPS = np.linspace(0.0, MAX_SLIP, 1201)
 
 QUANTITIES = quantities_of("tyre")
 SOURCE_KEYS = {  # the main coefficients of each value
@@ -316,7 +316,7 @@ def _curve_values(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[s
             to_deg, peak = 1.0 / DEG if axis == "y" else 1.0, float(np.max(curve.force))
             peaks.append(peak)
             k, compared_force = (
-                int(np.argmax(curve.force >= PEAK_SHARE * peak)),
+                int(np.argmax(curve.force >= PEAK_FRACTION * peak)),
                 float(np.interp(COMPARED_SLIP, SLIPS, curve.force)),
             )
             values = {

@@ -12,9 +12,9 @@ from mbs.model.inertia import inertia_matrix
 
 Array = NDArray[np.float64]
 
-LARGEST_CORRECTION = 0.05
+MAX_CORRECTION = 0.05
 """Largest correction of an inertia, relative to its largest principal value."""
-LEAST_SECOND_MOMENT = 1e-6
+MIN_SECOND_MOMENT = 1e-6
 """Least second moment of mass of a corrected inertia, relative to the largest: a rod has a thickness."""
 
 
@@ -58,7 +58,7 @@ def corrected_inertia(inertia: Array, subject: str) -> tuple[Array, str]:
 
     The correction makes the second moments of mass, tr(I)/2 - I, positive.
 
-    `subject`: file and link, for messages. Raises `ModelError` if the correction is larger than `LARGEST_CORRECTION`.
+    `subject`: file and link, for messages. Raises `ModelError` if the correction is larger than `MAX_CORRECTION`.
     """
     try:
         return inertia_matrix(inertia, 3, subject), ""
@@ -66,17 +66,17 @@ def corrected_inertia(inertia: Array, subject: str) -> tuple[Array, str]:
         symmetric = 0.5 * (inertia + inertia.T)
         eigenvalues, axes = np.linalg.eigh(symmetric)
         moments = 0.5 * np.sum(eigenvalues) - eigenvalues
-        if not np.max(moments) > 0.0 or np.max(np.abs(inertia - symmetric)) > LARGEST_CORRECTION * eigenvalues[-1]:
+        if not np.max(moments) > 0.0 or np.max(np.abs(inertia - symmetric)) > MAX_CORRECTION * eigenvalues[-1]:
             raise
-        moments = np.maximum(moments, LEAST_SECOND_MOMENT * np.max(moments))
+        moments = np.maximum(moments, MIN_SECOND_MOMENT * np.max(moments))
         corrected = np.sum(moments) - moments
         change = float(np.max(np.abs(corrected - eigenvalues))) / eigenvalues[-1]
         values, corrected_values = (", ".join(f"{v:.6g}" for v in principal) for principal in (eigenvalues, corrected))
         fault = f"{subject} has the principal values {values} kg m2, which no mass distribution can have"
-        if change > LARGEST_CORRECTION:
+        if change > MAX_CORRECTION:
             raise ModelError(
                 f"{fault}; the nearest possible ones are {corrected_values}, {100.0 * change:.2g} % of the largest "
-                f"away. Correct the file, for example to those; up to {100.0 * LARGEST_CORRECTION:g} % are corrected "
+                f"away. Correct the file, for example to those; up to {100.0 * MAX_CORRECTION:g} % are corrected "
                 "here with a warning."
             ) from error
         note = f"{fault}; {corrected_values} are used instead, {100.0 * change:.2g} % of the largest away."

@@ -34,9 +34,9 @@ from mbs.urdf.robot_plausibility import robot_plausibility
 from mbs.urdf.source import Element, read_source
 
 Pose = NDArray[np.float64]
-_MOST_BYTES = 100_000_000
+_MAX_BYTES = 100_000_000
 TURNING, UNLIMITED = ("revolute", "continuous"), 1e9  # N m or N: largest torque or force of a joint without a limit
-_MOST_NAMES = 4  # of joints in a sentence
+_MAX_NAMES = 4  # of joints in a sentence
 
 
 @dataclass
@@ -163,7 +163,7 @@ def _read_file(file: Path) -> tuple[Any, Element]:
     except ModuleNotFoundError as error:
         raise ModelError(f"URDF files are read with yourdfpy. {missing_module(error, 'urdf')}") from error
 
-    source = read_source(read_bytes(file, _MOST_BYTES, ModelError, file.name), file.name)
+    source = read_source(read_bytes(file, _MAX_BYTES, ModelError, file.name), file.name)
     robot = read_foreign(file, reader)
     if not robot.links:
         raise ModelError(f"{file.name} has no links; it is not a URDF file.")
@@ -391,13 +391,13 @@ def _warn_of_omissions(joints: Collection[Any], crossed: Iterable[CrossedHinges]
     unlimited = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
     if unlimited:
         warning = (
-            f"{file_name}: the limit of {some_of(map(repr, unlimited), _MOST_NAMES)} has no effort, or 0; "
+            f"{file_name}: the limit of {some_of(map(repr, unlimited), _MAX_NAMES)} has no effort, or 0; "
             f"{UNLIMITED:g} N m or N is taken."
         )
         warnings.warn(warning, UrdfWarning, stacklevel=3)
     if omissions:
         text = (
-            f"{file_name}: the model is without {some_of(omissions, _MOST_NAMES, '; ')}. Add elements of mbs.elements "
+            f"{file_name}: the model is without {some_of(omissions, _MAX_NAMES, '; ')}. Add elements of mbs.elements "
             "for them."
         )
         warnings.warn(text, UrdfWarning, stacklevel=3)

@@ -46,7 +46,7 @@ from mbs.vehicle.steep_road import warn_of_steep_face
 from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.tabled_axle import tabled_axle
 
-MOST_FAULTS = 8
+MAX_FAULTS = 8
 
 
 C = TypeVar("C", bound="BuiltCar")
@@ -340,8 +340,8 @@ def _without_tyre_port(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _fault_text(what: str, faults: Sequence[str]) -> str:
-    """Lines of a message with the first `MOST_FAULTS` faults."""
-    lines = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
-    if len(faults) > MOST_FAULTS:
-        lines.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
+    """Lines of a message with the first `MAX_FAULTS` faults."""
+    lines = [f"{what}: {one_line(fault)}" for fault in faults[:MAX_FAULTS]]
+    if len(faults) > MAX_FAULTS:
+        lines.append(f"{what}: {len(faults) - MAX_FAULTS} more faults.")
     return "\n".join(lines)

@@ -7,10 +7,10 @@ import numpy as np
 
 from mbs.vehicle.section import Section
 
-LEAST_LENGTH = 0.02  # m, of links, arms and levers
+MIN_LENGTH = 0.02  # m, of links, arms and levers
 
 
-def apart(points: Section, first: str, second: str, what: str, least: float = LEAST_LENGTH) -> Iterator[str]:
+def apart(points: Section, first: str, second: str, what: str, least: float = MIN_LENGTH) -> Iterator[str]:
     """Fault of two points at one place.
 
     `what`: part between them, such as "the tie rod"; `least`: distance, m.
@@ -21,7 +21,7 @@ def apart(points: Section, first: str, second: str, what: str, least: float = LE
 
 
 def off_line(
-    points: Section, name: str, ends: tuple[str, str], what: str, line: str, least: float = LEAST_LENGTH
+    points: Section, name: str, ends: tuple[str, str], what: str, line: str, least: float = MIN_LENGTH
 ) -> Iterator[str]:
     """Fault of a point on the line through two others.
 

@@ -4,9 +4,9 @@ from mbs.model.inputs import new_input
 from mbs.model.records import Input, Role
 from mbs.vehicle.builder import CarBuilder
 
-LARGEST_TORQUE = 1e4
+MAX_TORQUE = 1e4
 """End of the range of the torque demand of a brake, N m."""
-LARGEST_PRESSURE = 4e7
+MAX_PRESSURE = 4e7
 """End of the range of the pressure of a brake, Pa."""
 
 
@@ -38,9 +38,9 @@ def brake_port(b: CarBuilder, wheel: str) -> Input:
     """Add the input of the brake of a wheel: its torque or its pressure, by the kind of the port."""
     if b.ports.brakes == "torque":
         text = "largest torque that the brake of the wheel can hold, which turns neither way by itself"
-        return new_port(b, f"wheel_{wheel}.brake_torque_demand", 0.0, LARGEST_TORQUE, "N.m", text)
+        return new_port(b, f"wheel_{wheel}.brake_torque_demand", 0.0, MAX_TORQUE, "N.m", text)
     text = "pressure in the brake of the wheel"
-    return new_port(b, f"wheel_{wheel}.brake_pressure", 0.0, LARGEST_PRESSURE, "Pa", text)
+    return new_port(b, f"wheel_{wheel}.brake_pressure", 0.0, MAX_PRESSURE, "Pa", text)
 
 
 def gear_port(b: CarBuilder, gears: int) -> int:

@@ -24,8 +24,8 @@ from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
-LARGEST_TORQUE = 1e4  # N m, on a wheel
-LARGEST_FORCE, LARGEST_MOMENT = 1e5, 1e5  # N, N m, on the chassis
+MAX_TORQUE = 1e4  # N m, on a wheel
+MAX_FORCE, MAX_MOMENT = 1e5, 1e5  # N, N m, on the chassis
 FASTEST_WIND = 100.0  # m/s
 
 
@@ -41,7 +41,7 @@ def torque_ports(
     reaction_body = "chassis" if kind == "half_shafts" else "carrier of the wheel"
     text = f"torque on the wheel about its axis, positive forward, with its reaction on the {reaction_body}"
     for w, spin in spins.items():
-        channel = new_port(b, f"wheel_{w}.drive_torque", -LARGEST_TORQUE, LARGEST_TORQUE, "N.m", text)
+        channel = new_port(b, f"wheel_{w}.drive_torque", -MAX_TORQUE, MAX_TORQUE, "N.m", text)
         axes = b.chassis.drive_axes if kind == "half_shafts" else (spin.f, spin.g)
         b.m.add(SpinTorque(channel.index).record(f"port drive {w}", *axes, spin.coordinate))
     if kind == "half_shafts":
@@ -58,7 +58,7 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
     for name, position in (car.ports.force_points or {"reference": car.vehicle.reference_point}).items():
         point = b.chassis.place(position)
         channels = []
-        for letter, unit, largest, kind in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
+        for letter, unit, largest, kind in (("F", "N", MAX_FORCE, "force"), ("M", "N.m", MAX_MOMENT, "torque")):
             for c in "xyz":
                 text = f"{kind} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
                 channels.append(new_port(b, f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)

@@ -16,9 +16,9 @@ STEP = 1.0
 """Approximate distance of the points of the spline, m."""
 ITERATIONS = 3
 """Number of iterations of Newton's method for the nearest station."""
-LEAST_SLOPE, LARGEST_CORRECTION = 0.3, 5.0
+MIN_SLOPE, MAX_CORRECTION = 0.3, 5.0
 """Bounds of its derivative, which is 0 at the centre of curvature, and of its correction, m, for distant points."""
-LARGEST_GAP = 0.05
+MAX_GAP = 0.05
 """Largest distance between the ends of a closed course, m."""
 
 
@@ -67,10 +67,8 @@ class CentreLine:
         for _ in range(ITERATIONS):
             p, tangent, tangent_rate = self.at(s)
             difference = p - np.stack([x, y])
-            slope = np.maximum((tangent * tangent).sum(axis=0) + (difference * tangent_rate).sum(axis=0), LEAST_SLOPE)
-            s = self._within(
-                s - np.clip((difference * tangent).sum(axis=0) / slope, -LARGEST_CORRECTION, LARGEST_CORRECTION)
-            )
+            slope = np.maximum((tangent * tangent).sum(axis=0) + (difference * tangent_rate).sum(axis=0), MIN_SLOPE)
+            s = self._within(s - np.clip((difference * tangent).sum(axis=0) / slope, -MAX_CORRECTION, MAX_CORRECTION))
         p, tangent, _ = self.at(s)
         dx, dy = x - p[0], y - p[1]
         norm = np.hypot(tangent[0], tangent[1])
@@ -148,7 +146,7 @@ def line_of_segments(
         (x,), (y,) = _arc(x, y, yaw, curvature, np.array([length]))
         yaw += curvature * length
     gap = float(np.hypot(*(points[-1] - points[0])))
-    if closed and gap > LARGEST_GAP:
+    if closed and gap > MAX_GAP:
         raise RoadFileError(
             f"The course '{name}' is closed, but its end misses its start by {gap:.3g} m; change its segments."
         )

@@ -42,7 +42,7 @@ KNOWN_COLUMNS = (
     "x, y, z, width, or right and left (widths from the line to each edge, as w_tr_right_m and w_tr_left_m), all in "
     "metres, and bank (a slope)"
 )
-LARGEST_GRADE = 0.3
+MAX_GRADE = 0.3
 """Grade above which a warning is given: the steepest streets have 0.35."""
 GAP_RATIO = 25.0
 """Distance of two points over the median distance from which it is a gap, if it is 10 m or more."""
@@ -154,18 +154,18 @@ def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
 
 
 def _grade_warning(layer: CourseLayer) -> str:
-    """Sentence on the steepest point of a course that is steeper than `LARGEST_GRADE`, otherwise empty."""
+    """Sentence on the steepest point of a course that is steeper than `MAX_GRADE`, otherwise empty."""
     s = np.linspace(0.0, layer.line.length, len(layer.line.points))
     height = layer.height(s)
     grades = np.abs(np.diff(height)) / np.diff(s)
     k = int(np.argmax(grades))
-    if grades[k] <= LARGEST_GRADE:
+    if grades[k] <= MAX_GRADE:
         return ""
     x, y, _ = layer.line.pose(s[k])
     return (
         f"The course '{layer.name}' climbs by {100.0 * grades[k]:.0f} % at station {s[k]:.0f} m, x = {x:.5g}, y = "
         f"{y:.5g}; it lies between {height.min():.4g} and {height.max():.4g} m. Roads have at most "
-        f"{100.0 * LARGEST_GRADE:.0f} %: z must be heights in metres, not a width."
+        f"{100.0 * MAX_GRADE:.0f} %: z must be heights in metres, not a width."
     )
 
 

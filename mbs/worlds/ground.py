@@ -9,7 +9,7 @@ from scipy.ndimage import map_coordinates, spline_filter
 
 from ali3.named_files import NamedFiles
 from mbs.roads.description import grid_road
-from mbs.roads.grid_files import MOST_BYTES
+from mbs.roads.grid_files import MAX_BYTES
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.profiles import spaced
 from mbs.worlds.world_types import WorldDescription
@@ -90,7 +90,7 @@ def _height_map(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     """Read the ground from a height map; return it with the least spacing of the map, m."""
     ground = world.ground
     assert ground.heights is not None
-    file = NamedFiles(folder, MOST_BYTES, RoadFileError).file(ground.heights, folder, "The heights of the ground")
+    file = NamedFiles(folder, MAX_BYTES, RoadFileError).file(ground.heights, folder, "The heights of the ground")
     grid = grid_road(file, None, ground.origin, ground.spacing, ground.height_range, None)
     heights = np.asarray(grid.heights, float) + ground.height
     x, y = (spaced(grid.origin[k], grid.spacing[k], heights.shape[k]) for k in range(2))

@@ -26,9 +26,9 @@ from mbs.worlds.world_types import WorldDescription
 
 PLANE_HALF_WIDTH = 250.0
 """Distance from the origin to the bounds of a world that is a plane or a kerb, m."""
-MOST_POINTS = 1.2e9
+MAX_POINTS = 1.2e9
 """Largest number of points of the road file."""
-LARGEST_AREA = 1e8
+MAX_AREA = 1e8
 """Largest area, m2: a smooth drawing has 3 kB per 64 m x 64 m, so 77 MB, and readers accept 100 MB."""
 
 
@@ -86,15 +86,15 @@ def make_world(
 def _check_size(world: WorldDescription, file: Path) -> None:
     """Raise `RoadFileError` if the area or the number of points is too large."""
     x0, y0, x1, y1 = world.bounds
-    if (x1 - x0) * (y1 - y0) > LARGEST_AREA:
+    if (x1 - x0) * (y1 - y0) > MAX_AREA:
         raise RoadFileError(
-            f"{file}: the world is {x1 - x0:g} m x {y1 - y0:g} m; at most {LARGEST_AREA / 1e6:g} km2 can be drawn, as "
+            f"{file}: the world is {x1 - x0:g} m x {y1 - y0:g} m; at most {MAX_AREA / 1e6:g} km2 can be drawn, as "
             "10 km x 10 km: make its bounds smaller."
         )
     n = grid_shape(world)
-    if n[0] * n[1] > MOST_POINTS:
+    if n[0] * n[1] > MAX_POINTS:
         raise RoadFileError(
-            f"{file}: the world has {n[0]} x {n[1]} points, more than {MOST_POINTS:g}; make its bounds smaller or its "
+            f"{file}: the world has {n[0]} x {n[1]} points, more than {MAX_POINTS:g}; make its bounds smaller or its "
             "spacing larger."
         )
 

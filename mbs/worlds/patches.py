@@ -12,9 +12,9 @@ from mbs.worlds.terrain import Terrain
 Float = NDArray[np.float64]
 CELLS = 16
 """Number of cells along each side of a patch."""
-LARGEST_SPACING = 4.0
+MAX_SPACING = 4.0
 """Distance of the points on smooth ground, m."""
-LEAST_SPACING = 1.0 / 64.0  # m
+MIN_SPACING = 1.0 / 64.0  # m
 TOLERANCE = 4e-3
 """Largest deviation of the linear interpolation at the sampled points, m."""
 BOUND = 5e-3
@@ -42,7 +42,7 @@ def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: No
     `tell`: called with the completed share, 0 to 1.
     """
     x0, y0, x1, y1 = terrain.world.bounds
-    nx, ny = (max(1, round(side / (CELLS * LARGEST_SPACING))) for side in (x1 - x0, y1 - y0))
+    nx, ny = (max(1, round(side / (CELLS * MAX_SPACING))) for side in (x1 - x0, y1 - y0))
     sx, sy = (x1 - x0) / nx, (y1 - y0) / ny
     pending = [(x0 + i * sx, y0 + j * sy, sx, sy) for i in range(nx) for j in range(ny)]
     area, completed_area = (x1 - x0) * (y1 - y0), 0.0
@@ -79,12 +79,12 @@ def _axis_to_split(terrain: Terrain, rectangle: tuple[float, float, float, float
     dx, dy = a / CELLS, b / CELLS
     if (axis := _axis_to_split_at_obstacles(terrain, rectangle, dx, dy)) != "":
         return axis
-    along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > LEAST_SPACING else 0.0
-    along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > LEAST_SPACING else 0.0
+    along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > MIN_SPACING else 0.0
+    along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > MIN_SPACING else 0.0
     middle = z[1::2, 1::2]
     rising = 0.5 * (z[:-1:2, :-1:2] + z[2::2, 2::2])
     falling = 0.5 * (z[:-1:2, 2::2] + z[2::2, :-1:2])
-    across = np.maximum(np.abs(middle - rising), np.abs(middle - falling)).max() if max(dx, dy) > LEAST_SPACING else 0.0
+    across = np.maximum(np.abs(middle - rising), np.abs(middle - falling)).max() if max(dx, dy) > MIN_SPACING else 0.0
     if max(along_x, along_y, across) <= TOLERANCE:
         return ""
     if max(along_x, along_y) > TOLERANCE:

@@ -15,9 +15,9 @@ from mbs.worlds.profiles import soft_rise, spaced
 from mbs.worlds.world_types import FRICTIONS, Area, WorldDescription
 
 Float = NDArray[np.float64]
-MOST_NODES = 1_500_000
+MAX_NODES = 1_500_000
 """Largest number of points of the lattice of the ground with its layers."""
-LARGEST_SLOPE = 3.0
+MAX_SLOPE = 3.0
 """Slope of a layer times its weight above which it has a step."""
 TRANSITION = 1.0
 """Width of the transition from the heights of a layer with its shoulder to the lattice's, m."""
@@ -51,7 +51,7 @@ class Terrain:
     def _build_lattice(self, map_step: float) -> None:
         """Compute heights, layers and stations at the points of the lattice. `map_step`: spacing of a height map, m."""
         x0, y0, x1, y1 = self.world.bounds
-        step = max(min(1.0, map_step), math.sqrt((x1 - x0) * (y1 - y0) / MOST_NODES))
+        step = max(min(1.0, map_step), math.sqrt((x1 - x0) * (y1 - y0) / MAX_NODES))
         self.step = step
         self.x = spaced(x0 - 4.0 * step, step, math.ceil((x1 - x0) / step) + 9)
         self.y = spaced(y0 - 4.0 * step, step, math.ceil((y1 - y0) / step) + 9)
@@ -81,7 +81,7 @@ class Terrain:
             rise = np.abs(np.diff(level, axis=axis))
             smaller_share = np.minimum(*(np.delete(shares, k, axis=axis) for k in (0, -1)))
             step = rise * smaller_share
-            if step.size and step.max() > LARGEST_SLOPE * self.step:
+            if step.size and step.max() > MAX_SLOPE * self.step:
                 i, j = np.unravel_index(int(np.argmax(step)), step.shape)
                 neighbour = (i + 1, j) if axis == 0 else (i, j + 1)
                 raise RoadFileError(

@@ -14,10 +14,10 @@ from mbs.worlds.layers import AreaLayer
 from mbs.worlds.obstacles import added_height, footprint
 from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Washboard, WorldDescription
 
-MOST_POINTS = 400
+MAX_POINTS = 400
 """Largest number of points along a side of a feature; a longer one is sampled."""
-LEAST_HEIGHT = 1e-6  # m, of an obstacle that wheels feel
-LEAST_MM, MM = 0.5, 1e-3
+MIN_HEIGHT = 1e-6  # m, of an obstacle that wheels feel
+MIN_MM, MM = 0.5, 1e-3
 """Least distance from 0, m, of coordinates that may have been in mm, and their unit, m."""
 Places: TypeAlias = list[tuple[float, float]]
 OBJECTS_BY_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
@@ -27,7 +27,7 @@ Feature: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 QUANTITIES = quantities_of("world")
 POSITION_MISTAKES: dict[str, Callable[[float, float], tuple[float, float]]] = {
     "x and y exchanged": lambda x, y: (y, x),
-    "mm instead of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > LEAST_MM else (x, y),
+    "mm instead of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > MIN_MM else (x, y),
     "the sign of x": lambda x, y: (-x, y),
     "the sign of y": lambda x, y: (x, -y),
 }
@@ -85,7 +85,7 @@ def _ground_values(world: WorldDescription) -> Iterator[Value]:
                     yield Value(QUANTITIES["stretch"], (barrier.end - barrier.begin) / length, keys, f"barriers.{j}")
         if course.heights:
             s, z = np.array(course.heights, float).T
-            grade = float(np.abs(np.diff(z) / np.maximum(np.diff(s), LEAST_HEIGHT)).max(initial=0.0))
+            grade = float(np.abs(np.diff(z) / np.maximum(np.diff(s), MIN_HEIGHT)).max(initial=0.0))
             yield Value(QUANTITIES["grade"], grade, {f"{key}.heights": course.heights}, key)
 
 
@@ -150,7 +150,7 @@ def _object_values(world: WorldDescription) -> Iterator[Value]:
 def _distance_from_line(line: NDArray[np.float64], point: NDArray[np.float64]) -> float:
     """Distance of a point from a polyline, m. `line`: shape (n, 2)."""
     first, step = line[:-1], np.diff(line, axis=0)
-    along = np.clip(((point - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), LEAST_HEIGHT), 0.0, 1.0)
+    along = np.clip(((point - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), MIN_HEIGHT), 0.0, 1.0)
     return float(np.linalg.norm(first + along[:, None] * step - point, axis=1).min(initial=np.inf))
 
 
@@ -207,7 +207,7 @@ def changed_points(world: WorldDescription, feature: Feature) -> int:
         first, step, last = world.bounds[k], world.spacing[k], world.bounds[k + 2]
         low, high = (max(box[k], first) - first) / step, (min(box[k + 2], last) - first) / step
         numbers = np.arange(np.ceil(low - 1e-9), np.floor(high + 1e-9) + 1.0)
-        axes.append(first + step * numbers[:: max(1, len(numbers) // MOST_POINTS)])
+        axes.append(first + step * numbers[:: max(1, len(numbers) // MAX_POINTS)])
     x, y = np.meshgrid(*axes, indexing="ij")
     if isinstance(feature, Area):
         (cx, cy), r = feature.at, feature.radius
@@ -216,7 +216,7 @@ def changed_points(world: WorldDescription, feature: Feature) -> int:
     return int(
         inside.sum()
         if isinstance(feature, Band)
-        else (inside & (np.abs(added_height(feature, x, y)) > LEAST_HEIGHT)).sum()
+        else (inside & (np.abs(added_height(feature, x, y)) > MIN_HEIGHT)).sum()
     )
 
 

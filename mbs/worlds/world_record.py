@@ -13,9 +13,9 @@ from mbs.worlds.scenery import scenery_of
 from mbs.worlds.terrain import Terrain
 
 FORMAT, VERSION = "ALi3 world", 1
-MOST_CELLS = 1_500_000
+MAX_CELLS = 1_500_000
 """Largest number of cells of the map of surfaces."""
-FINEST_CELL = 0.25
+MIN_CELL = 0.25
 
 
 def world_record(
@@ -86,7 +86,7 @@ def _patch_entry(patch: DrawnPatch, step: float) -> dict[str, Any]:
 def _surface_entry(terrain: Terrain) -> dict[str, Any]:
     """Scene entry of the surfaces: their indices on a grid of cells, their names and frictions."""
     x0, y0, x1, y1 = terrain.world.bounds
-    step = max(FINEST_CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
+    step = max(MIN_CELL, math.sqrt((x1 - x0) * (y1 - y0) / MAX_CELLS))
     n = [max(2, math.ceil(side / step)) for side in (x1 - x0, y1 - y0)]
     cell = [(x1 - x0) / n[0], (y1 - y0) / n[1]]
     x, y = spaced(x0 + 0.5 * cell[0], cell[0], n[0]), spaced(y0 + 0.5 * cell[1], cell[1], n[1])

@@ -28,7 +28,7 @@ MANY_MODES = 40
 """Number of dynamic modes of `Fidelity.MANY_MODES`."""
 LOAD_PATH_TOLERANCE = 5e-3
 """Deformation of a neglected load path, relative to the largest, in the energy norm."""
-MOST_FORCE = 1e6
+MAX_FORCE = 1e6
 """Largest force in a table of loads, N."""
 
 
@@ -140,7 +140,7 @@ class FlexibleFrame:
                 names = ", ".join(self.interfaces)
                 name = f"{row['interface']} {row['axis']}"
                 raise ModelError(f"{row.where}: {name} is not an axis of a joint of the suspension; these are {names}.")
-            values = [row.number(column, -MOST_FORCE, MOST_FORCE, "N") for column in columns]
+            values = [row.number(column, -MAX_FORCE, MAX_FORCE, "N") for column in columns]
             loads[row["interface"], row["axis"]] = values
         for name in self.interfaces:
             for axis in "xyz":

@@ -17,7 +17,7 @@ from mbs.vehicle.chassis.tube_tables import TubeTables
 from mbs.vehicle.table import Row, read_table
 
 IMAGE = {"L": "R", "R": "L", "c": "c"}
-LARGEST_COORDINATE, MOST_ELEMENTS, LARGEST_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
+MAX_COORDINATE, MAX_ELEMENTS, MAX_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class TubularFrame:
         names: set[str] = set()
         for row in read_table(self.folder, self.section.joints, self.section.key("joints"), ("joint", "x", "y", "z")):
             name = row["joint"]
-            position = np.array([row.number(axis, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m") for axis in "xyz"])
+            position = np.array([row.number(axis, -MAX_COORDINATE, MAX_COORDINATE, "m") for axis in "xyz"])
             _check_joint(row, name, float(position[1]), names)
             joints[name] = position
             joints.setdefault(mirrored(name), position * [1.0, -1.0, 1.0])
@@ -130,7 +130,7 @@ class TubularFrame:
                 why = "has one joint at both ends" if start == end else "occurs twice: images are added automatically"
                 raise ModelError(f"{row.where}: the tube from {start} to {end} {why}.")
             ends.update(frozenset(pair) for pair in pairs)
-            tubes += [(*pair, row["section"], row.count("elements", MOST_ELEMENTS)) for pair in pairs]
+            tubes += [(*pair, row["section"], row.count("elements", MAX_ELEMENTS)) for pair in pairs]
         return tubes
 
     def riding(self) -> dict[str, float]:
@@ -145,7 +145,7 @@ class TubularFrame:
         for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
             _check_name(row, row["joint"], joints, "joint", self.section.key("joints"))
             for joint in _loaded_joints(row, image):
-                masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, LARGEST_MASS, "kg")
+                masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MAX_MASS, "kg")
         return masses
 
 

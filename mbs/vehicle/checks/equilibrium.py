@@ -17,11 +17,11 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.steering.steering_interface import Steered
 
-LARGEST_TRAVEL = 0.02  # m, of a wheel from the drawing to rest
-LARGEST_DEFLECTION_ERROR = 0.005  # m, of a tyre at rest against the drawing
+MAX_TRAVEL = 0.02  # m, of a wheel from the drawing to rest
+MAX_DEFLECTION_ERROR = 0.005  # m, of a tyre at rest against the drawing
 LENGTH_TOLERANCE = 1e-6  # m, of fitted free lengths
-MOST_DOUBLINGS = 5  # of the range in which they are sought
-LARGEST_LEAN = math.radians(0.5)
+MAX_DOUBLINGS = 5  # of the range in which they are sought
+MAX_LEAN = math.radians(0.5)
 
 
 @dataclass(frozen=True)
@@ -47,13 +47,13 @@ class Rest:
         yield from self._travel_oddities(car)
         for name, axle in car.axles.items():
             drawn, deflection = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
-            if abs(deflection - drawn) > LARGEST_DEFLECTION_ERROR:
+            if abs(deflection - drawn) > MAX_DEFLECTION_ERROR:
                 yield (
                     f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
                     f"{self.load[name]:.0f} N compresses the tyre by {deflection:.3g} m, but {axle.tyre.key('radius')} "
                     f"minus the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
                 )
-        if abs(self.lean) > LARGEST_LEAN:
+        if abs(self.lean) > MAX_LEAN:
             yield (
                 f"at rest the car leans by {math.degrees(abs(self.lean)):.2g} deg to the "
                 f"{'right' if self.lean > 0.0 else 'left'}: its masses are not balanced sideways, or "
@@ -62,11 +62,11 @@ class Rest:
 
     def _travel_oddities(self, car: CarContent) -> Iterator[str]:
         """Yield a sentence for each axle whose wheels are not at the drawn height, with the free length that fits."""
-        displaced = [name for name, travel in self.travel.items() if abs(travel) > LARGEST_TRAVEL]
+        displaced = [name for name, travel in self.travel.items() if abs(travel) > MAX_TRAVEL]
         fitted_lengths = _fitted_lengths(self, car, displaced) if displaced else {}
         for name, axle in car.axles.items():
             travel = self.travel[name]
-            if abs(travel) > LARGEST_TRAVEL:
+            if abs(travel) > MAX_TRAVEL:
                 remedy = (
                     f": with {axle.spring.key('free_length')} = {fitted_lengths[name]:.6g} it is"
                     if fitted_lengths
@@ -121,7 +121,7 @@ def _fitted_lengths(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[s
         for name in (*axles, *(axles if len(axles) > 1 else ())):  # a second time: the axles influence each other
             begin = lengths[keys[name]]
             offset = travel(begin, name)
-            candidates = [begin + 2.0**k * offset for k in range(MOST_DOUBLINGS)]  # a low car needs longer springs
+            candidates = [begin + 2.0**k * offset for k in range(MAX_DOUBLINGS)]  # a low car needs longer springs
             bound = next((x for x in candidates if travel(x, name) * offset < 0.0), None)
             if bound is None:
                 return {}

@@ -10,9 +10,9 @@ from mbs.vehicle.checks.places import parts_of
 
 MASS_TOLERANCE = 0.005  # of the car's mass
 REFERENCE_TOLERANCE = 0.1  # m, between reference point and centre of mass
-LEAST_WEIGHT_SHARE = 0.15  # of an axle
-LEAST_HEIGHT = 0.1  # of the centre of mass, relative to the track
-LARGEST_LATERAL_OFFSET = 0.1  # of the centre of mass, relative to the track
+MIN_WEIGHT_FRACTION = 0.15  # of an axle
+MIN_HEIGHT = 0.1  # of the centre of mass, relative to the track
+MAX_LATERAL_OFFSET = 0.1  # of the centre of mass, relative to the track
 
 
 def mass_faults(car: CarContent) -> Iterator[str]:
@@ -55,9 +55,9 @@ def centre_ranges(car: CarContent) -> tuple[tuple[float, float], tuple[float, fl
     """Ranges of x, y and z of the centre of mass of a car, m."""
     base, track = max(car.wheelbase, 1e-3), min(car.front.track, car.rear.track)
     return (
-        (base * (LEAST_WEIGHT_SHARE - 1.0), -base * LEAST_WEIGHT_SHARE),
-        (-LARGEST_LATERAL_OFFSET * track, LARGEST_LATERAL_OFFSET * track),
-        (LEAST_HEIGHT * track, track),
+        (base * (MIN_WEIGHT_FRACTION - 1.0), -base * MIN_WEIGHT_FRACTION),
+        (-MAX_LATERAL_OFFSET * track, MAX_LATERAL_OFFSET * track),
+        (MIN_HEIGHT * track, track),
     )
 
 

@@ -22,7 +22,7 @@ POINTS = 81
 MOTIONS = ("parallel", "opposite", "single")
 ANGLE_TOLERANCE = 1e-9
 """Largest difference of the angles of both wheels with the same setting, rad."""
-LARGEST_TRAVEL, MOST_POINTS = 0.5, 10_001  # m, number
+MAX_TRAVEL, MAX_POINTS = 0.5, 10_001  # m, number
 
 
 @dataclass(frozen=True)
@@ -90,8 +90,8 @@ def kinematics(
     """
     instance_of(Car, car, "The car of kinematics()", "a Car of mbs.vehicle.load()")
     low, high = checked_travel(travel)
-    if not isinstance(points, int) or isinstance(points, bool) or not 3 <= points <= MOST_POINTS:
-        raise ModelError(f"points = {shown(points)}; it must be a whole number between 3 and {MOST_POINTS}.")
+    if not isinstance(points, int) or isinstance(points, bool) or not 3 <= points <= MAX_POINTS:
+        raise ModelError(f"points = {shown(points)}; it must be a whole number between 3 and {MAX_POINTS}.")
     common_range = min(-low, high)
     curves: dict[tuple[str, str], Curve] = {}
     notes: list[str] = []
@@ -129,10 +129,10 @@ def checked_travel(travel: object) -> tuple[float, float]:
     if not isinstance(travel, (tuple, list)) or len(travel) != 2 or not all(is_finite(v) for v in travel):
         raise ModelError(f"The range of wheel travel is {shown(travel)}; it must be two numbers, m.")
     low, high = (float(v) for v in travel)
-    if not (-LARGEST_TRAVEL <= low < 0.0 < high <= LARGEST_TRAVEL):
+    if not (-MAX_TRAVEL <= low < 0.0 < high <= MAX_TRAVEL):
         raise ModelError(
-            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{LARGEST_TRAVEL:g} m or "
-            f"more, to above 0, {LARGEST_TRAVEL:g} m or less (positive in bump; 0 is the drawing)."
+            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{MAX_TRAVEL:g} m or "
+            f"more, to above 0, {MAX_TRAVEL:g} m or less (positive in bump; 0 is the drawing)."
         )
     return low, high
 

@@ -22,7 +22,7 @@ from mbs.vehicle.side import Point, Side, sides
 
 Array = NDArray[np.float64]
 
-POSITION_TOLERANCE, MOST_ITERATIONS = 1e-9, 30  # m, of the equilibrium
+POSITION_TOLERANCE, MAX_ITERATIONS = 1e-9, 30  # m, of the equilibrium
 
 
 @dataclass(frozen=True)
@@ -148,7 +148,7 @@ class HeldCar(StandingModel):
             [self._chassis_rows, np.array([parts[0][0][2] for _, parts in self._wheel_points.values()])]
         )
         fixed_values = fixed_rows @ self.q
-        for _ in range(MOST_ITERATIONS):
+        for _ in range(MAX_ITERATIONS):
             V, flexibility = self.flexibility(self.wheel_rows())
             correction = V @ (flexibility @ (V.T @ self.force(self.q)))
             self.q = self.q + correction

@@ -55,7 +55,7 @@ STEER_PANELS = (
 COLUMNS = 4
 DASHES = {"opposite": (0, (5, 2)), "single": (0, (1, 1.5))}
 """Line styles of motions whose curves may coincide with the curves of parallel travel."""
-LARGEST_CIRCLE = 60.0  # m, end of the axis of turning circles
+MAX_CIRCLE = 60.0  # m, end of the axis of turning circles
 
 
 def travel_figure(kinematics: Kinematics, axle: str) -> Figure:
@@ -84,7 +84,7 @@ def steer_figure(kinematics: Kinematics) -> Figure:
             _plot(ax, curve, name, side, COLOURS.get(side, COLOURS["left"]), f"{side} wheel" if side else "")
         _set_labels(ax, name)
         if name == "turning_circle":
-            ax.set_ylim(0.0, LARGEST_CIRCLE)
+            ax.set_ylim(0.0, MAX_CIRCLE)
         ax.set_xlabel("steering-wheel angle, deg (left positive)")
 
     return _figure(f"{kinematics.car}: front axle over steering", len(STEER_PANELS), draw)

@@ -20,7 +20,7 @@ from mbs.vehicle.linkages.curve_grid import write_curve_table
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.suspensions.curve_table import RACK
 
-LEAST_RANGE = 1e-3  # m: a smaller range was given in m instead of mm
+MIN_RANGE = 1e-3  # m: a smaller range was given in m instead of mm
 TRAVEL = (-80.0, 80.0)  # mm
 
 
@@ -32,10 +32,10 @@ def report(options: argparse.Namespace) -> int:
 
     travel = TRAVEL if options.travel is None else options.travel
     low, high = checked_travel(tuple(1e-3 * v for v in travel))
-    if high - low < LEAST_RANGE:
+    if high - low < MIN_RANGE:
         raise UserError(
             f"--travel goes from {travel[0]:g} to {travel[1]:g} mm; it is in mm and must span "
-            f"{1e3 * LEAST_RANGE:g} mm or more."
+            f"{1e3 * MIN_RANGE:g} mm or more."
         )
     with warning_lines():
         car = load(options.car)

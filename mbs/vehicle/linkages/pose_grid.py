@@ -11,7 +11,7 @@ import numpy as np
 from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.linkages.linkage import (
     CORRECTION_TOLERANCE,
-    MOST_ITERATIONS,
+    MAX_ITERATIONS,
     RESIDUAL_TOLERANCE,
     Array,
     Linkage,
@@ -114,7 +114,7 @@ def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float],
     q, zero_rates = start.copy(), np.zeros(len(start))
     lines = [linkage.linear(spring) for spring in linkage.springs]
     drawn_lengths = [float(np.linalg.norm(D @ linkage.drawn.q + d)) for D, d in lines]
-    for _ in range(MOST_ITERATIONS):
+    for _ in range(MAX_ITERATIONS):
         phi, jacobian, _ = linkage.constraints(q, zero_rates, rack)
         vectors = [D @ q + d for D, d in lines]
         lengths = np.array([np.linalg.norm(vector) for vector in vectors])

@@ -22,7 +22,7 @@ from mbs.vehicle.suspensions.curves import Curves
 
 CAR = quantities_of("car")
 DEG = 180.0 / math.pi
-LEAST_ABSOLUTE_Y = 0.1  # m: a larger y of a table is measured from the middle plane
+MIN_ABSOLUTE_Y = 0.1  # m: a larger y of a table is measured from the middle plane
 
 
 @dataclass(frozen=True)
@@ -170,7 +170,7 @@ def _curve_values(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator
     (wheel,) = centre.values()
     for column in ("wheel_centre_y", "contact_centre_y"):
         values = table.of(column, "left")
-        if values is not None and abs(values[i, k]) > LEAST_ABSOLUTE_Y:
+        if values is not None and abs(values[i, k]) > MIN_ABSOLUTE_Y:
             yield Value(CAR["curve_place"], float(values[i, k]) / wheel[1], {**key, **centre}, name)
             break
     for quantity, columns in (

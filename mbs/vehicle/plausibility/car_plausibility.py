@@ -24,7 +24,7 @@ Data: TypeAlias = "dict[str, Any]"
 Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
 """Makes a car of altered content of its file, and the same car at rest; None if it is not a car."""
 FINAL_DRIVE = 4.0
-LARGEST_HEIGHT = 4.0  # m, of a truck
+MAX_HEIGHT = 4.0  # m, of a truck
 KILOGRAMS = ("kilograms instead of newtons", GRAVITY)
 POUNDS = (
     ("pounds and inches instead of N and m", 175.127),
@@ -110,7 +110,7 @@ def _point_values(car: CarContent) -> Iterator[Value]:
     points, body = chassis_points(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
     overhangs = {
-        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - LARGEST_HEIGHT, -z, 0.0)
+        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - MAX_HEIGHT, -z, 0.0)
         for key, (x, y, z) in points.items()
     }
     key = max(overhangs, key=overhangs.__getitem__)

@@ -21,7 +21,7 @@ HAND_HEIGHT, HAND_OFFSET = (
     STEERING_WHEEL_RADIUS * math.sin(math.radians(20.0)),
     STEERING_WHEEL_RADIUS * math.cos(math.radians(20.0)),
 )
-LEAST_PERSON_MASS = 30.0  # kg: a lighter payload is drawn as luggage
+MIN_PERSON_MASS = 30.0  # kg: a lighter payload is drawn as luggage
 
 
 def driver_place(car: CarContent) -> Point:
@@ -48,7 +48,7 @@ def occupant_shapes(looks: Looks) -> None:
     for name, payload in car.payload.items():
         if name == "driver" or payload.mass <= 0.0:
             continue
-        if "luggage" in name or payload.mass < LEAST_PERSON_MASS:
+        if "luggage" in name or payload.mass < MIN_PERSON_MASS:
             size = 0.25 + 0.004 * payload.mass
             looks.shape(looks.chassis, "box", at=payload.point, size=(0.8 * size, 1.6 * size, size), **LUGGAGE_PAINT)
         else:

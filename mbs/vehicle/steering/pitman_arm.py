@@ -32,9 +32,9 @@ from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import WHEEL_SPEED, WHEEL_TORQUE, demand_outputs, tie_ratio
 from mbs.vehicle.steering.steering_section import SteeringSection
 
-LEAST_ARM, LEAST_LINK = 0.03, 0.1  # m
-LEAST_SINE = math.sin(math.radians(10.0))  # of the angle to a dead point
-LEAST_AXIS_COSINE = math.cos(math.radians(60.0))  # of the angle of the axes from upright
+MIN_ARM, MIN_LINK = 0.03, 0.1  # m
+MIN_SINE = math.sin(math.radians(10.0))  # of the angle to a dead point
+MIN_AXIS_COSINE = math.cos(math.radians(60.0))  # of the angle of the axes from upright
 SPACING = 0.01  # rad, between rows of the tables: displacements are accurate to 1e-11 m
 LINK = "steering_link_x", "steering_link_y", "steering_link_angle"
 """Outputs of the pose of the centre link."""
@@ -77,7 +77,7 @@ class PitmanArm(SteeringSection):
 
     def faults(self) -> Iterator[str]:
         """Faults of an inclined axis, of short arms or links, and of a dead point before full lock."""
-        if not self.axis[2] >= LEAST_AXIS_COSINE * math.hypot(*self.axis) > 0.0:
+        if not self.axis[2] >= MIN_AXIS_COSINE * math.hypot(*self.axis) > 0.0:
             yield (
                 f"{self.key('arm_axis_top')} is {list(self.arm_axis_top or ())} and {self.key('arm_pivot')} "
                 f"{list(self.arm_pivot)}; the first must be above the second, 60 deg or less from upright."
@@ -85,12 +85,12 @@ class PitmanArm(SteeringSection):
             return
         bar = self.four_bar
         for name, a, b, least in (
-            ("arm_joint", bar.pivot, bar.joint, LEAST_ARM),
-            ("idler_joint", bar.idler_pivot, bar.idler_joint, LEAST_ARM),
-            ("idler_joint", bar.joint, bar.idler_joint, LEAST_LINK),
+            ("arm_joint", bar.pivot, bar.joint, MIN_ARM),
+            ("idler_joint", bar.idler_pivot, bar.idler_joint, MIN_ARM),
+            ("idler_joint", bar.joint, bar.idler_joint, MIN_LINK),
         ):
             if not abs(b - a) >= least:
-                other_name = "arm_joint" if least == LEAST_LINK else name.replace("joint", "pivot")
+                other_name = "arm_joint" if least == MIN_LINK else name.replace("joint", "pivot")
                 yield (
                     f"{self.key(name)} is {abs(b - a):.3g} m from {self.key(other_name)} across the axes; it must be "
                     f"{least:g} m or more."
@@ -102,7 +102,7 @@ class PitmanArm(SteeringSection):
                 (bar.lever(phi), "the arm points aside, where it moves the link to the side no more"),
                 (bar.transmission(phi), "link and idler arm are in one line, in which they lock"),
             ):
-                locking = ~(margin >= LEAST_SINE)
+                locking = ~(margin >= MIN_SINE)
                 if locking.any():
                     yield (
                         f"{self.key('arm_angle_max')} is {self.arm_angle_max:g} rad, but at "

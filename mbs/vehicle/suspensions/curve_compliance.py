@@ -28,8 +28,8 @@ from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK
 
 STEER_ANGLES = np.linspace(-0.06, 0.06, 7)  # rad, in the table
 FORWARD = (1.0, 0.0, 0.0)
-LEAST_HEIGHT, LARGEST_HEIGHT = 0.05, 1.5  # m, of the longitudinal axis
-BASE_SHARE = 1e-3  # mass of the base body, relative to the carrier
+MIN_HEIGHT, MAX_HEIGHT = 0.05, 1.5  # m, of the longitudinal axis
+BASE_FRACTION = 1e-3  # mass of the base body, relative to the carrier
 
 
 class Compliance(Section):
@@ -74,11 +74,11 @@ class Compliance(Section):
     def faults(self) -> Iterator[str]:
         """Yield a fault of the height of the longitudinal axis."""
         camber, lateral = self.camber_per_lateral_force, self.lateral_per_lateral_force
-        if not LEAST_HEIGHT * abs(camber) <= lateral <= LARGEST_HEIGHT * abs(camber):
+        if not MIN_HEIGHT * abs(camber) <= lateral <= MAX_HEIGHT * abs(camber):
             yield (
                 f"{self.key('lateral_per_lateral_force')} is {lateral:g} m/N and "
                 f"{self.key('camber_per_lateral_force')} {camber:g} rad/N; their ratio is the height of "
-                f"the axis about which the wheel leans, which must be {LEAST_HEIGHT:g} to {LARGEST_HEIGHT:g} m over "
+                f"the axis about which the wheel leans, which must be {MIN_HEIGHT:g} to {MAX_HEIGHT:g} m over "
                 f"or under the contact."
             )
 
@@ -92,8 +92,8 @@ class Compliance(Section):
         if not (lean or slide):
             return chassis, 1.0
         w = side.wheel
-        inertia = [BASE_SHARE * value for value in part.inertia]
-        base = b.m.body(f"compliance {w}", mass=BASE_SHARE * part.mass, com=side.point(part.com), inertia=inertia)
+        inertia = [BASE_FRACTION * value for value in part.inertia]
+        base = b.m.body(f"compliance {w}", mass=BASE_FRACTION * part.mass, com=side.point(part.com), inertia=inertia)
         point = side.point((centre[0], centre[1], lateral / lean if lean else centre[2]))
         for name, end in (("rear", point), ("front", np.add(point, FORWARD))):  # without redundant equations
             b.m.point_on_line(f"compliance axis {w} {name}", (base, end), (chassis, point), axis=FORWARD)
@@ -109,7 +109,7 @@ class Compliance(Section):
                 b.m.spring_damper(spring, *ends, stiffness=stiffness, damping=self.loss_time * stiffness)
             else:
                 b.m.distance(f"rod against {name} {w}", *ends)
-        return base, 1.0 - BASE_SHARE
+        return base, 1.0 - BASE_FRACTION
 
     def rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
         """Add the travel of the end of the rack at a wheel, on a spring.

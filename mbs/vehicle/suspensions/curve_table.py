@@ -50,13 +50,13 @@ REQUIRED_GROUPS = (
 )
 """Groups of columns of which one is required; the first one is used."""
 OPTIONAL_COLUMNS = ("spring_length", "damper_length", "anti_roll_bar_angle")
-LARGEST_ANGLE = 1.6  # rad
-LARGEST_RATES = {"m": 1.0, "rad": 10.0}
+MAX_ANGLE = 1.6  # rad
+MAX_RATES = {"m": 1.0, "rad": 10.0}
 """Largest change per m of travel, by unit: a larger one is an error in a cell; twice as much for the track."""
 RACK_FACTOR, LEVER_FACTOR = 20.0, 10.0  # on these rates: over the travel of a rack; of springs, dampers and bars
 POINT_TOLERANCE = 1e-9  # m, of equal points
-MOST_INTERVALS = 200  # of a variable; a table with more is thinned
-LARGEST_SPACINGS = {WHEEL_TRAVEL: 0.0125, RACK: 0.0065, OTHER_TRAVEL: 0.0125}  # m; a coarser table is interpolated
+MAX_INTERVALS = 200  # of a variable; a table with more is thinned
+MAX_SPACINGS = {WHEEL_TRAVEL: 0.0125, RACK: 0.0065, OTHER_TRAVEL: 0.0125}  # m; a coarser table is interpolated
 
 
 @dataclass(frozen=True)
@@ -175,8 +175,8 @@ def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array
                 f"{what}, column {name} changes by {change:g} m from its least to its largest value; it must be less "
                 f"than {size:.3g} m, the way from the middle of the axle on the ground to the wheel centre."
             )
-    elif not (largest := float(np.max(np.abs(si_values), initial=0.0))) <= LARGEST_ANGLE:
-        raise CarFileError(f"{what}, column {name} reaches {largest:g} rad; it must be within {LARGEST_ANGLE:g} rad.")
+    elif not (largest := float(np.max(np.abs(si_values), initial=0.0))) <= MAX_ANGLE:
+        raise CarFileError(f"{what}, column {name} reaches {largest:g} rad; it must be within {MAX_ANGLE:g} rad.")
     return np.asarray(si_values)
 
 
@@ -189,7 +189,7 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
                 f"the axle steers, {OTHER_TRAVEL} where its wheels move each other."
             )
         _check_axis(what, WHEEL_TRAVEL, travel)
-        points = _equidistant(travel, LARGEST_SPACINGS[WHEEL_TRAVEL])
+        points = _equidistant(travel, MAX_SPACINGS[WHEEL_TRAVEL])
         return CurveTable(
             points, np.zeros(1), "", {n: _resampled(travel, points, v[:, None], 0) for n, v in columns.items()}
         )
@@ -219,7 +219,7 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     # rows of the two curves through the drawing
     travel_rows, other_rows = order[second_index[order] == k], order[travel_index[order] == i]
     axes, resampled = (
-        (_equidistant(along, LARGEST_SPACINGS[WHEEL_TRAVEL]), _equidistant(across, LARGEST_SPACINGS[second_name])),
+        (_equidistant(along, MAX_SPACINGS[WHEEL_TRAVEL]), _equidistant(across, MAX_SPACINGS[second_name])),
         {},
     )
     for name, values in columns.items():
@@ -237,7 +237,7 @@ def _check_rates(what: str, table: CurveTable) -> None:
     for axis, (name, points) in enumerate(((WHEEL_TRAVEL, table.travel), (table.second_name, table.second))):
         for column, values in table.columns.items() if len(points) > 1 else ():
             unit, rates = COLUMNS[_base(column)], np.abs(np.diff(values, axis=axis)) / np.diff(points).mean()
-            largest_rate = LARGEST_RATES[unit] * (RACK_FACTOR if name == RACK else 1.0)
+            largest_rate = MAX_RATES[unit] * (RACK_FACTOR if name == RACK else 1.0)
             if _base(column) in OPTIONAL_COLUMNS:
                 largest_rate *= LEVER_FACTOR
             if _base(column) == "track_change":
@@ -268,10 +268,10 @@ def _check_axis(what: str, name: str, points: Array) -> None:
         raise CarFileError(
             f"{what} has {name} from {points[0]:g} to {points[-1]:g} m; 0, the drawing, must lie between them."
         )
-    if min(-points[0], points[-1]) < (points[-1] - points[0]) / MOST_INTERVALS:
+    if min(-points[0], points[-1]) < (points[-1] - points[0]) / MAX_INTERVALS:
         raise CarFileError(
             f"{what} has {name} from {points[0]:g} to {points[-1]:g} m; both ends must be farther from 0 than a "
-            f"{MOST_INTERVALS}th of the range."
+            f"{MAX_INTERVALS}th of the range."
         )
 
 
@@ -285,13 +285,13 @@ def _equidistant(points: Array, largest_spacing: float) -> Array:
     if (
         np.ptp(steps) <= SPACING_TOLERANCE * steps.max()
         and abs(points[zero]) < POINT_TOLERANCE
-        and len(steps) <= MOST_INTERVALS
+        and len(steps) <= MAX_INTERVALS
     ):
         count = math.ceil(steps.max() / largest_spacing)
         step = steps.mean() / count
         return points if count == 1 else step * np.arange(-zero * count, (len(points) - 1 - zero) * count + 1)
     span = points[-1] - points[0]
-    step = max(min(float(steps.min()), largest_spacing), span / MOST_INTERVALS, POINT_TOLERANCE)
+    step = max(min(float(steps.min()), largest_spacing), span / MAX_INTERVALS, POINT_TOLERANCE)
     step = -points[0] / max(1, round(-points[0] / step))
     low, high = round(-points[0] / step), math.floor(points[-1] / step + 1e-9)
     while low + high + 1 < MIN_POINTS or high < 1:

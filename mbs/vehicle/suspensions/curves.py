@@ -27,7 +27,7 @@ from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
 from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK, Array, CurveTable, read_curves
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
-LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the origin belongs to the rear axle
+MIN_WHEELBASE = 0.5  # m: a wheel farther behind the origin belongs to the rear axle
 ANGLE_TOLERANCE = 0.1  # largest deviation of the declared angle from the table, relative to the angle
 
 
@@ -89,7 +89,7 @@ class Curves(SuspensionSection):
 
     def open(self, folder: Path, centre: Point) -> None:
         """Read the table."""
-        ahead = -1.0 if centre[0] < -LEAST_WHEELBASE else 1.0
+        ahead = -1.0 if centre[0] < -MIN_WHEELBASE else 1.0
         self._table = read_curves(folder, self.file, self.key("file"), float(np.hypot(centre[1], centre[2])))
         self._hub = Hub(centre, ahead)
 

@@ -11,7 +11,7 @@ from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
 from mbs.vehicle.files import beside
 from mbs.vehicle.table import read_table
 
-LARGEST_COORDINATE = 1e3  # m
+MAX_COORDINATE = 1e3  # m
 
 
 class MatricesFrame(MatrixFrame):
@@ -34,7 +34,7 @@ class MatricesFrame(MatrixFrame):
         """Read the files."""
         stiffness, mass, _ = self.files(folder)
         rows = read_table(folder, self.nodes, self.key("nodes"), ("name", "x", "y", "z"))
-        positions = [[row.number(axis, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m") for axis in "xyz"] for row in rows]
+        positions = [[row.number(axis, -MAX_COORDINATE, MAX_COORDINATE, "m") for axis in "xyz"] for row in rows]
         matrices = self._matrix("stiffness", stiffness), self._matrix("mass", mass)
         return external_model(*matrices, positions, [row["name"] for row in rows])
 

@@ -29,7 +29,7 @@ WAYS = {
     "front": (1.0, 0.0, 0.0),
     "rear": (-1.0, 0.0, 0.0),
 }
-LEAST_SINE = 0.3  # of the angle between a tube and the direction of a fibre
+MIN_SINE = 0.3  # of the angle between a tube and the direction of a fibre
 
 
 class TubeGauge(Section):
@@ -107,7 +107,7 @@ class TubeGauge(Section):
             return -math.sin(angle), math.cos(angle)
         _, y, z = axes @ np.array(WAYS[self.fibre])
         norm = math.hypot(y, z)
-        if norm < LEAST_SINE:
+        if norm < MIN_SINE:
             raise ModelError(
                 f"{self.key('fibre')} is '{self.fibre}', but the tube from {self.tube[0]} to {self.tube[1]} runs in "
                 "that direction; name another fibre or its angle."
