@@ -15,7 +15,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.mass_points import MassPoints
 
-ON_ONE_LINE = 1e-6  # share of the extent of the three reference nodes
+ON_ONE_LINE = 1e-6  # fraction of the extent of the three reference nodes
 Reference = str | int | Sequence[str | int]
 
 

@@ -14,7 +14,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.sparse_matrices import Sparse
 
-SYMMETRY = 1e-6  # share of the largest entry: round-off of matrices printed with seven digits
+SYMMETRY = 1e-6  # fraction of the largest entry: round-off of matrices printed with seven digits
 GROUNDED = 1e-5  # force of a rigid motion / (stiffness size): above round-off, below a spring to the ground
 MECHANISM = 1e-13  # eigenvalue of the scaled stiffness, whose largest one is of order 1
 AXES = ("x", "y", "z")

@@ -126,10 +126,10 @@ def _spacing_of_widest_triangle(corners: Values, areas: Values) -> float:
 def _check_projected_area(corners: Values, areas: Values, source: str, name: str) -> None:
     """Raise `RoadFileError` if the projected area of a mesh is small, as of one whose y axis points up."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    share = 2.0 * float(areas.sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
-    if share < MIN_PROJECTED_AREA:
+    fraction = 2.0 * float(areas.sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
+    if fraction < MIN_PROJECTED_AREA:
         raise RoadFileError(
-            f"{source} shows only {100.0 * share:.2g} % of its area from above, a road more than "
+            f"{source} shows only {100.0 * fraction:.2g} % of its area from above, a road more than "
             f"{100.0 * MIN_PROJECTED_AREA:g} %; "
             f'if its y axis points up, write a description with kind = "grid", heights = "{name}" and up = "y".'
         )

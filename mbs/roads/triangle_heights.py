@@ -37,8 +37,8 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
     for begin, end in _batches(lines):
         k = np.repeat(np.arange(begin, end), lines[begin:end])
         i = first[k] + _indices_in_groups(lines[begin:end])
-        long_share = _relative_position(i, ax[k], cx[k])
-        long_edge = ay[k] + long_share * (cy[k] - ay[k])
+        long_fraction = _relative_position(i, ax[k], cx[k])
+        long_edge = ay[k] + long_fraction * (cy[k] - ay[k])
         on_first_edge = i <= bx[k]
         short_edges = np.where(
             on_first_edge,

@@ -294,8 +294,8 @@ def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
 
 def _is_beyond(com: Vector, a: Vector, b: Vector) -> bool:
     """Whether a centre of mass lies beyond the ends of a tube from a to b."""
-    share = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
-    return not -MAX_OVERHANG <= share <= 1.0 + MAX_OVERHANG
+    fraction = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
+    return not -MAX_OVERHANG <= fraction <= 1.0 + MAX_OVERHANG
 
 
 def _axes_along(axis: Vector) -> Vector:

@@ -343,7 +343,8 @@ def _largest_load(
         if not c[key] > 0.0:
             raise text.fault(f"{key} is {coefficients[key]:g}; it must be positive.")
 
-    def shares_at(load: float) -> dict[str, float]:
+    def relative_at(load: float) -> dict[str, float]:
+        """Friction and slip stiffness per load, relative to those at the nominal load."""
         dfz = load / nominal - 1.0
         turn = c["PKY4"] * math.atan2(load / nominal, c["PKY2"])
         return {
@@ -357,12 +358,12 @@ def _largest_load(
 
     for k in range(1, _LOADS + 1):
         load = largest * k / _LOADS
-        for quantity, share in shares_at(load).items():
-            if share >= _MIN_FRACTION:
+        for quantity, ratio in relative_at(load).items():
+            if ratio >= _MIN_FRACTION:
                 continue
             if load < nominal:
                 raise text.fault(
-                    f"{quantity} is {share:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
+                    f"{quantity} is {ratio:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
                 )
             notes.append(f"{quantity} fades at {load:.0f} N; above it the forces stay, FZMAX is {largest:.0f} N.")
             return largest * (k - 1) / _LOADS

@@ -63,7 +63,7 @@ def make_world(
     """Write the road file of a world to `road` and return its record.
 
     `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with the name of a stage and its completed
-    share, 0 to 1; `thin`: whether points and digits are reduced for a page; the key ``thin`` of the record has the
+    fraction, 0 to 1; `thin`: whether points and digits are reduced for a page; the key ``thin`` of the record has the
     deviation. Raises `RoadFileError` if the world cannot be made.
     """
     if (world := description_of(file)) is not None:
@@ -74,10 +74,10 @@ def make_world(
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)
-            record = world_record(terrain, lambda share: tell("drawing", share), STEP if thin else 0.0)
+            record = world_record(terrain, lambda fraction: tell("drawing", fraction), STEP if thin else 0.0)
         except RoadFileError as error:
             raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
-        write_world_road(terrain, road, lambda share: tell("road", share), thin)
+        write_world_road(terrain, road, lambda fraction: tell("road", fraction), thin)
         deviation = {"thin": deviation_of(terrain, road).sentence} if thin else {}
         return record | {"checksum": checksum_of(road)} | deviation
     return _road_record(file, name, road)

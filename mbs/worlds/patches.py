@@ -39,7 +39,7 @@ class DrawnPatch:
 def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
     """Patches that cover a world; the edges of fine patches lie on the edges of their coarser neighbours.
 
-    `tell`: called with the completed share, 0 to 1.
+    `tell`: called with the completed fraction, 0 to 1.
     """
     x0, y0, x1, y1 = terrain.world.bounds
     nx, ny = (max(1, round(side / (CELLS * MAX_SPACING))) for side in (x1 - x0, y1 - y0))

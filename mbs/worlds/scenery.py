@@ -90,8 +90,8 @@ def _needed_indices(points: Float) -> list[int]:
         chord = points[b] - points[a]
         squared_length = float(chord @ chord)
         inner = points[a + 1 : b] - points[a]
-        share = np.clip(inner @ chord / squared_length, 0.0, 1.0) if squared_length > 0.0 else np.zeros(len(inner))
-        distance: Float = np.linalg.norm(inner - share[:, None] * chord, axis=1)
+        fraction = np.clip(inner @ chord / squared_length, 0.0, 1.0) if squared_length > 0.0 else np.zeros(len(inner))
+        distance: Float = np.linalg.norm(inner - fraction[:, None] * chord, axis=1)
         return distance
 
     return needed_points(len(points), distances, LINE_TOLERANCE)

@@ -68,19 +68,19 @@ class Terrain:
             self.nearest = np.minimum(self.nearest, self.excess[k] - np.float32(layer.shoulder))
             mask = excess < layer.shoulder + layer.blend + step
             points = layer.at(x[mask], y[mask], station[mask])
-            share = weight(layer, points.excess)
-            z[mask] += share * (points.height - z[mask])
-            self._check_steps(layer, mask, share, points.height)
+            fraction = weight(layer, points.excess)
+            z[mask] += fraction * (points.height - z[mask])
+            self._check_steps(layer, mask, fraction, points.height)
         self.carved = Surface(self.x, self.y, z)
 
-    def _check_steps(self, layer: Layer, mask: NDArray[np.bool_], share: Float, height: Float) -> None:
+    def _check_steps(self, layer: Layer, mask: NDArray[np.bool_], fraction: Float, height: Float) -> None:
         """Raise `RoadFileError` if a course comes so near to itself that one part cuts into the other."""
-        level, shares = np.zeros(mask.shape), np.zeros(mask.shape)
-        level[mask], shares[mask] = height, share
+        level, fractions = np.zeros(mask.shape), np.zeros(mask.shape)
+        level[mask], fractions[mask] = height, fraction
         for axis in (0, 1):
             rise = np.abs(np.diff(level, axis=axis))
-            smaller_share = np.minimum(*(np.delete(shares, k, axis=axis) for k in (0, -1)))
-            step = rise * smaller_share
+            smaller_fraction = np.minimum(*(np.delete(fractions, k, axis=axis) for k in (0, -1)))
+            step = rise * smaller_fraction
             if step.size and step.max() > MAX_SLOPE * self.step:
                 i, j = np.unravel_index(int(np.argmax(step)), step.shape)
                 neighbour = (i + 1, j) if axis == 0 else (i, j + 1)

@@ -105,13 +105,13 @@ class _ProgressLine:
     def __init__(self, name: str) -> None:
         self.name, self.printed, self.stage = name, 0.0, ""
 
-    def __call__(self, stage: str, share: float) -> None:
+    def __call__(self, stage: str, fraction: float) -> None:
         now = time.perf_counter()
         if sys.stderr.isatty():
-            if now - self.printed > 0.2 or share >= 1.0:
+            if now - self.printed > 0.2 or fraction >= 1.0:
                 self.printed = now
-                end = "\n" if share >= 1.0 else ""
-                print(f"\r{self.name}: {stage} {100.0 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
+                end = "\n" if fraction >= 1.0 else ""
+                print(f"\r{self.name}: {stage} {100.0 * fraction:3.0f} %", end=end, file=sys.stderr, flush=True)
         elif stage != self.stage:
             self.stage = stage
             print(f"{self.name}: {stage} ...", file=sys.stderr, flush=True)

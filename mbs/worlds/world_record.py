@@ -19,7 +19,7 @@ MIN_CELL = 0.25
 
 
 def world_record(
-    terrain: Terrain, tell: Callable[[float], None] = lambda share: None, step: float = 0.0
+    terrain: Terrain, tell: Callable[[float], None] = lambda fraction: None, step: float = 0.0
 ) -> dict[str, Any]:
     """Content of the JSON file of a world.
 
@@ -27,7 +27,7 @@ def world_record(
     are not rounded.
     """
     world = terrain.world
-    patches = patches_of(terrain, lambda share: tell(0.9 * share))
+    patches = patches_of(terrain, lambda fraction: tell(0.9 * fraction))
     road = {
         "kind": "terrain",
         "patches": [_patch_entry(patch, step) for patch in patches],

@@ -34,7 +34,7 @@ def write_world_road(
 ) -> None:
     """Write the road file of a world.
 
-    `tell`: called with the completed share, 0 to 1; `thin`: whether heights are rounded as in `thinned_world`.
+    `tell`: called with the completed fraction, 0 to 1; `thin`: whether heights are rounded as in `thinned_world`.
     """
     x0, y0, _, _ = terrain.world.bounds
     dx, dy = terrain.world.spacing

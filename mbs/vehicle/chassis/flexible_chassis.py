@@ -59,11 +59,11 @@ def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, Affi
     front, rear, top = ([body.point(flexible.place(joint)) for joint in pair] for pair in flexible.joints.drive)
     p_front, p_rear, p_top = (flexible.place(pair[0]) for pair in flexible.joints.drive)
     length = float(p_front[0] - p_rear[0])
-    share = float(p_top[0] - p_rear[0]) / length  # weight of the front joints in the point below the top ones
+    front_weight = float(p_top[0] - p_rear[0]) / length  # of the front joints in the point below the top ones
     x = (front[0] + front[1] - rear[0] - rear[1]) * (0.5 / length)
-    base = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
+    base = (front[0] + front[1]) * (0.5 * front_weight) + (rear[0] + rear[1]) * (0.5 * (1.0 - front_weight))
     slope = float(p_front[2] - p_rear[2])
-    height = float(p_top[2] - p_front[2]) + (1.0 - share) * slope
+    height = float(p_top[2] - p_front[2]) + (1.0 - front_weight) * slope
     z = ((top[0] + top[1]) * 0.5 - base) * (1.0 / height)
     return z, x - z * (slope / length) if slope else x
 

@@ -81,7 +81,7 @@ def kinematics(
     points : int
         Of each curve; one at the drawing is added if there is none.
     progress : callable, optional
-        Receives the share that is done.
+        Receives the fraction done.
 
     Raises
     ------
@@ -148,6 +148,6 @@ def _grid(low: float, high: float, points: int) -> Array:
 
 
 def _report(progress: Callable[[float], None] | None, done: int) -> None:
-    """Report the share of completed curves. `done`: their number."""
+    """Report the fraction of completed curves. `done`: their number."""
     if progress is not None:
         progress(done / (2 * len(MOTIONS) + 1))

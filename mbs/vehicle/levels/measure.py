@@ -47,7 +47,7 @@ def measure(
     drives: Sequence[Drive],
     steps: Sequence[float] = STEPS,
     repeats: int = 3,
-    tell: Callable[[float], None] = lambda share: None,
+    tell: Callable[[float], None] = lambda fraction: None,
 ) -> list[dict[str, Any]]:
     """Measure the errors of each level against the most detailed one with steps of 0.5 ms, and its cost.
 
@@ -62,7 +62,7 @@ def measure(
     repeats : int
         Timed runs of each level, of which the fastest counts; levels alternate, so that disturbances are shared.
     tell : callable
-        Called with the completed share, 0 to 1.
+        Called with the completed fraction, 0 to 1.
 
     Returns
     -------

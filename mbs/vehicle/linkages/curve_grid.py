@@ -72,8 +72,8 @@ def _solve(linkage: Linkage, travel: Array, rack: float) -> Array:
         position = linkage.drawn
         try:
             for k in range(step_count):
-                share = (k + 1) / step_count
-                position = linkage.solve(position.q, share * travel, share * rack)
+                fraction = (k + 1) / step_count
+                position = linkage.solve(position.q, fraction * travel, fraction * rack)
         except NotReachedError:
             continue
         return position.q

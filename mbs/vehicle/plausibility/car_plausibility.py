@@ -128,8 +128,8 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
     """Values of the centre of mass and of the inertias."""
     x, y, height = centre_of(car, payloads=True)
     track, chassis = 0.5 * sum(axle.track for axle in car.axles.values()), car.chassis
-    share = (x - car.rear.wheel.centre[0]) / car.wheelbase
-    yield Value(CAR["share"], share, _centre_key(car))
+    front_fraction = (x - car.rear.wheel.centre[0]) / car.wheelbase
+    yield Value(CAR["share"], front_fraction, _centre_key(car))
     yield Value(CAR["height"], height / track, _centre_key(car))
     yield Value(CAR["aside"], y / track, _centre_key(car))
     products = [abs(p) for p in chassis.products if p]
@@ -138,7 +138,7 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
         yield Value(CAR["products"], min(products) / max(chassis.inertia), product_key)
     weighed = weighed_points(car, payloads=True)
     inertia = chassis.inertia[2] + sum(m * ((px - x) ** 2 + (py - y) ** 2) for m, (px, py, _) in weighed)
-    before, behind = car.wheelbase * (1.0 - share), car.wheelbase * share
+    before, behind = car.wheelbase * (1.0 - front_fraction), car.wheelbase * front_fraction
     key = {chassis.key("inertia"): list(chassis.inertia)}
     if before > 0.0 and behind > 0.0:
         yield Value(CAR["yaw"], inertia / _mass(car) / (before * behind), key | {chassis.key("mass"): chassis.mass})
@@ -169,8 +169,8 @@ def _driving_values(car: CarContent, rest: Rest) -> Iterator[Value]:
         tyre, road = axle.tyre, car.road
         of_grip = {tyre.key("grip"): tyre.grip, tyre.key("reference_friction"): tyre.reference_friction}
         of_grip |= {road.key("friction"): road.friction, road.key("friction_factor"): road.friction_factor}
-        for of, share in (("least", min), ("largest", max)):
-            yield Value(CAR["grip"], share(tyre.friction) * road.grip_of(tyre), of_grip, f"{name} {of}")
+        for of, select in (("least", min), ("largest", max)):
+            yield Value(CAR["grip"], select(tyre.friction) * road.grip_of(tyre), of_grip, f"{name} {of}")
     steering = car.steering
     key = steering.key("front_wheel_angle_max")
     ratio = steering.wheel_angle_max / steering.front_wheel_angle_max
@@ -321,6 +321,6 @@ def _exchange(key: str, other: str, data: Data) -> None:
 
 
 def _complement(key: str, data: Data) -> None:
-    """Replace a share by its complement to 1."""
+    """Replace a fraction by its complement to 1."""
     holder, last = _container(data, key)
     holder[last] = 1.0 - holder[last]

@@ -91,9 +91,9 @@ class Looks:
         self.shape(of, "cylinder", ends=ends, radius=radius, **(looks or CAST_STEEL))
 
 
-def between(a: Sequence[float], b: Sequence[float], share: float) -> Point:
-    """The point at a share of the line from `a` to `b`."""
-    x, y, z = np.asarray(a, float) + share * np.subtract(b, a)
+def between(a: Sequence[float], b: Sequence[float], fraction: float) -> Point:
+    """The point at a fraction of the line from `a` to `b`."""
+    x, y, z = np.asarray(a, float) + fraction * np.subtract(b, a)
     return float(x), float(y), float(z)
 
 
@@ -103,7 +103,7 @@ def inboard(point: Sequence[float], distance: float) -> Point:
     return point[0], point[1] - side * distance, point[2]
 
 
-def share_along(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
+def fraction_along(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
     """Relative position of the foot of a point on the line from `a` (0) to `b` (1)."""
     line = np.subtract(b, a)
     return float(line @ np.subtract(p, a) / (line @ line))

@@ -83,7 +83,7 @@ class Compliance(Section):
             )
 
     def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
-        """Add the base body of the table of a wheel; return it with the share of the carrier's mass on the table.
+        """Add the base body of the table of a wheel; return it with the fraction of the carrier's mass on the table.
 
         `centre`: centre of the left wheel, m.
         """

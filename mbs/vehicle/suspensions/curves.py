@@ -35,9 +35,9 @@ class CurvesBodies(Section):
     """Parts of the left side."""
 
     carrier: Part
-    """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of springs."""
+    """All that moves with the wheel without turning about its axis: hub carrier, brake, parts of springs."""
     links: dict[Name, CurveLink] = Field(default_factory=dict)
-    """Arms and rods by name; of one that is not here a share must be in the carrier, the rest in the chassis."""
+    """Arms and rods by name; of one that is not here a part must be in the carrier, the rest in the chassis."""
 
 
 class NoPoints(Section):
@@ -209,9 +209,9 @@ class Curves(SuspensionSection):
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
-            base, share = b.chassis.frame, 1.0
+            base, fraction = b.chassis.frame, 1.0
             if self.compliance is not None:
-                base, share = self.compliance.base(b, side, self.hub.centre, part)
+                base, fraction = self.compliance.base(b, side, self.hub.centre, part)
             carrier = b.m.tabled_body(
                 f"carrier {w}",
                 base=base,
@@ -219,9 +219,9 @@ class Curves(SuspensionSection):
                 axes=_axes(curves, variables),
                 places=_flat(curves.centres + curves.rotations @ (com - centre), variables),
                 rotations=_flat(curves.rotations, variables),
-                mass=share * part.mass,
+                mass=fraction * part.mass,
                 com=com,
-                inertia=[share * value for value in part.inertia],
+                inertia=[fraction * value for value in part.inertia],
             )
             for name, link in self.bodies.links.items():
                 link.build(b, side, name, centre, rigid, variables if self.table.second_name else [travel])
