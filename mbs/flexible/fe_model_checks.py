@@ -95,8 +95,8 @@ def check_free(model: FiniteElementModel) -> None:
         transverse_forces[model.dof[:, k], k] = 0.0
     if transverse_forces.max() > GROUNDED:
         raise ModelError(
-            f"{subject}, with forces {AXIS_WORDS[axis]} across the motion, which no support has: the freedoms are not "
-            "in the order of the nodes, or an entry is wrong."
+            f"{subject}, with forces {AXIS_WORDS[axis]} across the motion, which no support has: the degrees of "
+            "freedom are not in the order of the nodes, or an entry is wrong."
         )
     raise ModelError(f"{subject}: give the free model, without supports.")
 

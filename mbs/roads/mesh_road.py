@@ -13,7 +13,7 @@ from scipy import ndimage
 from ali3.scene.mesh_file import MeshError, read_corners
 from mbs.elements.road import GridRoad
 from mbs.roads.road_header import RoadFileError
-from mbs.roads.sampled_road import SampledRoad, Values, cell_points, points_of_box, with_deviation
+from mbs.roads.sampled_road import SampledRoad, Values, cell_points, grid_over_box, measure_deviation
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.triangle_heights import triangle_heights
 
@@ -82,7 +82,7 @@ def mesh_road(
         raise RoadFileError(
             f"{source} has surfaces above one another, {area:.4g} m2 seen from above within {box:.4g} m2: {_ONE_HEIGHT}"
         )
-    x, y = points_of_box(
+    x, y = grid_over_box(
         low[:2], high[:2], spacing or DEFAULT_SPACING, source, f" The unit is taken as metre; {_UNIT.format(name)}."
     )
     road = GridRoad((float(x[0]), float(y[0])), (float(x[1] - x[0]), float(y[1] - y[0])), np.empty((len(x), len(y))))
@@ -107,7 +107,7 @@ def mesh_road(
     rows = (
         (np.stack([np.full(len(y_between), x_k), y_between], -1), z) for x_k, z in zip(x_between, highest, strict=True)
     )
-    return with_deviation(road, chain(rows, [(vertices[:, :2], vertices[:, 2])]), source)
+    return measure_deviation(road, chain(rows, [(vertices[:, :2], vertices[:, 2])]), source)
 
 
 def _projected_areas(corners: Values) -> Values:

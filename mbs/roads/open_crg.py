@@ -20,7 +20,7 @@ from ali3.reading import check_file
 from mbs.elements.road import GridRoad
 from mbs.kernel.header.limits import ROAD_HIGHEST
 from mbs.roads.road_header import RoadFileError
-from mbs.roads.sampled_road import SampledRoad, Values, grid_heights, points_of_box, with_deviation
+from mbs.roads.sampled_road import SampledRoad, Values, grid_heights, grid_over_box, measure_deviation
 from mbs.roads.steep_faces import RoadWarning
 
 if TYPE_CHECKING:
@@ -56,11 +56,11 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     if spacing is None:
         along_x = crg.is_straight and abs(crg.phi_start) < HEADING_TOLERANCE
         spacing = (crg.u_inc, v_spacing) if along_x else (min(crg.u_inc, v_spacing),) * 2
-    x, y = points_of_box(edges.min(axis=0), edges.max(axis=0), spacing, source)
+    x, y = grid_over_box(edges.min(axis=0), edges.max(axis=0), spacing, source)
     spacing = float(x[1] - x[0]), float(y[1] - y[0])
     grid = GridRoad((float(x[0]), float(y[0])), spacing, _heights_on_grid(crg, x, y))
     worst_positions = list[Values]()
-    road = with_deviation(grid, _surface_samples(crg, grid, worst_positions), source)
+    road = measure_deviation(grid, _surface_samples(crg, grid, worst_positions), source)
     largest, place = _largest_deviation(crg, grid, np.concatenate(worst_positions), road.largest, road.place)
     return replace(road, largest=largest, place=place)
 

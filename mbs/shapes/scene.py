@@ -20,7 +20,7 @@ from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import joint_geometry
-from mbs.shapes.roads import roads_of
+from mbs.shapes.roads import road_entries
 from mbs.shapes.shared_points import shared_points
 from mbs.system.drawing import Drawing, Places, matrices
 
@@ -66,7 +66,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "meshes": meshes,
         "flexible": list(model.flexible_scene),
         "arrows": arrows_of(model, names, geometry.lines),
-        "roads": roads_of(model),
+        "roads": road_entries(model),
         "missing": [{"name": name, "why": SLIDING_REASON} for name in geometry.sliding if name not in named]
         + [{"name": t.name, "why": TABLED_REASON} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],
     }

@@ -33,7 +33,7 @@ from mbs.vehicle.driver_inputs import driver_inputs
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
-from mbs.vehicle.names import FORMS, NAME_WORDS
+from mbs.vehicle.names import NAME_WORDS, PATTERN_WORDS
 from mbs.vehicle.outputs import car_outputs
 from mbs.vehicle.plausibility.car_plausibility import car_plausibility
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
@@ -291,7 +291,7 @@ def checked_car(
     try:
         car = kind.model_validate(data)
     except ValidationError as error:
-        raise CarFileError(_fault_text(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
+        raise CarFileError(_fault_text(what, Sentences(kind, data, PATTERN_WORDS, NAME_WORDS).of(error))) from None
     car.locate("")
     car._folder = folder
     car._data = dict(data)

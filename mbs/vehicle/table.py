@@ -8,7 +8,7 @@ from pathlib import Path
 from ali3.message_text import brief
 from ali3.tables import TextTable, number_of
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
     there too. Raises `CarFileError` if there is no such file, it is not text, or a column or a cell is missing.
     """
     what = f"{key} ({name})"
-    table = TextTable(beside(folder, name, key), CarFileError, what, known=columns)
+    table = TextTable(car_file_path(folder, name, key), CarFileError, what, known=columns)
     missing = [column for column in columns if column not in table.names]
     if missing:
         raise CarFileError(f"{what} has no column {missing[0]}; its titles are {', '.join(table.names)}.")

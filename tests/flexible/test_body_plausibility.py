@@ -114,7 +114,7 @@ REFUSED: dict[str, tuple[Callable[[Any, Any, np.ndarray], Matrices], str]] = {
     "by axis": (lambda K, M, x: (K[BY_AXIS][:, BY_AXIS], M[BY_AXIS][:, BY_AXIS], x), "one axis after the other"),
     "nodes backwards": (lambda K, M, x: (K, M, x[::-1]), "backwards"),
     "nodes by chance": (lambda K, M, x: (K, M, x[[3, 1, 7, 0, 2, 8, 6, 5, 4]]), "positions of the nodes do not belong"),
-    "two freedoms": (lambda K, M, x: (swapped(K), M, x), "freedoms are not in the order of the nodes"),
+    "two freedoms": (lambda K, M, x: (swapped(K), M, x), "freedom are not in the order of the nodes"),
     "a support": (lambda K, M, x: (grounded(K), M, x), "at node '2': give the free model, without supports"),
 }  # fmt: skip
 
@@ -146,7 +146,7 @@ def test_a_mass_matrix_in_another_order_is_reported() -> None:
             except ModelError as error:
                 message = str(error)
         assert re.search(
-            "freedoms are not in the order of the nodes|mass node pairs that|mass rigid inertia off", message
+            "freedom are not in the order of the nodes|mass node pairs that|mass rigid inertia off", message
         )
 
 

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from ali3.tables import TextTable
 from mbs.model.smooth_table import MIN_POINTS, SPACING_TOLERANCE
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 
 Array = NDArray[np.float64]
 
@@ -100,7 +100,7 @@ def read_curves(folder: Path, name: str, key: str, size: float) -> CurveTable:
     """
     what = f"{key} ({name})"
     table = TextTable(
-        beside(folder, name, key), CarFileError, what, known=(WHEEL_TRAVEL, f"{WHEEL_TRAVEL}_left"), units=True
+        car_file_path(folder, name, key), CarFileError, what, known=(WHEEL_TRAVEL, f"{WHEEL_TRAVEL}_left"), units=True
     )
     file_columns = dict(zip(table.names, table.values(finite=False).T, strict=True))
     used = [n for n in file_columns if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER_TRAVEL))]

@@ -14,7 +14,7 @@ from mbs.elements.magic_tyre import FACTORS, MagicTyre
 from mbs.elements.tyre_bore import TyreBore
 from mbs.tyre_files import TyreFileError, read_tyre
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
 from mbs.vehicle.tyres.bore_torque import Bore
 from mbs.vehicle.tyres.tyre_section import TyreSection
@@ -55,7 +55,7 @@ class MagicFormula(TyreSection, of=MagicTyre):
     def open(self, folder: Path) -> None:
         """Read the tyre property file."""
         try:
-            self._read = read_tyre(beside(folder, self.file, self.key("file")))
+            self._read = read_tyre(car_file_path(folder, self.file, self.key("file")))
             self._tyre = self.tyre("left")
         except TyreFileError as error:
             raise CarFileError(f"{self.key('file')}: {error}") from None

@@ -8,7 +8,7 @@ from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.matrix_files import external_model, read_matrix
 from mbs.flexible.sparse_matrices import Sparse
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
-from mbs.vehicle.files import beside
+from mbs.vehicle.files import car_file_path
 from mbs.vehicle.table import read_table
 
 MAX_COORDINATE = 1e3  # m
@@ -28,7 +28,7 @@ class MatricesFrame(MatrixFrame):
 
     def files(self, folder: Path) -> tuple[Path, ...]:
         """Files of the matrices, all of which exist."""
-        return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
+        return tuple(car_file_path(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the files."""
