@@ -34,8 +34,9 @@ class Grid:
     values: NDArray[np.float64]
     """Shape (nx, ny)."""
     origin: tuple[float, float] | None = None
+    """x and y of the first point, m; None if the file has none."""
     spacing: tuple[float, float] | None = None
-    """`origin`, `spacing`: first point and spacing in x and y, m; None if the file has none."""
+    """Distances of the points in x and y, m; None if the file has none."""
     frictions: NDArray[np.float64] | None = None
     """Shape (nx, ny); None if the file has none."""
 

@@ -41,8 +41,9 @@ class Header:
 
     kind: RoadType
     nx: int
+    """Points of the grid along x, 0 without a grid."""
     ny: int
-    """`nx`, `ny`: points of the grid, 0 without one."""
+    """Points of the grid along y, 0 without a grid."""
     maps: int
     """1: heights, 2: heights and frictions."""
     real: tuple[float, ...]

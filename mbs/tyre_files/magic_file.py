@@ -97,8 +97,9 @@ class TyreFile(Summarised):
     side: str
     """Side of the measured tyre, "left" or "right", or "symmetric"."""
     pressure: float
+    """Inflation pressure, Pa; 0 if the file has none."""
     nominal_pressure: float
-    """`pressure`, `nominal_pressure`: Pa; 0 if the file has none."""
+    """Nominal inflation pressure, Pa; 0 if the file has none."""
     pressure_range: tuple[float, float]
     """Range in which the coefficients hold, Pa."""
     notes: tuple[str, ...]

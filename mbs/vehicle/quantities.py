@@ -20,10 +20,10 @@ class Quantity:
     unit: str
     """SI unit; "1" for a number without one."""
     low: float
+    """Least value."""
     high: float
-    """`low`, `high`: least and largest value. Where `low` is positive they are less than a factor of 1000
-    apart, so that a value in a unit 1000 times too large or too small is always outside; of inertias the radius of
-    gyration and the two other moments show it."""
+    """Largest value. It is less than 1000 `low` if that is positive, so that a value in a unit 1000 times too large or
+    too small is always outside; of inertias the radius of gyration and the two other moments show it."""
     zero: bool = False
     """Whether 0 is allowed too; a parameter may then be anywhere between 0 and `high`."""
     change: Change | None = None

@@ -27,11 +27,13 @@ class DrawnPatch:
     """A rectangular patch of 17 x 17 points."""
 
     x: float
+    """x of the first point, m."""
     y: float
-    """`x`, `y`: first point, m."""
+    """y of the first point, m."""
     dx: float
+    """Distance of the points along x, m."""
     dy: float
-    """`dx`, `dy`: distances of the points, m."""
+    """Distance of the points along y, m."""
     heights: Float
     """Shape (17, 17): m."""
 

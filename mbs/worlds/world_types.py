@@ -126,8 +126,9 @@ class Band(_Table):
     at: Start
     length: Length
     right: Coordinate
+    """Right end across, m, left positive."""
     left: Coordinate
-    """`right`, `left`: ends across, m, left positive."""
+    """Left end across, m, left positive."""
     surface: SurfaceClass
 
 
@@ -227,8 +228,9 @@ class Barrier(_Table):
     points: list[Point] | None = None
     course: Text | None = None
     begin: Distance = 0.0
+    """First station, m."""
     end: Distance = 0.0
-    """`begin`, `end`: stations, m."""
+    """Last station, m."""
     side: Literal["left", "right"] = "right"
     offset: Distance = 1.5
     """Distance from the edge of the road, m."""

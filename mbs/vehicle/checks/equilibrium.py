@@ -31,10 +31,11 @@ class Rest:
     travel: dict[str, float]
     """Wheel travel from the drawing by axle, mean of both sides, m, positive in bump."""
     load: dict[str, float]
+    """Load of a wheel by axle, mean of both sides, N."""
     spring_force: dict[str, float]
+    """Force of a spring by axle, mean of both sides, N."""
     deflection: dict[str, float]
-    """`load`, `spring_force`, `deflection`: of a wheel, N, of its spring, N, and of its tyre, m, by axle; means of both
-    sides."""
+    """Deflection of a tyre by axle, mean of both sides, m."""
     spring_length: dict[str, float]
     """Length of the springs by axle, m."""
     lean: float

@@ -34,9 +34,9 @@ class PoseGrid:
 
     linkage: Linkage
     compression: Array
+    """Points of the springs, m, positive in bump, shape (n,)."""
     rack: Array
-    """`compression`, `rack`: points, m, positive in bump and to the left, shapes (n,) and (k,); k is 1 for an axle that
-    is not steered."""
+    """Points of the rack, m, positive to the left, shape (k,); k is 1 for an axle that is not steered."""
     coupled: bool
     """Whether each side depends on the compressions of both springs, which are then the variables of the tables."""
     q: Array

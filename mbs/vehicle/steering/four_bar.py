@@ -19,11 +19,13 @@ class FourBar:
     """A linkage as drawn."""
 
     pivot: complex
+    """Joint of the Pitman arm and the chassis, m."""
     joint: complex
-    """`pivot`, `joint`: of the Pitman arm with the chassis and with the link, m."""
+    """Joint of the Pitman arm and the link, m."""
     idler_pivot: complex
+    """Joint of the idler arm and the chassis, m."""
     idler_joint: complex
-    """`idler_pivot`, `idler_joint`: of the idler arm with the chassis and with the link, m."""
+    """Joint of the idler arm and the link, m."""
 
     def turned(self, phi: Array) -> tuple[Array, Array, Array]:
         """Joint of the arm and rotation of the link at angles of the arm.
