@@ -165,7 +165,7 @@ def _lines(path: Path, included: NamedFiles, depth: int = 0) -> Iterator[_Line]:
 def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
     """Used cards; replications are expanded."""
     previous, rule = _Card(_Line("", ""), "", []), list[str]()
-    for card in _joined(lines):
+    for card in _join_cards(lines):
         is_repeat = card.name.startswith("=")
         if not is_repeat and not {"=", "=="} & {*card.data}:
             previous, rule = card, []
@@ -210,7 +210,7 @@ def _replicate(rule: Sequence[str], previous_data: Sequence[str], line: _Line) -
     return fields
 
 
-def _joined(lines: Sequence[_Line]) -> Iterator[_Card]:
+def _join_cards(lines: Sequence[_Line]) -> Iterator[_Card]:
     """Cards with their continuation lines, not expanded; unused cards have no data."""
     card, mark = _Card(_Line("", ""), "", []), ""
     for line in lines:

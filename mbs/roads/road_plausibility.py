@@ -63,7 +63,7 @@ class Place:
         return replace(self, origin=origin, spacing=spacing)
 
 
-def place_of(road: GridRoad) -> Place:
+def grid_location(road: GridRoad) -> Place:
     """Location of a grid road."""
     origin, spacing = (tuple(map(float, pair)) for pair in (road.origin, road.spacing))
     return Place(origin, spacing, np.shape(road.heights))
@@ -73,7 +73,7 @@ def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: S
     """Plausibility of a road. `what`: name of the file; `start`: x and y of the start of a drive, m."""
     if not isinstance(road, GridRoad):
         return Plausibility(what, _plain_values(road), title=TITLE)
-    place, z = place_of(road), np.asarray(road.heights, float)
+    place, z = grid_location(road), np.asarray(road.heights, float)
     mistakes, values = [], road_values(road, place, z, start)
     usual = any(v.quantity is QUANTITIES["slope"] and v.mended() for v in values)
     for factor, unit in UNITS.items():
@@ -218,7 +218,7 @@ def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = M
     if table is None:
         place = _place_of_header(road)
     elif isinstance(table, GridRoad):
-        place = place_of(table)
+        place = grid_location(table)
     if place is not None and math.prod(place.shape) > most:
         return [start_plausibility(str(road.path), place, start)]
     return [road_plausibility(str(road.path), road.read() if table is None else table, start)]
@@ -247,4 +247,4 @@ def _place_of_header(road: RoadFile) -> Place | None:
 def _place_of_table(file: Path, changed: int) -> Place | None:
     """Location of the grid of a table. `changed`: time of the last change of the file, part of the key of the cache."""
     road = read_road(file)
-    return place_of(road) if isinstance(road, GridRoad) else None
+    return grid_location(road) if isinstance(road, GridRoad) else None

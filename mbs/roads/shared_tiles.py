@@ -73,11 +73,11 @@ class SharedWriter:
         `heights`: m, shape (32 or fewer in the last row, ny); `frictions`: likewise, None if the file has one friction.
         """
         check_grid(heights, frictions, self.name)
-        z = _padded(heights)
-        mu = None if frictions is None else _padded(frictions)
+        z = _pad(heights)
+        mu = None if frictions is None else _pad(frictions)
         tiles = z.shape[1] // ROAD_TILE
         blocks = z.reshape(ROAD_TILE, tiles, ROAD_TILE).transpose(1, 0, 2)
-        for k, form in enumerate(polynomials_of(blocks, TILE_COORDINATES, self.tolerance)):
+        for k, form in enumerate(fit_polynomials(blocks, TILE_COORDINATES, self.tolerance)):
             block_frictions = None if mu is None else np.ascontiguousarray(mu[:, k * ROAD_TILE : (k + 1) * ROAD_TILE])
             self.tile(np.ascontiguousarray(blocks[k]) if form is None else form, block_frictions)
 
@@ -111,7 +111,7 @@ class SharedWriter:
         self.out.write(head.to_bytes() + self.entries)
 
 
-def _padded(values: Float) -> Float:
+def _pad(values: Float) -> Float:
     """Pad a grid to whole tiles with the values at its border."""
     padding = [-n % ROAD_TILE for n in values.shape]
     return np.pad(values, [(0, padding[0]), (0, padding[1])], mode="edge") if any(padding) else values
@@ -131,7 +131,7 @@ def polynomial_values(c: Float) -> Float:
     return z
 
 
-def polynomials_of(blocks: Float, coordinates: Float, tolerance: float) -> list[Float | None]:
+def fit_polynomials(blocks: Float, coordinates: Float, tolerance: float) -> list[Float | None]:
     """Coefficients of the smallest polynomial of each tile within the tolerance; None if there is none.
 
     `blocks`: heights, m, shape (tiles, n, n); `coordinates`: coordinates of their points in a tile, -1 to 1, shape

@@ -78,7 +78,7 @@ class FrameNames:
 def turns_of(model: Model) -> list[Spin | Turning]:
     """Wheels and turning parts; of those on tabled bodies only wheels whose pose sensors read."""
     turns: list[Spin | Turning] = [*model.spins, *model.turnings]
-    return [t for t in turns if not _carrier_of(t).is_tabled or _pose_sensors(t)]
+    return [t for t in turns if not _carrier_body(t).is_tabled or _pose_sensors(t)]
 
 
 def _pose_sensors(turn: Spin | Turning) -> tuple[str, ...]:
@@ -86,7 +86,7 @@ def _pose_sensors(turn: Spin | Turning) -> tuple[str, ...]:
     return turn.carrier.outputs if isinstance(turn, Spin) and isinstance(turn.carrier, TabledBody) else ()
 
 
-def _carrier_of(turn: Spin | Turning) -> Body:
+def _carrier_body(turn: Spin | Turning) -> Body:
     """Body that carries a wheel or turning part."""
     return turn.carrier if isinstance(turn, Spin) else turn.body
 
@@ -171,7 +171,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
         angles.append(np.asarray(weights @ constant) + angle.constant)
         row = len(indices) + len(turns)
         column = names.columns[f"{turn.name}.angle"]
-        carrier, axis = _carrier_of(turn).owner.name, tuple(numbers(turn.axis_reference))
+        carrier, axis = _carrier_body(turn).owner.name, tuple(numbers(turn.axis_reference))
         turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
     matrix = sparse.vstack([T[indices], *rows]).tocsr()
     matrix.sort_indices()

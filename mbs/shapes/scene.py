@@ -16,7 +16,7 @@ from mbs.model.checked_shapes import Shape
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.table_bodies import TabledBody
-from mbs.shapes.arrows import arrows_of
+from mbs.shapes.arrows import force_arrows
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import joint_geometry
@@ -65,7 +65,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "shapes": shapes,
         "meshes": meshes,
         "flexible": list(model.flexible_scene),
-        "arrows": arrows_of(model, names, geometry.lines),
+        "arrows": force_arrows(model, names, geometry.lines),
         "roads": road_entries(model),
         "missing": [{"name": name, "why": SLIDING_REASON} for name in geometry.sliding if name not in named]
         + [{"name": t.name, "why": TABLED_REASON} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],

@@ -22,12 +22,12 @@ class UrdfWarning(UserWarning):
     """The model differs from what a URDF file describes."""
 
 
-def pose_of(origin: Any) -> Array:
+def origin_pose(origin: Any) -> Array:
     """Homogeneous transformation of an element's origin, shape (4, 4), m; the identity if it has none."""
     return np.eye(4) if origin is None else np.asarray(origin, float)
 
 
-def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
+def combined_mass(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
     """Mass, kg, centre of mass (3,), m, and inertia about it (3, 3), kg m2, of several links together, in earth axes.
 
     A link may have an inertia without a mass, as a rotor; if the sum of the masses is 0, the centre is the origin.
@@ -39,7 +39,7 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
         inertial = link.inertial
         if inertial is None or not (inertial.mass or (inertial.inertia is not None and np.any(inertial.inertia))):
             continue
-        frame = pose @ pose_of(inertial.origin)
+        frame = pose @ origin_pose(inertial.origin)
         inertia = array(inertial.inertia, (3, 3), f"the inertia of the link '{link.name}'")
         masses.append((float(inertial.mass or 0.0), frame[:3, 3], frame[:3, :3] @ inertia @ frame[:3, :3].T))
     mass = sum(m for m, _, _ in masses)

@@ -17,7 +17,7 @@ class MimicJoint:
     offset: float
 
 
-def mimic_joints_of(joints: Mapping[str, Any], prescribed: Collection[str], file_name: str) -> dict[str, MimicJoint]:
+def read_mimic_joints(joints: Mapping[str, Any], prescribed: Collection[str], file_name: str) -> dict[str, MimicJoint]:
     """Mimic joints by name, each after its leader.
 
     `joints`: moving joints by name; `prescribed`: joints with a value or a motion of the user; `file_name`: for

@@ -28,8 +28,8 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.model.perpendicular_vectors import perpendicular
 from mbs.urdf.crossed_hinges import CrossedHinges, crossed_hinges
-from mbs.urdf.inertias import UrdfWarning, corrected_inertia, mass_of, pose_of
-from mbs.urdf.mimic_joints import MimicJoint, mimic_joints_of, mimic_values
+from mbs.urdf.inertias import UrdfWarning, combined_mass, corrected_inertia, origin_pose
+from mbs.urdf.mimic_joints import MimicJoint, mimic_values, read_mimic_joints
 from mbs.urdf.robot_plausibility import robot_plausibility
 from mbs.urdf.source import Element, read_source
 
@@ -119,7 +119,7 @@ def read_urdf(
         if name in guides and joint.type == "prismatic":
             raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
     at |= {name: float(motion(0.0)) for name, motion in guides.items()}
-    followers = mimic_joints_of(joints, at, file.name)
+    followers = read_mimic_joints(joints, at, file.name)
     at |= mimic_values(followers, at)
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
@@ -209,7 +209,7 @@ def _set_poses(robot: Robot, joint_above: Mapping[str, Any], at: Mapping[str, fl
             displacement[:3, :3] = Rotation.from_rotvec(value * _axis_in_link(joint)).as_matrix()
         elif joint.type == "prismatic":
             displacement[:3, 3] = value * _axis_in_link(joint)
-        robot.poses[name] = robot.poses[joint.parent] @ pose_of(joint.origin) @ displacement
+        robot.poses[name] = robot.poses[joint.parent] @ origin_pose(joint.origin) @ displacement
 
 
 def _turning_links(joint_above: Mapping[str, Any], floating: bool) -> frozenset[str]:
@@ -232,7 +232,7 @@ def _remove_floating_joint(
     is_single = [joint.name for joint in joint_above.values() if joint is not None and joint.parent == root] == [
         floating_joint.name
     ]
-    if not is_single or mass_of([(link, np.eye(4)) for link in urdf.links if link.name == root])[0] > 0.0:
+    if not is_single or combined_mass([(link, np.eye(4)) for link in urdf.links if link.name == root])[0] > 0.0:
         return
     if not floating:
         raise ModelError(f"{file_name}: the joint '{floating_joint.name}' is floating; floating=True takes it so.")
@@ -256,7 +256,7 @@ def _add_bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str 
         members = [n for n, g in groups.items() if g == group]
         body = robot.model.ground
         if group != ground:
-            mass, com, inertia = mass_of([(links[n], robot.poses[n]) for n in members])
+            mass, com, inertia = combined_mass([(links[n], robot.poses[n]) for n in members])
             if mass < 0.0 or (mass == 0.0 and inertia.any()):
                 raise ModelError(
                     f"{file_name}: the link '{group}', and what is fixed to it, moves with a mass of {mass:g} kg and "
@@ -309,7 +309,7 @@ def _add_joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, d
     if joint.type == "prismatic":
         m.prismatic(name, second, first, axis=axis, point=point)
         slide_axis = first.vector(axis)
-        base = robot.poses[joint.parent] @ pose_of(joint.origin)
+        base = robot.poses[joint.parent] @ origin_pose(joint.origin)
         offset = second.point(point) - first.point(base[:3, 3])
         if driven:
             _add_force(robot, joint, axis, point, limit)

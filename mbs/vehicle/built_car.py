@@ -26,7 +26,7 @@ from mbs.vehicle.chassis.ground_contact import ground_contact
 from mbs.vehicle.chassis.mass_parameters import write_inertia
 from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
-from mbs.vehicle.checks.equilibrium import Rest, rest_outputs, settled
+from mbs.vehicle.checks.equilibrium import Rest, find_equilibrium, rest_outputs
 from mbs.vehicle.checks.working_ranges import working_ranges
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.driver_inputs import driver_inputs
@@ -93,7 +93,7 @@ class BuiltCar(Summarised, CarContent):
         car = self
         if self.ports.tyre is not None:
             car = checked_car(type(self), _without_tyre_port(self._data), self.folder, self.name, at_rest=False)
-        return settled(car.build(car.empty(), rest_outputs).m, car)
+        return find_equilibrium(car.build(car.empty(), rest_outputs).m, car)
 
     @property
     def has_frame(self) -> bool:
@@ -319,7 +319,7 @@ def checked_car(
         model = car.empty()
         car.reported(model)
         model.look()
-        rest = settled(model, car)
+        rest = find_equilibrium(model, car)
     except ValueError as error:
         raise CarFileError(_fault_text(what, [f"as drawn it is not a valid car. {error}"])) from error
     if warn:

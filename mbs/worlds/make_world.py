@@ -17,7 +17,7 @@ from mbs.roads.scene_part import read_thinned, scene_part
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 from mbs.worlds.terrain import Terrain
-from mbs.worlds.thinned_world import STEP, deviation_of, thinned_spacing
+from mbs.worlds.thinned_world import STEP, measure_thinning, thinned_spacing
 from mbs.worlds.world_file import is_world
 from mbs.worlds.world_plausibility import world_plausibility
 from mbs.worlds.world_record import record_of, world_record
@@ -51,7 +51,7 @@ def read_world(file: Path) -> WorldDescription:
     return world
 
 
-def description_of(file: Path) -> WorldDescription | None:
+def read_description(file: Path) -> WorldDescription | None:
     """Read and check the description of a world; None if the file describes a road."""
     describes_world = file.suffix.lower() == ".toml" and is_world(read_toml(file, RoadFileError))
     return read_world(file) if describes_world else None
@@ -66,7 +66,7 @@ def make_world(
     fraction, 0 to 1; `thin`: whether points and digits are reduced for a page; the key ``thin`` of the record has the
     deviation. Raises `RoadFileError` if the world cannot be made.
     """
-    if (world := description_of(file)) is not None:
+    if (world := read_description(file)) is not None:
         if thin:
             world = world.model_copy(update={"spacing": thinned_spacing(world.spacing)})
         _check_size(world, file)
@@ -78,8 +78,8 @@ def make_world(
         except RoadFileError as error:
             raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
         write_world_road(terrain, road, lambda fraction: tell("road", fraction), thin)
-        deviation = {"thin": deviation_of(terrain, road).sentence} if thin else {}
-        return record | {"checksum": checksum_of(road)} | deviation
+        deviation = {"thin": measure_thinning(terrain, road).sentence} if thin else {}
+        return record | {"checksum": header_checksum(road)} | deviation
     return _road_record(file, name, road)
 
 
@@ -99,7 +99,7 @@ def _check_size(world: WorldDescription, file: Path) -> None:
         )
 
 
-def checksum_of(road: Path) -> int:
+def header_checksum(road: Path) -> int:
     """CRC-32 of the header of a road file, which contains the CRC-32 of its tiles; a record belongs to one checksum."""
     with open_file(road, LARGEST_IN_PARTS) as file:
         return zlib.crc32(file.read(HEADER.size)[CHECKED_FROM:])
@@ -115,7 +115,11 @@ def record_of_road(road: Path) -> dict[str, Any] | None:
     """Read the record of a world beside a road file; None if there is none of this road."""
     try:
         record: dict[str, Any] = read_json(road.with_suffix(".json"))
-        if record["format"] == "ALi3 world" and record["road"] == road.name and record["checksum"] == checksum_of(road):
+        if (
+            record["format"] == "ALi3 world"
+            and record["road"] == road.name
+            and record["checksum"] == header_checksum(road)
+        ):
             return record
     except (OSError, ValueError, KeyError, TypeError, IndexError):
         return None
@@ -133,4 +137,4 @@ def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
     if entry["kind"] == "grid":  # beyond a level strip of frictions the grid continues
         (x, y), (dx, dy), (nx, ny) = entry["origin"], entry["spacing"], entry["shape"]
         bounds = (x, y, x + dx * (nx - 1), y + dy * (ny - 1))
-    return record_of(name, bounds, [], [entry], []) | {"checksum": checksum_of(target)}
+    return record_of(name, bounds, [], [entry], []) | {"checksum": header_checksum(target)}

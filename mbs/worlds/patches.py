@@ -38,7 +38,7 @@ class DrawnPatch:
     """Shape (17, 17): m."""
 
 
-def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
+def make_patches(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
     """Patches that cover a world; the edges of fine patches lie on the edges of their coarser neighbours.
 
     `tell`: called with the completed fraction, 0 to 1.
@@ -51,7 +51,7 @@ def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: No
     patches: list[DrawnPatch] = []
     while pending:
         batch, pending = pending[-BATCH:], pending[:-BATCH]
-        fine = _sampled(terrain, np.array(batch))
+        fine = _sample_heights(terrain, np.array(batch))
         for (x, y, a, b), z in zip(batch, fine, strict=True):
             axis = _axis_to_split(terrain, (x, y, a, b), z)
             if axis == "x":
@@ -67,7 +67,7 @@ def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: No
     return patches
 
 
-def _sampled(terrain: Terrain, rectangles: Float) -> Float:
+def _sample_heights(terrain: Terrain, rectangles: Float) -> Float:
     """Heights at the points of patches and in the middle between them, shape (n, 33, 33)."""
     t = np.arange(2 * CELLS + 1) / (2 * CELLS)
     x = (rectangles[:, 0, None] + rectangles[:, 2, None] * t)[:, :, None] + 0.0 * t
@@ -130,8 +130,8 @@ def _close_gaps(patches: list[DrawnPatch]) -> None:
     for k, p in enumerate(patches):
         for last in (False, True):
             at_x, at_y = p.x + (CELLS * p.dx if last else 0.0), p.y + (CELLS * p.dy if last else 0.0)
-            edges.setdefault(("x", _rounded(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
-            edges.setdefault(("y", _rounded(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
+            edges.setdefault(("x", _round(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
+            edges.setdefault(("y", _round(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
     for _ in range(4):
         largest_shift = 0.0
         for (side, _at), neighbours in edges.items():
@@ -151,7 +151,7 @@ def _close_gaps(patches: list[DrawnPatch]) -> None:
             return
 
 
-def _rounded(value: float) -> float:
+def _round(value: float) -> float:
     """A coordinate rounded to 1/1024 m, by which edges are matched."""
     return round(value * 1024.0) / 1024.0
 

@@ -15,7 +15,7 @@ from mbs.elements.road import GridRoad, PlaneRoad
 from mbs.roads.picture import draw_road
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
-from mbs.roads.road_plausibility import file_plausibility, place_of, road_plausibility
+from mbs.roads.road_plausibility import file_plausibility, grid_location, road_plausibility
 from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.scene_part import scene_part
 from mbs.roads.steep_faces import RoadWarning
@@ -110,7 +110,7 @@ def _description_lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
         numbers = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))
         return [f"{kind}: {', '.join(numbers)}"]
-    position = place_of(road)
+    position = grid_location(road)
     lines = [f"grid of {position.shape[0]} x {position.shape[1]} points"]
     for name, first, side, step in zip("xy", position.origin, position.extent, position.spacing, strict=True):
         lines.append(f"{name}: {first:.9g} to {first + side:.9g} m, every {step:g} m")

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.course_file import course_layer
-from mbs.worlds.ground import Surface, ground_of
+from mbs.worlds.ground import Surface, make_ground
 from mbs.worlds.layers import OUT_OF_REACH, AreaLayer, Layer, weight
 from mbs.worlds.obstacles import Footprint, added_height, footprint
-from mbs.worlds.profiles import soft_rise, spaced
+from mbs.worlds.profiles import equidistant, soft_rise
 from mbs.worlds.world_types import FRICTIONS, Area, WorldDescription
 
 Float = NDArray[np.float64]
@@ -34,11 +34,11 @@ class Terrain:
 
     def __init__(self, world: WorldDescription, folder: Path) -> None:
         self.world = world
-        self.ground, map_step = ground_of(world, folder)
+        self.ground, map_step = make_ground(world, folder)
         self.layers: list[Layer] = []
         for course in world.courses:
             self.layers.append(course_layer(course, folder, world.bounds, self.ground.at))
-        self.layers += [AreaLayer(_checked(area)) for area in world.areas]
+        self.layers += [AreaLayer(_check_area(area)) for area in world.areas]
         names = [world.ground.surface, *(layer.surface for layer in self.layers)]
         names += [part.surface for part in (*world.bands, *world.obstacles)]
         self.names = list(dict.fromkeys(names))
@@ -53,8 +53,8 @@ class Terrain:
         x0, y0, x1, y1 = self.world.bounds
         step = max(min(1.0, map_step), math.sqrt((x1 - x0) * (y1 - y0) / MAX_NODES))
         self.step = step
-        self.x = spaced(x0 - 4.0 * step, step, math.ceil((x1 - x0) / step) + 9)
-        self.y = spaced(y0 - 4.0 * step, step, math.ceil((y1 - y0) / step) + 9)
+        self.x = equidistant(x0 - 4.0 * step, step, math.ceil((x1 - x0) / step) + 9)
+        self.y = equidistant(y0 - 4.0 * step, step, math.ceil((y1 - y0) / step) + 9)
         z = self.ground.on_grid(
             np.clip(self.x, self.ground.x[0], self.ground.x[-1]), np.clip(self.y, self.ground.y[0], self.ground.y[-1])
         )
@@ -185,7 +185,7 @@ def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
     return None if rows.start >= rows.stop or columns.start >= columns.stop else (rows, columns)
 
 
-def _checked(area: Area) -> Area:
+def _check_area(area: Area) -> Area:
     """The area itself. Raises `RoadFileError` if it has no radius and no size, or both."""
     if (area.radius is None) == (area.size is None):
         raise RoadFileError(f"The area '{area.name}' must have a radius or a size.")

@@ -19,10 +19,10 @@ from ali3.reading import is_file
 from ali3.warning_lines import warning_lines
 from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
-from mbs.worlds.make_world import description_of, make_world
+from mbs.worlds.make_world import make_world, read_description
 from mbs.worlds.map_picture import draw_map
 from mbs.worlds.package_worlds import ROADS, WORLDS, world_names
-from mbs.worlds.world_cache import add_file, key_of, world_files
+from mbs.worlds.world_cache import add_file, cache_key, world_files
 from mbs.worlds.world_file import named_files
 
 
@@ -39,7 +39,7 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
     if file.suffix.lower() == ".toml":
         name, source_files = named_files(file)
         files += source_files
-    key = key_of(files) + ("-thin" if thin else "")
+    key = cache_key(files) + ("-thin" if thin else "")
     paths, cached = world_files(key, lambda folder: _make_files(file, name, folder, thin), out)
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw_record(out / f"{name}.json", target), picture)
@@ -62,7 +62,7 @@ def world(name_or_file: str, out: Path, picture: Path | None, thin: bool = False
 
 def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
     """Plausibility of the description of a world, and of its road file."""
-    description = description_of(file)
+    description = read_description(file)
     return [*(plausibility_of(description) if description is not None else []), *plausibility_of(RoadFile(road))]
 
 

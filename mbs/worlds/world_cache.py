@@ -26,7 +26,7 @@ MAX_ENTRIES = 12
 COMPLETE_MARK = "made"
 
 
-def key_of(files: Iterable[Path]) -> str:
+def cache_key(files: Iterable[Path]) -> str:
     """Key of the world made from files; it changes with their content and with the code."""
     digest = hashlib.sha256()
     sources = [path for entry in CODE for path in _source_files(ROOT / entry)]
@@ -45,7 +45,7 @@ def _source_files(entry: Path) -> list[Path]:
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
     """Copy the files of a world into a folder, from the cache or newly made.
 
-    `key`: result of `key_of`; `make`: writes the files into an empty folder.
+    `key`: result of `cache_key`; `make`: writes the files into an empty folder.
 
     Returns
     -------

@@ -50,7 +50,7 @@ def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
     for key, places in _scenery_points(world):
         for words, moved in POSITION_MISTAKES.items() if key in outside else ():
             elsewhere = _outside_value(world, key, [moved(x, y) for x, y in places])
-            mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
+            mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replace_value, values, elsewhere)))
     finer = world.model_copy(update={"spacing": (0.01 * world.spacing[0], 0.01 * world.spacing[1])})
     mistakes.append(Mistake("cm instead of m in spacing", frozenset({"spacing"}), partial(_world_values, finer)))
     return Plausibility(what, values, mistakes, title="world")
@@ -168,7 +168,7 @@ def _altered_values(world: WorldDescription, key: str, feature: Feature) -> list
     return _world_values(world.model_copy(update={name: features}))
 
 
-def _replaced(values: list[Value], changed: Value) -> list[Value]:
+def _replace_value(values: list[Value], changed: Value) -> list[Value]:
     """Values with one replaced by name."""
     return [changed if v.name == changed.name else v for v in values]
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from ali3.scene.base64_numbers import encoded, encoded_octets
-from mbs.worlds.patches import BOUND, DrawnPatch, patches_of
-from mbs.worlds.profiles import spaced
+from mbs.worlds.patches import BOUND, DrawnPatch, make_patches
+from mbs.worlds.profiles import equidistant
 from mbs.worlds.scenery import scenery_of
 from mbs.worlds.terrain import Terrain
 
@@ -27,7 +27,7 @@ def world_record(
     are not rounded.
     """
     world = terrain.world
-    patches = patches_of(terrain, lambda fraction: tell(0.9 * fraction))
+    patches = make_patches(terrain, lambda fraction: tell(0.9 * fraction))
     road = {
         "kind": "terrain",
         "patches": [_patch_entry(patch, step) for patch in patches],
@@ -89,7 +89,7 @@ def _surface_entry(terrain: Terrain) -> dict[str, Any]:
     step = max(MIN_CELL, math.sqrt((x1 - x0) * (y1 - y0) / MAX_CELLS))
     n = [max(2, math.ceil(side / step)) for side in (x1 - x0, y1 - y0)]
     cell = [(x1 - x0) / n[0], (y1 - y0) / n[1]]
-    x, y = spaced(x0 + 0.5 * cell[0], cell[0], n[0]), spaced(y0 + 0.5 * cell[1], cell[1], n[1])
+    x, y = equidistant(x0 + 0.5 * cell[0], cell[0], n[0]), equidistant(y0 + 0.5 * cell[1], cell[1], n[1])
     _, classes, _ = terrain.on_grid(x, y)
     return {
         "origin": [float(x[0]), float(y[0])],

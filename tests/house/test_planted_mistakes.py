@@ -17,7 +17,7 @@ import pytest
 
 from hosts.measures.log_plausibility import log_plausibility
 from mbs.elements.road import GridRoad
-from mbs.roads.road_plausibility import place_of, road_plausibility, start_plausibility
+from mbs.roads.road_plausibility import grid_location, road_plausibility, start_plausibility
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.tyre_plausibility import magic_plausibility
 from mbs.urdf import read_urdf
@@ -107,7 +107,10 @@ def road(heights: float = 1.0, spacing: float = 0.5, origin: tuple[float, float]
     grid = GridRoad(origin, (spacing, spacing), z, **more)
     return lambda _: [
         sentence
-        for plausibility in (road_plausibility("r.csv", grid), start_plausibility("r.csv", place_of(grid), (0.0, 0.0)))
+        for plausibility in (
+            road_plausibility("r.csv", grid),
+            start_plausibility("r.csv", grid_location(grid), (0.0, 0.0)),
+        )
         for sentence in plausibility.warnings()
     ]
 

@@ -16,7 +16,7 @@ from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changed_content import changed_content
-from mbs.vehicle.checks.equilibrium import Rest, settled
+from mbs.vehicle.checks.equilibrium import Rest, find_equilibrium
 from mbs.vehicle.command import main
 from mbs.vehicle.errors import CarWarning
 from mbs.vehicle.summary import summary
@@ -109,9 +109,9 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
 
     def counted(model: Model, car: CarContent) -> Rest:
         results.append(car)
-        return settled(model, car)
+        return find_equilibrium(model, car)
 
-    monkeypatch.setattr(built_car, "settled", counted)
+    monkeypatch.setattr(built_car, "find_equilibrium", counted)
     messages = {}
     for ports in ({}, {"ports.tyre": "hub"}):
         car = load("hatchback").changed(ports)

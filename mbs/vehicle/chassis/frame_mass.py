@@ -32,7 +32,7 @@ def check_mass(structure: Structure, chassis: Chassis) -> None:
     if np.linalg.norm(centre - chassis.com) > CENTRE_TOLERANCE:
         raise ModelError(
             f"{chassis.key('com')} is {list(chassis.com)} m, but the centre of mass of the frame with the masses it "
-            f"carries is {_rounded(centre, 4)} m. {_REMEDY}"
+            f"carries is {_round(centre, 4)} m. {_REMEDY}"
         )
     arms = positions - centre
     second = (masses[:, None] * arms).T @ arms
@@ -41,11 +41,11 @@ def check_mass(structure: Structure, chassis: Chassis) -> None:
         (x, xy, xz), (_, y, yz), (_, _, z) = tensor
         raise ModelError(
             f"{chassis.key('inertia')} is {list(chassis.inertia)} kg.m2 and products {list(chassis.products)}, but the "
-            f"frame with the masses it carries has {_rounded((x, y, z), 2)} and {_rounded((xy, xz, yz), 2)} kg.m2. "
+            f"frame with the masses it carries has {_round((x, y, z), 2)} and {_round((xy, xz, yz), 2)} kg.m2. "
             f"{_REMEDY}"
         )
 
 
-def _rounded(values: object, digits: int) -> list[float]:
+def _round(values: object, digits: int) -> list[float]:
     """Values rounded for a message."""
     return [round(float(v), digits) + 0.0 for v in np.asarray(values)]

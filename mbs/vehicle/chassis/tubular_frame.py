@@ -96,7 +96,7 @@ class TubularFrame:
         """
         joints, gauges = self.joint_places(), []
         for name, gauge in self.section.gauges.items():
-            frame_tube = _tube_of(gauge, tubes)
+            frame_tube = _gauge_tube(gauge, tubes)
             ends = joints[frame_tube.start], joints[frame_tube.end]
             radius = 0.5 * self.section.sections[frame_tube.section].diameter
             gauges.append(gauge.strain_gauge(name, ends, radius, frame_tube.elements))
@@ -111,7 +111,7 @@ class TubularFrame:
             position = np.array([row.number(axis, -MAX_COORDINATE, MAX_COORDINATE, "m") for axis in "xyz"])
             _check_joint(row, name, float(position[1]), names)
             joints[name] = position
-            joints.setdefault(mirrored(name), position * [1.0, -1.0, 1.0])
+            joints.setdefault(image_name(name), position * [1.0, -1.0, 1.0])
         return joints
 
     def _tubes(self, joints: dict[str, np.ndarray]) -> list[tuple[str, str, str, int]]:
@@ -124,7 +124,7 @@ class TubularFrame:
             for name in (start, end):
                 _check_name(row, name, joints, "joint", self.section.key("joints"))
             _check_name(row, row["section"], sections, "section", self.section.key("sections"))
-            image = (mirrored(start), mirrored(end))
+            image = (image_name(start), image_name(end))
             pairs = [(start, end)] if set(image) == {start, end} else [(start, end), image]
             if start == end or not ends.isdisjoint(frozenset(pair) for pair in pairs):
                 why = "has one joint at both ends" if start == end else "occurs twice: images are added automatically"
@@ -149,7 +149,7 @@ class TubularFrame:
         return masses
 
 
-def mirrored(name: str) -> str:
+def image_name(name: str) -> str:
     """Name of the image of a joint, whose last letter is its side."""
     return name[:-1] + IMAGE[name[-1]]
 
@@ -161,10 +161,10 @@ def _loaded_joints(row: Row, image_filter: str) -> tuple[str, ...]:
         raise ModelError(f"{row.where}: image is {image!r}; it must be yes or no, or left empty for yes.")
     if image != image_filter:
         return ()
-    return (joint,) if image == "no" else tuple(dict.fromkeys((joint, mirrored(joint))))
+    return (joint,) if image == "no" else tuple(dict.fromkeys((joint, image_name(joint))))
 
 
-def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
+def _gauge_tube(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
     """Tube of a gauge. Raises `ModelError` if there is none between its joints."""
     tubes_by_ends = {(t.start, t.end): t for t in tubes}
     if gauge.tube in tubes_by_ends:

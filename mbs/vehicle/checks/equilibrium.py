@@ -93,7 +93,7 @@ def travel_output(m: Model, chassis: Body, spin: Spin, w: str) -> None:
 
 
 def rest_outputs(b: CarBuilder, steered: Steered, spins: Mapping[str, Spin]) -> None:
-    """Add the sensors that `settled` needs."""
+    """Add the sensors that `find_equilibrium` needs."""
     chassis = b.chassis.frame
     for w, spin in spins.items():
         travel_output(b.m, chassis, spin, w)
@@ -137,7 +137,7 @@ def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
     return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
 
-def settled(model: Model, car: CarContent) -> Rest:
+def find_equilibrium(model: Model, car: CarContent) -> Rest:
     """Compile the car and find its equilibrium. `model`: model with the sensors of `rest_outputs`.
 
     Raises `ModelError` if a number is not valid, or there is no equilibrium.

@@ -8,8 +8,8 @@ import numpy as np
 from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.checks.masses import centre_of, centre_ranges, weighed_points
-from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.checks.masses import centre_of_mass, centre_ranges, weighed_points
+from mbs.vehicle.checks.places import rigid_parts
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import Damper, Spring
@@ -68,7 +68,7 @@ def working_ranges(car: CarContent) -> Ranges:
 def _add_mass_centre(ranges: Ranges, car: CarContent) -> None:
     """Add the ranges of the chassis' centre of mass for which the car's is within `centre_ranges`."""
     lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
-    centre, spans = centre_of(car, payloads=False), centre_ranges(car)
+    centre, spans = centre_of_mass(car, payloads=False), centre_ranges(car)
     for (path, value), position, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
         low, high = (value + (end - position) / lever for end in span)
         ranges[path] = min(low, value), max(high, value)
@@ -89,7 +89,7 @@ def _add_grip(ranges: Ranges, car: CarContent) -> None:
 
 def weight_on_spring(axle: Axle, load: float) -> float:
     """Load of a wheel minus the unsprung weight, N. `load`: N."""
-    return load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in parts_of(axle)))
+    return load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in rigid_parts(axle)))
 
 
 def compression_and_slope(spring: Spring, force: float) -> tuple[float, float]:

@@ -55,7 +55,7 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
         The car has no frame for the fidelity, or no axle with links.
     """
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
-    chosen = fidelity_of(car, fidelity)
+    chosen = compliance_fidelity(car, fidelity)
     if not car.linked_axles:
         car.front.suspension.require_links()
     held_car = HeldCar(car, chosen)
@@ -67,7 +67,7 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _rigid_sentence(car, chosen))
 
 
-def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
+def compliance_fidelity(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
     """The fidelity at which compliance is computed.
 
     `fidelity`: a member, its number, also as text, or its name; None: the most accurate one of the car. Raises

@@ -11,7 +11,7 @@ from ali3.files import check_writable, write_json, write_text
 from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
-from mbs.vehicle.kinematics.axle_compliance import compliance, fidelity_of
+from mbs.vehicle.kinematics.axle_compliance import compliance, compliance_fidelity
 from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
 from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
@@ -40,7 +40,9 @@ def report(options: argparse.Namespace) -> int:
     with warning_lines():
         car = load(options.car)
     requested = options.fidelity
-    fidelity = fidelity_of(car, int(requested) if requested is not None and requested == requested // 1 else requested)
+    fidelity = compliance_fidelity(
+        car, int(requested) if requested is not None and requested == requested // 1 else requested
+    )
     folder = options.out or Path("out", "kinematics", car.name)
     names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in (*MOTIONS, "table")]
     for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):

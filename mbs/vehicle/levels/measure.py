@@ -26,7 +26,7 @@ REFERENCE_STEP = 0.0005  # s
 CUTOFF_FREQUENCY = 10.0  # Hz, of the low-pass filter of moments
 
 
-def systems_of(car: Car) -> dict[Fidelity, System]:
+def compile_fidelities(car: Car) -> dict[Fidelity, System]:
     """Compile the car at each of its fidelities, from the cheapest to the most detailed.
 
     Raises `ModelError` if the tyres of the car are at ports.
@@ -54,7 +54,7 @@ def measure(
     Parameters
     ----------
     systems : dict of Fidelity to System
-        From `systems_of`; the last is the reference.
+        From `compile_fidelities`; the last is the reference.
     drives : sequence of Drive
         Manoeuvres of the car.
     steps : sequence of float

@@ -9,7 +9,7 @@ import numpy as np
 from ali3.files import atomic_file
 from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError
 from mbs.vehicle.linkages.pose_grid import MARGIN, SPACING, compression_range, even_points, is_coupled
-from mbs.vehicle.suspensions.curve_poses import axes_of
+from mbs.vehicle.suspensions.curve_poses import wheel_axes
 from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER_TRAVEL, RACK, WHEEL_TRAVEL
 
 
@@ -86,7 +86,7 @@ def _columns_at(linkage: Linkage, q: Array) -> dict[str, float]:
     (x, y, _), triad = C @ q + c, [A @ q + a for A, a in linkage.triad(0)]
     axis = triad[1]
     steer, inclination = np.arctan2(-axis[0], axis[1]), np.arcsin(axis[2])
-    level = axes_of(steer, inclination)
+    level = wheel_axes(steer, inclination)
     measures = {
         "wheel_centre_x": float(x),
         "wheel_centre_y": float(y),

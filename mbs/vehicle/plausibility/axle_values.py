@@ -11,7 +11,7 @@ from ali3.plausibility import Value, quantities_of
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.places import centres_of, drawn_points
+from mbs.vehicle.checks.places import drawn_points, mass_centres
 from mbs.vehicle.checks.working_ranges import DAMPER_SPEED, compression_and_slope, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
@@ -100,7 +100,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
 
 def _distance_values(axle: Axle, name: str) -> Iterator[Value]:
     """Values of the distances of the farthest points and parts of an axle."""
-    points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
+    points, centre, parts = drawn_points(axle), axle.wheel.centre, mass_centres(axle)
     if not axle.suspension.linked:
         points = parts
     hub_keys = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if axle.suspension.linked else set()

@@ -13,8 +13,8 @@ from mbs.tyre_files.tyre_plausibility import cornering_stiffness_at, magic_plaus
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.masses import centre_of, weighed_points
-from mbs.vehicle.checks.places import centres_of, chassis_points, drawn_points, parts_of
+from mbs.vehicle.checks.masses import centre_of_mass, weighed_points
+from mbs.vehicle.checks.places import chassis_points, drawn_points, mass_centres, rigid_parts
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.plausibility.axle_values import CAR, DEG, axle_rates, axle_values
@@ -70,7 +70,7 @@ def car_values(car: CarContent, rest: Rest) -> list[Value]:
             keys |= spring.given | {spring.key("factor"): spring.factor}
         values.append(Value(CAR["roll"], total / DEG, keys))
         if total > 0.0:
-            lean = _mass(car) * GRAVITY * centre_of(car, payloads=True)[2] / total
+            lean = _mass(car) * GRAVITY * centre_of_mass(car, payloads=True)[2] / total
             values.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
             values.append(Value(CAR["split"], stiffness[0] / total, keys))
     return [*values, *_driving_values(car, rest)]
@@ -118,7 +118,7 @@ def _point_values(car: CarContent) -> Iterator[Value]:
     distances = {key: abs(point[0]) or math.inf for key, point in points.items()}
     key = min(distances, key=distances.__getitem__)
     yield Value(CAR["ahead"], distances[key], {key: list(points[key])})
-    points |= drawn_points(car.front) | drawn_points(car.rear) | centres_of(car)
+    points |= drawn_points(car.front) | drawn_points(car.rear) | mass_centres(car)
     smallest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
     key = min(smallest, key=smallest.__getitem__)
     yield Value(CAR["nearest"], smallest[key], {key: list(points[key])})
@@ -126,7 +126,7 @@ def _point_values(car: CarContent) -> Iterator[Value]:
 
 def _mass_values(car: CarContent) -> Iterator[Value]:
     """Values of the centre of mass and of the inertias."""
-    x, y, height = centre_of(car, payloads=True)
+    x, y, height = centre_of_mass(car, payloads=True)
     track, chassis = 0.5 * sum(axle.track for axle in car.axles.values()), car.chassis
     front_fraction = (x - car.rear.wheel.centre[0]) / car.wheelbase
     yield Value(CAR["share"], front_fraction, _centre_key(car))
@@ -148,7 +148,7 @@ def _mass_values(car: CarContent) -> Iterator[Value]:
         yield Value(CAR["body_radius"], math.sqrt(moment / chassis.mass) / extent, key | sizes, f"about {axis}")
     radii = {
         math.sqrt(moment / part.mass): {part.key("inertia"): list(part.inertia), part.key("mass"): part.mass}
-        for part in parts_of(car)
+        for part in rigid_parts(car)
         for moment in part.inertia
     }
     for of, radius in (("least", min(radii)), ("largest", max(radii))):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.appearance import BODY_PAINT, DARK_PLASTIC, SILL_HEIGHT, Looks, Paint
-from mbs.vehicle.shapes.loft import interpolated, loft
+from mbs.vehicle.shapes.loft import interpolate_columns, loft
 from mbs.vehicle.shapes.occupants import steering_wheel_place
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
@@ -135,12 +135,12 @@ class BodyShell:
 
     def deck(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the lower body, m."""
-        height, width = interpolated(self.outline.deck, self.fraction(x)).T
+        height, width = interpolate_columns(self.outline.deck, self.fraction(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def roof(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the roof, m."""
-        height, width = interpolated(self.outline.roof, self.fraction(x)).T
+        height, width = interpolate_columns(self.outline.roof, self.fraction(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def sill(self, x: NDArray[np.float64]) -> NDArray[np.float64]:

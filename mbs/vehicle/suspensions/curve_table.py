@@ -191,7 +191,7 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
         _check_axis(what, WHEEL_TRAVEL, travel)
         points = _equidistant(travel, MAX_SPACINGS[WHEEL_TRAVEL])
         return CurveTable(
-            points, np.zeros(1), "", {n: _resampled(travel, points, v[:, None], 0) for n, v in columns.items()}
+            points, np.zeros(1), "", {n: _resample(travel, points, v[:, None], 0) for n, v in columns.items()}
         )
     along, across = _distinct_points(travel), _distinct_points(second)
     for name, points in ((WHEEL_TRAVEL, along), (second_name, across)):
@@ -224,11 +224,11 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     )
     for name, values in columns.items():
         if is_cross:
-            changes = _resampled(across, axes[1], values[other_rows][None] - values[travel_rows[i]], 1)
-            resampled[name] = _resampled(along, axes[0], values[travel_rows][:, None], 0) + changes
+            changes = _resample(across, axes[1], values[other_rows][None] - values[travel_rows[i]], 1)
+            resampled[name] = _resample(along, axes[0], values[travel_rows][:, None], 0) + changes
         else:
             grid = values[order].reshape(len(along), len(across))
-            resampled[name] = _resampled(across, axes[1], _resampled(along, axes[0], grid, 0), 1)
+            resampled[name] = _resample(across, axes[1], _resample(along, axes[0], grid, 0), 1)
     return CurveTable(*axes, second_name, resampled)
 
 
@@ -300,7 +300,7 @@ def _equidistant(points: Array, largest_spacing: float) -> Array:
     return np.asarray(step * np.arange(-low, high + 1), float)
 
 
-def _resampled(points: Array, new_points: Array, values: Array, axis: int) -> Array:
+def _resample(points: Array, new_points: Array, values: Array, axis: int) -> Array:
     """Values interpolated along an axis by a cubic spline."""
     if len(points) == len(new_points) and np.max(np.abs(points - new_points)) < POINT_TOLERANCE:
         return values
