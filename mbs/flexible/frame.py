@@ -72,6 +72,7 @@ class Frame(BeamFrame):
         return model
 
     def _beam_mass(self, kind: str, rotary: bool) -> MassPoints:
+        """Mass points of all beams; arguments as in `finite_element_model`."""
         positions, masses, rows, columns, values = [], [], [], [], []
         count = 0
         for e, beam in enumerate(self.beams):

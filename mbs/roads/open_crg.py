@@ -29,11 +29,13 @@ if TYPE_CHECKING:
 MAX_BYTES = 2**31
 BATCH_SIZE = 2**18  # points that are evaluated at once
 COARSE_STEP = 16  # grid points between which heights beside the road are interpolated
-SAMPLES_PER_SPACING, MAX_SUBDIVISIONS = 3.0, 12  # of a comparison: on the least grid spacing, between two points
-MAX_SAMPLES = 2**24
+SAMPLES_PER_SPACING = 3.0  # points of a comparison per smallest spacing of the grid
+MAX_SUBDIVISIONS = 12  # points of a comparison between two points of the road
+MAX_SAMPLES = 2**24  # points of a comparison
 CANDIDATES = 64  # points of each batch with the largest differences, around which the maximum is sought
 REFINEMENTS = 4  # each with a fourth of the steps before
 HEADING_TOLERANCE = 1e-9  # rad: a straight reference line with a smaller heading lies along x
+MAX_COORDINATE = 1e7  # m
 
 
 def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) -> SampledRoad:
@@ -66,13 +68,13 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
 
 
 def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights at points x, y, m; outside the road those at its border."""
+    """Heights at points x, y, m; outside the road the heights at its border."""
     u, v = crg.xy_to_uv(x, y)
     return np.asarray(crg.uv_to_z(np.clip(u, crg.u[0], crg.u[-1]), np.clip(v, crg.v[0], crg.v[-1])))
 
 
 def _heights_on_grid(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights of an OpenCRG road on a grid: at each point near the road, elsewhere at every 16th and linear in between.
+    """Heights of an OpenCRG road on a grid: at each point near the road, elsewhere at every 16th, linear in between.
 
     The station of a point takes a microsecond, and most of the bounding box of a long road lies beside it.
     """
@@ -121,7 +123,7 @@ def _surface_samples(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]
 def _largest_deviation(
     crg: pyopencrg.CrgRoad, road: GridRoad, uv: Values, largest: float, place: tuple[float, float]
 ) -> tuple[float, tuple[float, float]]:
-    """Largest deviation of a grid near points u, v (k, 2), and its x and y, m; `largest`, `place` if none is larger."""
+    """Largest deviation of a grid near points u, v (k, 2), and its x and y, m, or `largest` and `place`."""
     half_steps = np.array([crg.u_inc, float(np.diff(crg.v).max())]) / 2.0
     offsets = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), -1).reshape(-1, 2)
     for _ in range(REFINEMENTS):
@@ -170,7 +172,7 @@ def _first_fault(message: object, source: str) -> str:
 def _check_surface(crg: pyopencrg.CrgRoad, source: str) -> None:
     """Raise `RoadFileError` if the road has no points, holes or heights beyond the limits."""
     numbers = np.concatenate([np.ravel(a) for a in (crg.u, crg.v, crg.x, crg.y)])
-    if min(crg.shape) < 2 or not np.all(np.abs(numbers) < 1e7):
+    if min(crg.shape) < 2 or not np.all(np.abs(numbers) < MAX_COORDINATE):
         raise RoadFileError(f"{source} is not a road: its points, {crg.nu} x {crg.nv}, do not lie within 10 000 km.")
     if np.any(too_high := np.abs(crg.surface_z()) > ROAD_HIGHEST):
         i, j = np.argwhere(too_high)[0].tolist()

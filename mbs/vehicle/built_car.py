@@ -303,11 +303,19 @@ def checked_car(
     faults = car_faults(car)
     if faults:
         raise CarFileError(_fault_text(what, faults))
-    if at_rest and car.ports.tyre is not None:  # the equilibrium is that on its own tyres
-        checked_car(kind, _without_tyre_port(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
-        return car
     if not at_rest:
         return car
+    if car.ports.tyre is not None:  # the equilibrium is that on its own tyres
+        checked_car(kind, _without_tyre_port(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
+        return car
+    rest = _check_at_rest(car, what)
+    for sentence in _unusual_properties(car, rest) if warn else ():
+        warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
+    return car
+
+
+def _check_at_rest(car: BuiltCar, what: str) -> Rest:
+    """Check the frame of a car and the car as drawn; return its equilibrium. Raises `CarFileError` if there is none."""
     if car.has_frame:
         try:
             frame = car.flexible_frame
@@ -319,19 +327,18 @@ def checked_car(
         model = car.empty()
         car.reported(model)
         model.look()
-        rest = find_equilibrium(model, car)
+        return find_equilibrium(model, car)
     except ValueError as error:
         raise CarFileError(_fault_text(what, [f"as drawn it is not a valid car. {error}"])) from error
-    if warn:
-        misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        lines = [
-            sentence
-            for plausibility in car_plausibility("", car, rest, car._data, car._changed_car)
-            for sentence in plausibility.warnings()
-        ]
-        for sentence in (*misfit, *car_oddities(car, rest), *lines):
-            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
-    return car
+
+
+def _unusual_properties(car: BuiltCar, rest: Rest) -> Iterator[str]:
+    """Yield a sentence for each unusual property of a car."""
+    if car.misfit:
+        yield f"fidelity 0 only, the frame does not fit the car. {car.misfit}"
+    yield from car_oddities(car, rest)
+    for plausibility in car_plausibility("", car, rest, car._data, car._changed_car):
+        yield from plausibility.warnings()
 
 
 def _without_tyre_port(data: Mapping[str, Any]) -> dict[str, Any]:

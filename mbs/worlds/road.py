@@ -39,13 +39,7 @@ def make_road(options: argparse.Namespace) -> int:
         return 0
     outputs = (output, options.picture, options.part)
     if options.start is not None and options.input.suffix.lower() == ".road" and not any(outputs):
-        (plausibility,) = file_plausibility(
-            RoadFile(options.input), tuple(options.start), most=0
-        )  # a large road is not read for it
-        with warning_lines():
-            plausibility.warn(RoadWarning)
-        print(plausibility.text())
-        _write_table(options.json, plausibility)
+        _check_start(options)
         return 0
     with warning_lines():
         road = read_road(options.input, **arguments)
@@ -53,21 +47,35 @@ def make_road(options: argparse.Namespace) -> int:
         start = tuple(options.start or (0.0, 0.0)) if output is None or options.start is not None else None
         plausibility = road_plausibility(str(options.input), road, start)
         plausibility.warn(RoadWarning)
-    if output is not None:
+    _write_outputs(options, road)
+    print("\n".join([*_description_lines(road), plausibility.text()]))
+    _write_table(options.json, plausibility)
+    for file in (*outputs, options.json):
+        if file is not None:
+            print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
+    return 0
+
+
+def _check_start(options: argparse.Namespace) -> None:
+    """Check a start on a road file by its header alone: a large road is not read for it."""
+    (plausibility,) = file_plausibility(RoadFile(options.input), tuple(options.start), most=0)
+    with warning_lines():
+        plausibility.warn(RoadWarning)
+    print(plausibility.text())
+    _write_table(options.json, plausibility)
+
+
+def _write_outputs(options: argparse.Namespace, road: PlaneRoad | KerbRoad | GridRoad) -> None:
+    """Write the road file, the picture and the scene entry that the options ask for."""
+    if options.output is not None:
         with warning_lines():
-            write_road(road, output)
-        RoadFile(output).read()  # checks the written file
+            write_road(road, options.output)
+        RoadFile(options.output).read()  # checks the written file
     if options.picture is not None:
         with atomic_file(options.picture) as target:
             draw_road(road, target, options.input.name, _start_positions(options))
     if options.part is not None:
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
-    print("\n".join([*_description_lines(road), plausibility.text()]))
-    _write_table(options.json, plausibility)
-    for file in (output, options.picture, options.part, options.json):
-        if file is not None:
-            print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
-    return 0
 
 
 def _write_table(file: Path | None, plausibility: Plausibility) -> None:

@@ -1,4 +1,4 @@
-"""Check of the mass of a frame against the mass of the chassis in the file."""
+"""Checks the mass of a frame against the mass of the chassis in the file."""
 
 import numpy as np
 
@@ -7,7 +7,8 @@ from mbs.flexible.body_plausibility import model_plausibility
 from mbs.vehicle.chassis.frames.frame_section import Structure
 from mbs.vehicle.chassis.section import Chassis
 
-MASS_TOLERANCE, INERTIA_TOLERANCE = 0.005, 0.02  # relative to the mass, to the largest moment of inertia
+MASS_TOLERANCE = 0.005  # relative to the mass
+INERTIA_TOLERANCE = 0.02  # relative to the largest moment of inertia
 CENTRE_TOLERANCE = 0.005  # m
 _REMEDY = "Change the masses of the frame too; what a parameter of a run changes may differ: it rides on the frame."
 
@@ -35,8 +36,9 @@ def check_mass(structure: Structure, chassis: Chassis) -> None:
             f"carries is {_round(centre, 4)} m. {_REMEDY}"
         )
     arms = positions - centre
-    second = (masses[:, None] * arms).T @ arms
-    tensor, chassis_tensor = np.trace(second) * np.eye(3) - second, np.array(chassis.tensor)
+    second_moments = (masses[:, None] * arms).T @ arms
+    tensor = np.trace(second_moments) * np.eye(3) - second_moments
+    chassis_tensor = np.array(chassis.tensor)
     if np.abs(tensor - chassis_tensor).max() > INERTIA_TOLERANCE * chassis_tensor.max():
         (x, xy, xz), (_, y, yz), (_, _, z) = tensor
         raise ModelError(
