@@ -14,8 +14,10 @@ REFERENCE_FREQUENCY = 0.1
 MAX_SQUARE = 2048
 """Largest number of points per side for which the surface is computed on a square."""
 MAX_POINTS = 2**25
-MIN_FREQUENCY, MAX_FREQUENCY = 0.011, 2.83
-"""Range of spatial frequencies, 1/m (ISO 8608:2016, 5.1.2)."""
+MIN_FREQUENCY = 0.011
+"""Lowest spatial frequency, 1/m (ISO 8608:2016, 5.1.2)."""
+MAX_FREQUENCY = 2.83
+"""Highest spatial frequency, 1/m (ISO 8608:2016, 5.1.2)."""
 
 
 def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -> NDArray[np.float64]:

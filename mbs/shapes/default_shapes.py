@@ -20,8 +20,10 @@ from mbs.shapes.joint_points import POINT_TOLERANCE, JointGeometry, Line, Pivot,
 
 COLORS = ("#c8553d", "#3d7ea6", "#6a994e", "#e09f3e", "#7d5ba6", "#2a9d8f", "#b56576", "#8d99ae")
 GROUND, RAIL, SPRING, ROD = "#4a4e57", "#8b9099", "#d9a441", "#aeb4bd"
-TUBE_RADIUS, MAX_RADIUS = 0.014, 0.09
-"""Radius of a tube relative to the extent of the drawing, and its largest value relative to the length of its body."""
+TUBE_RADIUS = 0.014
+"""Radius of a tube, relative to the extent of the drawing."""
+MAX_RADIUS = 0.09
+"""Largest radius of a tube, relative to the length of its body."""
 MIN_TRIANGLE_HEIGHT = 0.2  # relative to its longest side, below which it is drawn as tubes
 MIN_SLIDER_LENGTH = 1.1  # distance of the joints of a slider / edge of its box, below which the box is drawn
 MAX_OVERHANG = 0.1  # of a centre of mass beyond the ends of a tube, relative to the length of the tube

@@ -35,7 +35,8 @@ from mbs.urdf.source import Element, read_source
 
 Pose = NDArray[np.float64]
 _MAX_BYTES = 100_000_000
-TURNING, UNLIMITED = ("revolute", "continuous"), 1e9  # N m or N: largest torque or force of a joint without a limit
+TURNING = ("revolute", "continuous")
+UNLIMITED = 1e9  # N m or N: largest torque or force of a joint without a limit
 _MAX_NAMES = 4  # of joints in a sentence
 
 

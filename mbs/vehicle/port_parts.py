@@ -25,7 +25,8 @@ from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
 MAX_TORQUE = 1e4  # N m, on a wheel
-MAX_FORCE, MAX_MOMENT = 1e5, 1e5  # N, N m, on the chassis
+MAX_FORCE = 1e5  # N, on the chassis
+MAX_MOMENT = 1e5  # N m, on the chassis
 FASTEST_WIND = 100.0  # m/s
 
 

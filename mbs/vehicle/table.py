@@ -40,7 +40,7 @@ class Row:
         return value
 
     def count(self, column: str, most: int) -> int:
-        """A cell as a whole number from 1 on. `most`: largest plausible value."""
+        """A cell as a positive integer. `most`: largest plausible value."""
         text = self[column]
         if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= most):
             must = f"it must be a whole number between 1 and {most}"

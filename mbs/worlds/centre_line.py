@@ -16,8 +16,10 @@ STEP = 1.0
 """Approximate distance of the points of the spline, m."""
 ITERATIONS = 3
 """Number of iterations of Newton's method for the nearest station."""
-MIN_SLOPE, MAX_CORRECTION = 0.3, 5.0
-"""Bounds of its derivative, which is 0 at the centre of curvature, and of its correction, m, for distant points."""
+MIN_SLOPE = 0.3
+"""Lower bound of its derivative, which is 0 at the centre of curvature."""
+MAX_CORRECTION = 5.0
+"""Upper bound of its correction for distant points, m."""
 MAX_GAP = 0.05
 """Largest distance between the ends of a closed course, m."""
 

@@ -17,8 +17,10 @@ from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Wa
 MAX_POINTS = 400
 """Largest number of points along a side of a feature; a longer one is sampled."""
 MIN_HEIGHT = 1e-6  # m, of an obstacle that wheels feel
-MIN_MM, MM = 0.5, 1e-3
-"""Least distance from 0, m, of coordinates that may have been in mm, and their unit, m."""
+MIN_MM = 0.5
+"""Least distance from 0, m, of coordinates that may have been in mm."""
+MM = 1e-3
+"""Millimetre, m."""
 Places: TypeAlias = list[tuple[float, float]]
 OBJECTS_BY_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
 """Quantities of objects on roads or beside them, by key."""

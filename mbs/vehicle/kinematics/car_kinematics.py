@@ -19,10 +19,12 @@ Array = NDArray[np.float64]
 TRAVEL = (-0.08, 0.08)
 """Default range of wheel travel, m."""
 POINTS = 81
+"""Default number of points of a curve."""
 MOTIONS = ("parallel", "opposite", "single")
 ANGLE_TOLERANCE = 1e-9
 """Largest difference of the angles of both wheels with the same setting, rad."""
-MAX_TRAVEL, MAX_POINTS = 0.5, 10_001  # m, number
+MAX_TRAVEL = 0.5  # m
+MAX_POINTS = 10_001
 
 
 @dataclass(frozen=True)

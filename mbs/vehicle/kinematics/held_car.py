@@ -22,7 +22,8 @@ from mbs.vehicle.side import Point, Side, sides
 
 Array = NDArray[np.float64]
 
-POSITION_TOLERANCE, MAX_ITERATIONS = 1e-9, 30  # m, of the equilibrium
+POSITION_TOLERANCE = 1e-9  # m, of the equilibrium
+MAX_ITERATIONS = 30
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError, Positi
 
 HEAVE, ROLL, STEER = np.array([1.0, 1.0, 0.0]), np.array([1.0, -1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 """Motions: rates of the travels of the left and the right wheel and of the rack."""
-MAX_STEP, MIN_STEP = 0.004, 1e-6  # m, of the continuation
+MAX_STEP = 0.004  # m, of the continuation
+MIN_STEP = 1e-6  # m
 ROUND_OFF = 1e-9  # m
 MAX_DEVIATION = 0.2  # from the tangent, relative to the step: a farther position may be on another branch
 

@@ -38,7 +38,8 @@ from mbs.vehicle.steering.steering_section import COLUMN_STICK
 MAX_HAND_TORQUE = 100.0  # N m, of the driver
 MAX_ACTUATOR_FORCE = 3e4  # N, on the rack
 RACK_STICK = 5e6, 1e4  # N/m, N s/m of a sticking rack: 300 N displace it by 0.06 mm
-STOP_STIFFNESS, STOP_LOSS = 2e6, 1.0  # N/m, s/m of the stops of the rack
+STOP_STIFFNESS = 2e6  # N/m, of the stops of the rack
+STOP_LOSS = 1.0  # s/m, of the stops of the rack
 STOP_LENGTH = 1.0  # m, of the line along which the stops of the rack act, as drawn
 RACK_RADIUS = 0.013  # m, for the inertia of the rack
 

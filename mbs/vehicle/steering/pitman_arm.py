@@ -32,7 +32,8 @@ from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import WHEEL_SPEED, WHEEL_TORQUE, demand_outputs, tie_ratio
 from mbs.vehicle.steering.steering_section import SteeringSection
 
-MIN_ARM, MIN_LINK = 0.03, 0.1  # m
+MIN_ARM = 0.03  # m
+MIN_LINK = 0.1  # m
 MIN_SINE = math.sin(math.radians(10.0))  # of the angle to a dead point
 MIN_AXIS_COSINE = math.cos(math.radians(60.0))  # of the angle of the axes from upright
 SPACING = 0.01  # rad, between rows of the tables: displacements are accurate to 1e-11 m

@@ -28,7 +28,8 @@ from mbs.vehicle.suspensions.curve_table import OTHER_TRAVEL, RACK
 
 STEER_ANGLES = np.linspace(-0.06, 0.06, 7)  # rad, in the table
 FORWARD = (1.0, 0.0, 0.0)
-MIN_HEIGHT, MAX_HEIGHT = 0.05, 1.5  # m, of the longitudinal axis
+MIN_HEIGHT = 0.05  # m, of the longitudinal axis
+MAX_HEIGHT = 1.5  # m, of the longitudinal axis
 BASE_FRACTION = 1e-3  # mass of the base body, relative to the carrier
 
 

@@ -53,7 +53,8 @@ OPTIONAL_COLUMNS = ("spring_length", "damper_length", "anti_roll_bar_angle")
 MAX_ANGLE = 1.6  # rad
 MAX_RATES = {"m": 1.0, "rad": 10.0}
 """Largest change per m of travel, by unit: a larger one is an error in a cell; twice as much for the track."""
-RACK_FACTOR, LEVER_FACTOR = 20.0, 10.0  # on these rates: over the travel of a rack; of springs, dampers and bars
+RACK_FACTOR = 20.0  # on these rates, per travel of a rack
+LEVER_FACTOR = 10.0  # on these rates, of springs, dampers and bars
 POINT_TOLERANCE = 1e-9  # m, of equal points
 MAX_INTERVALS = 200  # of a variable; a table with more is thinned
 MAX_SPACINGS = {WHEEL_TRAVEL: 0.0125, RACK: 0.0065, OTHER_TRAVEL: 0.0125}  # m; a coarser table is interpolated
